@@ -37,6 +37,7 @@
 #include <gonio/io/impl/sample_rows.ipp>
 #include <gonio/io/impl/samples.ipp>
 #include <gonio/io/impl/scan_journal.ipp>
+#include <gonio/io/impl/scratch_materials.ipp>
 #include <gonio/io/impl/setup_text.ipp>
 #include <gonio/io/impl/soft_specular_prior.ipp>
 #include <gonio/io/impl/spectral_samples.ipp>

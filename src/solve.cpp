@@ -7,6 +7,7 @@
 #include <gonio/solve/impl/householder_qr.ipp>
 #include <gonio/solve/impl/kkt.ipp>
 #include <gonio/solve/impl/lasso.ipp>
+#include <gonio/solve/impl/leading_eigenpairs.ipp>
 #include <gonio/solve/impl/least_squares_problem.ipp>
 #include <gonio/solve/impl/levenberg_marquardt.ipp>
 #include <gonio/solve/impl/linear_constraints.ipp>
@@ -15,6 +16,7 @@
 #include <gonio/solve/impl/quadratic_program.ipp>
 #include <gonio/solve/impl/row_active_set.ipp>
 #include <gonio/solve/impl/row_equations.ipp>
+#include <gonio/solve/impl/row_groups.ipp>
 #include <gonio/solve/impl/row_source.ipp>
 #include <gonio/solve/impl/scaled_program.ipp>
 #include <gonio/solve/impl/signed_solution.ipp>

@@ -2,6 +2,7 @@
 
 #include <gonio/table/impl/brdf_table.ipp>
 #include <gonio/table/impl/image.ipp>
+#include <gonio/table/impl/material_rows.ipp>
 #include <gonio/table/impl/material_set.ipp>
 #include <gonio/table/impl/sample_set.ipp>
 #include <gonio/table/impl/spectral_samples.ipp>

@@ -6,13 +6,16 @@
 #include "command_line/thinning.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include <gonio/basis/add_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/basis/learn_streamed_pca.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
 
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -22,11 +25,13 @@ namespace {
 
 struct learn_options {
   material_source materials;
-  std::filesystem::path output;
+  std::filesystem::path output, add_to, scratch;
   Eigen::Index components = 60;
   std::string cosine_weight = "product";
   thinning thin{{3, 5}};
   bool split = false;
+  double memory = 2.0;  ///< GiB
+  std::uint64_t seed = 1;
   gonio::thread_count threads;
 };
 
@@ -47,12 +52,19 @@ void print_kept(const gonio::log_relative_pca& learned, const std::string& what)
             << fixed(100.0 * learned.explained_variance(), 2) << " % of the mapped variance\n";
 }
 
+gonio::cosine_weighting weighting_of(const learn_options& options) {
+  return options.cosine_weight == "larger" ? gonio::cosine_weighting::larger : gonio::cosine_weighting::product;
+}
+
 /// One prior for the soft and one for the specular materials.
-void learn_split(const learn_options& options, const gonio::material_set& materials, const gonio::log_relative& metric,
-                 const std::string& source, const gonio::progress& listener) {
+void learn_split(const learn_options& options) {
+  progress_bar bar;
+  const auto materials = read_materials(options.materials, options.threads, bar.listener());
+  const std::string source = source_of(options.materials, materials.names.size());
+  const auto metric = gonio::log_relative::to_median_of(materials, options.threads).weighted_by(weighting_of(options));
   const auto cells = options.thin.of(materials.cells);
   const auto learned =
-      gonio::learn_soft_specular_prior(materials, metric, options.components, {}, options.threads, listener);
+      gonio::learn_soft_specular_prior(materials, metric, options.components, {}, options.threads, bar.listener());
   gonio::io::write_soft_specular_prior(options.output, learned.on(cells).with_source(source));
   const auto half = [&](const gonio::log_relative_pca& prior, const char* kind) {
     print_kept(prior, std::to_string(prior.names().size()) + ' ' + kind + " of " + source);
@@ -62,19 +74,44 @@ void learn_split(const learn_options& options, const gonio::material_set& materi
   std::cout << "a material is specular from a highlight contrast of " << fixed(learned.threshold(), 3) << " on\n";
 }
 
+/// Materials that are read once into a scratch file beside the prior if they do not fit into a quarter of the memory.
+gonio::material_rows stream(const learn_options& options, const std::optional<gonio::valid_cells>& cells,
+                            const gonio::progress& listener) {
+  const auto bytes = static_cast<std::uint64_t>(options.memory * 0x1p30);
+  const auto folder = options.scratch.empty() ? options.output.parent_path() : options.scratch;
+  return stream_materials(options.materials, cells, gonio::io::scratch_materials(folder, bytes / 4), options.threads,
+                          listener);
+}
+
 void learn(const learn_options& options) {
+  if (options.split) return learn_split(options);
   progress_bar bar;
-  auto materials = read_materials(options.materials, options.threads, bar.listener());
-  const std::string source = source_of(options.materials, materials.names.size());
-  const auto weighting =
-      options.cosine_weight == "larger" ? gonio::cosine_weighting::larger : gonio::cosine_weighting::product;
-  const auto metric = gonio::log_relative::to_median_of(materials, options.threads).weighted_by(weighting);
-  if (options.split) return learn_split(options, materials, metric, source, bar.listener());
+  const gonio::streaming_options streaming{.components = options.components,
+                                           .weighting = weighting_of(options),
+                                           .subspace = {.seed = options.seed},
+                                           .memory = static_cast<std::uint64_t>(options.memory * 0x1p30),
+                                           .threads = options.threads};
+  const auto finish = [&](const gonio::streamed_pca& learned, const gonio::log_relative_pca& prior,
+                          const std::string& source) {
+    gonio::io::write_prior(options.output, prior.with_source(source));
+    bar.wipe();
+    print_kept(prior, source);
+    if (!learned.exact)
+      std::cout << "found in a random subspace: squared singular values within " << fixed(100.0 * learned.residual, 6)
+                << " % of the variance\n";
+  };
+  if (!options.add_to.empty()) {
+    const auto old = gonio::io::read_prior(options.add_to);
+    const auto materials = stream(options, old.cells(), bar.listener());
+    const std::string source =
+        old.source() + (old.source().empty() ? "" : "; then ") + source_of(options.materials, materials.names.size());
+    const auto learned = gonio::add_materials(old, materials, streaming, bar.listener());
+    return finish(learned, learned.prior, source);
+  }
+  const auto materials = stream(options, {}, bar.listener());
   const auto cells = options.thin.of(materials.cells);
-  const auto learned =
-      gonio::learn_pca(std::move(materials), metric, options.components, options.threads, bar.listener());
-  gonio::io::write_prior(options.output, gonio::thin(learned, cells).with_source(source));
-  print_kept(learned, source);
+  const auto learned = gonio::learn_streamed_pca(materials, streaming, bar.listener());
+  finish(learned, gonio::thin(learned.prior, cells), source_of(options.materials, materials.names.size()));
 }
 
 }  // namespace
@@ -86,16 +123,41 @@ void add_learn(command& app) {
   command.add_option("--components", options->components, "Number of components to keep")
       .check(check::positive_number())
       .capture_default_str();
+  const auto weight =
+      command
+          .add_option(
+              "--cosine-weight", options->cosine_weight,
+              "What weights a reflectance before its logarithm is taken: product of both cosines (Nielsen et al. "
+              "2015, Eq. 2), or the larger of them (Xu et al. 2016, section 3). The prior keeps it")
+          .check(check::one_of({"product", "larger"}))
+          .capture_default_str();
+  const auto split = command.add_flag(
+      "--split", options->split,
+      "Two priors in one file, of the soft and of the specular half of the materials by the contrast of "
+      "their highlights, for gonio reconstruct --method soft-specular (Nielsen et al. 2015, section 8)");
+  const auto thin = add_thin_option(command, options->thin);
   command
-      .add_option("--cosine-weight", options->cosine_weight,
-                  "What weights a reflectance before its logarithm is taken: product of both cosines (Nielsen et al. "
-                  "2015, Eq. 2), or the larger of them (Xu et al. 2016, section 3). The prior keeps it")
-      .check(check::one_of({"product", "larger"}))
+      .add_input(
+          "--add-to", options->add_to,
+          "Prior (.prior) that the materials are added to, over its cells and relative to its reference, without "
+          "the tables that it was learned from (Ross et al. 2008)")
+      .excludes(split)
+      .excludes(thin)
+      .excludes(weight);
+  command
+      .add_option("--memory", options->memory,
+                  "GiB of memory to use at most, beside the components: tables that do not fit are read from a scratch "
+                  "file. Not with --split")
+      .check(check::range(0.25, 65536.0))
+      .excludes(split)
       .capture_default_str();
-  command.add_flag("--split", options->split,
-                   "Two priors in one file, of the soft and of the specular half of the materials by the contrast of "
-                   "their highlights, for gonio reconstruct --method soft-specular (Nielsen et al. 2015, section 8)");
-  add_thin_option(command, options->thin);
+  command.add_input_folder("--scratch", options->scratch, {}, "Folder of the scratch file (default: that of --output)")
+      .excludes(split);
+  command
+      .add_option("--seed", options->seed,
+                  "Seed of the random subspace in which more than 1024 materials are decomposed (Halko et al. 2011)")
+      .excludes(split)
+      .capture_default_str();
   command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();
   add_threads_option(command, options->threads);
   command.callback([options] { learn(*options); });

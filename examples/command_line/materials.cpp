@@ -37,7 +37,7 @@ std::vector<named_table> tables_of(const material_source& source, gonio::thread_
   for (const std::filesystem::path& folder : source.tables)
     for (const auto& [name, path] : gonio::io::list_merl_directory(folder))
       all.push_back({name, [path, threads](const gonio::valid_cells& cells) {
-                       gonio::brdf_table table = gonio::io::read_merl_any(path);
+                       gonio::brdf_table table = gonio::io::read_merl_any(path, {{}, cells});
                        return table.cells() == cells ? table : gonio::resample(table, cells, threads);
                      }});
   for (const std::filesystem::path& folder : source.rgl)
@@ -60,12 +60,17 @@ void require_different(const std::vector<named_table>& all) {
     if (++seen[each.name] > 1) gonio::refuse("two materials of the sources are named '" + each.name + "'");
 }
 
-gonio::material_set read_mixed(const material_source& source, gonio::thread_count threads,
-                               const gonio::progress& listener) {
+std::vector<named_table> chosen_tables(const material_source& source, gonio::thread_count threads) {
   std::vector<named_table> all = tables_of(source, threads);
   exclude(all, source.exclude);
   if (all.empty()) gonio::refuse("the sources hold no material");
   require_different(all);
+  return all;
+}
+
+gonio::material_set read_mixed(const material_source& source, gonio::thread_count threads,
+                               const gonio::progress& listener) {
+  const std::vector<named_table> all = chosen_tables(source, threads);
   gonio::material_set set{gonio::valid_cells(), {}, {}};
   const auto cells = static_cast<Eigen::Index>(set.cells.size());
   set.values.resize(cells, 3 * std::ssize(all));
@@ -102,6 +107,26 @@ gonio::material_set read_materials(const material_source& source, gonio::thread_
     return gonio::model::tabulate_networks(chosen, gonio::valid_cells(), threads, listener);
   }
   return read_mixed(source, threads, listener);
+}
+
+gonio::material_rows stream_materials(const material_source& source, const std::optional<gonio::valid_cells>& cells,
+                                      gonio::io::scratch_materials scratch, gonio::thread_count threads,
+                                      const gonio::progress& listener) {
+  if (!cells && source.networks.empty() && source.rgl.empty() && source.tables.size() == 1) {
+    gonio::io::for_each_table(
+        source.tables.front(), source.exclude,
+        [&](const std::string& name, gonio::brdf_table table, std::size_t) { scratch.append(name, std::move(table)); },
+        listener);
+    return scratch.rows();
+  }
+  const std::vector<named_table> all = chosen_tables(source, threads);
+  const gonio::valid_cells over = cells ? *cells : gonio::valid_cells();
+  double done = 0.0;
+  for (const named_table& each : all) {
+    gonio::report(listener, "reading " + each.name, done++ / static_cast<double>(all.size()));
+    scratch.append(each.name, each.tabulate(over));
+  }
+  return scratch.rows();
 }
 
 }  // namespace cli

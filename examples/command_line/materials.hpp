@@ -4,9 +4,11 @@
 #include "command.hpp"
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
+#include <gonio/io/scratch_materials.hpp>
 #include <gonio/table/material_set.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,5 +34,13 @@ option_group add_material_options(command& to, material_source& source);
 /// cells' centres, tables of another convention interpolated, RGL materials evaluated there.
 [[nodiscard]] gonio::material_set read_materials(const material_source& source, gonio::thread_count threads,
                                                  const gonio::progress& listener = {});
+
+/// The same, each read once, one after the other, and held by a scratch file. With `cells` all are over these: tables
+/// are interpolated, or copied where the cells' nodes coincide. Without, they are where read_materials has them. Not of
+/// a prior.
+[[nodiscard]] gonio::material_rows stream_materials(const material_source& source,
+                                                    const std::optional<gonio::valid_cells>& cells,
+                                                    gonio::io::scratch_materials scratch, gonio::thread_count threads,
+                                                    const gonio::progress& listener = {});
 
 }  // namespace cli

@@ -16,8 +16,8 @@ gonio::valid_cells thinning::of(const gonio::valid_cells& cells) const {
   return gonio::valid_cells(kept, cells.minimum_cosine());
 }
 
-void add_thin_option(command& to, thinning& thin) {
-  to.add_option("--thin", thin.steps, "Keep every n-th theta_d and every m-th phi_d; 1 1 keeps all")
+option add_thin_option(command& to, thinning& thin) {
+  return to.add_option("--thin", thin.steps, "Keep every n-th theta_d and every m-th phi_d; 1 1 keeps all")
       .check(check::range(1, 90))
       .default_str(std::to_string(thin.steps.first) + ' ' + std::to_string(thin.steps.second));
 }

@@ -18,6 +18,6 @@ struct thinning {
 };
 
 /// Adds `--thin N M`.
-void add_thin_option(command& to, thinning& thin);
+option add_thin_option(command& to, thinning& thin);
 
 }  // namespace cli

@@ -42,6 +42,7 @@ void add_sphere_photograph(command& app);
 void add_shape_poses(command& app);
 void add_shape_fields(command& app);
 void add_svbrdf(command& app);
+void add_streamed_learning(command& app);
 void add_run(command& app);
 
 }  // namespace papers

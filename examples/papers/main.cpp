@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   papers::add_shape_poses(app);
   papers::add_shape_fields(app);
   papers::add_svbrdf(app);
+  papers::add_streamed_learning(app);
   papers::add_run(app);
   return app.run(argc, argv);
 }

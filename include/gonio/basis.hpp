@@ -2,6 +2,7 @@
 /// All of `basis/`: functions over the cells: measured materials, corrections, principal components, radial basis
 /// functions.
 
+#include <gonio/basis/add_materials.hpp>
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/combine.hpp>
 #include <gonio/basis/component_variance.hpp>
@@ -10,6 +11,8 @@
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/joined.hpp>
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/basis/learn_streamed_pca.hpp>
+#include <gonio/basis/mapped_materials.hpp>
 #include <gonio/basis/material_functions.hpp>
 #include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>

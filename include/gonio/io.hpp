@@ -41,6 +41,7 @@
 #include <gonio/io/sample_rows.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
+#include <gonio/io/scratch_materials.hpp>
 #include <gonio/io/setup_text.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
 #include <gonio/io/spectral_samples.hpp>

@@ -17,6 +17,7 @@
 #include <gonio/solve/iteration.hpp>
 #include <gonio/solve/kkt.hpp>
 #include <gonio/solve/lasso.hpp>
+#include <gonio/solve/leading_eigenpairs.hpp>
 #include <gonio/solve/least_squares.hpp>
 #include <gonio/solve/least_squares_problem.hpp>
 #include <gonio/solve/levenberg_marquardt.hpp>
@@ -29,6 +30,7 @@
 #include <gonio/solve/quadratic_program.hpp>
 #include <gonio/solve/row_active_set.hpp>
 #include <gonio/solve/row_equations.hpp>
+#include <gonio/solve/row_groups.hpp>
 #include <gonio/solve/row_source.hpp>
 #include <gonio/solve/scaled_program.hpp>
 #include <gonio/solve/semidefinite.hpp>

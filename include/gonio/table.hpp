@@ -7,6 +7,7 @@
 #include <gonio/table/grid.hpp>
 #include <gonio/table/image.hpp>
 #include <gonio/table/location.hpp>
+#include <gonio/table/material_rows.hpp>
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>
 #include <gonio/table/spectral_samples.hpp>

@@ -6,35 +6,14 @@
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/solve/gram.hpp>
+#include <gonio/solve/leading_eigenpairs.hpp>
 #include <gonio/solve/product.hpp>
-#include <gonio/solve/symmetric_eigen.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <limits>
 
 namespace gonio::detail {
-
-/// Eigenvectors for the largest eigenvalues above rounding, largest first.
-struct spectrum {
-  Eigen::VectorXd eigenvalues;
-  Eigen::MatrixXd eigenvectors;
-};
-
-[[nodiscard]] GONIO_INLINE spectrum largest_eigenpairs(const Eigen::MatrixXd& gram, Eigen::Index count) {
-  const symmetric_eigen eigen = decompose_symmetric(gram, "the Gram matrix of the materials");
-  const Eigen::VectorXd descending = eigen.values.reverse();
-  const double floor = descending[0] * static_cast<double>(gram.rows()) * std::numeric_limits<double>::epsilon();
-  const Eigen::Index kept = std::min<Eigen::Index>(count, (descending.array() > floor).count());
-  spectrum result{descending.head(kept), eigen.vectors.rowwise().reverse().leftCols(kept)};
-  for (auto vector : result.eigenvectors.colwise()) {
-    Eigen::Index largest = 0;
-    vector.cwiseAbs().maxCoeff(&largest);
-    if (vector[largest] < 0.0) vector = -vector;
-  }
-  return result;
-}
 
 GONIO_INLINE component_set principal_components(const cell_matrix& centred, Eigen::Index count, thread_count threads,
                                                 const progress& listener) {
@@ -43,7 +22,7 @@ GONIO_INLINE component_set principal_components(const cell_matrix& centred, Eige
   report(listener, "components", 0.0);
   // Rounding of the mean may pretend that centring costs none.
   const auto most = std::min(count, products.cols() - 1);
-  const auto [eigenvalues, vectors] = largest_eigenpairs(products, most);
+  const auto [eigenvalues, vectors, residual] = decompose_leading(products, most, "the Gram matrix of the materials");
   if (eigenvalues.size() == 0) refuse("the materials do not differ: there is nothing to learn");
 
   component_set found{eigenvalues.cwiseSqrt(), cell_matrix(centred.rows(), vectors.cols()), vectors.cast<float>(),

@@ -1,0 +1,287 @@
+/// gonio-papers streamed-learning: time and memory of learning from many materials that are not held, and how far the
+/// result is from what learning in memory, or from all at once, gives.
+
+#include "command_line/fixed.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/our_own/random_materials.hpp"
+#include <gonio/basis/add_materials.hpp>
+#include <gonio/basis/expand_materials.hpp>
+#include <gonio/basis/learn_pca.hpp>
+#include <gonio/basis/learn_streamed_pca.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/io/scratch_materials.hpp>
+#include <gonio/solve/cholesky.hpp>
+#include <gonio/solve/product.hpp>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace papers {
+
+namespace {
+
+struct streaming_experiment {
+  std::vector<Eigen::Index> counts{100, 1000, 10000};
+  Eigen::Index compared = 1000, components = 60;
+  std::filesystem::path prior, folder;
+  gonio::thread_count threads;
+};
+
+double seconds_of(const std::function<void()>& act) {
+  const auto start = std::chrono::steady_clock::now();
+  act();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// What a process of its own has found: numbers, and the largest memory that it had.
+struct separate_result {
+  std::array<double, 8> values{};
+  double megabytes = 0.0;
+};
+
+/// Lets a process of its own do the work, whose memory is then that of the work alone.
+separate_result separately(const std::function<std::array<double, 8>()>& work) {
+  std::array<int, 2> ends{};
+  std::cout.flush();
+  if (::pipe(ends.data()) != 0) gonio::refuse("no pipe to a process");
+  const pid_t child = ::fork();
+  if (child < 0) gonio::refuse("no process for the work");
+  if (child == 0) {
+    int code = 1;
+    try {
+      const std::array<double, 8> values = work();
+      if (::write(ends[1], values.data(), sizeof values) == sizeof values) code = 0;
+    } catch (const std::exception& failure) {
+      std::fprintf(stderr, "%s\n", failure.what());
+    }
+    ::_exit(code);
+  }
+  ::close(ends[1]);
+  separate_result result;
+  const bool whole = ::read(ends[0], result.values.data(), sizeof result.values) == sizeof result.values;
+  ::close(ends[0]);
+  int status = 0;
+  rusage used{};
+  ::wait4(child, &status, 0, &used);
+  if (!whole || !WIFEXITED(status) || WEXITSTATUS(status) != 0) gonio::refuse("the work of a process failed");
+  result.megabytes = static_cast<double>(used.ru_maxrss) / 1024.0;
+  return result;
+}
+
+std::string scientific(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1e", value);
+  return text.data();
+}
+
+/// Half of MERL's theta_h, a third of its theta_d, a fifth of its phi_d.
+gonio::valid_cells coarse_cells() { return gonio::valid_cells(gonio::grid({45, 30, 36})); }
+
+/// Materials `first` to `end` of the random ones.
+gonio::io::scratch_materials random_tables(Eigen::Index first, Eigen::Index end, const streaming_experiment& given) {
+  const gonio::valid_cells cells = coarse_cells();
+  gonio::io::scratch_materials scratch(given.folder);
+  for (Eigen::Index i = first; i < end; ++i)
+    scratch.append("random-" + std::to_string(i), random_material(static_cast<std::uint64_t>(i), cells, given.threads));
+  return scratch;
+}
+
+gonio::streaming_options options_of(const streaming_experiment& given, Eigen::Index exact_columns = 3072) {
+  return {.components = given.components, .exact_columns = exact_columns, .threads = given.threads};
+}
+
+// ---- time and memory ---------------------------------------------------------------------------
+
+void print_costs(const streaming_experiment& given) {
+  std::cout
+      << "| materials | tables, MB | in a scratch file, MB | drawing them, s | learning, s | ms a material | peak "
+         "memory, MB | found | variance kept |\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const Eigen::Index count : given.counts) {
+    const auto cost = separately([&] {
+      std::array<double, 8> found{};
+      gonio::io::scratch_materials scratch(given.folder);
+      found[0] = seconds_of([&] { scratch = random_tables(0, count, given); });
+      const gonio::material_rows rows = scratch.rows();
+      found[1] = seconds_of([&] {
+        const auto learned = gonio::learn_streamed_pca(rows, options_of(given));
+        found[2] = learned.exact ? 1.0 : 0.0;
+        found[3] = learned.prior.explained_variance();
+      });
+      found[4] = static_cast<double>(scratch.file_size());
+      found[5] = 4.0 * static_cast<double>(rows.columns() * rows.cells.size());
+      return found;
+    });
+    const auto& [drawing, learning, exact, kept, in_file, tables, unused, other] = cost.values;
+    std::cout << "| " << count << " | " << fixed(1e-6 * tables, 0) << " | " << fixed(1e-6 * in_file, 0) << " | "
+              << fixed(drawing, 1) << " | " << fixed(learning, 1) << " | "
+              << fixed(1e3 * learning / static_cast<double>(count), 1) << " | " << fixed(cost.megabytes, 0) << " | "
+              << (exact != 0.0 ? "by the Gram matrix" : "in a random subspace") << " | " << fixed(100.0 * kept, 3)
+              << " % |\n"
+              << std::flush;
+  }
+}
+
+// ---- how far from the exact result -------------------------------------------------------------
+
+/// The largest difference of two matrices, relative to the second one's largest entry.
+template <class A, class B>
+double relative_difference(const A& a, const B& b) {
+  return double{(a - b).cwiseAbs().maxCoeff()} / double{b.cwiseAbs().maxCoeff()};
+}
+
+/// What no combination of some columns gives of others.
+Eigen::MatrixXd rest_beside(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) {
+  const Eigen::MatrixXd unit = columns.colwise().normalized();
+  const gonio::cholesky factors(gonio::product(unit.transpose(), unit));
+  return others - gonio::product(unit, factors.solve(gonio::product(unit.transpose(), others)));
+}
+
+/// The share of the second prior's components' variation that is outside of the first one's.
+double outside(const gonio::log_relative_pca& first, const gonio::log_relative_pca& second) {
+  const Eigen::MatrixXd of_second = second.components().cast<double>();
+  return rest_beside(first.components().cast<double>(), of_second).squaredNorm() / of_second.squaredNorm();
+}
+
+void print_same_as_in_memory(const streaming_experiment& given) {
+  const auto found = separately([&] {
+    const auto expanded = gonio::expand(gonio::io::read_prior(given.prior), given.threads);
+    std::vector<Eigen::Index> hundred(100);
+    std::iota(hundred.begin(), hundred.end(), Eigen::Index{0});
+    const auto set = expanded.subset(hundred);
+    gonio::io::scratch_materials scratch(given.folder, 20u << 20);
+    for (Eigen::Index m = 0; m < std::ssize(set.names); ++m) scratch.append(set.names[m], set.table(m));
+    const auto streamed = gonio::learn_streamed_pca(scratch.rows(), options_of(given)).prior;
+    const auto known = gonio::learn_pca(set, gonio::log_relative::to_median_of(set), given.components);
+    return std::array<double, 8>{relative_difference(streamed.components(), known.components()),
+                                 relative_difference(streamed.coefficients(), known.coefficients()),
+                                 relative_difference(streamed.singular_values(), known.singular_values()),
+                                 static_cast<double>(set.values.cols())};
+  });
+  const auto& values = found.values;
+  std::cout << "\n100 materials of the prior that ships, expanded to " << fixed(values[3], 0)
+            << " columns and streamed from a scratch file, beside `learn_pca` in memory:\ncomponents differ by at most "
+            << scientific(values[0]) << " of the largest entry, coefficients by " << scientific(values[1])
+            << ", singular values by " << scientific(values[2]) << ".\n"
+            << std::flush;
+}
+
+void print_subspace_error(const streaming_experiment& given) {
+  const auto found = separately([&] {
+    const gonio::material_rows rows = random_tables(0, given.compared, given).rows();
+    std::array<double, 8> numbers{};
+    gonio::streamed_pca exact = gonio::learn_streamed_pca(rows, options_of(given, 3 * given.compared));
+    gonio::streamed_pca other = exact;
+    numbers[5] = seconds_of([&] { other = gonio::learn_streamed_pca(rows, options_of(given, 0)); });
+    const double variance = exact.prior.singular_values().squaredNorm() / exact.prior.explained_variance();
+    numbers[0] =
+        (exact.prior.singular_values().cwiseAbs2() - other.prior.singular_values().cwiseAbs2()).cwiseAbs().maxCoeff() /
+        variance;
+    numbers[1] = other.residual;
+    numbers[2] = exact.prior.explained_variance() - other.prior.explained_variance();
+    numbers[3] = outside(other.prior, exact.prior);
+    numbers[4] = 1.0 - exact.prior.explained_variance();
+    return numbers;
+  });
+  const auto& values = found.values;
+  std::cout << "\nThe random subspace (seed 1) beside the exact decomposition of " << given.compared
+            << " materials, as shares of the variance: squared\nsingular values are off by at most "
+            << scientific(values[0]) << ", where the residual states " << scientific(values[1]) << ". What is kept is "
+            << scientific(values[2]) << " less than\nthe most that " << given.components
+            << " components can keep, which leaves " << scientific(values[4]) << ". Of the exact components' variation "
+            << scientific(values[3]) << " is\noutside of those found. They took " << fixed(values[5], 1) << " s.\n"
+            << std::flush;
+}
+
+/// What the components of a prior leave of the materials' mapped values: rms.
+double left_of(const gonio::log_relative_pca& prior, const gonio::material_rows& rows) {
+  const gonio::mapped_materials mapped(rows, prior.metric());
+  const gonio::row_source centred = mapped.first_pass();
+  gonio::row_matrix all(centred.rows, centred.columns);
+  centred.read({0, centred.rows}, all);
+  for (Eigen::Index cell = 0; cell < all.rows(); ++cell)
+    all.row(cell).array() += double{mapped.mean()[cell]} - prior.offset(cell);
+  const Eigen::MatrixXd rest = rest_beside(prior.components().cast<double>(), all);
+  return std::sqrt(rest.squaredNorm() / static_cast<double>(rest.size()));
+}
+
+void print_added(const streaming_experiment& given) {
+  std::cout << "\nA tenth of " << given.compared
+            << " materials added to the prior of the others, as a file, beside all learned at once: the variance kept, "
+               "and the\nroot mean square of what the components leave of the mapped values of 100 materials that none "
+               "has seen.\n\n| | variance kept | left of unseen ones | seconds |\n|---|---|---|---|\n";
+  const auto found = separately([&] {
+    const Eigen::Index old_count = given.compared - given.compared / 10;
+    const gonio::material_rows unseen = random_tables(1'000'000, 1'000'100, given).rows();
+    const gonio::material_rows old_rows = random_tables(0, old_count, given).rows();
+    const auto old = gonio::learn_streamed_pca(old_rows, options_of(given)).prior;
+    const auto stored = gonio::io::decode_prior(gonio::io::encode_prior(old), "the prior of the others");
+    const gonio::material_rows new_rows = random_tables(old_count, given.compared, given).rows();
+    const gonio::material_rows all_rows = random_tables(0, given.compared, given).rows();
+    gonio::streamed_pca added{old}, all{old};
+    const double adding = seconds_of([&] { added = gonio::add_materials(stored, new_rows, options_of(given)); });
+    const double learning = seconds_of([&] { all = gonio::learn_streamed_pca(all_rows, options_of(given)); });
+    return std::array<double, 8>{stored.explained_variance(),
+                                 left_of(stored, unseen),
+                                 added.prior.explained_variance(),
+                                 left_of(added.prior, unseen),
+                                 all.prior.explained_variance(),
+                                 left_of(all.prior, unseen),
+                                 adding,
+                                 learning};
+  });
+  const auto line = [&](const char* what, std::size_t at, const std::string& seconds) {
+    std::cout << "| " << what << " | " << fixed(100.0 * found.values[at], 3) << " % | "
+              << fixed(found.values[at + 1], 5) << " | " << seconds << " |\n";
+  };
+  line("before, of the others", 0, "");
+  line("added", 2, fixed(found.values[6], 1));
+  line("all at once", 4, fixed(found.values[7], 1));
+}
+
+void learn_streamed(const streaming_experiment& given) {
+  const gonio::valid_cells cells = coarse_cells();
+  std::cout << cells.size() << " cells of a grid of 45 x 30 x 36, " << given.components << " components, "
+            << given.threads.resolve() << " threads.\n\n";
+  print_costs(given);
+  print_same_as_in_memory(given);
+  print_subspace_error(given);
+  print_added(given);
+}
+
+}  // namespace
+
+void add_streamed_learning(command& app) {
+  auto command = app.add_subcommand("streamed-learning",
+                                    "Time, memory and error of learning from materials that do not fit into memory");
+  const auto given = std::make_shared<streaming_experiment>();
+  command.add_option("--materials", given->counts, "How many synthetic materials to learn from").capture_default_str();
+  command
+      .add_option("--compared", given->compared, "Materials of which the exact and the fast decomposition are compared")
+      .check(check::range(10, 1024))
+      .capture_default_str();
+  command.add_option("--components", given->components, "Components to keep")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_input_folder("--scratch", given->folder, {}, "Folder of the scratch file (default: the current one)");
+  add_prior_option(command, given->prior);
+  add_threads_option(command, given->threads);
+  command.callback([given] { learn_streamed(*given); });
+}
+
+}  // namespace papers

@@ -1,0 +1,102 @@
+#pragma once
+/// Bodies of basis/add_materials.hpp.
+
+#include <gonio/basis/add_materials.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/solve/product.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+namespace detail {
+
+/// The old components Q, the new observations less their own mean nu, and the difference of the means, scaled so that
+/// the products of these columns sum to those of all observations less the mean of all.
+struct appended_columns {
+  log_relative_pca prior;
+  mapped_materials added;
+  double old_count, new_count;  ///< observations
+
+  [[nodiscard]] Eigen::Index columns() const { return prior.size() + added.materials().columns() + 1; }
+  [[nodiscard]] double scale() const { return std::sqrt(old_count * new_count / (old_count + new_count)); }
+  [[nodiscard]] double difference(Eigen::Index cell) const { return prior.offset(cell) - double{added.mean()[cell]}; }
+
+  [[nodiscard]] row_source rows(const row_source& of_added) const {
+    return {of_added.rows, columns(), [*this, of_added](block range, row_block out) {
+              const Eigen::Index k = prior.size(), last = columns() - 1;
+              of_added.read(range, out.middleCols(k, of_added.columns));
+              for (Eigen::Index i = 0; i < range.size(); ++i) {
+                const Eigen::Index cell = range.begin + i;
+                const std::span<const float> row = prior.row(cell);
+                for (Eigen::Index j = 0; j < k; ++j) out(i, j) = row[j];
+                out(i, last) = scale() * difference(cell);
+              }
+            }};
+  }
+
+  /// The combinations of the columns that are the observations less the mean of all, times U.
+  [[nodiscard]] Eigen::MatrixXf coefficients(const Eigen::MatrixXd& u) const {
+    const Eigen::Index k = prior.size(), old = prior.coefficients().rows(), added_columns = added.materials().columns();
+    const double all = old_count + new_count;
+    Eigen::MatrixXd rows(old + added_columns, u.cols());
+    rows.topRows(old) = product(prior.coefficients().cast<double>(), u.topRows(k));
+    rows.bottomRows(added_columns) = u.middleRows(k, added_columns);
+    const Eigen::RowVectorXd last = u.row(u.rows() - 1) / (all * scale());
+    rows.topRows(old).rowwise() += new_count * last;
+    rows.bottomRows(added_columns).rowwise() -= old_count * last;
+    return rows.cast<float>();
+  }
+
+  [[nodiscard]] std::vector<float> mean() const {
+    std::vector<float> all(added.mean().size());
+    for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell)
+      all[cell] = static_cast<float>(prior.offset(cell) - new_count / (old_count + new_count) * difference(cell));
+    return all;
+  }
+
+  /// Squared norms: of the old components over the cells, and of all observations less the mean of all.
+  [[nodiscard]] double old_variation() const { return prior.components().cast<double>().squaredNorm(); }
+  [[nodiscard]] double variation() const {
+    double between = 0.0;
+    for (Eigen::Index cell = 0; cell < prior.cells().size(); ++cell) between += difference(cell) * difference(cell);
+    return old_variation() / prior.explained_variance() + added.total_variation() + scale() * scale() * between;
+  }
+
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> all = prior.names();
+    for (const std::string& name : added.materials().names) {
+      if (std::ranges::find(prior.names(), name) != prior.names().end())
+        refuse({"the prior was learned from a material named '", name, "' already"});
+      all.push_back(name);
+    }
+    return all;
+  }
+};
+
+}  // namespace detail
+
+GONIO_INLINE streamed_pca add_materials(const log_relative_pca& prior, material_rows materials,
+                                        const streaming_options& options, const progress& listener) {
+  const auto new_count = static_cast<double>(materials.columns());
+  const detail::appended_columns all{prior, mapped_materials(std::move(materials), prior.metric()),
+                                     static_cast<double>(prior.coefficients().rows()), new_count};
+  std::vector<std::string> names = all.names();
+  detail::streamed_components found =
+      detail::components_of(all.rows(all.added.first_pass()), all.rows(all.added.rows()), options, listener);
+  const double variation = all.variation();
+  const double scale = prior.singular_values().norm() / std::sqrt(all.old_variation());
+  const auto& [values, vectors, residual] = found.pairs;
+  return {log_relative_pca({prior.cells(), prior.metric(), std::move(names), scale * values.cwiseSqrt(),
+                            std::move(found.scaled), all.mean(), all.coefficients(vectors), values.sum() / variation}),
+          found.exact, residual / variation};
+}
+
+}  // namespace gonio

@@ -1,0 +1,110 @@
+#pragma once
+/// Bodies of basis/learn_streamed_pca.hpp.
+
+#include <gonio/basis/learn_streamed_pca.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/solve/product.hpp>
+#include <gonio/solve/row_groups.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <utility>
+
+namespace gonio::detail {
+
+/// As many threads as have room in a quarter of the memory.
+[[nodiscard]] GONIO_INLINE thread_count threads_within(const streaming_options& options, double bytes_each) {
+  const double room = 0.25 * static_cast<double>(options.memory) / bytes_each;
+  const unsigned threads = options.threads.resolve();
+  return {room < threads ? std::max(1u, static_cast<unsigned>(room)) : threads};
+}
+
+/// Through the Gram matrix.
+[[nodiscard]] GONIO_INLINE streamed_components exact_components(const row_source& first, const row_source& again,
+                                                                const streaming_options& options,
+                                                                const progress& listener) {
+  const auto columns = static_cast<double>(first.columns);
+  const thread_count threads = threads_within(options, 16.0 * columns * (columns + 128.0));
+  report(listener, "gram", 0.0);
+  const Eigen::MatrixXd products = gram(first, all_row_groups, threads);
+  report(listener, "components", 0.0);
+  // Rounding of the mean may pretend that centring costs none.
+  const Eigen::Index most = std::min(options.components, first.columns - 1);
+  streamed_components found{decompose_leading(products, most, "the Gram matrix of the materials"), {}, true};
+  if (found.pairs.values.size() == 0) return found;
+  found.scaled.resize(first.rows, found.pairs.values.size());
+  for_each_product(again, found.pairs.vectors, all_row_groups, threads,
+                   [&](block range, const Eigen::MatrixXd& product) {
+                     found.scaled.middleRows(range.begin, range.size()) = product.cast<float>();
+                   });
+  return found;
+}
+
+/// In a random subspace.
+[[nodiscard]] GONIO_INLINE streamed_components subspace_components(const row_source& first, const row_source& again,
+                                                                   const streaming_options& options,
+                                                                   const progress& listener) {
+  const Eigen::Index most = std::min(options.components, first.columns - 1);
+  const Eigen::Index width = std::min(first.columns, most + options.subspace.oversampling);
+  const double bytes_each = 8.0 * static_cast<double>(first.columns) * static_cast<double>(2 * width + 3 * 128);
+  const thread_count threads = threads_within(options, bytes_each);
+  cell_matrix along(first.rows, width);  // A times the subspace
+  const auto keep = [&](block range, const Eigen::MatrixXd& product) {
+    along.middleRows(range.begin, range.size()) = product.cast<float>();
+  };
+  int done = 0;
+  const auto times = [&](const Eigen::MatrixXd& vectors, bool last) {
+    report(listener, "subspace", static_cast<double>(done) / options.subspace.products);
+    return gram_times(done++ == 0 ? first : again, vectors, all_row_groups, threads,
+                      last ? product_writer(keep) : product_writer());
+  };
+  subspace_eigenpairs pairs = iterate_leading(first.columns, most, options.subspace, times);
+  report(listener, "components", 0.0);
+  streamed_components found{std::move(pairs.pairs), cell_matrix(first.rows, pairs.combination.cols()), false};
+  for_each_block(
+      first.rows, 1024,
+      [&](block range) {
+        const Eigen::Index begin = range.begin, rows = range.size();
+        found.scaled.middleRows(begin, rows) =
+            product(along.middleRows(begin, rows).cast<double>(), pairs.combination).cast<float>();
+      },
+      options.threads);
+  return found;
+}
+
+GONIO_INLINE streamed_components components_of(const row_source& first, const row_source& again,
+                                               const streaming_options& options, const progress& listener) {
+  if (options.components < 1) refuse("at least one principal component must be kept");
+  streamed_components found = first.columns <= options.exact_columns
+                                  ? exact_components(first, again, options, listener)
+                                  : subspace_components(first, again, options, listener);
+  if (found.pairs.values.size() == 0) refuse("the materials do not differ: there is nothing to learn");
+  report(listener, "components", 1.0);
+  return found;
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE streamed_pca learn_streamed_pca(material_rows materials, const streaming_options& options,
+                                             const progress& listener) {
+  const mapped_materials mapped(std::move(materials), options.weighting);
+  detail::streamed_components found = detail::components_of(mapped.first_pass(), mapped.rows(), options, listener);
+  const double variance = mapped.total_variation();
+  const auto& [values, vectors, residual] = found.pairs;
+  return {log_relative_pca({mapped.materials().cells,
+                            mapped.metric(),
+                            mapped.materials().names,
+                            values.cwiseSqrt(),
+                            std::move(found.scaled),
+                            {mapped.mean().begin(), mapped.mean().end()},
+                            vectors.cast<float>(),
+                            values.sum() / variance}),
+          found.exact, residual / variance};
+}
+
+}  // namespace gonio

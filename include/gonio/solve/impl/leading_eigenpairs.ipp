@@ -1,0 +1,91 @@
+#pragma once
+/// Bodies of solve/leading_eigenpairs.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/random.hpp>
+#include <gonio/solve/householder_qr.hpp>
+#include <gonio/solve/leading_eigenpairs.hpp>
+#include <gonio/solve/product.hpp>
+#include <gonio/solve/symmetric_eigen.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <utility>
+
+namespace gonio::detail {
+
+/// Normal numbers, by Box and Muller.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd random_vectors(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  Eigen::MatrixXd vectors(rows, columns);
+  for (Eigen::Index i = 0; i < vectors.size(); ++i) {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform_number(generator)));
+    vectors.data()[i] = radius * std::cos(2.0 * std::numbers::pi * uniform_number(generator));
+  }
+  return vectors;
+}
+
+/// Orthonormal columns that span what the given ones do.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd orthonormalised(Eigen::MatrixXd vectors) {
+  const Eigen::Index rows = vectors.rows(), columns = vectors.cols();
+  const householder_qr factors(std::move(vectors));
+  Eigen::MatrixXd q = Eigen::MatrixXd::Identity(rows, columns);
+  for (Eigen::Index column = 0; column < columns; ++column) factors.apply(q.col(column).data());
+  return q;
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE leading_eigenpairs decompose_leading(const Eigen::MatrixXd& matrix, Eigen::Index count, const char* what) {
+  const symmetric_eigen eigen = decompose_symmetric(matrix, what);
+  const Eigen::VectorXd descending = eigen.values.reverse();
+  const double floor = descending[0] * static_cast<double>(matrix.rows()) * std::numeric_limits<double>::epsilon();
+  const Eigen::Index kept = std::min<Eigen::Index>(count, (descending.array() > floor).count());
+  leading_eigenpairs result{descending.head(kept), eigen.vectors.rowwise().reverse().leftCols(kept)};
+  for (auto vector : result.vectors.colwise()) {
+    Eigen::Index largest = 0;
+    vector.cwiseAbs().maxCoeff(&largest);
+    if (vector[largest] < 0.0) vector = -vector;
+  }
+  return result;
+}
+
+GONIO_INLINE subspace_eigenpairs iterate_leading(Eigen::Index size, Eigen::Index count, const subspace_options& options,
+                                                 const matrix_times& times) {
+  if (count < 1 || options.oversampling < 0 || options.products < 1)
+    refuse({"cannot find ", count, " eigenvalues by ", options.products, " products with ", options.oversampling,
+            " vectors more"});
+  const Eigen::Index width = std::min(size, count + options.oversampling);
+  // Multiply random vectors by the matrix, again and again (Alg. 4.4).
+  Eigen::MatrixXd subspace = detail::orthonormalised(detail::random_vectors(size, width, options.seed));
+  for (int product = 1; product < options.products; ++product)
+    subspace = detail::orthonormalised(times(subspace, false));
+  // The matrix within the subspace, and its eigenpairs (Alg. 5.3).
+  const Eigen::MatrixXd multiplied = times(subspace, true);
+  Eigen::MatrixXd within = product(subspace.transpose(), multiplied);
+  within = (0.5 * (within + within.transpose())).eval();
+  const leading_eigenpairs inner = decompose_leading(within, count, "a Gram matrix within a subspace");
+
+  subspace_eigenpairs found{{inner.values, product(subspace, inner.vectors)}, inner.vectors};
+  for (Eigen::Index i = 0; i < found.combination.cols(); ++i) {
+    Eigen::Index largest = 0;
+    found.pairs.vectors.col(i).cwiseAbs().maxCoeff(&largest);
+    if (found.pairs.vectors(largest, i) > 0.0) continue;
+    found.pairs.vectors.col(i) *= -1.0;
+    found.combination.col(i) *= -1.0;
+  }
+  const Eigen::MatrixXd residual =
+      product(multiplied, found.combination) - found.pairs.vectors * found.pairs.values.asDiagonal();
+  found.pairs.residual = residual.norm();
+  return found;
+}
+
+}  // namespace gonio

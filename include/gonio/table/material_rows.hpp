@@ -1,0 +1,37 @@
+#pragma once
+/// Tables of many materials that are read a block of cells at a time, wherever they live: 10,000 of them on MERL's grid
+/// take 130 GB.
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/table/material_set.hpp>
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// Where a block of cells is written: contiguous rows, any distance between them.
+using cell_rows = Eigen::Ref<cell_matrix, 0, Eigen::OuterStride<>>;
+
+/// Named materials over common cells. `read(range, out)` writes the values of a block of cells, in sr^-1, into `out`,
+/// a row for each cell, red, green and blue of each material. It is called from several threads at once, and may be
+/// asked for the same cells again.
+struct material_rows {
+  valid_cells cells;
+  std::vector<std::string> names;
+  std::function<void(block range, cell_rows out)> read;
+
+  [[nodiscard]] Eigen::Index columns() const noexcept { return 3 * std::ssize(names); }
+};
+
+/// Those of a set that is at hand.
+[[nodiscard]] material_rows rows_of(material_set materials);
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/material_rows.ipp>
+#endif

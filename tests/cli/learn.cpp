@@ -1,0 +1,120 @@
+/// Learning from tables that are streamed, and adding to a prior.
+
+#include "../io/scratch.hpp"
+#include "../json.hpp"
+#include "../synthetic_materials.hpp"
+#include "tool.hpp"
+#include <gonio/io/merl.hpp>
+#include <gonio/io/prior.hpp>
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace {
+
+/// A folder of tables, and priors beside it.
+class learning_folder {
+ public:
+  explicit learning_folder(Eigen::Index count)
+      : set_(synthetic_materials(gonio::valid_cells(gonio::grid({18, 12, 18})), static_cast<std::size_t>(count))) {
+    std::filesystem::create_directory(folder_ / "tables");
+    for (Eigen::Index m = 0; m < count; ++m)
+      gonio::io::write_merl(table(set_.names[static_cast<std::size_t>(m)]), set_.table(m));
+  }
+
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string table(const std::string& name) const { return at("tables/" + name + ".binary"); }
+  [[nodiscard]] const gonio::material_set& set() const { return set_; }
+  [[nodiscard]] std::string learn(const std::string& options) const {
+    return "learn --merl " + at("tables") + " --thin 1 1 --components 8 " + options;
+  }
+  [[nodiscard]] std::ptrdiff_t entries() const {
+    return std::distance(std::filesystem::directory_iterator(folder_.path()), {});
+  }
+
+ private:
+  scratch::folder folder_;
+  gonio::material_set set_;
+};
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TEST_CASE("gonio learn: the same bytes for any number of threads, memory and scratch folder, and as in memory") {
+  const learning_folder made(12);
+  run(made.learn("-o " + made.at("one.prior") + " --threads 1"));
+  std::filesystem::create_directory(made.at("elsewhere"));
+  run(made.learn("-o " + made.at("other.prior") + " --threads 3 --memory 0.25 --scratch " + made.at("elsewhere")));
+  CHECK(bytes_of(made.at("one.prior")) == bytes_of(made.at("other.prior")));
+  CHECK(made.entries() == 4);  // tables, elsewhere, two priors
+  const auto read = gonio::io::read_prior(made.at("one.prior"));
+  const auto known = gonio::io::decode_prior(gonio::io::encode_prior(learn(made.set(), 8)), "in memory");
+  // Beyond the codes of the file nothing differs, but where a code is about to change.
+  const float step = known.components().cwiseAbs().maxCoeff() / 127.0f;
+  CHECK((read.components() - known.components()).cwiseAbs().maxCoeff() <= 2 * step);
+  CHECK((read.coefficients() - known.coefficients()).cwiseAbs().maxCoeff() < 1e-5f);
+}
+
+TEST_CASE("gonio learn --add-to: materials join a prior without the tables of the others") {
+  const learning_folder made(12);
+  run(made.learn("-o " + made.at("ten.prior") + " --exclude material-10 --exclude material-11"));
+  std::filesystem::create_directory(made.at("new"));
+  for (const char* name : {"material-10", "material-11"})
+    std::filesystem::rename(made.table(name), made.at("new/" + std::string(name) + ".binary"));
+  const std::string add = "learn --merl " + made.at("new") + " --components 8 --add-to " + made.at("ten.prior");
+  const std::string told = run(add + " -o " + made.at("twelve.prior"));
+  CHECK(told.find("kept 8 components of 10 materials of tables") != std::string::npos);
+  CHECK(told.find("; then 2 materials of new") != std::string::npos);
+  const auto ten = gonio::io::read_prior(made.at("ten.prior")), twelve = gonio::io::read_prior(made.at("twelve.prior"));
+  CHECK(twelve.names().size() == 12);
+  CHECK(twelve.names().back() == "material-11");
+  CHECK(twelve.cells() == ten.cells());
+  refuses(add + " -o " + made.at("ten.prior"), {"ten.prior"});  // which is read
+  refuses(add + " --thin 1 1 -o " + made.at("x.prior"), {"--thin"});
+  refuses(add + " --split -o " + made.at("x.prior"), {"--split"});
+  refuses("learn --merl " + made.at("new") + " --add-to " + made.at("twelve.prior") + " -o " + made.at("x.prior"),
+          {"material-10", "already"});
+  refuses("learn --merl " + made.at("new") + " --add-to " + made.at("no.prior") + " -o " + made.at("x.prior"),
+          {"no.prior"});
+}
+
+TEST_CASE("gonio learn refuses tables that do not belong together, or cannot be read, by their names") {
+  const learning_folder made(4);
+  const std::string learn = made.learn("-o " + made.at("x.prior"));
+  const auto second = [&](const std::string& bytes) {
+    std::ofstream(made.table("material-1"), std::ios::binary) << bytes;
+  };
+  const std::string whole = bytes_of(made.table("material-1"));
+  SUBCASE("of another grid") {
+    gonio::io::write_merl(made.table("material-1"), synthetic_materials(small_cells(), 1).table(0));
+    refuses(learn, {"material-1.binary", "valid cells differ"});
+  }
+  SUBCASE("with a value that is no number") {
+    std::string broken = whole;
+    for (std::size_t byte = 12; byte < broken.size(); ++byte) broken[byte] = '\xff';
+    second(broken);
+    refuses(learn, {"material-1.binary", "expected a finite number"});
+  }
+  SUBCASE("truncated") {
+    second(whole.substr(0, whole.size() / 2));
+    refuses(learn, {"material-1.binary", "expected"});
+  }
+  SUBCASE("a folder of the same name") {
+    std::filesystem::remove(made.table("material-1"));
+    std::filesystem::create_directory(made.table("material-1"));
+    refuses(learn, {"material-1.binary"});
+  }
+  SUBCASE("none") {
+    std::filesystem::create_directory(made.at("empty"));
+    refuses("learn --merl " + made.at("empty") + " -o " + made.at("x.prior"), {"empty"});
+  }
+  CHECK_FALSE(std::filesystem::exists(made.at("x.prior")));
+}
