@@ -9,7 +9,6 @@
 
 namespace cli {
 
-void add_learn(command& app);
 void add_expand(command& app);
 void add_plan(command& app);
 void add_sample(command& app);
@@ -22,6 +21,7 @@ void add_report(command& app, const std::vector<std::string>& words);
 void add_check(command& app, const std::vector<std::string>& words);
 void add_fit(command& app, const std::vector<std::string>& words);
 void add_design(command& app, const std::vector<std::string>& words, const team& processes);
+void add_learn(command& app, const team& processes);
 void add_svbrdf(command& app, const team& processes);
 void add_compare(command& app);
 void add_convert(command& app);

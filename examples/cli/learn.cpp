@@ -3,6 +3,7 @@
 #include "command_line/fixed.hpp"
 #include "command_line/materials.hpp"
 #include "command_line/progress_bar.hpp"
+#include "command_line/team.hpp"
 #include "command_line/thinning.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
@@ -10,14 +11,18 @@
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/learn_streamed_pca.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>
+#include <gonio/io/checked_file.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cli {
 
@@ -74,25 +79,50 @@ void learn_split(const learn_options& options) {
   std::cout << "a material is specular from a highlight contrast of " << fixed(learned.threshold(), 3) << " on\n";
 }
 
-/// Materials that are read once into a scratch file beside the prior if they do not fit into a quarter of the memory.
-gonio::material_rows stream(const learn_options& options, const std::optional<gonio::valid_cells>& cells,
-                            const gonio::progress& listener) {
-  const auto bytes = static_cast<std::uint64_t>(options.memory * 0x1p30);
-  const auto folder = options.scratch.empty() ? options.output.parent_path() : options.scratch;
-  return stream_materials(options.materials, cells, gonio::io::scratch_materials(folder, bytes / 4), options.threads,
-                          listener);
+/// Of the names, and of a few cells.
+std::uint32_t checksum_of(const gonio::material_rows& materials) {
+  std::string names;
+  for (const std::string& name : materials.names) names.append(name).push_back('\0');
+  std::vector<std::uint32_t> each{gonio::io::detail::checksum(std::as_bytes(std::span(names)))};
+  const Eigen::Index cells = materials.cells.size(), most = std::min<Eigen::Index>(cells, 64);
+  gonio::cell_matrix row(1, materials.columns());
+  for (Eigen::Index i = 0; i < most; ++i) {
+    materials.read({i * cells / most, i * cells / most + 1}, row);
+    each.push_back(
+        gonio::io::detail::checksum(std::as_bytes(std::span(row.data(), static_cast<std::size_t>(row.size())))));
+  }
+  return gonio::io::detail::checksum(std::as_bytes(std::span(each)));
 }
 
-void learn(const learn_options& options) {
-  if (options.split) return learn_split(options);
+/// Materials that are read once into a scratch file beside the prior if they do not fit into a quarter of the memory.
+gonio::material_rows stream(const learn_options& options, const std::optional<gonio::valid_cells>& cells,
+                            const gonio::progress& listener, const team& processes) {
+  const auto bytes = static_cast<std::uint64_t>(options.memory * 0x1p30);
+  const auto folder = options.scratch.empty() ? options.output.parent_path() : options.scratch;
+  std::optional<gonio::material_rows> materials;
+  processes.together([&] {
+    materials = stream_materials(options.materials, cells, gonio::io::scratch_materials(folder, bytes / 4),
+                                 options.threads, listener);
+  });
+  if (!processes.is_alone()) processes.agree_on(checksum_of(*materials), "materials");
+  return *materials;
+}
+
+void learn(const learn_options& options, const team& processes) {
+  if (options.split) {
+    if (processes.writes()) learn_split(options);
+    return;
+  }
   progress_bar bar;
   const gonio::streaming_options streaming{.components = options.components,
                                            .weighting = weighting_of(options),
                                            .subspace = {.seed = options.seed},
                                            .memory = static_cast<std::uint64_t>(options.memory * 0x1p30),
-                                           .threads = options.threads};
+                                           .threads = options.threads,
+                                           .share = processes.groups()};
   const auto finish = [&](const gonio::streamed_pca& learned, const gonio::log_relative_pca& prior,
                           const std::string& source) {
+    if (!processes.writes()) return;
     gonio::io::write_prior(options.output, prior.with_source(source));
     bar.wipe();
     print_kept(prior, source);
@@ -102,21 +132,27 @@ void learn(const learn_options& options) {
   };
   if (!options.add_to.empty()) {
     const auto old = gonio::io::read_prior(options.add_to);
-    const auto materials = stream(options, old.cells(), bar.listener());
+    const auto materials = stream(options, old.cells(), bar.listener(), processes);
     const std::string source =
         old.source() + (old.source().empty() ? "" : "; then ") + source_of(options.materials, materials.names.size());
     const auto learned = gonio::add_materials(old, materials, streaming, bar.listener());
     return finish(learned, learned.prior, source);
   }
-  const auto materials = stream(options, {}, bar.listener());
+  const auto materials = stream(options, {}, bar.listener(), processes);
   const auto cells = options.thin.of(materials.cells);
   const auto learned = gonio::learn_streamed_pca(materials, streaming, bar.listener());
   finish(learned, gonio::thin(learned.prior, cells), source_of(options.materials, materials.names.size()));
 }
 
+void learn_together(learn_options options, const team& processes) {
+  options.threads = processes.threads(options.threads);
+  agree_on_file(processes, options.add_to, "--add-to");
+  processes.together([&] { learn(options, processes); });
+}
+
 }  // namespace
 
-void add_learn(command& app) {
+void add_learn(command& app, const team& processes) {
   auto command = app.add_subcommand("learn", "Learn a prior (principal components) from many materials");
   const auto options = std::make_shared<learn_options>();
   add_material_options(command, options->materials).require_option(1, 3);
@@ -160,7 +196,7 @@ void add_learn(command& app) {
       .capture_default_str();
   command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();
   add_threads_option(command, options->threads);
-  command.callback([options] { learn(*options); });
+  command.callback([options, &processes] { learn_together(*options, processes); });
 }
 
 }  // namespace cli

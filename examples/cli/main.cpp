@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
   cli::program app("gonio", "gonio completes a BRDF from a few reflectance measurements.", GONIO_VERSION);
   const cli::team alone;
   const std::vector<std::string> words(argv, argv + argc);
-  cli::add_learn(app);
+  cli::add_learn(app, alone);
   cli::add_expand(app);
   cli::add_design(app, words, alone);
   cli::add_plan(app);

@@ -2,6 +2,7 @@
 /// Who does a command's work: this process alone, or all processes of a job together (examples/mpi).
 
 #include <gonio/core/parallel.hpp>
+#include <gonio/solve/row_groups.hpp>
 
 #include <Eigen/Core>
 
@@ -53,6 +54,9 @@ class team {
     static_cast<void>(value);
     return number;
   }
+
+  /// How passes over groups of rows are shared.
+  [[nodiscard]] virtual gonio::shared_groups groups() const { return {}; }
 
   /// The number of the process that writes.
   [[nodiscard]] virtual Eigen::Index number_of_writer(Eigen::Index number) const { return number; }

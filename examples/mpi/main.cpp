@@ -96,6 +96,7 @@ int run(const gonio::mpi::ranks& ranks, std::span<char*> given, const std::optio
         if (prints_traffic) print_traffic(ranks);
       });
   cli::add_design(app, words, all);
+  cli::add_learn(app, all);
   cli::add_svbrdf(app, all);
   const int code = app.run(static_cast<int>(given.size()), given.data());
   if (has_begun) return code;

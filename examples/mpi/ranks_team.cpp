@@ -1,10 +1,14 @@
 #include "ranks_team.hpp"
 
+#include <gonio/core/error.hpp>
 #include <gonio/mpi/best_of_ranks.hpp>
 #include <gonio/mpi/gather_in_order.hpp>
 #include <gonio/mpi/sum_of_groups.hpp>
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
+#include <span>
 
 namespace cli {
 
@@ -20,6 +24,42 @@ gonio::block ranks_team::share_of(Eigen::Index count, Eigen::Index block_size) c
 
 Eigen::Index ranks_team::best(double value, Eigen::Index number) const {
   return gonio::mpi::best_of_ranks(ranks_, {value, number}).number;
+}
+
+Eigen::Index ranks_team::subtrees() const {
+  return std::min(gonio::row_groups, static_cast<Eigen::Index>(std::bit_floor(static_cast<unsigned>(ranks_.size()))));
+}
+
+gonio::block ranks_team::groups_of(int rank) const {
+  const gonio::block own = gonio::mpi::groups_of(rank, ranks_.size(), subtrees());
+  const Eigen::Index each = gonio::row_groups / subtrees();
+  return {own.begin * each, own.end * each};
+}
+
+gonio::shared_groups ranks_team::groups() const {
+  const auto sum = [this](const gonio::shared_groups::sum_of& of_groups) {
+    return gonio::mpi::sum_of_groups(ranks_, subtrees(),
+                                     [&](Eigen::Index) { return of_groups(groups_of(ranks_.rank())); });
+  };
+  const auto complete = [this](std::span<float> numbers, Eigen::Index rows) {
+    const auto part_of = [&](int rank) {
+      const gonio::block own = gonio::rows_of_groups(rows, groups_of(rank));
+      const std::size_t each = numbers.size() / static_cast<std::size_t>(rows);
+      return numbers.subspan(each * static_cast<std::size_t>(own.begin), each * static_cast<std::size_t>(own.size()));
+    };
+    gonio::mpi::gather_in_order(
+        ranks_, {0, ranks_.size()},
+        [&](Eigen::Index rank) {
+          const auto bytes = std::as_bytes(part_of(static_cast<int>(rank)));
+          return part(bytes.begin(), bytes.end());
+        },
+        [&](Eigen::Index rank, const part& bytes) {
+          const auto own = part_of(static_cast<int>(rank));
+          if (bytes.size() != own.size_bytes()) gonio::refuse({"rank ", rank, " has other rows than rank 0"});
+          if (!bytes.empty()) std::memcpy(own.data(), bytes.data(), bytes.size());
+        });
+  };
+  return {groups_of(ranks_.rank()), sum, complete};
 }
 
 Eigen::Index ranks_team::number_of_writer(Eigen::Index number) const {

@@ -22,11 +22,16 @@ class ranks_team : public team {
   void agree_on(std::uint32_t checksum, const std::string& what) const override { ranks_.agree_on(checksum, what); }
   [[nodiscard]] gonio::block share_of(Eigen::Index count, Eigen::Index block_size) const override;
   [[nodiscard]] Eigen::Index best(double value, Eigen::Index number) const override;
+  [[nodiscard]] gonio::shared_groups groups() const override;
   [[nodiscard]] Eigen::Index number_of_writer(Eigen::Index number) const override;
   void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
                         const std::function<void(Eigen::Index, part)>& take) const override;
 
  private:
+  /// Equal subtrees of the groups, as many as there are ranks to own one each: a power of two.
+  [[nodiscard]] Eigen::Index subtrees() const;
+  [[nodiscard]] gonio::block groups_of(int rank) const;
+
   const gonio::mpi::ranks& ranks_;
 };
 

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace gonio::detail {
@@ -29,14 +30,15 @@ namespace gonio::detail {
   const auto columns = static_cast<double>(first.columns);
   const thread_count threads = threads_within(options, 16.0 * columns * (columns + 128.0));
   report(listener, "gram", 0.0);
-  const Eigen::MatrixXd products = gram(first, all_row_groups, threads);
+  const Eigen::MatrixXd products =
+      options.share.sum_over_all([&](block groups) { return gram(first, groups, threads); });
   report(listener, "components", 0.0);
   // Rounding of the mean may pretend that centring costs none.
   const Eigen::Index most = std::min(options.components, first.columns - 1);
   streamed_components found{decompose_leading(products, most, "the Gram matrix of the materials"), {}, true};
   if (found.pairs.values.size() == 0) return found;
   found.scaled.resize(first.rows, found.pairs.values.size());
-  for_each_product(again, found.pairs.vectors, all_row_groups, threads,
+  for_each_product(again, found.pairs.vectors, options.share.own, threads,
                    [&](block range, const Eigen::MatrixXd& product) {
                      found.scaled.middleRows(range.begin, range.size()) = product.cast<float>();
                    });
@@ -58,21 +60,30 @@ namespace gonio::detail {
   int done = 0;
   const auto times = [&](const Eigen::MatrixXd& vectors, bool last) {
     report(listener, "subspace", static_cast<double>(done) / options.subspace.products);
-    return gram_times(done++ == 0 ? first : again, vectors, all_row_groups, threads,
-                      last ? product_writer(keep) : product_writer());
+    const row_source& rows = done++ == 0 ? first : again;
+    return options.share.sum_over_all([&](block groups) {
+      return gram_times(rows, vectors, groups, threads, last ? product_writer(keep) : product_writer());
+    });
   };
   subspace_eigenpairs pairs = iterate_leading(first.columns, most, options.subspace, times);
   report(listener, "components", 0.0);
   streamed_components found{std::move(pairs.pairs), cell_matrix(first.rows, pairs.combination.cols()), false};
+  const block own = rows_of_groups(first.rows, options.share.own);
   for_each_block(
       first.rows, 1024,
       [&](block range) {
         const Eigen::Index begin = range.begin, rows = range.size();
+        if (range.end <= own.begin || begin >= own.end) return;
         found.scaled.middleRows(begin, rows) =
             product(along.middleRows(begin, rows).cast<double>(), pairs.combination).cast<float>();
       },
       options.threads);
   return found;
+}
+
+GONIO_INLINE void complete_rows(const shared_groups& share, const mapped_materials& mapped) {
+  for (const std::span<float> found : {mapped.reference(), mapped.mean(), mapped.variation()})
+    share.complete_rows(found, std::ssize(found));
 }
 
 GONIO_INLINE streamed_components components_of(const row_source& first, const row_source& again,
@@ -82,6 +93,7 @@ GONIO_INLINE streamed_components components_of(const row_source& first, const ro
                                   ? exact_components(first, again, options, listener)
                                   : subspace_components(first, again, options, listener);
   if (found.pairs.values.size() == 0) refuse("the materials do not differ: there is nothing to learn");
+  options.share.complete_rows({found.scaled.data(), static_cast<std::size_t>(found.scaled.size())}, first.rows);
   report(listener, "components", 1.0);
   return found;
 }
@@ -94,6 +106,7 @@ GONIO_INLINE streamed_pca learn_streamed_pca(material_rows materials, const stre
                                              const progress& listener) {
   const mapped_materials mapped(std::move(materials), options.weighting);
   detail::streamed_components found = detail::components_of(mapped.first_pass(), mapped.rows(), options, listener);
+  detail::complete_rows(options.share, mapped);
   const double variance = mapped.total_variation();
   const auto& [values, vectors, residual] = found.pairs;
   return {log_relative_pca({mapped.materials().cells,
