@@ -11,18 +11,14 @@
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/learn_streamed_pca.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>
-#include <gonio/io/checked_file.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
 
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace cli {
 
@@ -79,33 +75,13 @@ void learn_split(const learn_options& options) {
   std::cout << "a material is specular from a highlight contrast of " << fixed(learned.threshold(), 3) << " on\n";
 }
 
-/// Of the names, and of a few cells.
-std::uint32_t checksum_of(const gonio::material_rows& materials) {
-  std::string names;
-  for (const std::string& name : materials.names) names.append(name).push_back('\0');
-  std::vector<std::uint32_t> each{gonio::io::detail::checksum(std::as_bytes(std::span(names)))};
-  const Eigen::Index cells = materials.cells.size(), most = std::min<Eigen::Index>(cells, 64);
-  gonio::cell_matrix row(1, materials.columns());
-  for (Eigen::Index i = 0; i < most; ++i) {
-    materials.read({i * cells / most, i * cells / most + 1}, row);
-    each.push_back(
-        gonio::io::detail::checksum(std::as_bytes(std::span(row.data(), static_cast<std::size_t>(row.size())))));
-  }
-  return gonio::io::detail::checksum(std::as_bytes(std::span(each)));
-}
-
 /// Materials that are read once into a scratch file beside the prior if they do not fit into a quarter of the memory.
 gonio::material_rows stream(const learn_options& options, const std::optional<gonio::valid_cells>& cells,
                             const gonio::progress& listener, const team& processes) {
   const auto bytes = static_cast<std::uint64_t>(options.memory * 0x1p30);
   const auto folder = options.scratch.empty() ? options.output.parent_path() : options.scratch;
-  std::optional<gonio::material_rows> materials;
-  processes.together([&] {
-    materials = stream_materials(options.materials, cells, gonio::io::scratch_materials(folder, bytes / 4),
-                                 options.threads, listener);
-  });
-  if (!processes.is_alone()) processes.agree_on(checksum_of(*materials), "materials");
-  return *materials;
+  return stream_materials(options.materials, cells, gonio::io::scratch_materials(folder, bytes / 4), options.threads,
+                          listener, processes);
 }
 
 void learn(const learn_options& options, const team& processes) {

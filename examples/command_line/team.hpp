@@ -26,7 +26,7 @@ class team {
   team& operator=(const team&) = delete;
   virtual ~team() = default;
 
-  [[nodiscard]] virtual bool is_alone() const { return true; }
+  [[nodiscard]] bool is_alone() const { return size() == 1; }
   /// One process writes the command's files and prints what it found.
   [[nodiscard]] virtual bool writes() const { return true; }
 
@@ -57,6 +57,16 @@ class team {
 
   /// How passes over groups of rows are shared.
   [[nodiscard]] virtual gonio::shared_groups groups() const { return {}; }
+
+  /// Processes, and which of them this is.
+  [[nodiscard]] virtual std::size_t size() const { return 1; }
+  [[nodiscard]] virtual std::size_t number() const { return 0; }
+  /// Numbers for each of some rows, as many in each process: of each process' those that are of this one's groups, and
+  /// 0 for other rows.
+  [[nodiscard]] virtual std::vector<std::vector<float>> exchange_rows(std::vector<float> own, Eigen::Index rows) const {
+    static_cast<void>(rows);
+    return {std::move(own)};
+  }
 
   /// The number of the process that writes.
   [[nodiscard]] virtual Eigen::Index number_of_writer(Eigen::Index number) const { return number; }

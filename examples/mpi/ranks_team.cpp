@@ -12,6 +12,16 @@
 
 namespace cli {
 
+namespace {
+
+void copy_numbers(std::span<const std::byte> bytes, std::span<float> to) {
+  if (bytes.size() != to.size_bytes())
+    gonio::refuse({"a rank sent ", bytes.size(), " bytes, expected ", to.size_bytes()});
+  if (!bytes.empty()) std::memcpy(to.data(), bytes.data(), bytes.size());
+}
+
+}  // namespace
+
 gonio::thread_count ranks_team::threads(gonio::thread_count asked) const {
   if (asked.value != 0) return asked;
   return {std::max(1u, asked.resolve() / static_cast<unsigned>(ranks_.on_this_machine()))};
@@ -36,27 +46,41 @@ gonio::block ranks_team::groups_of(int rank) const {
   return {own.begin * each, own.end * each};
 }
 
+std::span<float> ranks_team::part_of(int rank, std::span<float> numbers, Eigen::Index rows) const {
+  const gonio::block own = gonio::rows_of_groups(rows, groups_of(rank));
+  const std::size_t each = numbers.size() / static_cast<std::size_t>(rows);
+  return numbers.subspan(each * static_cast<std::size_t>(own.begin), each * static_cast<std::size_t>(own.size()));
+}
+
+std::vector<std::vector<float>> ranks_team::exchange_rows(std::vector<float> own, Eigen::Index rows) const {
+  for (int other = 0; other < ranks_.size(); ++other) {
+    if (other == ranks_.rank()) continue;
+    const auto bytes = std::as_bytes(part_of(other, own, rows));
+    ranks_.post(other, {bytes.begin(), bytes.end()});
+  }
+  std::vector<std::vector<float>> all(size(), std::vector<float>(own.size()));
+  for (int other = 0; other < ranks_.size(); ++other)
+    if (other != ranks_.rank())
+      copy_numbers(ranks_.receive(other), part_of(ranks_.rank(), all[static_cast<std::size_t>(other)], rows));
+  ranks_.wait();
+  all[number()] = std::move(own);
+  return all;
+}
+
 gonio::shared_groups ranks_team::groups() const {
   const auto sum = [this](const gonio::shared_groups::sum_of& of_groups) {
     return gonio::mpi::sum_of_groups(ranks_, subtrees(),
                                      [&](Eigen::Index) { return of_groups(groups_of(ranks_.rank())); });
   };
   const auto complete = [this](std::span<float> numbers, Eigen::Index rows) {
-    const auto part_of = [&](int rank) {
-      const gonio::block own = gonio::rows_of_groups(rows, groups_of(rank));
-      const std::size_t each = numbers.size() / static_cast<std::size_t>(rows);
-      return numbers.subspan(each * static_cast<std::size_t>(own.begin), each * static_cast<std::size_t>(own.size()));
-    };
     gonio::mpi::gather_in_order(
         ranks_, {0, ranks_.size()},
         [&](Eigen::Index rank) {
-          const auto bytes = std::as_bytes(part_of(static_cast<int>(rank)));
+          const auto bytes = std::as_bytes(part_of(static_cast<int>(rank), numbers, rows));
           return part(bytes.begin(), bytes.end());
         },
         [&](Eigen::Index rank, const part& bytes) {
-          const auto own = part_of(static_cast<int>(rank));
-          if (bytes.size() != own.size_bytes()) gonio::refuse({"rank ", rank, " has other rows than rank 0"});
-          if (!bytes.empty()) std::memcpy(own.data(), bytes.data(), bytes.size());
+          copy_numbers(bytes, part_of(static_cast<int>(rank), numbers, rows));
         });
   };
   return {groups_of(ranks_.rank()), sum, complete};

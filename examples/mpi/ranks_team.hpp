@@ -6,7 +6,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace cli {
 
@@ -15,7 +17,8 @@ class ranks_team : public team {
   /// The ranks must outlive it.
   explicit ranks_team(const gonio::mpi::ranks& ranks) : ranks_(ranks) {}
 
-  [[nodiscard]] bool is_alone() const override { return ranks_.size() == 1; }
+  [[nodiscard]] std::size_t size() const override { return static_cast<std::size_t>(ranks_.size()); }
+  [[nodiscard]] std::size_t number() const override { return static_cast<std::size_t>(ranks_.rank()); }
   [[nodiscard]] bool writes() const override { return ranks_.is_first(); }
   [[nodiscard]] gonio::thread_count threads(gonio::thread_count asked) const override;
   void together(const std::function<void()>& work) const override { ranks_.together(work); }
@@ -23,6 +26,7 @@ class ranks_team : public team {
   [[nodiscard]] gonio::block share_of(Eigen::Index count, Eigen::Index block_size) const override;
   [[nodiscard]] Eigen::Index best(double value, Eigen::Index number) const override;
   [[nodiscard]] gonio::shared_groups groups() const override;
+  [[nodiscard]] std::vector<std::vector<float>> exchange_rows(std::vector<float> own, Eigen::Index rows) const override;
   [[nodiscard]] Eigen::Index number_of_writer(Eigen::Index number) const override;
   void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
                         const std::function<void(Eigen::Index, part)>& take) const override;
@@ -31,6 +35,8 @@ class ranks_team : public team {
   /// Equal subtrees of the groups, as many as there are ranks to own one each: a power of two.
   [[nodiscard]] Eigen::Index subtrees() const;
   [[nodiscard]] gonio::block groups_of(int rank) const;
+  /// Of numbers for each of some rows, those of a rank's groups.
+  [[nodiscard]] std::span<float> part_of(int rank, std::span<float> numbers, Eigen::Index rows) const;
 
   const gonio::mpi::ranks& ranks_;
 };
