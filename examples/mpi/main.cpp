@@ -1,12 +1,14 @@
 /// `gonio-mpi`: the long subcommands of the tool on the ranks of an MPI job.
 
 #include "cli/commands.hpp"
+#include "command_line/fixed.hpp"
 #include "ranks_team.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/mpi/ranks.hpp>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -62,13 +64,28 @@ void end_with_a_sentence_on_signals() {
   }
 }
 
-/// "rank 1 sent 12 messages, 3456789 bytes", a line for each.
+struct rank_cost {
+  gonio::mpi::traffic sent;
+  double processor_seconds = 0.0;  ///< of all threads
+};
+
+rank_cost cost_of(const gonio::mpi::ranks& ranks) {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return {ranks.sent(), seconds(used.ru_utime) + seconds(used.ru_stime)};
+}
+
+/// "rank 1 sent 12 messages, 3456789 bytes; 12.3 s of processor time, 0.4 s of it in MPI", a line for each.
 void print_traffic(const gonio::mpi::ranks& ranks) {
-  const gonio::mpi::traffic own = ranks.sent();
-  const auto all = ranks.gather(gonio::mpi::detail::bytes_of(own));
+  const auto all = ranks.gather(gonio::mpi::detail::bytes_of(cost_of(ranks)));
   for (std::size_t rank = 0; rank < all.size(); ++rank) {
-    const auto sent = gonio::mpi::detail::number_of<gonio::mpi::traffic>(all[rank]);
-    std::cout << "rank " << rank << " sent " << sent.messages << " messages, " << sent.bytes << " bytes\n";
+    const auto cost = gonio::mpi::detail::number_of<rank_cost>(all[rank]);
+    std::cout << "rank " << rank << " sent " << cost.sent.messages << " messages, " << cost.sent.bytes << " bytes; "
+              << cli::fixed(cost.processor_seconds, 2) << " s of processor time, "
+              << cli::fixed(cost.sent.processor_seconds, 2) << " s of it in MPI\n";
   }
 }
 
@@ -86,7 +103,8 @@ int run(const gonio::mpi::ranks& ranks, std::span<char*> given, const std::optio
                    GONIO_VERSION);
   app.extend_subcommands(
       [&](cli::command& added) {
-        added.add_flag("--traffic", prints_traffic, "Print what each rank sent to others: messages and bytes");
+        added.add_flag("--traffic", prints_traffic,
+                       "Print what each rank sent to others, messages and bytes, and its processor time");
       },
       [&](const std::function<void()>& work) {
         has_begun = true;

@@ -15,9 +15,10 @@
 
 namespace gonio::mpi {
 
-/// What a rank has sent to others.
+/// What a rank has sent to others, and the processor time that it spent in MPI: copying, and waiting, which spins.
 struct traffic {
   std::uint64_t messages = 0, bytes = 0;
+  double processor_seconds = 0.0;
 };
 
 /// This process among all of its job. One thread calls it. A process that is no part of a job is the one rank 0.

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <deque>
 #include <exception>
 #include <new>
@@ -34,6 +35,25 @@ struct posted {
 inline constexpr std::size_t full_piece = std::size_t{1} << 30;
 /// What `together` sends has a tag of its own: a rank that failed alone is known by it.
 inline constexpr int message_tag = 0, outcome_tag = 1;
+
+/// Adds the processor time of this thread, while it lives, to a sum.
+class processor_timer {
+ public:
+  explicit processor_timer(double& sum) : sum_(sum), start_(now()) {}
+  processor_timer(const processor_timer&) = delete;
+  processor_timer& operator=(const processor_timer&) = delete;
+  ~processor_timer() { sum_ += now() - start_; }
+
+ private:
+  static double now() {
+    std::timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+  double& sum_;
+  double start_;
+};
 
 }  // namespace detail
 
@@ -74,7 +94,8 @@ struct ranks::state {
     MPI_Abort(all, 1);
     std::abort();  // which MPI has done
   }
-  static void finish(std::vector<MPI_Request>& pieces) {
+  void finish(std::vector<MPI_Request>& pieces) {
+    const detail::processor_timer timer(sent.processor_seconds);
     MPI_Waitall(static_cast<int>(pieces.size()), pieces.data(), MPI_STATUSES_IGNORE);
   }
 };
@@ -151,7 +172,7 @@ GONIO_INLINE void ranks::abort(int code) const {
 
 GONIO_INLINE void ranks::send(int to, std::span<const std::byte> bytes) const {
   auto pieces = state_->start(to, bytes);
-  state::finish(pieces);
+  state_->finish(pieces);
 }
 
 GONIO_INLINE void ranks::post(int to, std::vector<std::byte> bytes) const {
@@ -162,7 +183,7 @@ GONIO_INLINE void ranks::post(int to, std::vector<std::byte> bytes) const {
 
 GONIO_INLINE void ranks::wait(std::size_t most) const {
   while (state_->under_way.size() > most) {
-    state::finish(state_->under_way.front().pieces);
+    state_->finish(state_->under_way.front().pieces);
     state_->under_way.pop_front();
   }
 }
@@ -174,6 +195,7 @@ GONIO_INLINE bool ranks::has_message(int from) const {
 }
 
 GONIO_INLINE std::vector<std::byte> ranks::receive(int from) const {
+  const detail::processor_timer timer(state_->sent.processor_seconds);
   std::vector<std::byte> bytes;
   bool was_full = true;
   while (was_full) {
