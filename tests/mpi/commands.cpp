@@ -231,6 +231,28 @@ TEST_CASE("gonio-mpi design: the directions of gonio design") {
   check_refused_by_all(in_ranks(2, design("-n 0", "none.csv")), {"cannot choose 0"});
 }
 
+TEST_CASE("gonio-mpi learn: the prior of gonio learn, bad files are refused") {
+  const scratch::folder folder;
+  const auto file = [&](const char* name) { return '\'' + (folder / name).string() + '\''; };
+  scratch::fs::create_directory(folder / "tables");
+  scratch::fs::create_directory(folder / "more");
+  for (const char* name : {"red-paint", "blue-rubber", "gold-metal"})
+    run_alone(std::string("expand --formula ") + name + " -o " + file("tables") + '/' + name + ".binary");
+  scratch::fs::copy_file(folder / "tables/gold-metal.binary", folder / "more/gold.binary");
+  const std::string both = " --merl " + file("tables") + ' ' + file("more");
+  // One folder is read by each rank, two are shared.
+  for (const std::string& sources : {" --merl " + file("tables") + " --components 4", both + " --components 4"}) {
+    const std::string said = run_alone("learn" + sources + " -o " + file("alone.prior"));
+    for (const int ranks : {2, 3}) {
+      CHECK(run_in(ranks, "learn" + sources + " -o " + file("ranks.prior")) == said);
+      CHECK(scratch::get(folder / "ranks.prior") == scratch::get(folder / "alone.prior"));
+    }
+  }
+  scratch::put(folder / "tables/blue-rubber.binary", "no table");
+  check_refused_by_all(in_ranks(2, "learn" + both + " -o " + file("none.prior")), {"blue-rubber.binary"});
+  CHECK(!scratch::fs::exists(folder / "none.prior"));
+}
+
 TEST_CASE("gonio-mpi: what was sent is printed") {
   const job given;
   const std::string said = run_in(2, given.command("map.gsv") + " --traffic");

@@ -163,8 +163,8 @@ def print_extrapolated(svbrdf, design, learn, materials):
           f"{design.bytes(4) / 1e6:.4f}, {96e-6 * sweeps:.4f} |")
     print(f"| learn: rows exchanged, rows kept, Gram matrices | {learn.bytes(2) / 1e6:.1f}, "
           f"{learn_bytes(2) / 1e6:.1f} | {learn.bytes(4) / 1e6:.1f}, {learn_bytes(4) / 1e6:.1f} |")
-    print(f"\n| reckoned, {NETWORK * 8e-9:.0f} Gbit/s and {LATENCY * 1e6:.0f} us a message | machines | work | network | "
-          "speed |")
+    print(f"\n| reckoned, {NETWORK * 8e-9:.0f} Gbit/s and {LATENCY * 1e6:.0f} us a message | machines | work | "
+          "network | speed |")
     print("|---|---|---|---|---|")
 
     def row(measured, n, network):
