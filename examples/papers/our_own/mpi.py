@@ -143,7 +143,7 @@ def print_kills(words, expected, folder):
 def print_extrapolated(svbrdf, design, learn, materials):
     """Seconds on N machines: what each does in any case, its share, and what the busiest link carries."""
     columns, sweeps = 3 * materials, design.bytes(2) / 32
-    exchanged, kept = 12.0 * materials * CELLS, CELLS * (4.0 * COMPONENTS + 12.0)
+    exchanged, kept = 12.0 * materials * CELLS, CELLS * (4.0 * min(COMPONENTS, columns - 1) + 12.0)
     gram = 8.0 * columns ** 2
 
     def map_share(n):
@@ -167,14 +167,17 @@ def print_extrapolated(svbrdf, design, learn, materials):
           "network | speed |")
     print("|---|---|---|---|---|")
 
-    def row(measured, n, network):
+    def row(measured, n, network, times=1):
         alone, shared = measured.parts()
-        work = alone + shared / n
-        speed = measured.work(1) / (work + network)
-        print(f"| {measured.name} | {n} | {work:.2f} s | {network:.3f} s | {speed:.1f} times |")
+        work, network = alone + times * shared / n, times * network
+        name = measured.name + (f", {times} times the texels" if times > 1 else "")
+        speed = (alone + times * shared) / (work + network)
+        print(f"| {name} | {n} | {work:.2f} s | {network:.3f} s | {speed:.1f} times |")
 
     for n in (16, 64):
         row(svbrdf, n, svbrdf.size * (1 - 1 / n) / NETWORK)
+    for n in (16, 64):
+        row(svbrdf, n, svbrdf.size * (1 - 1 / n) / NETWORK, 16)
     for n in (16, 64):
         row(design, n, sweeps * (n - 1 + np.log2(n)) * LATENCY)
     n = 16
