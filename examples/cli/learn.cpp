@@ -160,7 +160,7 @@ void add_learn(command& app, const team& processes) {
       .add_option("--memory", options->memory,
                   "GiB of memory to use at most, beside the components: tables that do not fit are read from a scratch "
                   "file. Not with --split")
-      .check(check::range(0.25, 65536.0))
+      .check(check::range(1.0, 65536.0))
       .excludes(split)
       .capture_default_str();
   command.add_input_folder("--scratch", options->scratch, {}, "Folder of the scratch file (default: that of --output)")

@@ -29,6 +29,7 @@
 #include <memory>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -38,7 +39,7 @@ namespace {
 
 struct streaming_experiment {
   std::vector<Eigen::Index> counts{100, 1000, 10000};
-  Eigen::Index compared = 1000, components = 60;
+  Eigen::Index compared = 1000, grown = 300, components = 60;
   std::filesystem::path prior, folder;
   gonio::thread_count threads;
 };
@@ -50,13 +51,15 @@ double seconds_of(const std::function<void()>& act) {
 }
 
 /// What a process of its own has found: numbers, and the largest memory that it had.
+template <std::size_t Count>
 struct separate_result {
-  std::array<double, 8> values{};
+  std::array<double, Count> values{};
   double megabytes = 0.0;
 };
 
 /// Lets a process of its own do the work, whose memory is then that of the work alone.
-separate_result separately(const std::function<std::array<double, 8>()>& work) {
+template <class Work>
+auto separately(const Work& work) {
   std::array<int, 2> ends{};
   std::cout.flush();
   if (::pipe(ends.data()) != 0) gonio::refuse("no pipe to a process");
@@ -65,7 +68,7 @@ separate_result separately(const std::function<std::array<double, 8>()>& work) {
   if (child == 0) {
     int code = 1;
     try {
-      const std::array<double, 8> values = work();
+      const auto values = work();
       if (::write(ends[1], values.data(), sizeof values) == sizeof values) code = 0;
     } catch (const std::exception& failure) {
       std::fprintf(stderr, "%s\n", failure.what());
@@ -73,7 +76,7 @@ separate_result separately(const std::function<std::array<double, 8>()>& work) {
     ::_exit(code);
   }
   ::close(ends[1]);
-  separate_result result;
+  separate_result<std::tuple_size_v<decltype(work())>> result;
   const bool whole = ::read(ends[0], result.values.data(), sizeof result.values) == sizeof result.values;
   ::close(ends[0]);
   int status = 0;
@@ -111,7 +114,7 @@ gonio::streaming_options options_of(const streaming_experiment& given, Eigen::In
 void print_costs(const streaming_experiment& given) {
   std::cout
       << "| materials | tables, MB | in a scratch file, MB | drawing them, s | learning, s | ms a material | peak "
-         "memory, MB | found | variance kept |\n|---|---|---|---|---|---|---|---|---|\n";
+         "memory, MB | found | share of the variance lost |\n|---|---|---|---|---|---|---|---|---|\n";
   for (const Eigen::Index count : given.counts) {
     const auto cost = separately([&] {
       std::array<double, 8> found{};
@@ -131,8 +134,8 @@ void print_costs(const streaming_experiment& given) {
     std::cout << "| " << count << " | " << fixed(1e-6 * tables, 0) << " | " << fixed(1e-6 * in_file, 0) << " | "
               << fixed(drawing, 1) << " | " << fixed(learning, 1) << " | "
               << fixed(1e3 * learning / static_cast<double>(count), 1) << " | " << fixed(cost.megabytes, 0) << " | "
-              << (exact != 0.0 ? "by the Gram matrix" : "in a random subspace") << " | " << fixed(100.0 * kept, 3)
-              << " % |\n"
+              << (exact != 0.0 ? "by the Gram matrix" : "in a random subspace") << " | " << scientific(1.0 - kept)
+              << " |\n"
               << std::flush;
   }
 }
@@ -175,7 +178,7 @@ void print_same_as_in_memory(const streaming_experiment& given) {
   });
   const auto& values = found.values;
   std::cout << "\n100 materials of the prior that ships, expanded to " << fixed(values[3], 0)
-            << " columns and streamed from a scratch file, beside `learn_pca` in memory:\ncomponents differ by at most "
+            << " columns and streamed from a scratch file, beside `learn_pca` in\nmemory: components differ by at most "
             << scientific(values[0]) << " of the largest entry, coefficients by " << scientific(values[1])
             << ", singular values by " << scientific(values[2]) << ".\n"
             << std::flush;
@@ -221,37 +224,46 @@ double left_of(const gonio::log_relative_pca& prior, const gonio::material_rows&
 }
 
 void print_added(const streaming_experiment& given) {
-  std::cout << "\nA tenth of " << given.compared
-            << " materials added to the prior of the others, as a file, beside all learned at once: the variance kept, "
-               "and the\nroot mean square of what the components leave of the mapped values of 100 materials that none "
-               "has seen.\n\n| | variance kept | left of unseen ones | seconds |\n|---|---|---|---|\n";
+  std::cout
+      << "\nA tenth of " << given.grown
+      << " materials added to the prior of the others, beside all learned at once: the share of the variance that "
+         "is\nlost, and the root mean square of what the components leave of the mapped values of 100 materials "
+         "that none has seen.\n\n| | lost | left of unseen ones | seconds |\n|---|---|---|---|\n";
   const auto found = separately([&] {
-    const Eigen::Index old_count = given.compared - given.compared / 10;
+    const Eigen::Index old_count = given.grown - given.grown / 10;
     const gonio::material_rows unseen = random_tables(1'000'000, 1'000'100, given).rows();
     const gonio::material_rows old_rows = random_tables(0, old_count, given).rows();
+    const gonio::material_rows new_rows = random_tables(old_count, given.grown, given).rows();
+    const gonio::material_rows all_rows = random_tables(0, given.grown, given).rows();
     const auto old = gonio::learn_streamed_pca(old_rows, options_of(given)).prior;
     const auto stored = gonio::io::decode_prior(gonio::io::encode_prior(old), "the prior of the others");
-    const gonio::material_rows new_rows = random_tables(old_count, given.compared, given).rows();
-    const gonio::material_rows all_rows = random_tables(0, given.compared, given).rows();
+    const auto exactly = gonio::add_materials(old, new_rows, options_of(given)).prior;
     gonio::streamed_pca added{old}, all{old};
     const double adding = seconds_of([&] { added = gonio::add_materials(stored, new_rows, options_of(given)); });
     const double learning = seconds_of([&] { all = gonio::learn_streamed_pca(all_rows, options_of(given)); });
-    return std::array<double, 8>{stored.explained_variance(),
-                                 left_of(stored, unseen),
-                                 added.prior.explained_variance(),
-                                 left_of(added.prior, unseen),
-                                 all.prior.explained_variance(),
-                                 left_of(all.prior, unseen),
-                                 adding,
-                                 learning};
+    const auto lost = [](const gonio::log_relative_pca& prior) { return 1.0 - prior.explained_variance(); };
+    return std::array<double, 12>{lost(old),
+                                  left_of(old, unseen),
+                                  lost(stored),
+                                  left_of(stored, unseen),
+                                  lost(exactly),
+                                  left_of(exactly, unseen),
+                                  lost(added.prior),
+                                  left_of(added.prior, unseen),
+                                  lost(all.prior),
+                                  left_of(all.prior, unseen),
+                                  adding,
+                                  learning};
   });
   const auto line = [&](const char* what, std::size_t at, const std::string& seconds) {
-    std::cout << "| " << what << " | " << fixed(100.0 * found.values[at], 3) << " % | "
-              << fixed(found.values[at + 1], 5) << " | " << seconds << " |\n";
+    std::cout << "| " << what << " | " << scientific(found.values[at]) << " | " << fixed(found.values[at + 1], 5)
+              << " | " << seconds << " |\n";
   };
-  line("before, of the others", 0, "");
-  line("added", 2, fixed(found.values[6], 1));
-  line("all at once", 4, fixed(found.values[7], 1));
+  line("the others", 0, "");
+  line("the same, as a file of 8-bit codes", 2, "");
+  line("added to the others", 4, "");
+  line("added to the file", 6, fixed(found.values[10], 1));
+  line("all at once", 8, fixed(found.values[11], 1));
 }
 
 void learn_streamed(const streaming_experiment& given) {
@@ -273,6 +285,9 @@ void add_streamed_learning(command& app) {
   command.add_option("--materials", given->counts, "How many synthetic materials to learn from").capture_default_str();
   command
       .add_option("--compared", given->compared, "Materials of which the exact and the fast decomposition are compared")
+      .check(check::range(10, 1024))
+      .capture_default_str();
+  command.add_option("--grown", given->grown, "Materials of which a tenth is added to a prior of the others")
       .check(check::range(10, 1024))
       .capture_default_str();
   command.add_option("--components", given->components, "Components to keep")

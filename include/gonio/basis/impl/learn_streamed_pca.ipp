@@ -11,7 +11,10 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <memory>
+#include <mutex>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace gonio::detail {
@@ -23,22 +26,38 @@ namespace gonio::detail {
   return {room < threads ? std::max(1u, static_cast<unsigned>(room)) : threads};
 }
 
+/// The same rows, which report how many of them were read.
+[[nodiscard]] GONIO_INLINE row_source counted(const row_source& rows, const std::string& stage,
+                                              const progress& listener) {
+  if (!listener) return rows;
+  struct count {
+    std::mutex mutex;
+    Eigen::Index read = 0;
+  };
+  return {rows.rows, rows.columns,
+          [rows, stage, listener, all = std::make_shared<count>()](block range, row_block out) {
+            rows.read(range, out);
+            const std::scoped_lock lock(all->mutex);
+            all->read += range.size();
+            report(listener, stage, static_cast<double>(all->read) / static_cast<double>(rows.rows));
+          }};
+}
+
 /// Through the Gram matrix.
 [[nodiscard]] GONIO_INLINE streamed_components exact_components(const row_source& first, const row_source& again,
                                                                 const streaming_options& options,
                                                                 const progress& listener) {
   const auto columns = static_cast<double>(first.columns);
   const thread_count threads = threads_within(options, 16.0 * columns * (columns + 128.0));
-  report(listener, "gram", 0.0);
   const Eigen::MatrixXd products =
-      options.share.sum_over_all([&](block groups) { return gram(first, groups, threads); });
-  report(listener, "components", 0.0);
+      options.share.sum_over_all([&](block groups) { return gram(counted(first, "gram", listener), groups, threads); });
+  report(listener, "eigenvalues", 0.0);
   // Rounding of the mean may pretend that centring costs none.
   const Eigen::Index most = std::min(options.components, first.columns - 1);
   streamed_components found{decompose_leading(products, most, "the Gram matrix of the materials"), {}, true};
   if (found.pairs.values.size() == 0) return found;
   found.scaled.resize(first.rows, found.pairs.values.size());
-  for_each_product(again, found.pairs.vectors, options.share.own, threads,
+  for_each_product(counted(again, "components", listener), found.pairs.vectors, options.share.own, threads,
                    [&](block range, const Eigen::MatrixXd& product) {
                      found.scaled.middleRows(range.begin, range.size()) = product.cast<float>();
                    });
@@ -59,10 +78,11 @@ namespace gonio::detail {
   };
   int done = 0;
   const auto times = [&](const Eigen::MatrixXd& vectors, bool last) {
-    report(listener, "subspace", static_cast<double>(done) / options.subspace.products);
     const row_source& rows = done++ == 0 ? first : again;
+    const std::string stage = message_of({"subspace ", done, " of ", options.subspace.products});
     return options.share.sum_over_all([&](block groups) {
-      return gram_times(rows, vectors, groups, threads, last ? product_writer(keep) : product_writer());
+      return gram_times(counted(rows, stage, listener), vectors, groups, threads,
+                        last ? product_writer(keep) : product_writer());
     });
   };
   subspace_eigenpairs pairs = iterate_leading(first.columns, most, options.subspace, times);

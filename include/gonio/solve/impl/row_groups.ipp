@@ -55,9 +55,9 @@ class waiting_sums {
   Eigen::MatrixXd total_;
 };
 
-/// Calls `work(range)` for the blocks of rows of a group, in order.
+/// Calls `work(range)` for the blocks of some rows, in order.
 template <class Work>
-void for_each_row_block(block rows, Work&& work) {
+void for_each_block_of(block rows, Work&& work) {
   for (Eigen::Index begin = rows.begin; begin < rows.end; begin += rows_at_once)
     work(block{begin, std::min(rows.end, begin + rows_at_once)});
 }
@@ -104,7 +104,7 @@ GONIO_INLINE Eigen::MatrixXd sum_of_subtrees(std::vector<Eigen::MatrixXd> sums) 
 GONIO_INLINE Eigen::MatrixXd gram(const row_source& rows, block groups, thread_count threads) {
   return sum_over_groups(groups, threads, [&](Eigen::Index group) {
     detail::product_sum<double> sum(rows.columns);
-    detail::for_each_row_block(rows_of_groups(rows.rows, {group, group + 1}), [&](block range) {
+    detail::for_each_block_of(rows_of_groups(rows.rows, {group, group + 1}), [&](block range) {
       rows.read(range, Eigen::Map<row_matrix, 0, Eigen::OuterStride<>>(sum.row(0), range.size(), rows.columns,
                                                                        Eigen::OuterStride<>(sum.stride())));
       sum.add(range.size());
@@ -119,7 +119,7 @@ GONIO_INLINE Eigen::MatrixXd gram_times(const row_source& rows, const Eigen::Mat
   return sum_over_groups(groups, threads, [&](Eigen::Index group) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows.columns, vectors.cols());
     row_matrix held(detail::rows_at_once, rows.columns);
-    detail::for_each_row_block(rows_of_groups(rows.rows, {group, group + 1}), [&](block range) {
+    detail::for_each_block_of(rows_of_groups(rows.rows, {group, group + 1}), [&](block range) {
       auto read = held.topRows(range.size());
       rows.read(range, read);
       const Eigen::MatrixXd along = product(transposed, read.transpose()).transpose();
@@ -138,7 +138,7 @@ GONIO_INLINE void for_each_product(const row_source& rows, const Eigen::MatrixXd
       [&](Eigen::Index number) {
         const Eigen::Index group = groups.begin + number;
         row_matrix held(detail::rows_at_once, rows.columns);
-        detail::for_each_row_block(rows_of_groups(rows.rows, {group, group + 1}), [&](block range) {
+        detail::for_each_block_of(rows_of_groups(rows.rows, {group, group + 1}), [&](block range) {
           auto read = held.topRows(range.size());
           rows.read(range, read);
           write(range, product(transposed, read.transpose()).transpose());
