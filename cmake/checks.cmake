@@ -10,6 +10,7 @@ if(ONLY)
   set(parts ${ONLY})
 endif()
 gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} ${gonio_test_packages} ${gonio_python_packages}
+             ${gonio_mpi_packages}
              clang-19 libclang-rt-19-dev libc++-19-dev libc++abi-19-dev clang-format-14 time)
 
 if("format" IN_LIST parts)
@@ -38,7 +39,8 @@ if("bundle" IN_LIST parts)
 endif()
 
 # In the build of cmake/test.cmake: programs of the headers alone, projects that know the installed package alone, the
-# quick runs of the papers' experiments, 50 kills of each long command, the Python module, and pages in a browser.
+# quick runs of the papers' experiments, 50 kills of each long command, the Python module, ranks of MPI jobs, and pages in
+# a browser.
 if("others" IN_LIST parts)
   include("${CMAKE_CURRENT_LIST_DIR}/browser.cmake")
   step("others: configure" ${cmake} -S . -B build/test -G Ninja
@@ -46,7 +48,7 @@ if("others" IN_LIST parts)
        -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON -D GONIO_TEST_CONSUMERS=ON
        -D GONIO_BUILD_PYTHON=ON -D Python_EXECUTABLE=/usr/bin/python3)
   step("others: build" ${cmake} --build build/test --parallel ${cores})
-  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers|kills|python|browser")
+  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers|kills|python|browser|mpi")
 endif()
 
 # Clang with another standard library: the library, the tool and the tests of what differs, numbers and threads.

@@ -7,6 +7,7 @@ set(gonio_library_packages
   g++ ninja-build libeigen3-dev libxtensor-dev zlib1g-dev libstb-dev libcli11-dev nlohmann-json3-dev)
 set(gonio_shape_packages libdlib-dev libblas-dev liblapack-dev libnanoflann-dev)
 set(gonio_python_packages pybind11-dev python3-dev python3-numpy python3-venv)
+set(gonio_mpi_packages libopenmpi-dev openmpi-bin)
 set(gonio_test_packages doctest-dev librapidcheck-dev libopenexr-dev libtiff-dev libexif-dev)
 
 # package, kind and name of the file that stands for it
@@ -41,6 +42,8 @@ set(gonio_packages
   "python3-dev         header  python3.11/Python.h"
   "python3-numpy       program dh_numpy3"
   "python3-venv        header  python3.11/ensurepip/__init__.py"
+  "libopenmpi-dev      header  openmpi/include/mpi.h"
+  "openmpi-bin         program mpirun"
   "doctest-dev         header  doctest/doctest.h"
   "librapidcheck-dev   header  rapidcheck.h"
   "libbenchmark-dev    header  benchmark/benchmark.h"
@@ -68,6 +71,7 @@ function(gonio_find_missing result)
     else()
       find_path(found NAMES ${name} NO_CACHE
                 PATHS /usr/include /usr/include/x86_64-linux-gnu /usr/include/aarch64-linux-gnu /usr/local/include /usr/lib /usr/share
+                      /usr/lib/x86_64-linux-gnu /usr/lib/aarch64-linux-gnu
                       /usr/lib/llvm-19/include /usr/lib/llvm-19/lib/clang/19/include)
     endif()
     if(NOT found)

@@ -2,25 +2,27 @@
 /// The subcommands of the `gonio` tool. Each file of this folder holds one and registers it here.
 
 #include "command_line/command.hpp"
+#include "command_line/team.hpp"
 
 #include <string>
 #include <vector>
 
 namespace cli {
 
-void add_learn(command& app);
 void add_expand(command& app);
 void add_plan(command& app);
 void add_sample(command& app);
 void add_near_field(command& app);
 void add_sphere(command& app);
-/// `words` is the whole command line, which the pages for people repeat.
+/// `words` is the whole command line, which the pages for people repeat. `processes` must live until the program has
+/// run.
 void add_reconstruct(command& app, const std::vector<std::string>& words);
 void add_report(command& app, const std::vector<std::string>& words);
 void add_check(command& app, const std::vector<std::string>& words);
 void add_fit(command& app, const std::vector<std::string>& words);
-void add_design(command& app, const std::vector<std::string>& words);
-void add_svbrdf(command& app);
+void add_design(command& app, const std::vector<std::string>& words, const team& processes);
+void add_learn(command& app, const team& processes);
+void add_svbrdf(command& app, const team& processes);
 void add_compare(command& app);
 void add_convert(command& app);
 void add_render(command& app);

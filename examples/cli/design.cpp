@@ -9,6 +9,7 @@
 #include "command_line/reconstruct_choice.hpp"
 #include "command_line/report_page.hpp"
 #include "command_line/sample_facts.hpp"
+#include "command_line/team.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include "report_data.hpp"
@@ -132,24 +133,10 @@ designed set_of_the_literature(const gonio::log_relative_pca& prior, const desig
   return found;
 }
 
-void run(design_command command) {
-  progress_bar bar;
-  const bool is_published = command.published > 0 || command.industry;
-  if (is_published) require_no_search(command);
-  if (!command.constraint.empty())
-    command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
-  if (!command.given.empty()) return run_given(command);
-  if (!command.reading.empty()) gonio::refuse("--quantity and --columns need --given");
-  const auto prior = gonio::io::read_prior(command.prior);
-  command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
-  command.design.near_field.step = gonio::radians(command.step);
-  command.design.angular_error = gonio::radians(command.angular_error);
-  if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start, reading_of());
-  const designed found =
-      is_published ? set_of_the_literature(prior, command) : design(prior, command.design, bar.listener());
+/// Writes what was found, and says what it is worth.
+void finish(const design_command& command, const gonio::log_relative_pca& prior, const designed& found,
+            bool is_published) {
   gonio::io::write_direction_pairs(command.output, found.poses);
-  bar.wipe();
-
   const auto figures = quality_of(prior, command.design, found);
   const std::string sentence = std::to_string(found.poses.size()) +
                                (found.poses.size() == 1 ? " measurement leaves " : " measurements leave ") +
@@ -172,9 +159,40 @@ void run(design_command command) {
   std::cout << sentence << '\n';
 }
 
+/// Searches, or takes what was published; each process knows the result.
+void run(design_command command, const team& processes) {
+  progress_bar bar;
+  const bool is_published = command.published > 0 || command.industry;
+  if (is_published) require_no_search(command);
+  if (!command.constraint.empty())
+    command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
+  if (!command.given.empty()) {
+    if (processes.writes()) run_given(command);
+    return;
+  }
+  if (!command.reading.empty()) gonio::refuse("--quantity and --columns need --given");
+  const auto prior = gonio::io::read_prior(command.prior);
+  command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
+  command.design.near_field.step = gonio::radians(command.step);
+  command.design.angular_error = gonio::radians(command.angular_error);
+  if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start, reading_of());
+  const designed found =
+      is_published ? set_of_the_literature(prior, command) : design(prior, command.design, bar.listener(), processes);
+  bar.wipe();
+  if (processes.writes()) finish(command, prior, found, is_published);
+}
+
+void run_together(design_command command, const team& processes) {
+  command.design.threads = processes.threads(command.design.threads);
+  agree_on_file(processes, command.prior, "prior");
+  agree_on_file(processes, command.constraint, "--constraint");
+  agree_on_file(processes, command.start, "--start");
+  processes.together([&] { run(command, processes); });
+}
+
 }  // namespace
 
-void add_design(command& app, const std::vector<std::string>& words) {
+void add_design(command& app, const std::vector<std::string>& words, const team& processes) {
   auto command = app.add_subcommand("design", "Find what to measure");
   const auto options = std::make_shared<design_command>();
   design_options& design = options->design;
@@ -249,7 +267,7 @@ void add_design(command& app, const std::vector<std::string>& words) {
       .add_output("-o,--output", options->output, {".csv"},
                   "Directions to write; of images, those of the centre (.csv)")
       .required();
-  command.callback([options] { run(*options); });
+  command.callback([options, &processes] { run_together(*options, processes); });
 }
 
 }  // namespace cli

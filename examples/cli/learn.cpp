@@ -3,6 +3,7 @@
 #include "command_line/fixed.hpp"
 #include "command_line/materials.hpp"
 #include "command_line/progress_bar.hpp"
+#include "command_line/team.hpp"
 #include "command_line/thinning.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
@@ -76,23 +77,28 @@ void learn_split(const learn_options& options) {
 
 /// Materials that are read once into a scratch file beside the prior if they do not fit into a quarter of the memory.
 gonio::material_rows stream(const learn_options& options, const std::optional<gonio::valid_cells>& cells,
-                            const gonio::progress& listener) {
+                            const gonio::progress& listener, const team& processes) {
   const auto bytes = static_cast<std::uint64_t>(options.memory * 0x1p30);
   const auto folder = options.scratch.empty() ? options.output.parent_path() : options.scratch;
   return stream_materials(options.materials, cells, gonio::io::scratch_materials(folder, bytes / 4), options.threads,
-                          listener);
+                          listener, processes);
 }
 
-void learn(const learn_options& options) {
-  if (options.split) return learn_split(options);
+void learn(const learn_options& options, const team& processes) {
+  if (options.split) {
+    if (processes.writes()) learn_split(options);
+    return;
+  }
   progress_bar bar;
   const gonio::streaming_options streaming{.components = options.components,
                                            .weighting = weighting_of(options),
                                            .subspace = {.seed = options.seed},
                                            .memory = static_cast<std::uint64_t>(options.memory * 0x1p30),
-                                           .threads = options.threads};
+                                           .threads = options.threads,
+                                           .share = processes.groups()};
   const auto finish = [&](const gonio::streamed_pca& learned, const gonio::log_relative_pca& prior,
                           const std::string& source) {
+    if (!processes.writes()) return;
     gonio::io::write_prior(options.output, prior.with_source(source));
     bar.wipe();
     print_kept(prior, source);
@@ -102,21 +108,27 @@ void learn(const learn_options& options) {
   };
   if (!options.add_to.empty()) {
     const auto old = gonio::io::read_prior(options.add_to);
-    const auto materials = stream(options, old.cells(), bar.listener());
+    const auto materials = stream(options, old.cells(), bar.listener(), processes);
     const std::string source =
         old.source() + (old.source().empty() ? "" : "; then ") + source_of(options.materials, materials.names.size());
     const auto learned = gonio::add_materials(old, materials, streaming, bar.listener());
     return finish(learned, learned.prior, source);
   }
-  const auto materials = stream(options, {}, bar.listener());
+  const auto materials = stream(options, {}, bar.listener(), processes);
   const auto cells = options.thin.of(materials.cells);
   const auto learned = gonio::learn_streamed_pca(materials, streaming, bar.listener());
   finish(learned, gonio::thin(learned.prior, cells), source_of(options.materials, materials.names.size()));
 }
 
+void learn_together(learn_options options, const team& processes) {
+  options.threads = processes.threads(options.threads);
+  agree_on_file(processes, options.add_to, "--add-to");
+  processes.together([&] { learn(options, processes); });
+}
+
 }  // namespace
 
-void add_learn(command& app) {
+void add_learn(command& app, const team& processes) {
   auto command = app.add_subcommand("learn", "Learn a prior (principal components) from many materials");
   const auto options = std::make_shared<learn_options>();
   add_material_options(command, options->materials).require_option(1, 3);
@@ -160,7 +172,7 @@ void add_learn(command& app) {
       .capture_default_str();
   command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();
   add_threads_option(command, options->threads);
-  command.callback([options] { learn(*options); });
+  command.callback([options, &processes] { learn_together(*options, processes); });
 }
 
 }  // namespace cli

@@ -3,10 +3,12 @@
 #include "cli/image_stack.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/progress_bar.hpp"
+#include "command_line/team.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/texel_decomposition.hpp>
+#include <gonio/io/checked_file.hpp>
 #include <gonio/io/npy.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/svbrdf_map.hpp>
@@ -64,14 +66,31 @@ class svbrdf_job {
     return header;
   }
 
-  [[nodiscard]] gonio::io::svbrdf_band band(const gonio::io::svbrdf_header& header, Eigen::Index number) const {
+  /// A band as the map has it.
+  [[nodiscard]] std::vector<std::byte> band(const gonio::io::svbrdf_header& header, Eigen::Index number) const {
     const Eigen::Index first = number * header.band_rows;
     const gonio::block rows{first, std::min(first + header.band_rows, header.rows)};
-    return gonio::io::as_halves(estimator_.solve(images_.read(rows, options_.threads), options_.threads),
-                                options_.threads);
+    const auto found = estimator_.solve(images_.read(rows, options_.threads), options_.threads);
+    return gonio::io::encode_band(header, number, gonio::io::as_halves(found, options_.threads));
+  }
+
+  /// Of a few rows of all images.
+  [[nodiscard]] std::uint32_t checksum_of_images() const {
+    constexpr Eigen::Index most = 16;
+    std::vector<std::uint32_t> each;
+    for (Eigen::Index i = 0; i < std::min(most, images_.rows()); ++i) {
+      const Eigen::Index row = i * images_.rows() / std::min(most, images_.rows());
+      each.push_back(checksum_of_numbers(images_.read({row, row + 1}, options_.threads)));
+    }
+    return gonio::io::detail::checksum(std::as_bytes(std::span(each)));
   }
 
  private:
+  static std::uint32_t checksum_of_numbers(const Eigen::MatrixXf& numbers) {
+    return gonio::io::detail::checksum(
+        std::as_bytes(std::span(numbers.data(), static_cast<std::size_t>(numbers.size()))));
+  }
+
   static std::filesystem::path folder_of(const std::filesystem::path& file) {
     return file.has_parent_path() ? file.parent_path() : ".";
   }
@@ -117,30 +136,60 @@ void write_arrays(const svbrdf_command& options) {
   gonio::io::write_npy(options.functions, columns);
 }
 
-void run(const svbrdf_command& options) {
-  const svbrdf_job job(options);
+/// Begins or goes on with a map of a job. How many bands it has.
+Eigen::Index open_map(std::optional<gonio::io::svbrdf_writer>& map, const svbrdf_job& job,
+                      const std::filesystem::path& output) {
   const auto header = job.header();
-  gonio::io::svbrdf_writer map(options.output, header);
-  const Eigen::Index before = map.finished();
-  if (before > 0 && !map.has_written(before - 1, job.band(header, before - 1)))
-    gonio::refuse({options.output.string(), ".part: was begun with other images: remove it, or name another -o"});
-  progress_bar bar;
-  while (map.finished() < header.bands()) {
-    bar.draw("texels", static_cast<double>(map.finished()) / static_cast<double>(header.bands()));
-    map.append(job.band(header, map.finished()));
-  }
-  map.commit();
-  bar.wipe();
-  write_arrays(options);
+  map.emplace(output, header);
+  const Eigen::Index before = map->finished();
+  if (before > 0 && !map->has_written(before - 1, job.band(header, before - 1)))
+    gonio::refuse({output.string(), ".part: was begun with other images: remove it, or name another -o"});
+  return before;
+}
+
+void print_done(const gonio::io::svbrdf_header& header, Eigen::Index before) {
   std::cout << header.columns << " x " << header.rows << " texels, " << header.directions.size() << " images, "
             << header.functions.rows() << " components, eta " << header.eta;
   if (before > 0) std::cout << ", went on behind band " << before << " of " << header.bands();
   std::cout << '\n';
 }
 
+void run(svbrdf_command options, const team& processes) {
+  options.threads = processes.threads(options.threads);
+  std::optional<svbrdf_job> job;
+  std::optional<gonio::io::svbrdf_writer> map;
+  Eigen::Index before = 0;
+  std::uint32_t images = 0;
+  processes.together([&] {
+    job.emplace(options);
+    if (!processes.is_alone()) images = job->checksum_of_images();
+  });
+  const auto header = job->header();
+  processes.agree_on(header.prior_checksum, "prior");
+  processes.agree_on(gonio::io::checksum_of(header), "list of images, --eta or --noise");
+  processes.agree_on(images, "images");
+  processes.together([&] {
+    if (processes.writes()) before = open_map(map, *job, options.output);
+  });
+  progress_bar bar;
+  processes.compute_in_order(
+      {processes.number_of_writer(before), header.bands()}, [&](Eigen::Index band) { return job->band(header, band); },
+      [&](Eigen::Index band, const team::part& bytes) {
+        bar.draw("texels", static_cast<double>(band) / static_cast<double>(header.bands()));
+        map->append(bytes);
+      });
+  processes.together([&] {
+    if (!processes.writes()) return;
+    map->commit();
+    bar.wipe();
+    write_arrays(options);
+    print_done(header, before);
+  });
+}
+
 }  // namespace
 
-void add_svbrdf(command& app) {
+void add_svbrdf(command& app, const team& processes) {
   auto command = app.add_subcommand("svbrdf", "Complete a BRDF at each texel of registered images");
   const auto options = std::make_shared<svbrdf_command>();
   command
@@ -174,7 +223,7 @@ void add_svbrdf(command& app) {
                      "Array to write of how far each texel's images contradict each other: 1 is as expected; rows x "
                      "columns");
   add_threads_option(command, options->threads);
-  command.callback([options] { run(*options); });
+  command.callback([options, &processes] { run(*options, processes); });
 }
 
 }  // namespace cli

@@ -43,9 +43,40 @@ capture_plan start_of(const Geometry& geometry, const design_options& options) {
   return plan;
 }
 
+/// An objective whose sweeps several processes share.
+template <gonio::design::sweeping_objective Objective>
+class shared_sweeps {
+ public:
+  /// Both must outlive it.
+  shared_sweeps(const Objective& whole, const team& processes) : whole_(whole), processes_(processes) {}
+
+  [[nodiscard]] const auto& geometry() const noexcept { return whole_.geometry(); }
+  [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const { return whole_(candidates); }
+  [[nodiscard]] auto beside(std::span<const Eigen::Index> candidates) const { return whole_.beside(candidates); }
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates) const {
+    return whole_.errors_with_each(candidates);
+  }
+
+  [[nodiscard]] Eigen::Index best_beside(std::span<const Eigen::Index> candidates) const {
+    const gonio::block share = processes_.share_of(geometry().size(), Objective::sweep_block);
+    std::vector<float> errors = whole_.errors_with_each(candidates, share);
+    errors.push_back(std::numeric_limits<float>::infinity());  // a share may have no candidate
+    for (const Eigen::Index candidate : candidates)
+      if (candidate >= share.begin && candidate < share.end) errors[candidate - share.begin] = errors.back();
+    const auto best = std::ranges::min_element(errors);
+    return processes_.best(double{*best}, share.begin + (best - errors.begin()));
+  }
+
+ private:
+  const Objective& whole_;
+  const team& processes_;
+};
+
 /// Searches by sweeps over all candidates.
 template <gonio::design::sweeping_objective Objective>
-capture_plan sweep(const Objective& objective, const design_options& options, const gonio::progress& listener) {
+capture_plan sweep(const Objective& whole, const design_options& options, const gonio::progress& listener,
+                   const team& processes) {
+  const shared_sweeps objective(whole, processes);
   const capture_plan start = start_of(objective.geometry(), options);
   const capture_plan greedy = gonio::design::grow_greedily(objective, options.count, start, listener);
   if (options.search == "greedy" || !start.candidates.empty()) return greedy;
@@ -76,7 +107,7 @@ designed finished(const Geometry& geometry, const capture_plan& plan) {
 
 template <class Geometry>
 designed by_expected_error(const prior_t& prior, const Geometry& geometry, const design_options& options,
-                           const gonio::progress& listener) {
+                           const gonio::progress& listener, const team& processes) {
   gonio::design::expected_error criterion = criterion_of(prior, options);
   if constexpr (std::is_same_v<Geometry, gonio::design::point_geometry>) {
     const std::vector<double> sample_noise_penalties =
@@ -85,18 +116,18 @@ designed by_expected_error(const prior_t& prior, const Geometry& geometry, const
     const gonio::design::cell_candidates candidates(prior, std::move(criterion), options.near_field.constraint,
                                                     options.threads, sample_noise_penalties);
     return finished(geometry, options.search == "descent" ? slide(candidates, options, listener)
-                                                          : sweep(candidates, options, listener));
+                                                          : sweep(candidates, options, listener, processes));
   } else {
     gonio::design::image_objective objective(prior, std::move(criterion), geometry);
     if (options.search == "descent") return finished(geometry, slide(objective, options, listener));
     const gonio::design::image_candidates candidates(std::move(objective), options.threads, listener);
-    return finished(geometry, sweep(candidates, options, listener));
+    return finished(geometry, sweep(candidates, options, listener, processes));
   }
 }
 
 template <class Geometry>
 designed with(const prior_t& prior, const Geometry& geometry, const design_options& options,
-              const gonio::progress& listener) {
+              const gonio::progress& listener, const team& processes) {
   const auto by = [&](auto criterion) {
     return finished(geometry, slide(gonio::design::criterion_of_plan{prior, geometry, criterion}, options, listener));
   };
@@ -106,13 +137,13 @@ designed with(const prior_t& prior, const Geometry& geometry, const design_optio
   if (options.criterion == "d-optimal") return by(gonio::design::d_optimality(eta));
   if (options.criterion == "a-optimal")
     return by(gonio::design::a_optimality(prior.singular_values().cwiseAbs2(), eta));
-  return by_expected_error(prior, geometry, options, listener);
+  return by_expected_error(prior, geometry, options, listener, processes);
 }
 
 /// The best of all cameras (or lights) that stand still, each with its own best lights (or cameras).
 designed with_one_fixed(const prior_t& prior, const design_options& options,
                         std::optional<double> gonio::design::near_field_options::*fixed,
-                        const gonio::progress& listener) {
+                        const gonio::progress& listener, const team& processes) {
   designed best;
   best.value = std::numeric_limits<double>::infinity();
   const gonio::design::near_field_options& setup = options.near_field;
@@ -121,7 +152,7 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
                   theta / setup.largest_polar_angle);
     gonio::design::near_field_options here = setup;
     here.*fixed = theta;
-    designed found = with(prior, gonio::design::near_field_geometry(here), options, listener);
+    designed found = with(prior, gonio::design::near_field_geometry(here), options, listener, processes);
     if (found.value < best.value) best = std::move(found);
   }
   return best;
@@ -129,7 +160,8 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
 
 }  // namespace
 
-designed design(const gonio::log_relative_pca& prior, const design_options& options, const gonio::progress& listener) {
+designed design(const gonio::log_relative_pca& prior, const design_options& options, const gonio::progress& listener,
+                const team& processes) {
   const bool expects_errors = options.criterion == "expected-error" || options.criterion == "perceived";
   if (options.angular_error != 0.0 && !(options.geometry == "point" && expects_errors))
     gonio::refuse("--misplaced needs --geometry point and --criterion expected-error or perceived");
@@ -143,14 +175,15 @@ designed design(const gonio::log_relative_pca& prior, const design_options& opti
                   std::to_string(gonio::degrees(options.angular_error)));
   const auto& near_field = options.near_field;
   if (options.geometry == "point")
-    return with(prior, gonio::design::point_geometry(prior.cells(), near_field.constraint), options, listener);
+    return with(prior, gonio::design::point_geometry(prior.cells(), near_field.constraint), options, listener,
+                processes);
   if (options.geometry == "sphere")
-    return with(prior, gonio::design::sphere_geometry(prior.cells()), options, listener);
+    return with(prior, gonio::design::sphere_geometry(prior.cells()), options, listener, processes);
   if (options.geometry == "fixed-camera")
-    return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_camera, listener);
+    return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_camera, listener, processes);
   if (options.geometry == "fixed-light")
-    return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_light, listener);
-  return with(prior, gonio::design::near_field_geometry(near_field), options, listener);
+    return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_light, listener, processes);
+  return with(prior, gonio::design::near_field_geometry(near_field), options, listener, processes);
 }
 
 designed placed(const gonio::log_relative_pca& prior, const design_options& options,

@@ -3,11 +3,13 @@
 #include "chosen_networks.hpp"
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/io/checked_file.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/rgl.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <span>
@@ -86,6 +88,42 @@ gonio::material_set read_mixed(const material_source& source, gonio::thread_coun
 
 }  // namespace
 
+namespace {
+
+/// Throws gonio::error unless all processes have materials of these names.
+void agree_on_names(const team& processes, const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all.append(name).push_back('\0');
+  processes.agree_on(gonio::io::detail::checksum(std::as_bytes(std::span(all))), "list of materials");
+}
+
+/// Of a few cells of materials that each process has read.
+std::uint32_t checksum_of(const gonio::material_rows& materials) {
+  const Eigen::Index cells = materials.cells.size(), most = std::min<Eigen::Index>(cells, 64);
+  gonio::cell_matrix rows(most, materials.columns());
+  for (Eigen::Index i = 0; i < most; ++i)
+    materials.read({i * cells / most, i * cells / most + 1}, rows.middleRows(i, 1));
+  return gonio::io::detail::checksum(std::as_bytes(std::span(rows.data(), static_cast<std::size_t>(rows.size()))));
+}
+
+/// A folder of MERL tables alone, over their own cells.
+gonio::material_rows stream_folder(const material_source& source, gonio::io::scratch_materials& scratch,
+                                   const gonio::progress& listener, const team& processes) {
+  std::optional<gonio::material_rows> materials;
+  processes.together([&] {
+    gonio::io::for_each_table(
+        source.tables.front(), source.exclude,
+        [&](const std::string& name, gonio::brdf_table table, std::size_t) { scratch.append(name, std::move(table)); },
+        listener);
+    materials = scratch.rows();
+  });
+  agree_on_names(processes, materials->names);
+  if (!processes.is_alone()) processes.agree_on(checksum_of(*materials), "materials");
+  return *materials;
+}
+
+}  // namespace
+
 option_group add_material_options(command& to, material_source& source) {
   option_group group = to.add_option_group("source", "Where the materials come from (any of them, together)");
   group.add_input("--networks", source.networks, "Files of networks (.npy, names in merl_names.txt beside each)");
@@ -111,20 +149,25 @@ gonio::material_set read_materials(const material_source& source, gonio::thread_
 
 gonio::material_rows stream_materials(const material_source& source, const std::optional<gonio::valid_cells>& cells,
                                       gonio::io::scratch_materials scratch, gonio::thread_count threads,
-                                      const gonio::progress& listener) {
-  if (!cells && source.networks.empty() && source.rgl.empty() && source.tables.size() == 1) {
-    gonio::io::for_each_table(
-        source.tables.front(), source.exclude,
-        [&](const std::string& name, gonio::brdf_table table, std::size_t) { scratch.append(name, std::move(table)); },
-        listener);
-    return scratch.rows();
-  }
-  const std::vector<named_table> all = chosen_tables(source, threads);
+                                      const gonio::progress& listener, const team& processes) {
+  if (!cells && source.networks.empty() && source.rgl.empty() && source.tables.size() == 1)
+    return stream_folder(source, scratch, listener, processes);
+  std::vector<named_table> all;
+  processes.together([&] { all = chosen_tables(source, threads); });
+  std::vector<std::string> names;
+  for (const named_table& each : all) names.push_back(each.name);
+  agree_on_names(processes, names);
   const gonio::valid_cells over = cells ? *cells : gonio::valid_cells();
-  double done = 0.0;
-  for (const named_table& each : all) {
-    gonio::report(listener, "reading " + each.name, done++ / static_cast<double>(all.size()));
-    scratch.append(each.name, each.tabulate(over));
+  for (std::size_t begin = 0; begin < all.size(); begin += processes.size()) {
+    const std::size_t own = begin + processes.number();
+    gonio::report(listener, "reading " + all[begin].name, static_cast<double>(begin) / static_cast<double>(all.size()));
+    std::vector<float> values(3 * static_cast<std::size_t>(over.size()));
+    processes.together([&] {
+      if (own < all.size()) std::ranges::copy(all[own].tabulate(over).values(), values.begin());
+    });
+    std::vector<std::vector<float>> each = processes.exchange_rows(std::move(values), over.size());
+    for (std::size_t i = 0; i < each.size() && begin + i < all.size(); ++i)
+      scratch.append(all[begin + i].name, {over, std::move(each[i])});
   }
   return scratch.rows();
 }

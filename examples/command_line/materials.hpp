@@ -2,6 +2,7 @@
 /// Where many materials come from.
 
 #include "command.hpp"
+#include "team.hpp"
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/io/scratch_materials.hpp>
@@ -37,10 +38,12 @@ option_group add_material_options(command& to, material_source& source);
 
 /// The same, each read once, one after the other, and held by a scratch file. With `cells` all are over these: tables
 /// are interpolated, or copied where the cells' nodes coincide. Without, they are where read_materials has them. Not of
-/// a prior.
+/// a prior. Several processes each tabulate some of the materials, and hand one another the rows of their groups; a
+/// single folder of MERL tables each reads by itself.
 [[nodiscard]] gonio::material_rows stream_materials(const material_source& source,
                                                     const std::optional<gonio::valid_cells>& cells,
                                                     gonio::io::scratch_materials scratch, gonio::thread_count threads,
-                                                    const gonio::progress& listener = {});
+                                                    const gonio::progress& listener = {},
+                                                    const team& processes = team());
 
 }  // namespace cli

@@ -62,6 +62,27 @@ TEST_CASE("components found in a random subspace are close to the exact ones, as
   CHECK(found.prior.explained_variance() == doctest::Approx(exact.prior.explained_variance()).epsilon(1e-6));
 }
 
+TEST_CASE("passes whose subtrees are summed elsewhere give the same bytes") {
+  const auto set = synthetic_materials(small_cells(), 12);
+  for (const Eigen::Index exact_columns : {3072, 10}) {
+    gonio::streaming_options options{.components = 6, .exact_columns = exact_columns};
+    const auto alone = gonio::learn_streamed_pca(gonio::rows_of(set), options);
+    Eigen::Index completed = 0;
+    options.share.sum = [](const gonio::shared_groups::sum_of& of_groups) {
+      std::vector<Eigen::MatrixXd> sums;
+      for (Eigen::Index begin = 0; begin < gonio::row_groups; begin += 4) sums.push_back(of_groups({begin, begin + 4}));
+      return gonio::sum_of_subtrees(std::move(sums));
+    };
+    options.share.complete = [&](std::span<float> numbers, Eigen::Index rows) {
+      completed += std::ssize(numbers) / rows;
+    };
+    const auto shared = gonio::learn_streamed_pca(gonio::rows_of(set), options);
+    CHECK(shared.prior.components() == alone.prior.components());
+    CHECK(shared.prior.singular_values() == alone.prior.singular_values());
+    CHECK(completed == shared.prior.size() + 3);  // components, reference, mean and variation
+  }
+}
+
 TEST_CASE("materials that cannot be streamed are refused") {
   auto set = synthetic_materials(small_cells(), 3);
   CHECK_THROWS_WITH_AS(learn_streamed(set, 0), doctest::Contains("at least one"), gonio::error);

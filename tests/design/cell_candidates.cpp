@@ -62,6 +62,18 @@ TEST_CASE("the same bytes for any number of threads") {
   CHECK(one(cells) == three(cells));
 }
 
+TEST_CASE("a range of a sweep has the bytes of the whole") {
+  const std::vector<Eigen::Index> cells{4, 90, 301};
+  const auto candidates = synthetic_candidates({.eta = 2.0, .common_shift = 0.1});
+  const std::vector<float> all = candidates.errors_with_each(cells);
+  const Eigen::Index half = gonio::design::cell_candidates::sweep_block;
+  REQUIRE(half < candidates.size());
+  std::vector<float> both = candidates.errors_with_each(cells, {0, half});
+  for (const float error : candidates.errors_with_each(cells, {half, candidates.size()})) both.push_back(error);
+  CHECK(both == all);
+  CHECK(candidates.errors_with_each(cells, {half, half}).empty());
+}
+
 TEST_CASE("errors of their own are those of all cells, and sensible") {
   std::vector<double> etas = synthetic_sample_noise_penalties();
   etas.pop_back();

@@ -35,6 +35,39 @@ TEST_CASE("the first cell of greedy growth is the best of all; each error is les
   CHECK_THROWS_AS(static_cast<void>(gonio::design::grow_greedily(candidates, candidates.size() + 1)), gonio::error);
 }
 
+namespace {
+
+/// Looks at the candidates in two parts, as processes may.
+struct in_two_parts {
+  const gonio::design::cell_candidates& whole;
+  mutable int asked = 0;
+
+  [[nodiscard]] const auto& geometry() const { return whole.geometry(); }
+  double operator()(std::span<const Eigen::Index> candidates) const { return whole(candidates); }
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates) const {
+    return whole.errors_with_each(candidates);
+  }
+  [[nodiscard]] Eigen::Index best_beside(std::span<const Eigen::Index> candidates) const {
+    ++asked;
+    std::vector<float> errors = whole.errors_with_each(candidates, {0, 128});
+    for (const float error : whole.errors_with_each(candidates, {128, whole.size()})) errors.push_back(error);
+    for (const Eigen::Index each : candidates) errors[each] = std::numeric_limits<float>::infinity();
+    return std::ranges::min_element(errors) - errors.begin();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("an objective that finds the best by itself is asked, and the search is the same") {
+  const auto candidates = synthetic_candidates();
+  const in_two_parts parts{candidates};
+  const auto expected = gonio::design::exchange(candidates, gonio::design::grow_greedily(candidates, 3));
+  const auto found = gonio::design::exchange(parts, gonio::design::grow_greedily(parts, 3));
+  CHECK(found.candidates == expected.candidates);
+  CHECK(found.value == expected.value);
+  CHECK(parts.asked >= 6);
+}
+
 TEST_CASE("two cells: exchange from the greedy pair comes to the best pair of all, or next to it") {
   const auto candidates = synthetic_candidates();
   const auto best = best_pair(candidates);

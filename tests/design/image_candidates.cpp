@@ -67,6 +67,8 @@ TEST_CASE("prepared images, images beside others and sweeps agree") {
     CHECK(with(candidate) == doctest::Approx(objective(std::vector<Eigen::Index>{30, 170, candidate})).epsilon(1e-12));
   }
   CHECK(errors == gonio::design::image_candidates(objective, {1}).errors_with_each(two));
+  const auto last = prepared.errors_with_each(two, {50, std::ssize(errors)});
+  CHECK(std::ranges::equal(last, std::span(errors).subspan(50)));
 }
 
 TEST_CASE("two images: exchange comes to the best pair of all") {

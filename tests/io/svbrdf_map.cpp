@@ -103,8 +103,8 @@ TEST_CASE("map of a spatially varying BRDF: an interrupted job goes on, wherever
     const svbrdf_writer writer(here / "cut.gsv", header);
     CHECK(writer.finished() > 0);
     CHECK(writer.finished() < header.bands());
-    CHECK(writer.has_written(0, band_of(header, 0)));
-    CHECK(!writer.has_written(0, band_of(header, 1)));
+    CHECK(writer.has_written(0, io::encode_band(header, 0, band_of(header, 0))));
+    CHECK(!writer.has_written(0, io::encode_band(header, 0, band_of(header, 1))));
   }
   write_bands(here / "cut.gsv", header, header.bands());
   CHECK(scratch::get(here / "cut.gsv") == whole);
@@ -125,7 +125,17 @@ TEST_CASE("map of a spatially varying BRDF: another job's file, a second writer 
   scratch::check_refused([&] { svbrdf_writer(path, header); }, {"map.gsv", "another process is writing"});
   scratch::check_refused([&] { writer.commit(); }, {"1 of 3 bands"});
   scratch::check_refused([&] { writer.append(io::as_halves(estimates(3, 4, 1))); }, {"band 1 of 3 texels", "8"});
-  scratch::check_refused([&] { writer.append(io::as_halves(estimates(8, 5, 1))); }, {"map.gsv"});
+  scratch::check_refused([&] { writer.append(io::as_halves(estimates(8, 5, 1))); }, {"120 weights", "4 functions"});
+  auto bytes = io::encode_band(header, 1, band_of(header, 1));
+  bytes[5] ^= std::byte{1};
+  scratch::check_refused([&] { writer.append(bytes); }, {"map.gsv", "band 1 is damaged"});
+  bytes.pop_back();
+  scratch::check_refused([&] { writer.append(bytes); }, {"map.gsv", "band 1 is damaged"});
+  CHECK(scratch::get(here / "map.gsv.part") == begun);
+  other = header;
+  CHECK(io::checksum_of(other) == io::checksum_of(header));
+  other.eta = 2.75;
+  CHECK(io::checksum_of(other) != io::checksum_of(header));
   scratch::fs::create_directory(here / "folder.gsv");
   scratch::check_refused([&] { svbrdf_writer(here / "folder.gsv", header); }, {"folder.gsv", "is a directory"});
   scratch::check_refused([&] { svbrdf_writer(here / "absent" / "map.gsv", header); }, {"map.gsv.part", "No such file"});

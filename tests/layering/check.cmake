@@ -25,8 +25,10 @@ set(edges
   "io/tiff.hpp -> io" # libtiff
   "io/exif.hpp -> io" # libexif
   "shape/io   -> io shape"
+  "mpi        -> core" # apart, because it needs MPI
   "render.hpp -> render"
   "shape.hpp  -> shape/io"
+  "mpi.hpp    -> mpi"
   "core.hpp -> core" # all of a module each
   "solve.hpp -> solve"
   "table.hpp -> table"

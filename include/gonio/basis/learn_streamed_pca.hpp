@@ -7,6 +7,7 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/solve/leading_eigenpairs.hpp>
+#include <gonio/solve/row_groups.hpp>
 #include <gonio/table/material_rows.hpp>
 
 #include <Eigen/Core>
@@ -25,6 +26,7 @@ struct streaming_options {
   /// uses fewer.
   std::uint64_t memory = std::uint64_t{2} << 30;
   thread_count threads = {};
+  shared_groups share = {};  ///< with other processes: the one that writes gets the prior, others parts of it
 };
 
 /// A prior, and how it was found.
@@ -37,6 +39,9 @@ struct streamed_pca {
 };
 
 namespace detail {
+
+/// Completes what a first pass has found.
+void complete_rows(const shared_groups& share, const mapped_materials& mapped);
 
 /// A = V Sigma U', cut after the components that are kept.
 struct streamed_components {

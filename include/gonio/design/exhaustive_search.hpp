@@ -11,6 +11,9 @@ namespace gonio::design {
 
 /// An objective that also tells, all at once, what a set is worth with each of all candidates beside it; infinity for
 /// those that are not allowed.
+///
+/// An objective may offer `best_beside(candidates)`, the one that is worth most beside some, none of them again; of
+/// equal ones that with the lowest number. Searches then ask it, and who implements it may share the work.
 template <class Objective>
 concept sweeping_objective = plan_objective<Objective> &&
     requires(const Objective& objective, std::span<const Eigen::Index> candidates) {
@@ -23,6 +26,7 @@ namespace detail {
 /// The candidate that is worth most beside those of a plan, none of them again.
 template <sweeping_objective Objective>
 [[nodiscard]] Eigen::Index best_addition(const Objective& objective, std::span<const Eigen::Index> plan) {
+  if constexpr (requires { objective.best_beside(plan); }) return objective.best_beside(plan);
   std::vector<float> errors = objective.errors_with_each(plan);
   for (const Eigen::Index candidate : plan) errors[candidate] = std::numeric_limits<float>::infinity();
   return std::ranges::min_element(errors) - errors.begin();

@@ -113,16 +113,24 @@ class image_candidates {
 
   /// E of some images and, in turn, each candidate beside them; infinity for those that are not allowed.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates) const {
-    std::vector<float> errors(rows_.size(), std::numeric_limits<float>::infinity());
+    return errors_with_each(candidates, {0, std::ssize(rows_)});
+  }
+
+  /// The same of a range of the candidates alone.
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates, block range) const {
+    std::vector<float> errors(static_cast<std::size_t>(range.size()), std::numeric_limits<float>::infinity());
     const auto with = beside(candidates);
     for_each_index(
-        rows_.size(), 16,
-        [&](Eigen::Index candidate) {
-          if (geometry().allows(candidate)) errors[candidate] = static_cast<float>(with(candidate));
+        range.size(), sweep_block,
+        [&](Eigen::Index i) {
+          const Eigen::Index candidate = range.begin + i;
+          if (geometry().allows(candidate)) errors[i] = static_cast<float>(with(candidate));
         },
         threads_);
     return errors;
   }
+
+  static constexpr Eigen::Index sweep_block = 16;
 
  private:
   [[nodiscard]] expected_error::rows rows_of_all(std::span<const Eigen::Index> candidates) const {

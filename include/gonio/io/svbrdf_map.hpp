@@ -39,6 +39,9 @@ struct svbrdf_header {
   }
 };
 
+/// A number that tells headers apart: the CRC-32 that the file has of its header.
+[[nodiscard]] std::uint32_t checksum_of(const svbrdf_header& header);
+
 /// Rows of a band such that about 65,536 texels are in memory at a time.
 [[nodiscard]] Eigen::Index rows_of_band(Eigen::Index columns) noexcept;
 
@@ -50,6 +53,11 @@ struct svbrdf_band {
 
 /// Each number rounded to 11 bits. Throws gonio::error if one is beyond the range of half floats.
 [[nodiscard]] svbrdf_band as_halves(const texel_estimates& found, thread_count threads = {});
+
+/// A band as the file has it, its checksum at the end. Throws gonio::error unless it has as many numbers as the header
+/// asks for.
+[[nodiscard]] std::vector<std::byte> encode_band(const svbrdf_header& header, Eigen::Index band,
+                                                 const svbrdf_band& values);
 
 /// Writes a map band by band into `PATH.part`, which becomes PATH when it is whole. A job whose process ended goes on
 /// behind its last whole band: the same job makes the same bytes, however often it is interrupted. One process at a
@@ -64,10 +72,12 @@ class svbrdf_writer {
   [[nodiscard]] Eigen::Index finished() const noexcept { return finished_; }
 
   /// Are the bytes of a finished band these? Tells whether a job that goes on has the images that it began with.
-  [[nodiscard]] bool has_written(Eigen::Index band, const svbrdf_band& values) const;
+  [[nodiscard]] bool has_written(Eigen::Index band, std::span<const std::byte> bytes) const;
 
   /// The next band. Throws gonio::error if it cannot be stored, as on a full disk: what was written before stays.
   void append(const svbrdf_band& values);
+  /// The next band as `encode_band` has made it, maybe elsewhere. Throws gonio::error, too, if it was damaged since.
+  void append(std::span<const std::byte> bytes);
 
   /// Gives the file its name once all bands are there, and are on the disk.
   void commit();
@@ -75,8 +85,8 @@ class svbrdf_writer {
  private:
   void open();
   void resume(std::span<const std::byte> head);
+  void require_unfinished() const;
   void write(std::span<const std::byte> bytes);
-  [[nodiscard]] std::vector<std::byte> encoded(const svbrdf_band& values, Eigen::Index band) const;
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_, target_, part_;

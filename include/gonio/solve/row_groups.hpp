@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace gonio {
@@ -47,6 +48,23 @@ using product_writer = std::function<void(block range, const Eigen::MatrixXd& pr
 /// A U alone, of any range of groups. 2 n k l operations.
 void for_each_product(const row_source& rows, const Eigen::MatrixXd& vectors, block groups, thread_count threads,
                       const product_writer& write);
+
+/// How several processes share passes over groups. One process alone does all: then nothing is set.
+struct shared_groups {
+  using sum_of = std::function<Eigen::MatrixXd(block groups)>;
+
+  block own = all_row_groups;  ///< a subtree that is this process'; empty if there are more processes than groups
+  /// The sum over all groups, at every process: `of_groups` is called with `own`, and the sums are added along the
+  /// tree.
+  std::function<Eigen::MatrixXd(const sum_of& of_groups)> sum;
+  /// Of numbers for each row, of which each process has those of its own groups, the process that writes gets all.
+  std::function<void(std::span<float> numbers, Eigen::Index rows)> complete;
+
+  /// `sum`, or what it is alone.
+  [[nodiscard]] Eigen::MatrixXd sum_over_all(const sum_of& of_groups) const;
+  /// `complete`, or nothing.
+  void complete_rows(std::span<float> numbers, Eigen::Index rows) const;
+};
 
 }  // namespace gonio
 

@@ -91,6 +91,7 @@ GONIO_INLINE streamed_pca add_materials(const log_relative_pca& prior, material_
   std::vector<std::string> names = all.names();
   detail::streamed_components found =
       detail::components_of(all.rows(all.added.first_pass()), all.rows(all.added.rows()), options, listener);
+  detail::complete_rows(options.share, all.added);
   const double variation = all.variation();
   const double scale = prior.singular_values().norm() / std::sqrt(all.old_variation());
   const auto& [values, vectors, residual] = found.pairs;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -48,14 +49,15 @@ namespace gonio::detail {
                                                                 const progress& listener) {
   const auto columns = static_cast<double>(first.columns);
   const thread_count threads = threads_within(options, 16.0 * columns * (columns + 128.0));
-  const Eigen::MatrixXd products = gram(counted(first, "gram", listener), all_row_groups, threads);
+  const Eigen::MatrixXd products =
+      options.share.sum_over_all([&](block groups) { return gram(counted(first, "gram", listener), groups, threads); });
   report(listener, "eigenvalues", 0.0);
   // Rounding of the mean may pretend that centring costs none.
   const Eigen::Index most = std::min(options.components, first.columns - 1);
   streamed_components found{decompose_leading(products, most, "the Gram matrix of the materials"), {}, true};
   if (found.pairs.values.size() == 0) return found;
   found.scaled.resize(first.rows, found.pairs.values.size());
-  for_each_product(counted(again, "components", listener), found.pairs.vectors, all_row_groups, threads,
+  for_each_product(counted(again, "components", listener), found.pairs.vectors, options.share.own, threads,
                    [&](block range, const Eigen::MatrixXd& product) {
                      found.scaled.middleRows(range.begin, range.size()) = product.cast<float>();
                    });
@@ -78,21 +80,30 @@ namespace gonio::detail {
   const auto times = [&](const Eigen::MatrixXd& vectors, bool last) {
     const row_source& rows = done++ == 0 ? first : again;
     const std::string stage = message_of({"subspace ", done, " of ", options.subspace.products});
-    return gram_times(counted(rows, stage, listener), vectors, all_row_groups, threads,
-                      last ? product_writer(keep) : product_writer());
+    return options.share.sum_over_all([&](block groups) {
+      return gram_times(counted(rows, stage, listener), vectors, groups, threads,
+                        last ? product_writer(keep) : product_writer());
+    });
   };
   subspace_eigenpairs pairs = iterate_leading(first.columns, most, options.subspace, times);
   report(listener, "components", 0.0);
   streamed_components found{std::move(pairs.pairs), cell_matrix(first.rows, pairs.combination.cols()), false};
+  const block own = rows_of_groups(first.rows, options.share.own);
   for_each_block(
       first.rows, 1024,
       [&](block range) {
         const Eigen::Index begin = range.begin, rows = range.size();
+        if (range.end <= own.begin || begin >= own.end) return;
         found.scaled.middleRows(begin, rows) =
             product(along.middleRows(begin, rows).cast<double>(), pairs.combination).cast<float>();
       },
       options.threads);
   return found;
+}
+
+GONIO_INLINE void complete_rows(const shared_groups& share, const mapped_materials& mapped) {
+  for (const std::span<float> found : {mapped.reference(), mapped.mean(), mapped.variation()})
+    share.complete_rows(found, std::ssize(found));
 }
 
 GONIO_INLINE streamed_components components_of(const row_source& first, const row_source& again,
@@ -102,6 +113,7 @@ GONIO_INLINE streamed_components components_of(const row_source& first, const ro
                                   ? exact_components(first, again, options, listener)
                                   : subspace_components(first, again, options, listener);
   if (found.pairs.values.size() == 0) refuse("the materials do not differ: there is nothing to learn");
+  options.share.complete_rows({found.scaled.data(), static_cast<std::size_t>(found.scaled.size())}, first.rows);
   report(listener, "components", 1.0);
   return found;
 }
@@ -114,6 +126,7 @@ GONIO_INLINE streamed_pca learn_streamed_pca(material_rows materials, const stre
                                              const progress& listener) {
   const mapped_materials mapped(std::move(materials), options.weighting);
   detail::streamed_components found = detail::components_of(mapped.first_pass(), mapped.rows(), options, listener);
+  detail::complete_rows(options.share, mapped);
   const double variance = mapped.total_variation();
   const auto& [values, vectors, residual] = found.pairs;
   return {log_relative_pca({mapped.materials().cells,

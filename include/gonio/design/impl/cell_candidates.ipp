@@ -76,18 +76,25 @@ GONIO_INLINE double cell_candidates::with_one_more::operator()(Eigen::Index cell
 }
 
 GONIO_INLINE std::vector<float> cell_candidates::errors_with_each(std::span<const Eigen::Index> cells) const {
+  return errors_with_each(cells, {0, size()});
+}
+
+GONIO_INLINE std::vector<float> cell_candidates::errors_with_each(std::span<const Eigen::Index> cells,
+                                                                  block range) const {
   const extended_error<float> with(criterion_, rows_of(cells));
-  std::vector<float> errors(size());
+  std::vector<float> errors(static_cast<std::size_t>(range.size()));
   for_each_block(
-      size(), 128,
-      [&](block range) {
-        const Eigen::Index begin = range.begin, count = range.size();
-        Eigen::Map<Eigen::ArrayXf>(errors.data() + range.begin, count) =
+      range.size(), sweep_block,
+      [&](block part) {
+        const Eigen::Index begin = range.begin + part.begin, count = part.size();
+        Eigen::Map<Eigen::ArrayXf>(errors.data() + part.begin, count) =
             with(materials_.middleRows(begin, count), weighted_.middleRows(begin, count),
                  sample_noise_penalties_.segment(begin, count));
       },
       threads_);
-  for (const Eigen::Index cell : excluded_) errors[cell] = std::numeric_limits<float>::infinity();
+  for (const Eigen::Index cell : excluded_)
+    if (cell >= range.begin && cell < range.end)
+      errors[static_cast<std::size_t>(cell - range.begin)] = std::numeric_limits<float>::infinity();
   return errors;
 }
 

@@ -171,6 +171,13 @@ GONIO_INLINE std::uint32_t checksum_of(const log_relative_pca& prior) {
   return static_cast<std::uint32_t>(sum);
 }
 
+GONIO_INLINE std::uint32_t checksum_of(const svbrdf_header& header) {
+  const auto bytes = detail::encode_svbrdf_header(header);
+  std::uint32_t sum = 0;
+  std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
+  return sum;
+}
+
 GONIO_INLINE Eigen::Index rows_of_band(Eigen::Index columns) noexcept {
   return std::max<Eigen::Index>(1, 65536 / std::max<Eigen::Index>(columns, 1));
 }
@@ -181,6 +188,21 @@ GONIO_INLINE svbrdf_band as_halves(const texel_estimates& found, thread_count th
   detail::to_halves(found.uncertainty, band.uncertainty, threads);
   detail::to_halves(found.disagreement, band.disagreement, threads);
   return band;
+}
+
+GONIO_INLINE std::vector<std::byte> encode_band(const svbrdf_header& header, Eigen::Index band,
+                                                const svbrdf_band& values) {
+  const auto texels = static_cast<std::size_t>(header.texels_of_band(band));
+  const auto functions = static_cast<std::size_t>(header.functions.cols());
+  if (values.weights.size() != 3 * texels * functions || values.uncertainty.size() != texels ||
+      values.disagreement.size() != texels)
+    gonio::refuse({"band ", band, " of ", values.uncertainty.size(), " texels of a map has ", values.weights.size(),
+                   " weights, expected ", texels, " texels of ", functions, " functions"});
+  byte_writer out;
+  for (const auto* numbers : {&values.weights, &values.uncertainty, &values.disagreement})
+    out.put_all(std::span<const std::uint16_t>(*numbers));
+  out.put(detail::checksum(out.bytes()));
+  return out.take();
 }
 
 GONIO_INLINE Eigen::MatrixXd weights_of_texel(const svbrdf_header& header, const svbrdf_band& band,
@@ -240,27 +262,27 @@ GONIO_INLINE void svbrdf_writer::resume(std::span<const std::byte> head) {
   if (::lseek(file_.get(), static_cast<off_t>(end), SEEK_SET) < 0) fail();
 }
 
-GONIO_INLINE std::vector<std::byte> svbrdf_writer::encoded(const svbrdf_band& values, Eigen::Index band) const {
-  const auto texels = static_cast<std::size_t>(header_.texels_of_band(band));
-  if (values.weights.size() != 3 * texels * static_cast<std::size_t>(header_.functions.cols()) ||
-      values.uncertainty.size() != texels || values.disagreement.size() != texels)
-    gonio::refuse({path_.string(), ": band ", band, " of ", values.uncertainty.size(), " texels, expected ", texels});
-  byte_writer out;
-  for (const auto* numbers : {&values.weights, &values.uncertainty, &values.disagreement})
-    out.put_all(std::span<const std::uint16_t>(*numbers));
-  out.put(detail::checksum(out.bytes()));
-  return out.take();
+GONIO_INLINE bool svbrdf_writer::has_written(Eigen::Index band, std::span<const std::byte> bytes) const {
+  const auto written =
+      detail::bytes_at(file_, head_size_ + detail::bytes_before_band(header_, band), bytes.size(), part_);
+  return std::ranges::equal(written, bytes);
 }
 
-GONIO_INLINE bool svbrdf_writer::has_written(Eigen::Index band, const svbrdf_band& values) const {
-  const auto expected = encoded(values, band);
-  return detail::bytes_at(file_, head_size_ + detail::bytes_before_band(header_, band), expected.size(), part_) ==
-         expected;
+GONIO_INLINE void svbrdf_writer::require_unfinished() const {
+  if (finished_ == header_.bands()) gonio::refuse({path_.string(), ": has all of its ", finished_, " bands"});
 }
 
 GONIO_INLINE void svbrdf_writer::append(const svbrdf_band& values) {
-  if (finished_ == header_.bands()) gonio::refuse({path_.string(), ": has all of its ", finished_, " bands"});
-  write(encoded(values, finished_));
+  require_unfinished();
+  append(encode_band(header_, finished_, values));
+}
+
+GONIO_INLINE void svbrdf_writer::append(std::span<const std::byte> bytes) {
+  require_unfinished();
+  const std::uint64_t expected = detail::bytes_of_band(header_, finished_);
+  if (bytes.size() != expected || !detail::is_whole_band(bytes))
+    gonio::refuse({path_.string(), ": band ", finished_, " is damaged, or has not ", expected, " bytes"});
+  write(bytes);
   ++finished_;
 }
 

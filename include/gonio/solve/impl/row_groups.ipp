@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -144,6 +145,14 @@ GONIO_INLINE void for_each_product(const row_source& rows, const Eigen::MatrixXd
         });
       },
       threads);
+}
+
+GONIO_INLINE Eigen::MatrixXd shared_groups::sum_over_all(const sum_of& of_groups) const {
+  return sum ? sum(of_groups) : of_groups(own);
+}
+
+GONIO_INLINE void shared_groups::complete_rows(std::span<float> numbers, Eigen::Index rows) const {
+  if (complete) complete(numbers, rows);
 }
 
 }  // namespace gonio

@@ -1,0 +1,17 @@
+#include "command_line/team.hpp"
+
+#include <gonio/io/checked_file.hpp>
+#include <gonio/io/file.hpp>
+
+namespace cli {
+
+void agree_on_file(const team& processes, const std::filesystem::path& path, const std::string& what) {
+  if (processes.is_alone()) return;
+  std::uint32_t checksum = 0;
+  processes.together([&] {
+    if (!path.empty()) checksum = gonio::io::detail::checksum(gonio::io::read_bytes(path));
+  });
+  processes.agree_on(checksum, what);
+}
+
+}  // namespace cli

@@ -1,0 +1,44 @@
+#pragma once
+/// The ranks of an MPI job as the processes that do a command's work.
+
+#include "command_line/team.hpp"
+#include <gonio/mpi/ranks.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+class ranks_team : public team {
+ public:
+  /// The ranks must outlive it.
+  explicit ranks_team(const gonio::mpi::ranks& ranks) : ranks_(ranks) {}
+
+  [[nodiscard]] std::size_t size() const override { return static_cast<std::size_t>(ranks_.size()); }
+  [[nodiscard]] std::size_t number() const override { return static_cast<std::size_t>(ranks_.rank()); }
+  [[nodiscard]] bool writes() const override { return ranks_.is_first(); }
+  [[nodiscard]] gonio::thread_count threads(gonio::thread_count asked) const override;
+  void together(const std::function<void()>& work) const override { ranks_.together(work); }
+  void agree_on(std::uint32_t checksum, const std::string& what) const override { ranks_.agree_on(checksum, what); }
+  [[nodiscard]] gonio::block share_of(Eigen::Index count, Eigen::Index block_size) const override;
+  [[nodiscard]] Eigen::Index best(double value, Eigen::Index number) const override;
+  [[nodiscard]] gonio::shared_groups groups() const override;
+  [[nodiscard]] std::vector<std::vector<float>> exchange_rows(std::vector<float> own, Eigen::Index rows) const override;
+  [[nodiscard]] Eigen::Index number_of_writer(Eigen::Index number) const override;
+  void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
+                        const std::function<void(Eigen::Index, part)>& take) const override;
+
+ private:
+  /// Equal subtrees of the groups, as many as there are ranks to own one each: a power of two.
+  [[nodiscard]] Eigen::Index subtrees() const;
+  [[nodiscard]] gonio::block groups_of(int rank) const;
+  /// Of numbers for each of some rows, those of a rank's groups.
+  [[nodiscard]] std::span<float> part_of(int rank, std::span<float> numbers, Eigen::Index rows) const;
+
+  const gonio::mpi::ranks& ranks_;
+};
+
+}  // namespace cli
