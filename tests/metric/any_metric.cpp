@@ -43,13 +43,12 @@ void check_held(const Metric& metric) {
 
   // Mapped values of two neighbouring cells, with what is interpolated beside the channels.
   constexpr std::size_t count = 2, first = 3;
-  const std::array<int, count> phi_d{2, 3};
   std::array<double, 7> cosines{};
   for (std::size_t i = 0; i < cosines.size(); ++i) cosines[i] = std::cos(0.3 * static_cast<double>(i));
   gonio::cell_row row;
   row.first = first;
   row.count = count;
-  row.phi_d = phi_d.data();
+  row.first_phi_d = 2;
   row.sum = 0.7;
   row.difference = 0.1;
   row.cos_phi_d = cosines.data();

@@ -3,6 +3,7 @@
 /// table of 18 MB has 4,400 pages of 4 kB or nine of 2 MB, and eight scattered values are read in half the time
 /// (bench/render/lookup_table.cpp).
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <new>
@@ -24,7 +25,8 @@ struct huge_page_allocator {
   huge_page_allocator(const huge_page_allocator<Other>& /*unused*/) noexcept {}  // NOLINT: implicit by the standard
 
   [[nodiscard]] T* allocate(std::size_t count) {
-    if (count > std::numeric_limits<std::ptrdiff_t>::max() / sizeof(T)) throw std::bad_array_new_length();
+    // More than there can be is refused by `operator new`: this compiles without exceptions.
+    count = std::min(count, (std::numeric_limits<std::ptrdiff_t>::max() - page) / sizeof(T));
     if (!is_large(count)) return static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{64}));
     const std::size_t bytes = (count * sizeof(T) + page - 1) / page * page;
     void* memory = ::operator new (bytes, std::align_val_t{page});
