@@ -24,6 +24,7 @@ gonio::model::lobe_kind::values any_parameters(const gonio::model::lobe_kind& ki
 TEST_CASE("slopes are exact: those of central differences, for every kind") {
   for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds()) {
     CAPTURE(kind->name());
+    int compared = 0;
     CHECK(rc::check([&] {
       const auto parameters = any_parameters(*kind);
       const gonio::direction wi = any_direction(), wo = any_direction();
@@ -34,19 +35,22 @@ TEST_CASE("slopes are exact: those of central differences, for every kind") {
       RC_ASSERT(std::abs(value - kind->value(at, parameters)) <= 1e-12 * value);
       for (std::size_t i = 0; i < kind->parameters().size(); ++i) {
         const double step = 1e-5 * std::max(std::abs(parameters[i]), 0.01);
-        auto up = parameters, down = parameters;
-        up[i] += step;
-        down[i] -= step;
+        const auto difference_by = [&](double distance) {
+          auto up = parameters, down = parameters;
+          up[i] += distance;
+          down[i] -= distance;
+          return (kind->value(at, up) - kind->value(at, down)) / (2.0 * distance);
+        };
         // Lafortune's scale bends at the mirror direction.
         if (kind->name() == "lafortune" && std::abs(std::abs(parameters[0]) - pi / 4) < 1e-3) continue;
-        const auto [least, most] = std::minmax({kind->value(at, up), kind->value(at, down)});
-        // At its end a lobe of an exponent below 1 is as steep as one likes: differences say nothing.
-        if (most > 1.05 * least) continue;
-        const double difference = (kind->value(at, up) - kind->value(at, down)) / (2.0 * step);
-        const double around = most / std::abs(parameters[i]);
-        RC_ASSERT(std::abs(slopes[i] - difference) <= 1e-5 * (std::abs(difference) + around) + 1e-12);
+        const double difference = difference_by(step), scale = std::abs(difference) + value / std::abs(parameters[i]);
+        // At its end a lobe of a small exponent is as steep as one likes, and differences still depend on their step.
+        if (std::abs(difference - difference_by(step / 2.0)) > 2e-6 * scale) continue;
+        ++compared;
+        RC_ASSERT(std::abs(slopes[i] - difference) <= 1e-5 * scale + 1e-12);
       }
     }));
+    CHECK((compared > 50 || kind->parameters().empty()));
   }
 }
 
