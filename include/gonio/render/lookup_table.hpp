@@ -119,7 +119,7 @@ class lookup_table {
     block_type block;
     std::array<place_of<Real>, size> places;
     alignas(64) std::array<storage, size * read_of_place> stored;
-    alignas(64) std::array<Real, size * read_of_place> wide;
+    alignas(64) std::array<computed, size * read_of_place> wide;
     for (Eigen::Index first = 0; first < out.size(); first += size) {
       const Eigen::Index count = std::min(size, out.size() - first);
       block.compute(wi, wo, first, count);
@@ -127,12 +127,12 @@ class lookup_table {
       for (Eigen::Index i = 0; i < size; ++i)
         places[i] = place(block.theta_h()[i], block.theta_d()[i], block.phi_d()[i]);
       for (Eigen::Index i = 0; i < size; ++i) read(places[i], stored.data() + i * read_of_place);
-      const Real* values = widened(stored, wide);
+      const computed* values = widened(stored, wide);
       for (Eigen::Index i = 0; i < count; ++i) {
         const Eigen::Index n = first + i;
         const bool is_lit = is_above_horizon(wi.x[n], wi.y[n], wi.z[n], wo.x[n], wo.y[n], wo.z[n]);
         const Eigen::Array<Real, 3, 1> colour =
-            blended<Real>(places[i], values + i * read_of_place, is_lit ? scale<Real>() : Real(0));
+            blended<Real>(places[i], values + i * read_of_place, is_lit ? static_cast<computed>(scale_) : computed(0));
         out.x[n] = colour.x();
         out.y[n] = colour.y();
         out.z[n] = colour.z();
@@ -147,6 +147,7 @@ class lookup_table {
 
  private:
   static constexpr bool is_half = std::is_same_v<Stored, Eigen::half>;
+  using computed = std::conditional_t<std::is_same_v<Stored, double>, double, float>;  ///< what values are blended in
   using storage = std::conditional_t<is_half, std::uint16_t, Stored>;  ///< compilers see no numbers in Eigen's class
 
   /// `value_of(cell_index)` is red, green and blue.
@@ -221,44 +222,41 @@ class lookup_table {
 
   /// Of what was read, times a factor.
   template <std::floating_point Real>
-  [[nodiscard]] static Eigen::Array<Real, 3, 1> blended(const place_of<Real>& where, const Real* values,
-                                                        Real factor) noexcept {
+  [[nodiscard]] static Eigen::Array<Real, 3, 1> blended(const place_of<Real>& where, const computed* values,
+                                                        computed factor) noexcept {
     if constexpr (Interpolation == interpolation::nearest) {
-      return {values[0] * factor, values[1] * factor, values[2] * factor};
+      return {static_cast<Real>(values[0] * factor), static_cast<Real>(values[1] * factor),
+              static_cast<Real>(values[2] * factor)};
     } else {
-      const Eigen::Map<const Eigen::Array<Real, 8, 4>> rows(values);
-      const Real h = where.theta_h * factor, rest_h = factor - h, d = where.theta_d, rest_d = 1 - d;
-      const Eigen::Array<Real, 8, 1> both = rows.col(0) * (rest_h * rest_d) + rows.col(1) * (rest_h * d) +
-                                            rows.col(2) * (h * rest_d) + rows.col(3) * (h * d);
-      return both.template head<3>() * (1 - where.phi_d) + both.template segment<3>(3) * where.phi_d;
+      const Eigen::Map<const Eigen::Array<computed, 8, 4>> rows(values);
+      const auto h = static_cast<computed>(where.theta_h) * factor, d = static_cast<computed>(where.theta_d),
+                 p = static_cast<computed>(where.phi_d), rest_h = factor - h, rest_d = 1 - d;
+      const Eigen::Array<computed, 8, 1> both = rows.col(0) * (rest_h * rest_d) + rows.col(1) * (rest_h * d) +
+                                                rows.col(2) * (h * rest_d) + rows.col(3) * (h * d);
+      return (both.template head<3>() * (1 - p) + both.template segment<3>(3) * p).template cast<Real>();
     }
   }
 
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Array<Real, 3, 1> value_at(const place_of<Real>& where) const noexcept {
     std::array<storage, read_of_place> stored;
-    std::array<Real, read_of_place> wide;
+    std::array<computed, read_of_place> wide;
     read(where, stored.data());
-    return blended<Real>(where, widened(stored, wide), scale<Real>());
+    return blended<Real>(where, widened(stored, wide), static_cast<computed>(scale_));
   }
 
-  /// What is stored as numbers to compute with: in `wide`, or where they are if they are such numbers. Half numbers
-  /// are at least zero and become 2^-112 times themselves, for which their bits are but moved.
-  template <std::floating_point Real, std::size_t Size>
-  [[nodiscard]] static const Real* widened(const std::array<storage, Size>& stored,
-                                           std::array<Real, Size>& wide) noexcept {
-    if constexpr (std::is_same_v<storage, Real>) return stored.data();
-    for (std::size_t k = 0; k < Size; ++k)
-      if constexpr (is_half)
-        wide[k] = static_cast<Real>(std::bit_cast<float>(static_cast<std::uint32_t>(stored[k]) << 13));
-      else
-        wide[k] = static_cast<Real>(stored[k]);
-    return wide.data();
-  }
-
-  template <std::floating_point Real>
-  [[nodiscard]] Real scale() const noexcept {
-    return static_cast<Real>(scale_ * widening);
+  /// What is stored as numbers to compute with: where they are, or of half numbers, which are at least zero, in `wide`:
+  /// their bits moved, times 2^112.
+  template <std::size_t Size>
+  [[nodiscard]] static const computed* widened(const std::array<storage, Size>& stored,
+                                               std::array<computed, Size>& wide) noexcept {
+    if constexpr (!is_half) {
+      return stored.data();
+    } else {
+      for (std::size_t k = 0; k < Size; ++k)
+        wide[k] = std::bit_cast<float>(static_cast<std::uint32_t>(stored[k]) << 13) * 0x1p112f;
+      return wide.data();
+    }
   }
 
   /// 1 or, of half numbers, the power of two that brings the largest value near the end of their range, 65504.
@@ -268,7 +266,6 @@ class lookup_table {
     return std::exp2(std::ceil(std::log2(largest)) - 15.0);
   }
 
-  static constexpr double widening = is_half ? 0x1p112 : 1.0;
   static constexpr Eigen::Index read_beyond = 2;  ///< numbers behind the last cell's
 
   padded_grid cells_;
