@@ -194,9 +194,8 @@ class reading {
       const auto& wi = all.wi[i];
       const auto& wo = all.wo[i];
       const auto at = gonio::render::to_grid_coordinates(wi[0], wi[1], wi[2], wo[0], wo[1], wo[2]);
-      places_.push_back(3 * Eigen::Index{Interpolation == interpolation::nearest
-                                             ? cells_.nearest(at.theta_h, at.theta_d, at.phi_d)
-                                             : cells_.around(at.theta_h, at.theta_d, at.phi_d).number});
+      places_.push_back(
+          3 * Eigen::Index{Interpolation == interpolation::nearest ? cells_.nearest(at) : cells_.around(at).number});
     }
   }
 

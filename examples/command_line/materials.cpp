@@ -90,11 +90,8 @@ gonio::material_set read_mixed(const material_source& source, gonio::thread_coun
 
 namespace {
 
-/// Throws gonio::error unless all processes have materials of these names.
 void agree_on_names(const team& processes, const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all.append(name).push_back('\0');
-  processes.agree_on(gonio::io::detail::checksum(std::as_bytes(std::span(all))), "list of materials");
+  processes.agree_on(checksum_of(names), "list of materials");
 }
 
 /// Of a few cells of materials that each process has read.

@@ -79,6 +79,9 @@ class team {
   }
 };
 
+/// The checksum of some words and where each ends.
+[[nodiscard]] std::uint32_t checksum_of(std::span<const std::string> words);
+
 /// Throws gonio::error in all processes unless they all read the same bytes from a file, or from none.
 void agree_on_file(const team& processes, const std::filesystem::path& path, const std::string& what);
 

@@ -4,7 +4,6 @@
 #include "command_line/fixed.hpp"
 #include "ranks_team.hpp"
 #include <gonio/core/error.hpp>
-#include <gonio/io/checked_file.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/mpi/ranks.hpp>
 
@@ -89,12 +88,6 @@ void print_traffic(const gonio::mpi::ranks& ranks) {
   }
 }
 
-std::uint32_t checksum_of(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : std::span(words).subspan(1)) all.append(word).push_back('\0');
-  return gonio::io::detail::checksum(std::as_bytes(std::span(all)));
-}
-
 int run(const gonio::mpi::ranks& ranks, std::span<char*> given, const std::optional<silence>& unsaid) {
   const cli::ranks_team all(ranks);
   const std::vector<std::string> words(given.begin(), given.end());
@@ -109,7 +102,7 @@ int run(const gonio::mpi::ranks& ranks, std::span<char*> given, const std::optio
       [&](const std::function<void()>& work) {
         has_begun = true;
         ranks.together([] {});  // has each rank understood its command line?
-        ranks.agree_on(checksum_of(words), "command line");
+        ranks.agree_on(cli::checksum_of(std::span(words).subspan(1)), "command line");
         work();
         if (prints_traffic) print_traffic(ranks);
       });

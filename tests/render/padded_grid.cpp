@@ -75,7 +75,7 @@ TEST_CASE("padded grid: the nearest cell, and the weights around, are those of t
     const auto corners = index.around(place, itself);
     std::map<Eigen::Index, double> expected;
     for (Eigen::Index k = 0; k < 8; ++k) expected[corners.number[k]] += corners.weight[k];
-    const auto found = weights_of(padded, padded.around(place.theta_h, place.theta_d, place.phi_d));
+    const auto found = weights_of(padded, padded.around(place));
     for (const auto& [cell, weight] : expected)
       RC_ASSERT(std::abs(weight - (found.count(cell) == 1 ? found.at(cell) : 0.0)) < 1e-12);
     const double sum = std::accumulate(found.begin(), found.end(), 0.0,
@@ -88,8 +88,8 @@ TEST_CASE("padded grid: the nearest cell has the largest weight of those around"
   CHECK(rc::check([] {
     const padded_grid padded(any_grid());
     const grid_coordinates<double> place = any_place();
-    const auto weights = weights_of(padded, padded.around(place.theta_h, place.theta_d, place.phi_d));
-    const auto nearest = cell_of_number(padded).at(padded.nearest(place.theta_h, place.theta_d, place.phi_d));
+    const auto weights = weights_of(padded, padded.around(place));
+    const auto nearest = cell_of_number(padded).at(padded.nearest(place));
     const auto largest = std::max_element(weights.begin(), weights.end(), [](const auto& a, const auto& b) {
                            return a.second < b.second;
                          })->second;

@@ -1,7 +1,6 @@
 #pragma once
 /// Memory for large tables that are read at random. A processor keeps the addresses of some thousand pages at hand; a
-/// table of 18 MB has 4,400 pages of 4 kB or nine of 2 MB, and eight scattered values are read in half the time
-/// (bench/render/lookup_table.cpp).
+/// table of 18 MB has 4,400 pages of 4 kB, or nine of 2 MB.
 
 #include <algorithm>
 #include <cstddef>

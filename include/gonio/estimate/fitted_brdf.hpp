@@ -196,18 +196,13 @@ template <colour_basis Basis>
 requires std::same_as<domain_of<Basis>, valid_cells>
 typename fitted_brdf<Basis>::mapped_fields fitted_brdf<Basis>::mapped_field(thread_count threads) const {
   mapped_fields field(3, basis_.cells().size());
-  if constexpr (combining_basis<Basis>) field = basis_.combination(weights_, threads);
+  constexpr bool at_once = combinable_basis<Basis>;  // three channels by one row
+  if constexpr (at_once) field = combine(basis_, weights_, threads);
   for_each_index(
       basis_.cells().size(), 4096,
       [&](Eigen::Index cell) {
-        if constexpr (combining_basis<Basis>) {
+        if constexpr (at_once) {
           field.col(cell) += static_cast<float>(basis_.offset(cell));
-          return;
-        }
-        if constexpr (!computed && basis<Basis>) {  // three channels by one row
-          const auto offset = static_cast<float>(basis_.offset(cell));
-          const auto sums = dot_each(basis_.row(cell).data(), float_weights_.data(), float_weights_.rows());
-          for (Eigen::Index channel = 0; channel < 3; ++channel) field(channel, cell) = sums[channel] + offset;
           return;
         }
         const rgb value = mapped(cell);

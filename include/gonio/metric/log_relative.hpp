@@ -93,11 +93,11 @@ class log_relative {
   template <class Values>
   void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
     exponentiate(values.data(), values.size());
-    constexpr Eigen::Index at_once = 64;
+    constexpr Eigen::Index at_once = shifts_at_once;
     for (Eigen::Index begin = 0; begin < row.count; begin += at_once) {
       const Eigen::Index count = std::min(at_once, row.count - begin);
       std::array<float, at_once> shift;
-      read_shifts(row, begin, {shift.data(), static_cast<std::size_t>(count)});
+      compute_shifts(row, begin, {shift.data(), static_cast<std::size_t>(count)});
       for (Eigen::Index i = 0; i < count; ++i) {
         // A vector of four, of which the next cell overwrites the last number.
         const Eigen::Array4f relative = Eigen::Map<const Eigen::Array4f>(values.data() + 4 * (begin + i));
@@ -125,8 +125,9 @@ class log_relative {
   [[nodiscard]] static double log_reference(double reference) noexcept { return std::log(std::max(reference, 1e-8)); }
 
  private:
-  /// epsilon over the cosine weight of some cells of a row, from the cell `begin` on.
-  void read_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const;
+  static constexpr Eigen::Index shifts_at_once = 64;
+  /// epsilon over the cosine weight, of at most so many cells of a row from the cell `begin` on.
+  void compute_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const;
 
   [[nodiscard]] static double product_of(const cosine_pair& cosine) noexcept { return cosine.i * cosine.o; }
   [[nodiscard]] static double larger_of(const cosine_pair& cosine) noexcept { return std::max(cosine.i, cosine.o); }

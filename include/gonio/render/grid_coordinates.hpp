@@ -7,6 +7,8 @@
 /// The three angles come from ratios of sums and differences of the two directions, and their arc tangents from one
 /// polynomial, which a compiler can evaluate for several pairs at once.
 
+#include <gonio/table/grid.hpp>
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -30,6 +32,24 @@ struct grid_coordinates {
 };
 
 namespace detail {
+
+/// Of the first node of a grid's axis from the axis' beginning, in cells.
+template <std::floating_point Real>
+[[nodiscard]] inline Real first_node(const gonio::grid& cells) noexcept {
+  return cells.anchor() == cell_anchor::centre ? Real(0.5) : Real(0);
+}
+
+/// The nodes nearest to a place. That of phi_d may be its extent, which is the first again.
+template <std::floating_point Real>
+[[nodiscard]] inline cell_index nearest_nodes(const gonio::grid& cells, const grid_coordinates<Real>& place) noexcept {
+  const auto [heights, rows, columns] = cells.extents();
+  const Real shift = Real(0.5) - first_node<Real>(cells);
+  const auto node = [shift](Real share, int extent) {
+    return static_cast<int>(share * static_cast<Real>(extent) + shift);
+  };
+  return {std::min(node(place.theta_h, heights), heights - 1), std::min(node(place.theta_d, rows), rows - 1),
+          node(place.phi_d, columns)};
+}
 
 /// Coefficients in t^2 of atan(t) / t over pi / 2, for t from 0 to 1: the polynomials whose largest relative error is
 /// least (Remez's exchange), 1.6e-8 with nine and 4e-14 with sixteen.
@@ -167,12 +187,9 @@ class grid_coordinates_block {
     return {theta_h_[i], theta_d_[i], phi_d_[i]};
   }
 
-  using lanes = std::array<Real, size>;
-  [[nodiscard]] const lanes& theta_h() const noexcept { return theta_h_; }
-  [[nodiscard]] const lanes& theta_d() const noexcept { return theta_d_; }
-  [[nodiscard]] const lanes& phi_d() const noexcept { return phi_d_; }
-
  private:
+  using lanes = std::array<Real, size>;
+
   void compute(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo,
                Eigen::Index first) noexcept {
     const Real *ix = wi.x.data() + first, *iy = wi.y.data() + first, *iz = wi.z.data() + first;

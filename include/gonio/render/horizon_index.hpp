@@ -83,13 +83,8 @@ class horizon_index {
   /// The number of the cell whose node is nearest to a place.
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Index nearest(const grid_coordinates<Real>& place) const noexcept {
-    const auto [heights, rows, columns] = grid_.extents();
-    const auto whole = [this](Real coordinate, int extent) {
-      return static_cast<int>(coordinate * static_cast<Real>(extent) + (Real(0.5) - offset<Real>()));
-    };
-    const int phi = whole(place.phi_d, columns);
-    return (*this)(std::min(whole(place.theta_h, heights), heights - 1), std::min(whole(place.theta_d, rows), rows - 1),
-                   phi < columns ? phi : 0);
+    const auto [theta_h, theta_d, phi_d] = detail::nearest_nodes(grid_, place);
+    return (*this)(theta_h, theta_d, phi_d < columns_ ? phi_d : 0);
   }
 
   /// The cells around a place: theta_h and theta_d end with their first and last nodes, phi_d wraps.
@@ -104,7 +99,7 @@ class horizon_index {
                                                const NumberOf& number_of) const noexcept {
     const auto [heights, rows, columns] = grid_.extents();
     const auto nodes = [this](Real coordinate, int extent) {
-      return coordinate * static_cast<Real>(extent) - offset<Real>();
+      return coordinate * static_cast<Real>(extent) - detail::first_node<Real>(grid_);
     };
     const auto h = detail::clamped_nodes(nodes(place.theta_h, heights), heights),
                d = detail::clamped_nodes(nodes(place.theta_d, rows), rows),
@@ -127,12 +122,6 @@ class horizon_index {
 
  private:
   static constexpr std::uint16_t none = UINT16_MAX;
-
-  /// Of the first node from the axis' beginning, in cells.
-  template <std::floating_point Real>
-  [[nodiscard]] Real offset() const noexcept {
-    return grid_.anchor() == cell_anchor::centre ? Real(0.5) : Real(0);
-  }
 
   [[nodiscard]] std::string sentence(Eigen::Index column) const;
 

@@ -102,8 +102,7 @@ class lookup_table {
       const auto cell = finder_.find(ix, iy, iz, ox, oy, oz);
       return value_at<Real>(cells_(cell.theta_h, cell.theta_d, cell.phi_d));
     } else {
-      const auto at = to_grid_coordinates(ix, iy, iz, ox, oy, oz);
-      return value_at<Real>(place(at.theta_h, at.theta_d, at.phi_d));
+      return value_at<Real>(place(to_grid_coordinates(ix, iy, iz, ox, oy, oz)));
     }
   }
 
@@ -124,8 +123,7 @@ class lookup_table {
       const Eigen::Index count = std::min(size, out.size() - first);
       block.compute(wi, wo, first, count);
       // One step for all pairs after the other: while the processor waits for one value it asks for the next.
-      for (Eigen::Index i = 0; i < size; ++i)
-        places[i] = place(block.theta_h()[i], block.theta_d()[i], block.phi_d()[i]);
+      for (Eigen::Index i = 0; i < size; ++i) places[i] = place(block[i]);
       for (Eigen::Index i = 0; i < size; ++i) read(places[i], stored.data() + i * read_of_place);
       const computed* values = widened(stored, wide);
       for (Eigen::Index i = 0; i < count; ++i) {
@@ -194,11 +192,11 @@ class lookup_table {
   using place_of = std::conditional_t<Interpolation == interpolation::nearest, std::int32_t, cell_corner<Real>>;
 
   template <std::floating_point Real>
-  [[nodiscard]] place_of<Real> place(Real theta_h, Real theta_d, Real phi_d) const noexcept {
+  [[nodiscard]] place_of<Real> place(const grid_coordinates<Real>& coordinates) const noexcept {
     if constexpr (Interpolation == interpolation::nearest)
-      return cells_.nearest(theta_h, theta_d, phi_d);
+      return cells_.nearest(coordinates);
     else
-      return cells_.around(theta_h, theta_d, phi_d);
+      return cells_.around(coordinates);
   }
 
   /// How many numbers are read for a place: three, or the three of both neighbours along phi_d in four rows, and as

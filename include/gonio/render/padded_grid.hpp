@@ -58,21 +58,18 @@ class padded_grid {
 
   /// The number of the cell whose node is nearest to a place.
   template <std::floating_point Real>
-  [[nodiscard]] std::int32_t nearest(Real theta_h, Real theta_d, Real phi_d) const noexcept {
-    const auto [heights, rows, columns] = grid_.extents();
-    const Real shift = Real(0.5) - offset<Real>();
-    const int h = std::min(static_cast<int>(theta_h * static_cast<Real>(heights) + shift), heights - 1),
-              d = std::min(static_cast<int>(theta_d * static_cast<Real>(rows) + shift), rows - 1),
-              p = static_cast<int>(phi_d * static_cast<Real>(columns) + shift);
-    return (h * rows + d) * columns_ + p + 1;
+  [[nodiscard]] std::int32_t nearest(const grid_coordinates<Real>& place) const noexcept {
+    const auto [theta_h, theta_d, phi_d] = detail::nearest_nodes(grid_, place);
+    return (theta_h * grid_.extents().theta_d + theta_d) * columns_ + phi_d + 1;
   }
 
   /// The cells around a place. Before the first node of theta_h or theta_d and behind the last their values hold.
   template <std::floating_point Real>
-  [[nodiscard]] cell_corner<Real> around(Real theta_h, Real theta_d, Real phi_d) const noexcept {
+  [[nodiscard]] cell_corner<Real> around(const grid_coordinates<Real>& place) const noexcept {
     const auto [heights, rows, columns] = grid_.extents();
-    const auto h = inside(theta_h, heights), d = inside(theta_d, rows);
-    const Real p = phi_d * static_cast<Real>(columns) - offset<Real>() + 1;  // counted from the cell before the first
+    const auto h = inside(place.theta_h, heights), d = inside(place.theta_d, rows);
+    const Real p = place.phi_d * static_cast<Real>(columns) - detail::first_node<Real>(grid_) +
+                   1;  // counted from the cell before the first
     const int lower_h = lower(h, heights), lower_d = lower(d, rows), lower_p = std::min(static_cast<int>(p), columns);
     return {(lower_h * rows + lower_d) * columns_ + lower_p, h - static_cast<Real>(lower_h),
             d - static_cast<Real>(lower_d), p - static_cast<Real>(lower_p)};
@@ -81,19 +78,13 @@ class padded_grid {
  private:
   template <std::floating_point Real>
   [[nodiscard]] Real inside(Real share, int extent) const noexcept {
-    return std::min(std::max(share * static_cast<Real>(extent) - offset<Real>(), Real(0)),
+    return std::min(std::max(share * static_cast<Real>(extent) - detail::first_node<Real>(grid_), Real(0)),
                     static_cast<Real>(extent - 1));
   }
 
   template <std::floating_point Real>
   [[nodiscard]] static int lower(Real place, int extent) noexcept {
     return std::min(static_cast<int>(place), std::max(extent - 2, 0));
-  }
-
-  /// Of the first node from the axis' beginning, in cells.
-  template <std::floating_point Real>
-  [[nodiscard]] Real offset() const noexcept {
-    return grid_.anchor() == cell_anchor::centre ? Real(0.5) : Real(0);
   }
 
   gonio::grid grid_;

@@ -55,9 +55,9 @@ GONIO_INLINE log_relative log_relative::on(const valid_cells& cells) const {
   return {cells, std::move(moved), weighting_};
 }
 
-GONIO_INLINE void log_relative::read_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const {
+GONIO_INLINE void log_relative::compute_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const {
   // Loops without a choice in them, which compilers compute for several cells at once.
-  std::array<double, 64> weight;
+  std::array<double, shifts_at_once> weight;
   GONIO_ASSERT(shift.size() <= weight.size());
   const auto count = std::ssize(shift);
   const auto weigh_by = [&](auto combine) {

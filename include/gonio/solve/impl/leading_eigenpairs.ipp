@@ -20,7 +20,8 @@
 
 namespace gonio::detail {
 
-/// Normal numbers, by Box and Muller.
+/// Normal numbers, by Box and Muller: those of std::normal_distribution differ from one standard library to another,
+/// and a prior is to have the same bytes with each.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd random_vectors(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   Eigen::MatrixXd vectors(rows, columns);
@@ -29,6 +30,14 @@ namespace gonio::detail {
     vectors.data()[i] = radius * std::cos(2.0 * std::numbers::pi * uniform_number(generator));
   }
   return vectors;
+}
+
+/// -1 if the largest entry of a vector is negative, else 1.
+template <class Vector>
+[[nodiscard]] double sign_of_largest(const Vector& vector) {
+  Eigen::Index largest = 0;
+  vector.cwiseAbs().maxCoeff(&largest);
+  return vector[largest] < 0.0 ? -1.0 : 1.0;
 }
 
 /// Orthonormal columns that span what the given ones do.
@@ -50,11 +59,7 @@ GONIO_INLINE leading_eigenpairs decompose_leading(const Eigen::MatrixXd& matrix,
   const double floor = descending[0] * static_cast<double>(matrix.rows()) * std::numeric_limits<double>::epsilon();
   const Eigen::Index kept = std::min<Eigen::Index>(count, (descending.array() > floor).count());
   leading_eigenpairs result{descending.head(kept), eigen.vectors.rowwise().reverse().leftCols(kept)};
-  for (auto vector : result.vectors.colwise()) {
-    Eigen::Index largest = 0;
-    vector.cwiseAbs().maxCoeff(&largest);
-    if (vector[largest] < 0.0) vector = -vector;
-  }
+  for (auto vector : result.vectors.colwise()) vector *= detail::sign_of_largest(vector);
   return result;
 }
 
@@ -76,11 +81,9 @@ GONIO_INLINE subspace_eigenpairs iterate_leading(Eigen::Index size, Eigen::Index
 
   subspace_eigenpairs found{{inner.values, product(subspace, inner.vectors)}, inner.vectors};
   for (Eigen::Index i = 0; i < found.combination.cols(); ++i) {
-    Eigen::Index largest = 0;
-    found.pairs.vectors.col(i).cwiseAbs().maxCoeff(&largest);
-    if (found.pairs.vectors(largest, i) > 0.0) continue;
-    found.pairs.vectors.col(i) *= -1.0;
-    found.combination.col(i) *= -1.0;
+    const double sign = detail::sign_of_largest(found.pairs.vectors.col(i));
+    found.pairs.vectors.col(i) *= sign;
+    found.combination.col(i) *= sign;
   }
   const Eigen::MatrixXd residual =
       product(multiplied, found.combination) - found.pairs.vectors * found.pairs.values.asDiagonal();

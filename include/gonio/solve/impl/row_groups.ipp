@@ -55,11 +55,24 @@ class waiting_sums {
   Eigen::MatrixXd total_;
 };
 
-/// Calls `work(range)` for the blocks of some rows, in order.
+/// Calls `work(range)` for the blocks of a group's rows, in order.
 template <class Work>
-void for_each_block_of(block rows, Work&& work) {
+void for_each_block_of(Eigen::Index group, Eigen::Index all_rows, Work&& work) {
+  const block rows = rows_of_groups(all_rows, {group, group + 1});
   for (Eigen::Index begin = rows.begin; begin < rows.end; begin += rows_at_once)
     work(block{begin, std::min(rows.end, begin + rows_at_once)});
+}
+
+/// The same with A and A U of the block.
+template <class Work>
+void for_each_product_of(Eigen::Index group, const row_source& rows, const Eigen::MatrixXd& transposed_vectors,
+                         Work&& work) {
+  row_matrix held(rows_at_once, rows.columns);
+  for_each_block_of(group, rows.rows, [&](block range) {
+    auto read = held.topRows(range.size());
+    rows.read(range, read);
+    work(range, read, product(transposed_vectors, read.transpose()).transpose().eval());
+  });
 }
 
 }  // namespace gonio::detail
@@ -104,7 +117,7 @@ GONIO_INLINE Eigen::MatrixXd sum_of_subtrees(std::vector<Eigen::MatrixXd> sums) 
 GONIO_INLINE Eigen::MatrixXd gram(const row_source& rows, block groups, thread_count threads) {
   return sum_over_groups(groups, threads, [&](Eigen::Index group) {
     detail::product_sum<double> sum(rows.columns);
-    detail::for_each_block_of(rows_of_groups(rows.rows, {group, group + 1}), [&](block range) {
+    detail::for_each_block_of(group, rows.rows, [&](block range) {
       rows.read(range, Eigen::Map<row_matrix, 0, Eigen::OuterStride<>>(sum.row(0), range.size(), rows.columns,
                                                                        Eigen::OuterStride<>(sum.stride())));
       sum.add(range.size());
@@ -118,11 +131,7 @@ GONIO_INLINE Eigen::MatrixXd gram_times(const row_source& rows, const Eigen::Mat
   const Eigen::MatrixXd transposed = vectors.transpose();
   return sum_over_groups(groups, threads, [&](Eigen::Index group) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows.columns, vectors.cols());
-    row_matrix held(detail::rows_at_once, rows.columns);
-    detail::for_each_block_of(rows_of_groups(rows.rows, {group, group + 1}), [&](block range) {
-      auto read = held.topRows(range.size());
-      rows.read(range, read);
-      const Eigen::MatrixXd along = product(transposed, read.transpose()).transpose();
+    detail::for_each_product_of(group, rows, transposed, [&](block range, auto read, const Eigen::MatrixXd& along) {
       if (write) write(range, along);
       add_product(read.transpose(), along, sum);
     });
@@ -136,13 +145,9 @@ GONIO_INLINE void for_each_product(const row_source& rows, const Eigen::MatrixXd
   for_each_index(
       groups.size(), 1,
       [&](Eigen::Index number) {
-        const Eigen::Index group = groups.begin + number;
-        row_matrix held(detail::rows_at_once, rows.columns);
-        detail::for_each_block_of(rows_of_groups(rows.rows, {group, group + 1}), [&](block range) {
-          auto read = held.topRows(range.size());
-          rows.read(range, read);
-          write(range, product(transposed, read.transpose()).transpose());
-        });
+        detail::for_each_product_of(
+            groups.begin + number, rows, transposed,
+            [&](block range, const auto& /*read*/, const Eigen::MatrixXd& along) { write(range, along); });
       },
       threads);
 }
