@@ -2,6 +2,7 @@
 /// Runs a reader in a process of its own that may take so much memory and time, and no more.
 
 #include "../fuzz/harness.hpp"
+#include "../sanitized.hpp"
 
 #include <doctest/doctest.h>
 #include <malloc.h>
@@ -19,18 +20,6 @@
 #include <string>
 
 namespace crafted {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool sanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-inline constexpr bool sanitized = true;
-#else
-inline constexpr bool sanitized = false;
-#endif
-#else
-inline constexpr bool sanitized = false;
-#endif
 
 #if defined(__OPTIMIZE__)
 inline constexpr bool optimised = true;
