@@ -5,6 +5,7 @@
 #include <gonio/design/impl/cell_candidates.ipp>
 #include <gonio/design/impl/compressed_rows.ipp>
 #include <gonio/design/impl/design_criterion.ipp>
+#include <gonio/design/impl/error_sweep.ipp>
 #include <gonio/design/impl/expected_error.ipp>
 #include <gonio/design/impl/image_candidates.ipp>
 #include <gonio/design/impl/near_field_geometry.ipp>

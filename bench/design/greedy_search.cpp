@@ -39,6 +39,13 @@ const gonio::design::cell_candidates& candidates() {
   return all;
 }
 
+/// Each material left out of the prior that reconstructs it, as `gonio design` does if it is not told otherwise.
+const gonio::design::cell_candidates& candidates_left_out() {
+  static const gonio::design::cell_candidates all(
+      prior(), gonio::design::expected_error(prior(), {.leave_out = true}), {}, threads);
+  return all;
+}
+
 /// A choice of cells far from one another.
 std::vector<Eigen::Index> some_cells(std::size_t count) {
   std::vector<Eigen::Index> cells;
@@ -81,6 +88,14 @@ void sweep(benchmark::State& state) {
                                               benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(sweep)->Arg(0)->Arg(1)->Arg(10)->Arg(19)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void sweep_left_out(benchmark::State& state) {
+  const std::size_t n = state.range(0);
+  const auto cells = some_cells(n);
+  static_cast<void>(candidates_left_out());
+  for (auto _ : state) benchmark::DoNotOptimize(candidates_left_out().errors_with_each(cells).data());
+}
+BENCHMARK(sweep_left_out)->Arg(0)->Arg(1)->Arg(10)->Arg(19)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 /// The yardsticks of this machine: reading as many bytes, and a product of floats by Eigen on both cores.
 void read_as_many_bytes(benchmark::State& state) {

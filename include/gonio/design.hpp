@@ -7,6 +7,7 @@
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/design_criterion.hpp>
+#include <gonio/design/error_sweep.hpp>
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/design/expected_error.hpp>
 #include <gonio/design/image_candidates.hpp>

@@ -4,6 +4,7 @@
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/capture_geometry.hpp>
+#include <gonio/design/error_sweep.hpp>
 #include <gonio/design/expected_error.hpp>
 
 #include <Eigen/Core>
@@ -28,7 +29,7 @@ class cell_candidates {
       : cell_candidates(basis.cells(), basis.components(), std::move(criterion), std::move(constraint), threads,
                         sample_noise_penalties) {}
 
-  [[nodiscard]] Eigen::Index size() const noexcept { return materials_.rows(); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return geometry_.size(); }
   [[nodiscard]] const point_geometry& geometry() const noexcept { return geometry_; }
   [[nodiscard]] const expected_error& criterion() const noexcept { return criterion_; }
 
@@ -57,13 +58,14 @@ class cell_candidates {
   cell_candidates(const valid_cells& cells, const cell_matrix& components, expected_error criterion,
                   capture_constraint constraint, thread_count threads, std::span<const double> sample_noise_penalties);
 
-  [[nodiscard]] static Eigen::ArrayXf checked(std::span<const double> sample_noise_penalties, Eigen::Index cells);
+  void write_tiles(const cell_matrix& components);
+  void add_penalties(std::span<const double> sample_noise_penalties);
 
   point_geometry geometry_;
   expected_error criterion_;
   std::vector<Eigen::Index> excluded_;
-  cell_matrix materials_, weighted_;
-  Eigen::ArrayXf sample_noise_penalties_;
+  error_sweep::tiles tiles_;  ///< Y and W of eight cells after eight cells
+  std::vector<error_sweep::lanes> sample_noise_penalties_;
   thread_count threads_;
 };
 

@@ -4,6 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/design/expected_error.hpp>
+#include <gonio/design/left_out_squares.hpp>
 #include <gonio/solve/dense.hpp>
 #include <gonio/solve/float_product.hpp>
 
@@ -13,28 +14,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-
-namespace gonio::design::detail {
-
-/// The rows and columns of a symmetric 3 x 3 matrix that `expected_error::blocks` keeps.
-inline constexpr int block_rows[6] = {0, 1, 2, 0, 0, 1}, block_columns[6] = {0, 1, 2, 1, 2, 2};
-
-/// The diagonal of L^-1 X L^-1 of symmetric 3 x 3 matrices, by the adjugate of L.
-template <class Scalar>
-inline void left_out_squares(const Scalar (&x)[6], const Scalar (&l)[6], Scalar (&squares)[3]) {
-  const Scalar a00 = l[1] * l[2] - l[5] * l[5], a01 = l[4] * l[5] - l[3] * l[2], a02 = l[3] * l[5] - l[4] * l[1],
-               a11 = l[0] * l[2] - l[4] * l[4], a12 = l[3] * l[4] - l[0] * l[5], a22 = l[0] * l[1] - l[3] * l[3],
-               scale = Scalar(1) / (l[0] * a00 + l[3] * a01 + l[4] * a02);
-  const auto square = [&](Scalar p, Scalar q, Scalar r) {
-    return (p * (p * x[0] + Scalar(2) * (q * x[3] + r * x[4])) + q * (q * x[1] + Scalar(2) * r * x[5]) + r * r * x[2]) *
-           scale * scale;
-  };
-  squares[0] = square(a00, a01, a02);
-  squares[1] = square(a01, a11, a12);
-  squares[2] = square(a02, a12, a22);
-}
-
-}  // namespace gonio::design::detail
 
 namespace gonio::design {
 

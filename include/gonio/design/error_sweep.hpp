@@ -1,0 +1,73 @@
+#pragma once
+/// The expected error (Xu et al. 2016, doi:10.1145/2980179.2982396, Eq. 15) of some measurements and one more, for
+/// eight candidates side by side: what a search that tries every cell spends its time in.
+
+#include <gonio/design/expected_error.hpp>
+
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+namespace gonio::design {
+
+/// What `extended_error` says of one candidate after the other, in single precision: 10 n m operations for each
+/// candidate, n measurements and m observations. Its own rows of Y and W are all that comes from memory.
+class error_sweep {
+ public:
+  static constexpr Eigen::Index width = 8;
+  /// One number of each of eight candidates.
+  using lanes = Eigen::Array<float, width, 1>;
+  /// Tiles of eight candidates, one beside the other: in each, a column for each observation, eight numbers of Y above
+  /// eight of W, and columns of zeros up to `columns(m)`.
+  using tiles = Eigen::Array<float, 2 * width, Eigen::Dynamic>;
+
+  /// Columns of a tile, given the number of observations.
+  [[nodiscard]] static constexpr Eigen::Index columns(Eigen::Index observations) noexcept {
+    return (observations + observations_together - 1) / observations_together * observations_together;
+  }
+
+  error_sweep(const expected_error& criterion, const expected_error::rows& measured);
+
+  /// Writes E with each candidate of as many tiles as there are elements of `errors`, given their own etas. The first
+  /// tile begins at column `first` of `candidates`.
+  void operator()(const tiles& candidates, Eigen::Index first, std::span<const lanes> sample_noise_penalties,
+                  std::span<lanes> errors) const;
+
+ private:
+  static constexpr Eigen::Index measurements_together = 4, observations_together = 4;
+
+  /// What is found of the candidates of a tile.
+  struct found {
+    std::vector<lanes> on_y, on_w;   ///< Y y and Y (w - W'a), a number for each measurement
+    std::vector<lanes> once, twice;  ///< a = K^-1 Y y and b = K^-1 Y (w - W'a)
+    tiles left;                      ///< t = y - Y'a above u = w - W'a - Y'b
+    lanes d, r;                      ///< eta + y t and y u
+  };
+
+  void project(const float* tile, found& of) const;
+  void take_away(const float* tile, found& of) const;
+  [[nodiscard]] lanes own_growth(const found& of, const lanes& sample_noise_penalty) const;
+  [[nodiscard]] lanes mean(const found& of, const lanes& grown) const;
+  [[nodiscard]] lanes mean_left_out(const found& of, const lanes& own) const;
+  [[nodiscard]] lanes shift(const float* tile, const found& of) const;
+
+  Eigen::Index measurements_, observations_;
+  float eta_, common_shift_;
+  /// Y of four measurements beside one another: groups of them, and an observation a column in each.
+  Eigen::Array<float, measurements_together, Eigen::Dynamic> by_measurement_;
+  /// Y above W of four observations: groups of them, and a measurement a column in each.
+  Eigen::Array<float, 2 * observations_together, Eigen::Dynamic> by_observation_;
+  Eigen::MatrixXf inverse_, cross_;  ///< K^-1 and Y W'
+  Eigen::ArrayXf squared_errors_;
+  Eigen::Array<float, Eigen::Dynamic, 6> missed_, unknown_;  ///< none unless materials are left out
+  Eigen::ArrayXf own_variances_;
+  Eigen::ArrayXf noise_response_, weighted_response_;  ///< the second is W times the first
+  float noise_energy_, own_energy_;
+};
+
+}  // namespace gonio::design
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/error_sweep.ipp>
+#endif

@@ -1,0 +1,204 @@
+#pragma once
+/// Bodies of design/error_sweep.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/vector_kernels.hpp>
+#include <gonio/design/error_sweep.hpp>
+#include <gonio/design/left_out_squares.hpp>
+#include <gonio/solve/dense.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+namespace gonio::design {
+
+namespace detail {
+
+using sweep_lanes = error_sweep::lanes;
+
+[[nodiscard]] inline Eigen::Map<const sweep_lanes> lanes_at(const float* numbers) noexcept {
+  return Eigen::Map<const sweep_lanes>(numbers);
+}
+
+/// Y y and Y w of some measurements, whose rows of Y stand side by side. As `product_sum` does, sums stay in registers:
+/// a pack, because loops over arrays would keep them in memory.
+template <std::size_t... J>
+inline void project_lanes(const float* candidates, const float* rows, Eigen::Index observations, sweep_lanes* on_y,
+                          sweep_lanes* on_w, std::index_sequence<J...> /*measurements*/) {
+  constexpr Eigen::Index width = error_sweep::width;
+  std::array<sweep_lanes, sizeof...(J)> y_sums{((void)J, sweep_lanes(sweep_lanes::Zero()))...}, w_sums = y_sums;
+  for (Eigen::Index i = 0; i < observations; ++i, candidates += 2 * width, rows += sizeof...(J)) {
+    const sweep_lanes y = lanes_at(candidates), w = lanes_at(candidates + width);
+    ((y_sums[J] += y * rows[J]), ...);
+    ((w_sums[J] += w * rows[J]), ...);
+  }
+  ((on_y[J] = y_sums[J]), ...);
+  ((on_w[J] = w_sums[J]), ...);
+}
+
+/// t = y - Y'a and u = w - W'a - Y'b of some observations, whose columns of Y and W are `rows`; adds y t to d and y u
+/// to r.
+template <std::size_t... I>
+inline void take_away_lanes(const float* candidates, const float* rows, const sweep_lanes* a, const sweep_lanes* b,
+                            Eigen::Index measurements, float* left, sweep_lanes& d, sweep_lanes& r,
+                            std::index_sequence<I...> /*observations*/) {
+  constexpr Eigen::Index width = error_sweep::width, together = sizeof...(I);
+  std::array<sweep_lanes, together> t{sweep_lanes(lanes_at(candidates + 2 * width * I))...},
+      u{sweep_lanes(lanes_at(candidates + 2 * width * I + width))...},
+      more{((void)I, sweep_lanes(sweep_lanes::Zero()))...};
+  for (Eigen::Index j = 0; j < measurements; ++j, rows += 2 * together) {
+    const sweep_lanes once = a[j], twice = b[j];
+    ((t[I] -= once * rows[I]), ...);
+    ((u[I] -= once * rows[together + I]), ...);
+    ((more[I] += twice * rows[I]), ...);
+  }
+  ((u[I] -= more[I]), ...);
+  d += ((lanes_at(candidates + 2 * width * I) * t[I]) + ...);
+  r += ((lanes_at(candidates + 2 * width * I) * u[I]) + ...);
+  const auto store = [&](std::size_t i) {
+    Eigen::Map<sweep_lanes>(left + 2 * width * i) = t[i];
+    Eigen::Map<sweep_lanes>(left + 2 * width * i + width) = u[i];
+  };
+  (store(I), ...);
+}
+
+/// factors x, for the transpose of the factors.
+inline void multiply_lanes(const Eigen::MatrixXf& transposed, const sweep_lanes* x, sweep_lanes* out) {
+  for (Eigen::Index i = 0; i < transposed.cols(); ++i) {
+    sweep_lanes sum = sweep_lanes::Zero();
+    for (Eigen::Index j = 0; j < transposed.rows(); ++j) sum += transposed(j, i) * x[j];
+    out[i] = sum;
+  }
+}
+
+}  // namespace detail
+
+GONIO_INLINE error_sweep::error_sweep(const expected_error& criterion, const expected_error::rows& measured)
+    : measurements_(measured.size()),
+      observations_(measured.both.cols()),
+      eta_(static_cast<float>(criterion.options().eta)),
+      common_shift_(static_cast<float>(criterion.options().common_shift)) {
+  const expected_error::remainder left = criterion.state(measured);
+  const Eigen::Index n = measurements_, m = observations_;
+  const auto y = measured.materials(), w = measured.weighted();
+  by_measurement_.setZero(measurements_together, (n + measurements_together - 1) / measurements_together * m);
+  by_observation_.setZero(2 * observations_together, columns(m) / observations_together * n);
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = 0; i < m; ++i) {
+      by_measurement_(j % measurements_together, j / measurements_together * m + i) = static_cast<float>(y(j, i));
+      auto column = by_observation_.col(i / observations_together * n + j);
+      column[i % observations_together] = static_cast<float>(y(j, i));
+      column[observations_together + i % observations_together] = static_cast<float>(w(j, i));
+    }
+  inverse_ = to_float(left.inverse);
+  if (n > 0) cross_ = to_float(product(w, y.transpose()));  // transposed, as K^-1 is in any case
+  squared_errors_ = left.squared_errors.cast<float>();
+  missed_ = left.missed.cast<float>();
+  unknown_ = left.unknown.cast<float>();
+  own_variances_ = left.own_variances.cast<float>();
+  noise_response_ = left.noise_response.cast<float>();
+  weighted_response_.resize(n);
+  for (Eigen::Index j = 0; j < n; ++j) weighted_response_[j] = static_cast<float>(w.row(j).dot(left.noise_response));
+  noise_energy_ = static_cast<float>(left.noise_energy);
+  own_energy_ = static_cast<float>(left.own_energy);
+}
+
+GONIO_INLINE void error_sweep::operator()(const tiles& candidates, Eigen::Index first,
+                                          std::span<const lanes> sample_noise_penalties,
+                                          std::span<lanes> errors) const {
+  const Eigen::Index n = measurements_, groups = by_measurement_.cols() / std::max<Eigen::Index>(observations_, 1);
+  found of;
+  for (auto* sums : {&of.on_y, &of.on_w}) sums->resize(static_cast<std::size_t>(groups * measurements_together));
+  for (auto* known : {&of.once, &of.twice}) known->resize(static_cast<std::size_t>(n));
+  of.left.resize(2 * width, columns(observations_));
+  for (std::size_t number = 0; number < errors.size(); ++number) {
+    const float* tile = candidates.col(first + static_cast<Eigen::Index>(number) * columns(observations_)).data();
+    project(tile, of);
+    of.d = eta_ + sample_noise_penalties[number];
+    take_away(tile, of);
+    const lanes grown = own_growth(of, sample_noise_penalties[number]);
+    errors[number] = missed_.rows() > 0 ? mean_left_out(of, own_energy_ + grown) : mean(of, grown);
+    if (common_shift_ > 0.0f) errors[number] += shift(tile, of);
+  }
+}
+
+GONIO_INLINE void error_sweep::project(const float* tile, found& of) const {
+  for (Eigen::Index j = 0; j < measurements_; j += measurements_together)
+    detail::project_lanes(tile, by_measurement_.data() + j * observations_, observations_, &of.on_y[j], &of.on_w[j],
+                          std::make_index_sequence<measurements_together>());
+  detail::multiply_lanes(inverse_, of.on_y.data(), of.once.data());
+  for (Eigen::Index j = 0; j < measurements_; ++j)
+    for (Eigen::Index k = 0; k < measurements_; ++k) of.on_w[j] -= cross_(k, j) * of.once[k];
+  detail::multiply_lanes(inverse_, of.on_w.data(), of.twice.data());
+}
+
+GONIO_INLINE void error_sweep::take_away(const float* tile, found& of) const {
+  of.r.setZero();
+  for (Eigen::Index i = 0; i < of.left.cols(); i += observations_together)
+    detail::take_away_lanes(tile + i * 2 * width, by_observation_.data() + i * 2 * measurements_, of.once.data(),
+                            of.twice.data(), measurements_, of.left.col(i).data(), of.d, of.r,
+                            std::make_index_sequence<observations_together>());
+}
+
+/// By how much errors of their own add to each squared error, beyond what they do now.
+GONIO_INLINE error_sweep::lanes error_sweep::own_growth(const found& of, const lanes& sample_noise_penalty) const {
+  lanes squares = sample_noise_penalty / static_cast<float>(observations_), products = lanes::Zero();
+  for (Eigen::Index j = 0; j < measurements_; ++j) {
+    const lanes known_once = own_variances_[j] * of.once[j];
+    squares += known_once * of.once[j];
+    products += known_once * of.twice[j];
+  }
+  return squares * of.r / (of.d * of.d) - 2.0f * products / of.d;
+}
+
+GONIO_INLINE error_sweep::lanes error_sweep::mean(const found& of, const lanes& grown) const {
+  const lanes along = of.r / (of.d * of.d), across = 2.0f / of.d;
+  lanes sum = lanes::Zero();
+  const float* at = of.left.data();
+  for (Eigen::Index i = 0; i < observations_; ++i, at += 2 * width) {
+    const lanes t = detail::lanes_at(at), u = detail::lanes_at(at + width);
+    sum += (squared_errors_[i] + (grown + t * (along * t - across * u))).max(0.0f).sqrt();
+  }
+  return sum / static_cast<float>(observations_);
+}
+
+/// The same of materials left out.
+GONIO_INLINE error_sweep::lanes error_sweep::mean_left_out(const found& of, const lanes& own) const {
+  const lanes inverse = 1.0f / of.d, along = of.r * inverse * inverse;
+  lanes sum = lanes::Zero();
+  const float* at = of.left.data();
+  for (Eigen::Index material = 0; material < missed_.rows(); ++material, at += 3 * 2 * width) {
+    const lanes t[3] = {detail::lanes_at(at), detail::lanes_at(at + 2 * width), detail::lanes_at(at + 4 * width)},
+                u[3] = {detail::lanes_at(at + width), detail::lanes_at(at + 3 * width),
+                        detail::lanes_at(at + 5 * width)};
+    lanes x[6], l[6], squares[3];
+    for (int e = 0; e < 6; ++e) {
+      const int a = detail::block_rows[e], b = detail::block_columns[e];
+      const lanes both = t[a] * t[b];
+      x[e] = missed_(material, e) - (t[a] * u[b] + u[a] * t[b]) * inverse + both * along;
+      l[e] = unknown_(material, e) - both * inverse;
+    }
+    detail::left_out_squares(x, l, squares);
+    for (const lanes& square : squares) sum += (square + own).max(0.0f).sqrt();
+  }
+  return sum / static_cast<float>(observations_);
+}
+
+/// What a shift that all samples share adds: (SQ)+_eta 1 grows by A q (1 - q . (SQ)+_eta 1) / d.
+GONIO_INLINE error_sweep::lanes error_sweep::shift(const float* tile, const found& of) const {
+  lanes growth = lanes::Ones(), along = lanes::Zero();
+  for (Eigen::Index i = 0; i < observations_; ++i, tile += 2 * width) {
+    growth -= detail::lanes_at(tile) * noise_response_[i];
+    along += detail::lanes_at(tile + width) * noise_response_[i];
+  }
+  for (Eigen::Index j = 0; j < measurements_; ++j) along -= of.once[j] * weighted_response_[j];
+  growth /= of.d;
+  return common_shift_ * (noise_energy_ + growth * (2.0f * along + growth * of.r)).max(0.0f).sqrt();
+}
+
+}  // namespace gonio::design
