@@ -48,11 +48,22 @@ using discrepancy_places = Eigen::Matrix<double, 4, Eigen::Dynamic>;
   return places;
 }
 
+/// k of places from the `first` on with one.
+template <class Column>
+inline void covariances_with(const Eigen::Vector4d& place, const discrepancy_places& places, Eigen::Index first,
+                             Column&& out) {
+  out = (-0.5 * (places.rightCols(places.cols() - first).colwise() - place).colwise().squaredNorm().array())
+            .exp()
+            .transpose();
+}
+
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd covariance_of(const discrepancy_places& places) {
-  Eigen::MatrixXd all(places.cols(), places.cols());
-  for (Eigen::Index j = 0; j < all.cols(); ++j)
-    for (Eigen::Index i = j; i < all.rows(); ++i)
-      all(i, j) = all(j, i) = squared_exponential((places.col(i) - places.col(j)).squaredNorm());
+  const Eigen::Index n = places.cols();
+  Eigen::MatrixXd all(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    covariances_with(places.col(j), places, j, all.col(j).tail(n - j));
+    all.row(j).tail(n - j) = all.col(j).tail(n - j).transpose();
+  }
   return all;
 }
 
@@ -97,10 +108,9 @@ GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, dou
 
 GONIO_INLINE void discrepancy_functions::read(std::span<const half_difference> angles, row_block out) const {
   Eigen::MatrixXd columns(size(), std::ssize(angles));
-  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    const Eigen::Vector4d here = detail::discrepancy_place(angles[i], shared_->lengths);
-    columns.col(i) = (-0.5 * (shared_->places.colwise() - here).colwise().squaredNorm().array()).exp().transpose();
-  }
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    detail::covariances_with(detail::discrepancy_place(angles[i], shared_->lengths), shared_->places, 0,
+                             columns.col(i));
   out = std::sqrt(shared_->amplitude) * shared_->factors.solve_lower(columns).transpose();
 }
 
@@ -130,12 +140,15 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
       rows, 1,
       [&](Eigen::Index row) {
         const int j = static_cast<int>(row);
+        Eigen::ArrayX3d places(columns, 3);
+        for (int k = 0; k < columns; ++k)
+          places.row(k) = detail::discrepancy_place({0.0, over.theta_d(j), over.phi_d(k)}, lengths).tail<3>();
         Eigen::MatrixXd slice(columns, size());
-        for (int k = 0; k < columns; ++k) {
-          const Eigen::Vector4d place = detail::discrepancy_place({0.0, over.theta_d(j), over.phi_d(k)}, lengths);
-          for (Eigen::Index centre = 0; centre < size(); ++centre)
-            slice(k, centre) =
-                detail::squared_exponential((shared_->places.col(centre).tail<3>() - place.tail<3>()).squaredNorm());
+        for (Eigen::Index centre = 0; centre < size(); ++centre) {
+          const Eigen::Array3d at = shared_->places.col(centre).tail<3>();
+          slice.col(centre) = (-0.5 * ((places.col(0) - at[0]).square() + (places.col(1) - at[1]).square() +
+                                       (places.col(2) - at[2]).square()))
+                                  .exp();
         }
         const Eigen::MatrixXd values = product(slice, by_height);
         for (int i = 0; i < heights; ++i)

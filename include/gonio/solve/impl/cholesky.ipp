@@ -9,7 +9,10 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace gonio {
 
@@ -66,10 +69,30 @@ GONIO_INLINE void cholesky::solve_lower_in_place(double* b) const noexcept {
   }
 }
 
+namespace detail {
+
+/// Two vector registers of rows, by at most six columns: as in `product_sum`.
+inline constexpr Eigen::Index substitution_rows =
+    2 * std::max(EIGEN_MAX_ALIGN_BYTES, 16) / Eigen::Index{sizeof(double)};
+
+/// Takes L x from a tile of some columns of x, `known` unknowns of which are found; both matrices have k rows.
+template <std::size_t... Column>
+inline void subtract_known(const double* lower, const double* found, Eigen::Index known, double* tile, Eigen::Index k,
+                           std::index_sequence<Column...> /*columns*/) {
+  using piece = Eigen::Array<double, substitution_rows, 1>;
+  std::array<piece, sizeof...(Column)> sums{((void)Column, piece(piece::Zero()))...};
+  for (Eigen::Index j = 0; j < known; ++j) {
+    const piece rows = Eigen::Map<const piece>(lower + j * k);
+    ((sums[Column] += rows * found[j + Column * k]), ...);
+  }
+  ((Eigen::Map<piece>(tile + Column * k) -= sums[Column]), ...);
+}
+
+}  // namespace detail
+
 GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
-  // Solve for some unknowns of all columns, then take them from the other equations, a tile of L that stays in the
-  // cache after the other.
-  constexpr Eigen::Index panel = 64, tile = 256;
+  // Solve for some unknowns of all columns, then take them from the other equations.
+  constexpr Eigen::Index panel = 32, together = 6;
   const Eigen::Index k = lower_.rows();
   Eigen::MatrixXd x = b;
   for (Eigen::Index begin = 0; begin < k; begin += panel) {
@@ -79,10 +102,19 @@ GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
         const double known = x(j, column) /= lower_(j, j);
         add_scaled(-known, lower_.data() + j * (k + 1) + 1, &x(j, column) + 1, end - j - 1);
       }
-    for (Eigen::Index row = end; row < k; row += tile)
-      for (Eigen::Index column = 0; column < x.cols(); ++column)
-        for (Eigen::Index j = begin; j < end; ++j)
-          add_scaled(-x(j, column), &lower_(row, j), &x(row, column), std::min(tile, k - row));
+    Eigen::Index row = end;
+    for (; row + detail::substitution_rows <= k; row += detail::substitution_rows) {
+      Eigen::Index column = 0;
+      for (; column + together <= x.cols(); column += together)
+        detail::subtract_known(&lower_(row, begin), &x(begin, column), end - begin, &x(row, column), k,
+                               std::make_index_sequence<together>());
+      for (; column < x.cols(); ++column)
+        detail::subtract_known(&lower_(row, begin), &x(begin, column), end - begin, &x(row, column), k,
+                               std::make_index_sequence<1>());
+    }
+    if (row == k) continue;
+    for (Eigen::Index column = 0; column < x.cols(); ++column)
+      for (Eigen::Index j = begin; j < end; ++j) add_scaled(-x(j, column), &lower_(row, j), &x(row, column), k - row);
   }
   return x;
 }
