@@ -76,4 +76,5 @@ def main():
         print_whole(found)
 
 
-main()
+if __name__ == "__main__":
+    main()

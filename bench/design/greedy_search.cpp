@@ -2,6 +2,7 @@
 /// remembers): E(S) of 20 samples, the set-up of the candidates, and sweeps over all cells as the next sample, beside
 /// reading as many bytes.
 
+#include "../limit.hpp"
 #include "../real_materials.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/design/cell_candidates.hpp>
@@ -34,6 +35,11 @@ const gonio::log_relative_pca& prior() {
   return learned;
 }
 
+/// Of Y, and of W.
+double entries() {
+  return static_cast<double>(prior().components().rows()) * static_cast<double>(prior().coefficients().rows());
+}
+
 const gonio::design::cell_candidates& candidates() {
   static const gonio::design::cell_candidates all(prior(), gonio::design::expected_error(prior()), {}, threads);
   return all;
@@ -41,8 +47,8 @@ const gonio::design::cell_candidates& candidates() {
 
 /// Each material left out of the prior that reconstructs it, as `gonio design` does if it is not told otherwise.
 const gonio::design::cell_candidates& candidates_left_out() {
-  static const gonio::design::cell_candidates all(
-      prior(), gonio::design::expected_error(prior(), {.leave_out = true}), {}, threads);
+  static const gonio::design::cell_candidates all(prior(), gonio::design::expected_error(prior(), {.leave_out = true}),
+                                                  {}, threads);
   return all;
 }
 
@@ -74,27 +80,27 @@ void set_up(benchmark::State& state) {
     const gonio::design::cell_candidates all(prior(), gonio::design::expected_error(prior()), {}, threads);
     benchmark::DoNotOptimize(all.size());
   }
+  count_operations(state, 4.0 * entries() * static_cast<double>(prior().size()));
+  limited_by(state, "product");
 }
 BENCHMARK(set_up)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(2);
 
-/// The bytes of Y and W, which a sweep reads once, and its operations.
-void sweep(benchmark::State& state) {
-  const std::size_t n = state.range(0);
+/// The bytes of Y and W, which a sweep reads once, and its operations with n measurements: 10 n for each entry of Y in
+/// the products, and `end` in what is made of them, a square root among them.
+void measure_sweep(benchmark::State& state, const gonio::design::cell_candidates& all, double end) {
+  const auto n = static_cast<std::size_t>(state.range(0));
   const auto cells = some_cells(n);
-  for (auto _ : state) benchmark::DoNotOptimize(candidates().errors_with_each(cells).data());
-  const double entries = static_cast<double>(candidates().size()) * static_cast<double>(prior().coefficients().rows());
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(8.0 * entries));
-  state.counters["GF/s"] = benchmark::Counter(entries * (8.0 * static_cast<double>(n) + 10.0) * 1e-9,
-                                              benchmark::Counter::kIsIterationInvariantRate);
+  for (auto _ : state) benchmark::DoNotOptimize(all.errors_with_each(cells).data());
+  count_bytes(state, 8.0 * entries());
+  count_operations(state, entries() * (10.0 * static_cast<double>(n) + end));
+  limited_by(state, "read_as_many_bytes; product");
 }
+
+void sweep(benchmark::State& state) { measure_sweep(state, candidates(), 12.0); }
 BENCHMARK(sweep)->Arg(0)->Arg(1)->Arg(10)->Arg(19)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-void sweep_left_out(benchmark::State& state) {
-  const std::size_t n = state.range(0);
-  const auto cells = some_cells(n);
-  static_cast<void>(candidates_left_out());
-  for (auto _ : state) benchmark::DoNotOptimize(candidates_left_out().errors_with_each(cells).data());
-}
+/// Of each material 18 operations for each of X and L, 24 for an adjugate, 60 for three squares: 44 for each entry.
+void sweep_left_out(benchmark::State& state) { measure_sweep(state, candidates_left_out(), 44.0); }
 BENCHMARK(sweep_left_out)->Arg(0)->Arg(1)->Arg(10)->Arg(19)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 /// The yardsticks of this machine: reading as many bytes, and a product of floats by Eigen on both cores.
@@ -112,7 +118,7 @@ void read_as_many_bytes(benchmark::State& state) {
         threads);
     benchmark::DoNotOptimize(sums.data());
   }
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(4 * count));
+  count_bytes(state, 4.0 * static_cast<double>(count));
 }
 BENCHMARK(read_as_many_bytes)->UseRealTime()->Unit(benchmark::kMillisecond);
 
@@ -124,8 +130,7 @@ void product(benchmark::State& state) {
     gonio::for_each_block(
         2, 1, [&](gonio::block range) { results[range.begin].noalias() = a * a; }, threads);
   benchmark::DoNotOptimize(results[0].data());
-  state.counters["GF/s"] =
-      benchmark::Counter(2.0 * 2.0 * size * size * size * 1e-9, benchmark::Counter::kIsIterationInvariantRate);
+  count_operations(state, 2.0 * 2.0 * size * size * size);
 }
 BENCHMARK(product)->UseRealTime()->Unit(benchmark::kMillisecond);
 

@@ -1,6 +1,7 @@
 /// Correction functions on real materials: the basis, one round of the iteration for three channels, and what the
 /// machine could do: a rank update by Eigen on as many rows, and a copy of as many bytes.
 
+#include "../limit.hpp"
 #include "../real_materials.hpp"
 #include <gonio/estimate/correction_iteration.hpp>
 #include <gonio/estimate/decomposition.hpp>
@@ -52,12 +53,11 @@ void one_round(benchmark::State& state, const Weighting& weighting) {
   gonio::correction_run run{initial, corrections(), measured, weighting};
   run.step();
   for (auto _ : state) benchmark::DoNotOptimize(run.step());
-  if constexpr (!std::same_as<Weighting, gonio::trust_all>)
-    state.counters["GF/s"] =
-        benchmark::Counter(operations(measured) * 1e-9, benchmark::Counter::kIsIterationInvariantRate);
-  // A round that builds no normal equations reads the rows twice: moments, and the correction at the samples.
-  state.counters["GB/s"] = benchmark::Counter(2.0 * 12e-9 * static_cast<double>(measured.size() * corrections().size()),
-                                              benchmark::Counter::kIsIterationInvariantRate);
+  // A round that builds no normal equations reads the rows twice: right-hand sides, and the correction at the samples.
+  constexpr bool assembles = !std::same_as<Weighting, gonio::trust_all>;
+  if (assembles) count_operations(state, operations(measured));
+  if (!assembles) count_bytes(state, 2.0 * 12.0 * static_cast<double>(measured.size() * corrections().size()));
+  limited_by(state, assembles ? "eigen_rank_update" : state.range(0) == 1 ? "read_rows" : "read_rows_apart");
 }
 
 void round_with_weights(benchmark::State& state) { one_round(state, gonio::relative_deviation_weights{3.0}); }
@@ -71,6 +71,10 @@ BENCHMARK(round_with_fixed_weights)->Arg(1)->Arg(10)->UseRealTime()->Unit(benchm
 
 void correction_basis(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(gonio::correction{others()});
+  // The approximations of all materials by the others; their Gram matrices are known after the first time.
+  const auto k = static_cast<double>(others().size());
+  count_operations(state, 6.0 * k * k * static_cast<double>(materials().cells.size()));
+  limited_by(state, "eigen_product");
 }
 BENCHMARK(correction_basis)->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(2);
 
@@ -97,24 +101,41 @@ void eigen_rank_update(benchmark::State& state) {
     });
     benchmark::DoNotOptimize(sum.data());
   }
-  state.counters["GF/s"] = benchmark::Counter(static_cast<double>(rows) * static_cast<double>(k * (k + 1)) * 1e-9,
-                                              benchmark::Counter::kIsIterationInvariantRate);
+  count_operations(state, static_cast<double>(rows) * static_cast<double>(k * (k + 1)));
 }
 BENCHMARK(eigen_rank_update)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// The other yardstick: reading a channel's rows.
-void read_rows(benchmark::State& state) {
-  const auto channel = corrections().channel(1);
-  const std::size_t rows = channel.values().rows();
+/// As many products by Eigen in float, on two threads.
+void eigen_product(benchmark::State& state) {
+  const auto channel = others().channel(1);
+  const Eigen::Index rows = channel.values().rows(), k = std::ssize(others());
+  const Eigen::MatrixXf weights = Eigen::MatrixXf::Random(channel.values().cols(), channel.values().cols());
+  for (auto _ : state)
+    gonio::for_each_block(rows, 256, [&](gonio::block range) {
+      Eigen::MatrixXf values;
+      values.noalias() = weights * channel.values().middleRows(range.begin, range.size()).transpose();
+      benchmark::DoNotOptimize(values.data());
+    });
+  count_operations(state, 2.0 * static_cast<double>(k * k) * static_cast<double>(rows));
+}
+BENCHMARK(eigen_product)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// Reading the rows of all channels, of one cell in `step`.
+void read_every(benchmark::State& state, Eigen::Index step) {
+  const Eigen::Index count = materials().cells.size() / step, functions = std::ssize(corrections());
   for (auto _ : state) {
-    const double sum = gonio::sum_over_blocks(rows, 4096, 0.0, [&](double& part, gonio::block range) {
-      part += static_cast<double>(channel.values().middleRows(range.begin, range.size()).sum());
+    const float sum = gonio::sum_over_blocks(count, 1024, 0.0f, [&](float& part, gonio::block range) {
+      for (Eigen::Index i = range.begin; i < range.end; ++i)
+        for (Eigen::Index c = 0; c < 3; ++c) part += corrections().channel(c).values().row(i * step).sum();
     });
     benchmark::DoNotOptimize(sum);
   }
-  state.counters["GB/s"] = benchmark::Counter(4e-9 * static_cast<double>(rows * corrections().size()),
-                                              benchmark::Counter::kIsIterationInvariantRate);
+  count_bytes(state, 12.0 * static_cast<double>(count * functions));
 }
+
+void read_rows(benchmark::State& state) { read_every(state, 1); }
+void read_rows_apart(benchmark::State& state) { read_every(state, 10); }
+BENCHMARK(read_rows_apart)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(read_rows)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace

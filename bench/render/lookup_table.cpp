@@ -4,6 +4,7 @@
 /// memory. "reading" reads what the table would read for the same pairs, at places that were computed before: the
 /// limit. Counters: bytes are the memory of a material.
 
+#include "../limit.hpp"
 #include <gonio/io/prior.hpp>
 #include <gonio/render.hpp>
 
@@ -120,9 +121,17 @@ const gonio::render::lookup_table<Stored, Interpolation>& far_table() {
   return table;
 }
 
+/// Reading alone, of the same table.
+template <class Stored, interpolation Interpolation>
+std::string reading_of() {
+  return std::string("reading_alone<") + (sizeof(Stored) == 2 ? "Eigen::half" : "float") +
+         (Interpolation == interpolation::nearest ? ", nearest>" : ", trilinear>");
+}
+
 template <class Stored, interpolation Interpolation, class Real>
 void one_by_one(benchmark::State& state) {
   look_up_all<Real>(state, far_table<Stored, Interpolation>());
+  limited_by(state, reading_of<Stored, Interpolation>());
 }
 
 /// The same work on a grid so small that it stays in the first cache: what is left is computation.
@@ -174,6 +183,7 @@ void evaluate_all(benchmark::State& state, const Table& table) {
 template <class Stored, interpolation Interpolation, class Real>
 void many_at_once(benchmark::State& state) {
   evaluate_all<gonio::render::lookup_table<Stored, Interpolation>, Real>(state, far_table<Stored, Interpolation>());
+  limited_by(state, reading_of<Stored, Interpolation>());
 }
 
 template <class Stored, interpolation Interpolation, class Real>
