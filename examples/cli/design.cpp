@@ -16,6 +16,8 @@
 #include <gonio/design/published_directions.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
 #include <gonio/io/capture_constraint.hpp>
+#include <gonio/io/checked_file.hpp>
+#include <gonio/io/file.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/samples.hpp>
 
@@ -159,6 +161,30 @@ void finish(const design_command& command, const gonio::log_relative_pca& prior,
   std::cout << sentence << '\n';
 }
 
+/// Of all that a search's result depends on.
+std::uint32_t checksum_of(const design_command& command) {
+  const design_options& design = command.design;
+  std::vector<std::string> words{json{design.count, design.geometry, design.criterion, design.search, design.eta,
+                                      design.noise, design.common_shift, design.in_sample, design.seed,
+                                      command.angular_error, command.field_of_view, command.step}
+                                     .dump()};
+  for (const std::filesystem::path& file : {command.prior, command.constraint, command.start})
+    words.push_back(file.empty() ? "" : std::to_string(gonio::io::detail::checksum(gonio::io::read_bytes(file))));
+  return cli::checksum_of(words);
+}
+
+/// Goes on with what an earlier run has left, and leaves nothing once the directions are written.
+void search(const design_command& command, const gonio::log_relative_pca& prior, progress_bar& bar,
+            const team& processes) {
+  sweep_record record(command.output, checksum_of(command), processes);
+  const designed found = design(prior, command.design, bar.listener(), processes, &record);
+  bar.wipe();
+  if (!processes.writes()) return;
+  if (record.earlier() > 0 && !command.print_json) std::cout << "went on behind sweep " << record.earlier() << '\n';
+  finish(command, prior, found, false);
+  record.remove();
+}
+
 /// Searches, or takes what was published; each process knows the result.
 void run(design_command command, const team& processes) {
   progress_bar bar;
@@ -176,10 +202,9 @@ void run(design_command command, const team& processes) {
   command.design.near_field.step = gonio::radians(command.step);
   command.design.angular_error = gonio::radians(command.angular_error);
   if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start, reading_of());
-  const designed found =
-      is_published ? set_of_the_literature(prior, command) : design(prior, command.design, bar.listener(), processes);
+  if (!is_published) return search(command, prior, bar, processes);
   bar.wipe();
-  if (processes.writes()) finish(command, prior, found, is_published);
+  if (processes.writes()) finish(command, prior, set_of_the_literature(prior, command), true);
 }
 
 void run_together(design_command command, const team& processes) {

@@ -167,7 +167,7 @@ void add_learn(command& app, const team& processes) {
       .excludes(split);
   command
       .add_option("--seed", options->seed,
-                  "Seed of the random subspace in which more than 1024 materials are decomposed (Halko et al. 2011)")
+                  "Seed of the random subspace in which more than 341 materials are decomposed (Halko et al. 2011)")
       .excludes(split)
       .capture_default_str();
   command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();

@@ -43,12 +43,18 @@ capture_plan start_of(const Geometry& geometry, const design_options& options) {
   return plan;
 }
 
-/// An objective whose sweeps several processes share.
+/// Who shares the sweeps of a search, and what is kept of them, if anything is.
+struct sweeping {
+  const team& processes;
+  sweep_record* record;
+};
+
+/// An objective whose sweeps several processes share, and an interrupted search does not do again.
 template <gonio::design::sweeping_objective Objective>
 class shared_sweeps {
  public:
   /// Both must outlive it.
-  shared_sweeps(const Objective& whole, const team& processes) : whole_(whole), processes_(processes) {}
+  shared_sweeps(const Objective& whole, const sweeping& how) : whole_(whole), how_(how) {}
 
   [[nodiscard]] const auto& geometry() const noexcept { return whole_.geometry(); }
   [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const { return whole_(candidates); }
@@ -58,25 +64,32 @@ class shared_sweeps {
   }
 
   [[nodiscard]] Eigen::Index best_beside(std::span<const Eigen::Index> candidates) const {
-    const gonio::block share = processes_.share_of(geometry().size(), Objective::sweep_block);
+    const auto sweep = [&] { return best_of_sweep(candidates); };
+    const Eigen::Index best = how_.record ? how_.record->next(sweep) : sweep();
+    if (best >= geometry().size()) gonio::refuse("the record of the sweeps names a candidate that there is not");
+    return best;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Index best_of_sweep(std::span<const Eigen::Index> candidates) const {
+    const gonio::block share = how_.processes.share_of(geometry().size(), Objective::sweep_block);
     std::vector<float> errors = whole_.errors_with_each(candidates, share);
     errors.push_back(std::numeric_limits<float>::infinity());  // a share may have no candidate
     for (const Eigen::Index candidate : candidates)
       if (candidate >= share.begin && candidate < share.end) errors[candidate - share.begin] = errors.back();
     const auto best = std::ranges::min_element(errors);
-    return processes_.best(double{*best}, share.begin + (best - errors.begin()));
+    return how_.processes.best(double{*best}, share.begin + (best - errors.begin()));
   }
 
- private:
   const Objective& whole_;
-  const team& processes_;
+  sweeping how_;
 };
 
 /// Searches by sweeps over all candidates.
 template <gonio::design::sweeping_objective Objective>
 capture_plan sweep(const Objective& whole, const design_options& options, const gonio::progress& listener,
-                   const team& processes) {
-  const shared_sweeps objective(whole, processes);
+                   const sweeping& how) {
+  const shared_sweeps objective(whole, how);
   const capture_plan start = start_of(objective.geometry(), options);
   const capture_plan greedy = gonio::design::grow_greedily(objective, options.count, start, listener);
   if (options.search == "greedy" || !start.candidates.empty()) return greedy;
@@ -107,7 +120,7 @@ designed finished(const Geometry& geometry, const capture_plan& plan) {
 
 template <class Geometry>
 designed by_expected_error(const prior_t& prior, const Geometry& geometry, const design_options& options,
-                           const gonio::progress& listener, const team& processes) {
+                           const gonio::progress& listener, const sweeping& how) {
   gonio::design::expected_error criterion = criterion_of(prior, options);
   if constexpr (std::is_same_v<Geometry, gonio::design::point_geometry>) {
     const std::vector<double> sample_noise_penalties =
@@ -116,18 +129,18 @@ designed by_expected_error(const prior_t& prior, const Geometry& geometry, const
     const gonio::design::cell_candidates candidates(prior, std::move(criterion), options.near_field.constraint,
                                                     options.threads, sample_noise_penalties);
     return finished(geometry, options.search == "descent" ? slide(candidates, options, listener)
-                                                          : sweep(candidates, options, listener, processes));
+                                                          : sweep(candidates, options, listener, how));
   } else {
     gonio::design::image_objective objective(prior, std::move(criterion), geometry);
     if (options.search == "descent") return finished(geometry, slide(objective, options, listener));
     const gonio::design::image_candidates candidates(std::move(objective), options.threads, listener);
-    return finished(geometry, sweep(candidates, options, listener, processes));
+    return finished(geometry, sweep(candidates, options, listener, how));
   }
 }
 
 template <class Geometry>
 designed with(const prior_t& prior, const Geometry& geometry, const design_options& options,
-              const gonio::progress& listener, const team& processes) {
+              const gonio::progress& listener, const sweeping& how) {
   const auto by = [&](auto criterion) {
     return finished(geometry, slide(gonio::design::criterion_of_plan{prior, geometry, criterion}, options, listener));
   };
@@ -137,13 +150,13 @@ designed with(const prior_t& prior, const Geometry& geometry, const design_optio
   if (options.criterion == "d-optimal") return by(gonio::design::d_optimality(eta));
   if (options.criterion == "a-optimal")
     return by(gonio::design::a_optimality(prior.singular_values().cwiseAbs2(), eta));
-  return by_expected_error(prior, geometry, options, listener, processes);
+  return by_expected_error(prior, geometry, options, listener, how);
 }
 
 /// The best of all cameras (or lights) that stand still, each with its own best lights (or cameras).
 designed with_one_fixed(const prior_t& prior, const design_options& options,
                         std::optional<double> gonio::design::near_field_options::*fixed,
-                        const gonio::progress& listener, const team& processes) {
+                        const gonio::progress& listener, const sweeping& how) {
   designed best;
   best.value = std::numeric_limits<double>::infinity();
   const gonio::design::near_field_options& setup = options.near_field;
@@ -152,7 +165,7 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
                   theta / setup.largest_polar_angle);
     gonio::design::near_field_options here = setup;
     here.*fixed = theta;
-    designed found = with(prior, gonio::design::near_field_geometry(here), options, listener, processes);
+    designed found = with(prior, gonio::design::near_field_geometry(here), options, listener, how);
     if (found.value < best.value) best = std::move(found);
   }
   return best;
@@ -161,7 +174,8 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
 }  // namespace
 
 designed design(const gonio::log_relative_pca& prior, const design_options& options, const gonio::progress& listener,
-                const team& processes) {
+                const team& processes, sweep_record* record) {
+  const sweeping how{processes, record};
   const bool expects_errors = options.criterion == "expected-error" || options.criterion == "perceived";
   if (options.angular_error != 0.0 && !(options.geometry == "point" && expects_errors))
     gonio::refuse("--misplaced needs --geometry point and --criterion expected-error or perceived");
@@ -175,15 +189,14 @@ designed design(const gonio::log_relative_pca& prior, const design_options& opti
                   std::to_string(gonio::degrees(options.angular_error)));
   const auto& near_field = options.near_field;
   if (options.geometry == "point")
-    return with(prior, gonio::design::point_geometry(prior.cells(), near_field.constraint), options, listener,
-                processes);
+    return with(prior, gonio::design::point_geometry(prior.cells(), near_field.constraint), options, listener, how);
   if (options.geometry == "sphere")
-    return with(prior, gonio::design::sphere_geometry(prior.cells()), options, listener, processes);
+    return with(prior, gonio::design::sphere_geometry(prior.cells()), options, listener, how);
   if (options.geometry == "fixed-camera")
-    return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_camera, listener, processes);
+    return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_camera, listener, how);
   if (options.geometry == "fixed-light")
-    return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_light, listener, processes);
-  return with(prior, gonio::design::near_field_geometry(near_field), options, listener, processes);
+    return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_light, listener, how);
+  return with(prior, gonio::design::near_field_geometry(near_field), options, listener, how);
 }
 
 designed placed(const gonio::log_relative_pca& prior, const design_options& options,

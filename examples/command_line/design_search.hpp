@@ -1,6 +1,7 @@
 #pragma once
 /// What `gonio design` and the experiments on directions search with.
 
+#include "sweep_record.hpp"
 #include "team.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -35,9 +36,11 @@ struct designed {
   double value = 0.0;                           ///< of the criterion
 };
 
-/// The processes share each sweep over all candidates. Throws gonio::error where there is not as much to choose from.
+/// The processes share each sweep over all candidates, and those of an earlier run are not done again. Throws
+/// gonio::error where there is not as much to choose from.
 [[nodiscard]] designed design(const gonio::log_relative_pca& prior, const design_options& options,
-                              const gonio::progress& listener = {}, const team& processes = team());
+                              const gonio::progress& listener = {}, const team& processes = alone(),
+                              sweep_record* record = nullptr);
 
 /// What is measured at some poses: at the candidates of the options' geometry that are nearest to them.
 [[nodiscard]] designed placed(const gonio::log_relative_pca& prior, const design_options& options,

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -72,12 +73,24 @@ class team {
   [[nodiscard]] virtual Eigen::Index number_of_writer(Eigen::Index number) const { return number; }
 
   using part = std::vector<std::byte>;
+  /// The bytes of the process that writes.
+  [[nodiscard]] virtual part of_writer(part bytes) const { return bytes; }
+  /// What one process computes, that with the number `turn` modulo their number. The one that writes waits for it;
+  /// others go on with nothing.
+  [[nodiscard]] virtual std::optional<part> compute_in_turn(std::size_t turn,
+                                                            const std::function<part()>& compute) const {
+    static_cast<void>(turn);
+    return compute();
+  }
   /// `compute(i)` for each i of a range, each in one of the processes; the one that writes takes the parts in order.
   virtual void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
                                 const std::function<void(Eigen::Index, part)>& take) const {
     for (Eigen::Index i = range.begin; i < range.end; ++i) take(i, compute(i));
   }
 };
+
+/// This process alone.
+[[nodiscard]] const team& alone();
 
 /// The checksum of some words and where each ends.
 [[nodiscard]] std::uint32_t checksum_of(std::span<const std::string> words);

@@ -1,140 +1,15 @@
 /// `gonio-mpi`: the long subcommands of the tool on the ranks of an MPI job.
 
 #include "cli/commands.hpp"
-#include "command_line/fixed.hpp"
-#include "ranks_team.hpp"
-#include <gonio/core/error.hpp>
-#include <gonio/io/file.hpp>
-#include <gonio/mpi/ranks.hpp>
-
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <csignal>
-#include <iostream>
-#include <optional>
-#include <span>
-#include <sstream>
-#include <string>
-#include <string_view>
-#include <vector>
-
-namespace {
-
-/// While it lives, what this process prints is kept instead.
-class silence {
- public:
-  silence() : out_(std::cout.rdbuf(nullptr)), error_(std::cerr.rdbuf(unsaid_.rdbuf())) {}
-  silence(const silence&) = delete;
-  silence& operator=(const silence&) = delete;
-  ~silence() {
-    std::cout.rdbuf(out_);
-    std::cerr.rdbuf(error_);
-  }
-
-  /// The first line of what it would have said on standard error.
-  [[nodiscard]] std::string complaint() const {
-    const std::string all = unsaid_.str();
-    return all.substr(0, all.find('\n'));
-  }
-
- private:
-  std::stringstream unsaid_;
-  std::streambuf *out_, *error_;
-};
-
-/// What mpirun does to the ranks that are left when one has died.
-extern "C" void end_with_the_job(int signal) {
-  constexpr std::string_view sentence =
-      "gonio-mpi: the job was ended before its work was done: the same command, with any number of ranks, goes on with "
-      "what is written\n";
-  static_cast<void>(!::write(STDERR_FILENO, sentence.data(), sentence.size()));
-  gonio::io::remove_unfinished_files();
-  ::raise(signal);  // its handler is the system's again
-}
-
-void end_with_a_sentence_on_signals() {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    struct sigaction ours {};
-    ours.sa_handler = end_with_the_job;
-    ours.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
-    ::sigaction(signal, &ours, nullptr);
-  }
-}
-
-struct rank_cost {
-  gonio::mpi::traffic sent;
-  double processor_seconds = 0.0;  ///< of all threads
-};
-
-rank_cost cost_of(const gonio::mpi::ranks& ranks) {
-  rusage used{};
-  ::getrusage(RUSAGE_SELF, &used);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return {ranks.sent(), seconds(used.ru_utime) + seconds(used.ru_stime)};
-}
-
-/// "rank 1 sent 12 messages, 3456789 bytes; 12.3 s of processor time, 0.4 s of it in MPI", a line for each.
-void print_traffic(const gonio::mpi::ranks& ranks) {
-  const auto all = ranks.gather(gonio::mpi::detail::bytes_of(cost_of(ranks)));
-  for (std::size_t rank = 0; rank < all.size(); ++rank) {
-    const auto cost = gonio::mpi::detail::number_of<rank_cost>(all[rank]);
-    std::cout << "rank " << rank << " sent " << cost.sent.messages << " messages, " << cost.sent.bytes << " bytes; "
-              << cli::fixed(cost.processor_seconds, 2) << " s of processor time, "
-              << cli::fixed(cost.sent.processor_seconds, 2) << " s of it in MPI\n";
-  }
-}
-
-int run(const gonio::mpi::ranks& ranks, std::span<char*> given, const std::optional<silence>& unsaid) {
-  const cli::ranks_team all(ranks);
-  const std::vector<std::string> words(given.begin(), given.end());
-  bool has_begun = false, prints_traffic = false;
-  cli::program app("gonio-mpi", "The long subcommands of gonio on the ranks of an MPI job: mpirun -n 4 gonio-mpi ...",
-                   GONIO_VERSION);
-  app.extend_subcommands(
-      [&](cli::command& added) {
-        added.add_flag("--traffic", prints_traffic,
-                       "Print what each rank sent to others, messages and bytes, and its processor time");
-      },
-      [&](const std::function<void()>& work) {
-        has_begun = true;
-        ranks.together([] {});  // has each rank understood its command line?
-        ranks.agree_on(cli::checksum_of(std::span(words).subspan(1)), "command line");
-        work();
-        if (prints_traffic) print_traffic(ranks);
-      });
-  cli::add_design(app, words, all);
-  cli::add_learn(app, all);
-  cli::add_svbrdf(app, all);
-  const int code = app.run(static_cast<int>(given.size()), given.data());
-  if (has_begun) return code;
-  try {
-    const std::string complaint = unsaid ? unsaid->complaint() : "";
-    ranks.together([&] { gonio::refuse(complaint.empty() ? "was not asked for work" : complaint); });
-  } catch (const gonio::error&) {  // has been printed
-  }
-  return code;
-}
-
-}  // namespace
+#include "job.hpp"
 
 int main(int argc, char** argv) {
-  const gonio::mpi::ranks ranks;
-  // What all ranks have to say, rank 0 says.
-  std::optional<silence> unsaid;
-  if (ranks.is_first())
-    end_with_a_sentence_on_signals();
-  else
-    unsaid.emplace();
-  const int code = run(ranks, std::span(argv, static_cast<std::size_t>(argc)), unsaid);
-  if (code != 0 && !ranks.failed_together() && ranks.size() > 1) {
-    const std::string complaint = unsaid ? unsaid->complaint() : "";
-    unsaid.reset();
-    if (!complaint.empty()) std::cerr << complaint << std::endl;  // before the end of all
-    ranks.abort(code);
-  }
-  return ranks.is_first() ? code : 0;  // which rank 0 tells mpirun
+  return cli::run_in_ranks(
+      argc, argv,
+      {"gonio-mpi", "The long subcommands of gonio on the ranks of an MPI job: mpirun -n 4 gonio-mpi ...",
+       [](cli::command& app, const std::vector<std::string>& words, const cli::team& processes) {
+         cli::add_design(app, words, processes);
+         cli::add_learn(app, processes);
+         cli::add_svbrdf(app, processes);
+       }});
 }

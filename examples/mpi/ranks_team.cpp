@@ -27,6 +27,13 @@ gonio::thread_count ranks_team::threads(gonio::thread_count asked) const {
   return {std::max(1u, asked.resolve() / static_cast<unsigned>(ranks_.on_this_machine()))};
 }
 
+void ranks_team::together(const std::function<void()>& work) const {
+  ranks_.together([&] {
+    work();
+    ranks_.wait();  // until what was posted is received
+  });
+}
+
 gonio::block ranks_team::share_of(Eigen::Index count, Eigen::Index block_size) const {
   const auto blocks = gonio::mpi::groups_of(ranks_.rank(), ranks_.size(), (count + block_size - 1) / block_size);
   return {std::min(count, blocks.begin * block_size), std::min(count, blocks.end * block_size)};
@@ -88,6 +95,17 @@ gonio::shared_groups ranks_team::groups() const {
 
 Eigen::Index ranks_team::number_of_writer(Eigen::Index number) const {
   return gonio::mpi::detail::number_of<Eigen::Index>(ranks_.broadcast(gonio::mpi::detail::bytes_of(number)));
+}
+
+std::optional<team::part> ranks_team::compute_in_turn(std::size_t turn, const std::function<part()>& compute) const {
+  const auto whose = static_cast<int>(turn % size());
+  if (whose != ranks_.rank()) {
+    if (!writes()) return std::nullopt;
+    return ranks_.receive(whose);
+  }
+  part computed = compute();
+  if (!writes()) ranks_.post(0, computed);
+  return computed;
 }
 
 void ranks_team::compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,

@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cli {
@@ -21,13 +23,16 @@ class ranks_team : public team {
   [[nodiscard]] std::size_t number() const override { return static_cast<std::size_t>(ranks_.rank()); }
   [[nodiscard]] bool writes() const override { return ranks_.is_first(); }
   [[nodiscard]] gonio::thread_count threads(gonio::thread_count asked) const override;
-  void together(const std::function<void()>& work) const override { ranks_.together(work); }
+  void together(const std::function<void()>& work) const override;
   void agree_on(std::uint32_t checksum, const std::string& what) const override { ranks_.agree_on(checksum, what); }
   [[nodiscard]] gonio::block share_of(Eigen::Index count, Eigen::Index block_size) const override;
   [[nodiscard]] Eigen::Index best(double value, Eigen::Index number) const override;
   [[nodiscard]] gonio::shared_groups groups() const override;
   [[nodiscard]] std::vector<std::vector<float>> exchange_rows(std::vector<float> own, Eigen::Index rows) const override;
   [[nodiscard]] Eigen::Index number_of_writer(Eigen::Index number) const override;
+  [[nodiscard]] part of_writer(part bytes) const override { return ranks_.broadcast(std::move(bytes)); }
+  [[nodiscard]] std::optional<part> compute_in_turn(std::size_t turn,
+                                                    const std::function<part()>& compute) const override;
   void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
                         const std::function<void(Eigen::Index, part)>& take) const override;
 

@@ -2,6 +2,7 @@
 /// The experiments of `gonio-papers`, one file each.
 
 #include "command_line/command.hpp"
+#include "command_line/team.hpp"
 
 namespace papers {
 
@@ -10,39 +11,42 @@ using namespace cli;  // what command lines are made of
 void add_nielsen_test_materials(command& app);
 void add_measured_materials(command& app);
 void add_linear_combination(command& app);
-void add_noell_tables(command& app);
 void add_noell_measured(command& app);
-void add_noell_gap(command& app);
 void add_noell_figures(command& app);
 void add_noell_corrections(command& app);
 void add_cosine_weight(command& app);
-void add_directions(command& app);
-void add_directions_measured(command& app);
 void add_figures(command& app);
 void add_soft_specular(command& app);
 void add_components(command& app);
 void add_eta(command& app);
-void add_models(command& app);
 void add_model_properties(command& app);
 void add_model_recovery(command& app);
 void add_laboratory(command& app);
 void add_importance_sampling(command& app);
 void add_measured_intervals(command& app);
 void add_implausible_samples(command& app);
-void add_real_materials(command& app);
 void add_conformity(command& app);
-void add_real_fits(command& app);
-void add_real_methods(command& app);
 void add_scattered_samples(command& app);
-void add_adaptive_design(command& app);
-void add_in_plane(command& app);
 void add_spectra(command& app);
-void add_near_field_photographs(command& app);
-void add_sphere_photograph(command& app);
 void add_shape_poses(command& app);
 void add_shape_fields(command& app);
 void add_svbrdf(command& app);
 void add_streamed_learning(command& app);
 void add_run(command& app);
+
+// Those with results that outlive an interruption, which a team of processes may share. It must live until the program
+// has run.
+void add_noell_tables(command& app, const team& processes);
+void add_noell_gap(command& app, const team& processes);
+void add_directions(command& app, const team& processes);
+void add_directions_measured(command& app, const team& processes);
+void add_models(command& app, const team& processes);
+void add_real_materials(command& app, const team& processes);
+void add_real_fits(command& app, const team& processes);
+void add_real_methods(command& app, const team& processes);
+void add_adaptive_design(command& app, const team& processes);
+void add_in_plane(command& app, const team& processes);
+void add_near_field_photographs(command& app, const team& processes);
+void add_sphere_photograph(command& app, const team& processes);
 
 }  // namespace papers

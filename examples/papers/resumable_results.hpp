@@ -1,51 +1,60 @@
 #pragma once
-/// Results of a long experiment that survive its end.
+/// Results of a long experiment that survive its end, and that several processes share.
 
+#include "command_line/command.hpp"
 #include "command_line/json.hpp"
-#include "papers/experiments.hpp"
-#include <gonio/core/error.hpp>
+#include "command_line/team.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <string>
 
 namespace papers {
 
+using cli::json;
+
+/// What experiments with such results are told.
+struct resumable_options {
+  std::filesystem::path state;  ///< the file; none if empty
+  gonio::thread_count threads;
+  const cli::team* processes = &cli::alone();
+
+  /// Has this process all results, and prints them?
+  [[nodiscard]] bool prints() const { return processes->writes(); }
+};
+
+/// Adds `--state` and `--threads`.
+void add_resumable_options(cli::command& to, resumable_options& options);
+
+/// Does the same work in all processes, each with its share of the machine's cores.
+void run_together(const cli::team& processes, resumable_options& options, const std::function<void()>& work);
+
 /// Results that earlier runs left in a file, one JSON object a line; new ones are appended as they come. Without a file
 /// they are only remembered.
+///
+/// Processes of a team run the same loop over the same keys. Each does the work whose turn is its own; the one that
+/// writes has all results, in the order of the loop. Others have null for those of others, and print nothing.
 class resumable_results {
  public:
-  explicit resumable_results(const std::filesystem::path& path) : path_(path) {
-    if (path.empty()) return;
-    if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
-      gonio::refuse("'" + path.string() + "' is not a regular file");
-    std::ifstream earlier(path);
-    for (std::string line; std::getline(earlier, line);) {
-      // A run that was killed may have left half a line.
-      const json entry = json::parse(line);
-      if (entry.is_object() && entry.contains("key") && entry.contains("result"))
-        results_.insert_or_assign(entry["key"].dump(), entry["result"]);
-    }
-    file_.open(path, std::ios::app);
-    if (!file_) gonio::refuse("cannot write '" + path.string() + "'");
-    if (!results_.empty()) file_ << '\n';
-  }
+  /// The process that writes reads and writes the file. Throws gonio::error if it cannot.
+  explicit resumable_results(const resumable_options& options);
 
-  /// Nothing if there is no such result.
-  [[nodiscard]] const json* find(const json& key) const {
-    const auto found = results_.find(key.dump());
-    return found == results_.end() ? nullptr : &found->second;
-  }
+  /// The result of some work, which is done if it was not done before. Work of the same turn, that of one material say,
+  /// is one process' own. Throws gonio::error if that process has done other work.
+  const json& once(const json& key, std::size_t turn, const std::function<json()>& work);
 
-  void add(const json& key, const json& result) {
-    results_.insert_or_assign(key.dump(), result);
-    if (!file_.is_open()) return;
-    file_ << json{{"key", key}, {"result", result}}.dump() << std::endl;
-    if (!file_) gonio::refuse("cannot write '" + path_.string() + "'");
-  }
+  /// Nothing if there is no such result here.
+  [[nodiscard]] const json* find(const json& key) const;
+  /// Is work of this turn done here?
+  [[nodiscard]] bool is_own(std::size_t turn) const { return turn % processes_.size() == processes_.number(); }
 
  private:
+  void add(const json& key, const json& result);
+
+  const cli::team& processes_;
   std::filesystem::path path_;
   std::map<std::string, json> results_;
   std::ofstream file_;

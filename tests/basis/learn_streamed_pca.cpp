@@ -19,7 +19,7 @@ double difference(const gonio::log_relative_pca& a, const gonio::log_relative_pc
 }
 
 gonio::streamed_pca learn_streamed(gonio::material_set set, Eigen::Index components, gonio::thread_count threads = {},
-                                   Eigen::Index exact_columns = 3072) {
+                                   Eigen::Index exact_columns = 1024) {
   return gonio::learn_streamed_pca(gonio::rows_of(std::move(set)),
                                    {.components = components, .exact_columns = exact_columns, .threads = threads});
 }
@@ -64,7 +64,7 @@ TEST_CASE("components found in a random subspace are close to the exact ones, as
 
 TEST_CASE("passes whose subtrees are summed elsewhere give the same bytes") {
   const auto set = synthetic_materials(small_cells(), 12);
-  for (const Eigen::Index exact_columns : {3072, 10}) {
+  for (const Eigen::Index exact_columns : {1024, 10}) {
     gonio::streaming_options options{.components = 6, .exact_columns = exact_columns};
     const auto alone = gonio::learn_streamed_pca(gonio::rows_of(set), options);
     Eigen::Index completed = 0;

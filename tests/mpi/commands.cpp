@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -229,6 +230,25 @@ TEST_CASE("gonio-mpi design: the directions of gonio design") {
     }
   }
   check_refused_by_all(in_ranks(2, design("-n 0", "none.csv")), {"cannot choose 0"});
+  // Ranks go on with the sweeps of a gonio that came to its end, but could not write the page that it was asked for.
+  const std::string said = run_alone(design("-n 5", "alone.csv"));
+  const auto part = given.folder / "ranks.csv.part";
+  const auto page = given.folder / "page.html";
+  scratch::fs::create_symlink("/dev/full", page);
+  CHECK(run_program(GONIO_TOOL, design("-n 5 --report '" + page.string() + '\'', "ranks.csv")).exit_code == 2);
+  const std::string whole = scratch::get(part);
+  REQUIRE(std::ranges::count(whole, '\n') > 10);
+  for (const std::size_t size : {whole.size(), whole.size() / 2, std::size_t{3}}) {
+    CAPTURE(size);
+    scratch::put(part, whole.substr(0, size));
+    const std::string again = run_in(2, design("-n 5", "ranks.csv"));
+    CHECK(again.starts_with("went on behind sweep ") == (size > 3));
+    CHECK(again.ends_with(said));
+    CHECK(scratch::get(given.folder / "ranks.csv") == scratch::get(given.folder / "alone.csv"));
+    CHECK(!scratch::fs::exists(part));
+  }
+  scratch::put(part, whole);
+  check_refused_by_all(in_ranks(2, design("-n 4", "ranks.csv")), {"ranks.csv.part", "other inputs or options"});
 }
 
 TEST_CASE("gonio-mpi learn: the prior of gonio learn, bad files are refused") {

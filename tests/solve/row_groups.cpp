@@ -28,7 +28,7 @@ TEST_CASE("passes over groups of rows: exact, and the same bytes however the gro
   CHECK(gram.isApprox(exact, 1e-14));
   CHECK(times.isApprox(exact * u, 1e-13));
   CHECK(gram == gonio::gram(rows, gonio::all_row_groups, {3}));
-  for (const Eigen::Index ranks : {2, 4, 8, 16}) {
+  for (const Eigen::Index ranks : {2, 4, 16, 64}) {
     std::vector<Eigen::MatrixXd> grams, products;
     for (Eigen::Index rank = 0; rank < ranks; ++rank) {
       const gonio::block own{rank * row_groups / ranks, (rank + 1) * row_groups / ranks};
@@ -52,7 +52,7 @@ TEST_CASE("passes over groups of rows: exact, and the same bytes however the gro
 
 TEST_CASE("groups that are no subtree are refused") {
   const gonio::row_source rows = gonio::rows_of(gonio::row_matrix::Random(10, 2));
-  for (const gonio::block groups : {gonio::block{0, 3}, {1, 3}, {0, 0}, {16, 32}, {-2, 0}})
+  for (const gonio::block groups : {gonio::block{0, 3}, {1, 3}, {0, 0}, {row_groups, 2 * row_groups}, {-2, 0}})
     CHECK_THROWS_AS(gonio::gram(rows, groups), gonio::error);
   CHECK_THROWS_AS(gonio::sum_of_subtrees({}), gonio::error);
   CHECK_THROWS_AS(gonio::sum_of_subtrees(std::vector<Eigen::MatrixXd>(3)), gonio::error);

@@ -25,14 +25,13 @@ namespace papers {
 
 namespace {
 
-struct models_options {
-  std::filesystem::path networks, state;
+struct models_options : resumable_options {
+  std::filesystem::path networks;
   std::vector<std::string> models{"phong", "blinn-phong", "phong-blinn", "phong-blinn-fresnel"}, losses{"l1", "l2"},
       only;
   std::string metric = "lin";
   gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
   bool print_json = false;
-  gonio::thread_count threads;
 };
 
 /// Four digits, whatever the size.
@@ -65,7 +64,7 @@ json fit_all(const models_options& given, progress_bar& bar) {
   const gonio::valid_cells cells = cells_of_fit();
   const gonio::material_set materials = gonio::model::tabulate_networks(networks, cells, given.threads);
   const gonio::appearance_metric appearance(cells, 36, given.threads);
-  resumable_results results(given.state);
+  resumable_results results(given);
   json rows = json::array();
   for (std::size_t m = 0; m < materials.names.size(); ++m) {
     gonio::report(bar.listener(), materials.names[m],
@@ -75,9 +74,9 @@ json fit_all(const models_options& given, progress_bar& bar) {
     for (const std::string& model : given.models)
       for (const std::string& loss : given.losses) {
         const json key{materials.names[m], model, loss, given.metric, static_cast<int>(given.cell_weights)};
-        if (!results.find(key)) results.add(key, fit_one(given, model, loss, observations, truth, appearance));
-        rows.push_back(
-            {{"material", materials.names[m]}, {"model", model}, {"loss", loss}, {"fit", *results.find(key)}});
+        const json& fit =
+            results.once(key, m, [&] { return fit_one(given, model, loss, observations, truth, appearance); });
+        rows.push_back({{"material", materials.names[m]}, {"model", model}, {"loss", loss}, {"fit", fit}});
       }
   }
   return rows;
@@ -144,6 +143,7 @@ void print_materials(const models_options& given, const json& rows) {
 void run(const models_options& given) {
   progress_bar bar;
   const json rows = fit_all(given, bar);
+  if (!given.prints()) return;
   bar.wipe();
   if (given.print_json) {
     std::cout << rows.dump(2) << '\n';
@@ -155,7 +155,7 @@ void run(const models_options& given) {
 
 }  // namespace
 
-void add_models(command& app) {
+void add_models(command& app, const team& processes) {
   auto command = app.add_subcommand(
       "models", "Analytic models fitted to 100 materials: which are like Phong, which like Blinn-Phong (Nielsen 2014)");
   const auto options = std::make_shared<models_options>();
@@ -167,10 +167,9 @@ void add_models(command& app) {
       .capture_default_str();
   add_cell_weights_option(command, options->cell_weights);
   command.add_option("--materials", options->only, "Only these materials");
-  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
   command.add_flag("--json", options->print_json, "Print every fit as JSON");
-  add_threads_option(command, options->threads);
-  command.callback([options] { run(*options); });
+  add_resumable_options(command, *options);
+  command.callback([options, &processes] { run_together(processes, *options, [&] { run(*options); }); });
 }
 
 }  // namespace papers

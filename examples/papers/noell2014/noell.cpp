@@ -22,8 +22,8 @@ namespace papers {
 
 namespace {
 
-struct noell_options {
-  std::filesystem::path networks, environment, state;
+struct noell_options : resumable_options {
+  std::filesystem::path networks, environment;
   std::string materials = "test";
   std::vector<std::string> methods;
   std::vector<double> data_ratios, outlier_ratios;
@@ -31,7 +31,6 @@ struct noell_options {
   std::vector<int> iterations;  // if any, otherwise as many as a method takes
   std::vector<int> basis;       // if any, otherwise all other materials
   bool print_json = false;
-  gonio::thread_count threads;
 };
 
 [[nodiscard]] std::vector<std::string> chosen_materials(const std::string& choice,
@@ -88,7 +87,7 @@ class noell_sweep {
  public:
   noell_sweep(const noell_options& options, const gonio::progress& listener)
       : options_(options),
-        results_(options.state),
+        results_(options),
         experiment_(options.networks, options.environment, options.threads, listener),
         listener_(listener) {
     materials_ = chosen_materials(options.materials, experiment_.names());
@@ -100,14 +99,13 @@ class noell_sweep {
     std::size_t done = 0;
     prepare();
     // Materials outermost: each has corrections of its own.
-    for (const std::string& material : materials_)
+    for (std::size_t m = 0; m < materials_.size(); ++m)
       for (const noell_setting& setting : all)
         for (const std::uint64_t seed : options_.seeds) {
-          gonio::report(listener_, setting.method + ' ' + material,
+          gonio::report(listener_, setting.method + ' ' + materials_[m],
                         static_cast<double>(done++) / static_cast<double>(total));
-          const noell_case which = case_of(setting, material, seed);
-          const json key = key_of(setting.method, which);
-          if (!results_.find(key)) results_.add(key, experiment_.run(setting.method, which));
+          const noell_case which = case_of(setting, materials_[m], seed);
+          results_.once(key_of(setting.method, which), m, [&] { return experiment_.run(setting.method, which); });
         }
   }
 
@@ -143,16 +141,16 @@ class noell_sweep {
     return {given.begin(), given.end()};
   }
 
-  /// What the missing cases of a method, a share of data and a seed have in common.
+  /// What this process' missing cases of a method, a share of data and a seed have in common.
   void prepare() {
     for (const std::string& method : options_.methods)
       for (const double data_ratio : options_.data_ratios)
         for (const std::uint64_t seed : options_.seeds) {
           std::vector<noell_case> missing;
           for (const double outlier_ratio : options_.outlier_ratios)
-            for (const std::string& material : materials_) {
-              const noell_case which{material, data_ratio, outlier_ratio, seed, {}, {}};
-              if (!results_.find(key_of(method, which))) missing.push_back(which);
+            for (std::size_t m = 0; m < materials_.size(); ++m) {
+              const noell_case which{materials_[m], data_ratio, outlier_ratio, seed, {}, {}};
+              if (results_.is_own(m) && !results_.find(key_of(method, which))) missing.push_back(which);
             }
           gonio::report(listener_, method + ", data " + fixed(data_ratio, 2), 0.0);
           experiment_.prepare(method, missing);
@@ -305,6 +303,7 @@ void run_noell(const noell_options& options) {
   progress_bar bar;
   noell_sweep sweep(options, bar.listener());
   sweep.run();
+  if (!options.prints()) return;
   bar.wipe();
   if (options.print_json) return print_json(options, sweep);
   print_table(options, sweep, sweep.materials(), "materials");
@@ -320,7 +319,8 @@ void run_noell(const noell_options& options) {
   if (options.iterations.empty()) print_outliers(options, sweep);
 }
 
-void add_noell(command& app, const std::string& name, const std::string& description, const noell_options& defaults) {
+void add_noell(command& app, const std::string& name, const std::string& description, const noell_options& defaults,
+               const team& processes) {
   auto command = app.add_subcommand(name, description);
   const auto options = std::make_shared<noell_options>(defaults);
   // Declare the materials, their methods and the environment.
@@ -356,27 +356,26 @@ void add_noell(command& app, const std::string& name, const std::string& descrip
       .add_option("--basis", options->basis,
                   "Numbers of other materials, drawn at random, that a method combines; otherwise all")
       .check(check::positive_number());
-  command.add_output("--state", options->state, {}, "File in which results are kept, so that a run can be resumed");
   command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
-  add_threads_option(command, options->threads);
-  command.callback([options] { run_noell(*options); });
+  add_resumable_options(command, *options);
+  command.callback([options, &processes] { run_together(processes, *options, [&] { run_noell(*options); }); });
 }
 
 }  // namespace
 
-void add_noell_tables(command& app) {
+void add_noell_tables(command& app, const team& processes) {
   noell_options first;
   first.methods = {"our", "lc"};
   first.data_ratios.assign(noell_data_ratios.begin(), noell_data_ratios.end());
   first.outlier_ratios.assign(noell_outlier_ratios.begin(), noell_outlier_ratios.end());
-  add_noell(app, "noell-table1", "Noell et al. 2014, Table 1: data ratios by outlier ratios", first);
+  add_noell(app, "noell-table1", "Noell et al. 2014, Table 1: data ratios by outlier ratios", first, processes);
 
   noell_options second;
   second.methods = {"our-lin", "our-root", "our", "printed-lin", "printed-root", "printed",
                     "lc-lin",  "lc-root",  "lc",  "rbf-lin",     "rbf-root",     "rbf"};
   second.data_ratios = {1.0};
   second.outlier_ratios = {0.0};
-  add_noell(app, "noell-table2", "Noell et al. 2014, Table 2: error metrics, from full data", second);
+  add_noell(app, "noell-table2", "Noell et al. 2014, Table 2: error metrics, from full data", second, processes);
 }
 
 }  // namespace papers

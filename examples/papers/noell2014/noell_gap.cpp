@@ -74,15 +74,14 @@ struct judgement {
 const std::array judgements{judgement{"the truth's sphere has mean luminance 0.18"},
                             judgement{"a white sphere has mean luminance 0.18", 0.18, true}};
 
-struct gap_options {
-  std::filesystem::path networks, environment, state;
+struct gap_options : resumable_options {
+  std::filesystem::path networks, environment;
   double data_ratio = 0.1;
   std::vector<double> outlier_ratios{noell_outlier_ratios.begin(), noell_outlier_ratios.end()};
   std::vector<double> scales{10.0};
   std::vector<std::string> materials = gonio::nielsen_test_materials();
   std::vector<std::string> methods{"lc", "rbf", "pull-push", "printed"};
   std::uint64_t seed = 1;
-  gonio::thread_count threads;
 };
 
 /// Uniform by solid angle over the hemisphere.
@@ -169,7 +168,7 @@ class gap_experiment {
  public:
   gap_experiment(const gap_options& options, const gonio::progress& listener)
       : options_(options),
-        results_(options.state),
+        results_(options),
         methods_(options.networks, options.environment, options.threads, listener),
         truths_(methods_.materials()),
         delta_e_(truths_.cells,
@@ -220,11 +219,14 @@ class gap_experiment {
     none.fill(std::vector<double>(options_.outlier_ratios.size(), 0.0));
     std::vector<judged_means> means(settings.size(), none);
     // Materials outermost: each has corrections of its own.
-    for (const std::string& name : options_.materials)
+    for (std::size_t m = 0; m < options_.materials.size(); ++m)
       for (std::size_t s = 0; s < settings.size(); ++s)
         for (std::size_t r = 0; r < options_.outlier_ratios.size(); ++r) {
-          const noell_case which{name, options_.data_ratio, options_.outlier_ratios[r], options_.seed, {}, {}};
-          const json result = judged(estimate, settings[s], which, measured_at);
+          const noell_case which{
+              options_.materials[m], options_.data_ratio, options_.outlier_ratios[r], options_.seed, {}, {}};
+          const json& result = results_.once(key_of(settings[s], which), m,
+                                             [&] { return judged(estimate, settings[s], which, measured_at); });
+          if (result.is_null()) continue;  // another process'
           for (std::size_t j = 0; j < judgements.size(); ++j)
             means[s][j][r] += result[j].number() / static_cast<double>(options_.materials.size());
         }
@@ -232,17 +234,19 @@ class gap_experiment {
   }
 
  private:
-  /// The error by each judgement, as it was found before or is found now.
+  [[nodiscard]] json key_of(const gap_setting& setting, const noell_case& which) const {
+    return {setting.method,
+            setting.name(),
+            which.material,
+            which.data_ratio,
+            which.outlier_ratio,
+            which.seed,
+            options_.environment.filename().string()};
+  }
+
+  /// The error by each judgement.
   [[nodiscard]] json judged(const estimate_function& estimate, const gap_setting& setting, const noell_case& which,
                             std::span<const gonio::location> measured_at) {
-    const json key{setting.method,
-                   setting.name(),
-                   which.material,
-                   which.data_ratio,
-                   which.outlier_ratio,
-                   which.seed,
-                   options_.environment.filename().string()};
-    if (const json* known = results_.find(key)) return *known;
     const std::size_t material = truths_.find(which.material);
     const gonio::brdf_table truth = truths_.table(material);
     const auto samples =
@@ -250,7 +254,6 @@ class gap_experiment {
     const gonio::brdf_table table = estimate(samples, which);
     json errors = json::array();
     for (const judgement& seen : judgements) errors.push_back(difference(table, truth, seen));
-    results_.add(key, errors);
     return errors;
   }
 
@@ -344,6 +347,7 @@ void run_gap(const gap_options& options) {
       run(method, "", experiment.method(method), samples_too, sampling::angles);
     }
   }
+  if (!options.prints()) return;
   bar.wipe();
 
   std::cout << options.materials.size() << " materials, data ratio " << fixed(options.data_ratio, 2)
@@ -356,7 +360,7 @@ void run_gap(const gap_options& options) {
 
 }  // namespace
 
-void add_noell_gap(command& app) {
+void add_noell_gap(command& app, const team& processes) {
   auto command = app.add_subcommand(
       "noell-gap",
       "Noell et al. 2014, Table 1: what may explain that its linear combination suffers less from outliers");
@@ -383,9 +387,8 @@ void add_noell_gap(command& app) {
       .check(check::positive_number())
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of cells and outliers").capture_default_str();
-  command.add_output("--state", options->state, {}, "File in which results are kept, so that a run can be resumed");
-  add_threads_option(command, options->threads);
-  command.callback([options] { run_gap(*options); });
+  add_resumable_options(command, *options);
+  command.callback([options, &processes] { run_together(processes, *options, [&] { run_gap(*options); }); });
 }
 
 }  // namespace papers

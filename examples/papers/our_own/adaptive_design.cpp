@@ -51,7 +51,8 @@ class adaptive_experiment : left_out_experiment {
         for (const Eigen::Index count : given_.counts) counts.push_back(count);
         const json key{"adaptive", method, material.name, given_.components, counts};
         const json& by_count =
-            once(key, material.name + " " + method, [&] { return errors_by_count(material, method); });
+            once(key, material.turn, material.name + " " + method, [&] { return errors_by_count(material, method); });
+        if (by_count.is_null()) continue;  // another process'
         for (const auto& [count, errors] : by_count.items()) found[{std::stol(count), method}][material.name] = errors;
       }
     json rows = json::array();
@@ -138,7 +139,7 @@ void print(const json& rows) {
 
 }  // namespace
 
-void add_adaptive_design(command& app) {
+void add_adaptive_design(command& app, const team& processes) {
   auto command =
       app.add_subcommand("adaptive-design", "Measure materials where the readings so far say, and in fixed directions");
   const auto options = std::make_shared<adaptive_options>();
@@ -153,14 +154,16 @@ void add_adaptive_design(command& app) {
           "all that was read before")
       .check(check::one_of({"perceived", "expected-error", "mean-material", "first-five", "adaptive"}))
       .capture_default_str();
-  add_state_option(command, *options);
-  command.callback([options] {
+  command.callback([options, &processes] {
     if (std::ranges::min(options->counts) < 5) gonio::refuse("--counts needs numbers of at least 5");
-    progress_bar bar;
-    adaptive_experiment work(*options, bar);
-    const json rows = work.run();
-    bar.wipe();
-    print(rows);
+    run_together(processes, *options, [&] {
+      progress_bar bar;
+      adaptive_experiment work(*options, bar);
+      const json rows = work.run();
+      if (!options->prints()) return;
+      bar.wipe();
+      print(rows);
+    });
   });
 }
 

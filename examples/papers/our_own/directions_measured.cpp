@@ -35,8 +35,8 @@ namespace papers {
 
 namespace {
 
-struct directions_options {
-  std::filesystem::path networks, tables, folder = shipped_directions(), state;
+struct directions_options : resumable_options {
+  std::filesystem::path networks, tables, folder = shipped_directions();
   std::vector<std::filesystem::path> samples;
   std::vector<std::string> sets{"published", "expected-error", "perceived", "random"};
   std::vector<Eigen::Index> counts{1, 2, 5, 10, 20};
@@ -197,7 +197,7 @@ json judge_samples(const directions_options& given, const benchmark_setup& shop,
 /// Does what is not done yet, opening the benchmark_setup when it must.
 class experiment {
  public:
-  experiment(const directions_options& given, progress_bar& bar) : given_(given), bar_(bar), results_(given.state) {}
+  experiment(const directions_options& given, progress_bar& bar) : given_(given), bar_(bar), results_(given) {}
 
   [[nodiscard]] json tables() {
     json rows = json::array();
@@ -206,7 +206,7 @@ class experiment {
     if (files.empty()) gonio::refuse(given_.tables.string() + ": holds no table (*.binary or *.binary.gz)");
     for (const auto& [name, path] : files) {
       std::optional<gonio::brdf_table> truth;
-      each_set(name, rows, [&](const std::string& set, std::size_t count) -> json {
+      each_set(name, turn_++, rows, [&](const std::string& set, std::size_t count) -> json {
         if (!truth) truth.emplace(gonio::io::read_merl_any(path));
         const auto drawn = cells_of(given_, truth->cells(), set, count);
         if (drawn.empty()) return {};
@@ -220,7 +220,7 @@ class experiment {
     json rows = json::array();
     for (const std::filesystem::path& file : given_.samples) {
       const gonio::sample_set all = read_measurements(file);
-      each_set(file.stem().string(), rows, [&](const std::string& set, std::size_t count) -> json {
+      each_set(file.stem().string(), turn_++, rows, [&](const std::string& set, std::size_t count) -> json {
         if (count >= all.size())
           gonio::refuse(file.string() + ": no sample is left to judge by after " + std::to_string(count));
         const auto drawn = samples_of(given_, all, set, count);
@@ -234,17 +234,15 @@ class experiment {
  private:
   /// A row for each number and set that exists; `judge` returns nothing where it does not.
   template <class Judge>
-  void each_set(const std::string& name, json& rows, Judge&& judge) {
+  void each_set(const std::string& name, std::size_t turn, json& rows, Judge&& judge) {
     for (const Eigen::Index count : given_.counts)
       for (const std::string& set : given_.sets) {
         const json key{name, count, set, given_.eta, given_.seed, given_.repetitions};
-        if (!results_.find(key)) {
+        const json& result = results_.once(key, turn, [&] {
           bar_.draw(name, 0.0);
-          const json found = judge(set, count);
-          if (found.is_null()) continue;
-          results_.add(key, found);
-        }
-        rows.push_back({{"material", name}, {"count", count}, {"set", set}, {"result", *results_.find(key)}});
+          return judge(set, count);
+        });
+        if (!result.is_null()) rows.push_back({{"material", name}, {"count", count}, {"set", set}, {"result", result}});
       }
   }
 
@@ -259,6 +257,7 @@ class experiment {
   const directions_options& given_;
   progress_bar& bar_;
   resumable_results results_;
+  std::size_t turn_ = 0;                 ///< materials have one each
   std::optional<benchmark_setup> shop_;  // of the last table's cells, most often those of the next, too
 };
 
@@ -342,6 +341,7 @@ void run(const directions_options& given) {
   progress_bar bar;
   experiment work(given, bar);
   const json tables = work.tables(), scattered = work.scattered();
+  if (!given.prints()) return;
   bar.wipe();
   if (given.print_json)
     std::cout << json{{"tables", tables}, {"scattered", scattered}}.dump(2) << '\n';
@@ -351,7 +351,7 @@ void run(const directions_options& given) {
 
 }  // namespace
 
-void add_directions_measured(command& app) {
+void add_directions_measured(command& app, const team& processes) {
   auto command = app.add_subcommand(
       "directions-measured", "Reconstruct real measurements from the directions that are the best for a database");
   const auto options = std::make_shared<directions_options>();
@@ -373,10 +373,9 @@ void add_directions_measured(command& app) {
   command.add_option("--repetitions", options->repetitions, "Random sets of each number")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
   command.add_flag("--json", options->print_json, "Print as JSON");
-  add_threads_option(command, options->threads);
-  command.callback([options] { run(*options); });
+  add_resumable_options(command, *options);
+  command.callback([options, &processes] { run_together(processes, *options, [&] { run(*options); }); });
 }
 
 }  // namespace papers

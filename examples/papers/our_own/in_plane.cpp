@@ -59,7 +59,7 @@ class in_plane_experiment : left_out_experiment {
     for (const judged_material& material : measured_materials(given_.materials, library_))
       for (const std::string& method : in_plane_methods) {
         const json key{"in-plane", method, material.name, given_.components, given_.more, scan_.size()};
-        found[method][material.name] = once(key, material.name + " " + method, [&] {
+        found[method][material.name] = once(key, material.turn, material.name + " " + method, [&] {
           const setup& with = setup_without(material.family);
           return errors_of(material, measured_by(method, material, with), with);
         });
@@ -197,7 +197,7 @@ void print(const std::map<std::string, json>& found, const std::vector<gonio::ne
 
 }  // namespace
 
-void add_in_plane(command& app) {
+void add_in_plane(command& app, const team& processes) {
   auto command = app.add_subcommand("in-plane", "Scan measured materials in the plane of incidence");
   const auto options = std::make_shared<in_plane_options>();
   add_left_out_options(command, *options);
@@ -208,14 +208,16 @@ void add_in_plane(command& app) {
   command.add_option("--more", options->more, "Further directions")
       .check(check::positive_number())
       .capture_default_str();
-  add_state_option(command, *options);
-  command.callback([options] {
-    progress_bar bar;
-    in_plane_experiment work(*options, bar);
-    const auto found = work.run();
-    const auto recommended = work.recommended();
-    bar.wipe();
-    print(found, recommended, work.samples(), options->more);
+  command.callback([options, &processes] {
+    run_together(processes, *options, [&] {
+      progress_bar bar;
+      in_plane_experiment work(*options, bar);
+      const auto found = work.run();
+      if (!options->prints()) return;
+      const auto recommended = work.recommended();
+      bar.wipe();
+      print(found, recommended, work.samples(), options->more);
+    });
   });
 }
 

@@ -44,11 +44,7 @@ void add_left_out_options(cli::command& to, left_out_options& options) {
       .check(cli::check::positive_number())
       .capture_default_str();
   cli::add_thin_option(to, options.thin);
-  cli::add_threads_option(to, options.threads);
-}
-
-void add_state_option(cli::command& to, left_out_options& options) {
-  to.add_output("--state", options.state, {}, "File that keeps what is done; an interrupted run goes on from it");
+  add_resumable_options(to, options);
 }
 
 left_out_experiment::left_out_experiment(const left_out_options& given, cli::progress_bar& bar)
@@ -57,7 +53,7 @@ left_out_experiment::left_out_experiment(const left_out_options& given, cli::pro
       library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
       judge_(library_.cells(), 36, given.threads),
       metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
-      results_(given.state) {}
+      results_(given) {}
 
 std::vector<judged_material> measured_materials(const std::filesystem::path& folder, const material_library& library) {
   std::vector<judged_material> all;
@@ -66,7 +62,9 @@ std::vector<judged_material> measured_materials(const std::filesystem::path& fol
     auto measured = [f = gonio::io::read_rgl(path).material](const gonio::direction_pair& pair) {
       return f(pair.wi, pair.wo);
     };
-    all.push_back({name, family_of(name), set.table(set.find(name)), std::move(measured), all.size()});
+    const std::string family = family_of(name);
+    const std::size_t turn = all.empty() ? 0 : all.back().turn + (all.back().family == family ? 0 : 1);
+    all.push_back({name, family, set.table(set.find(name)), std::move(measured), all.size(), turn});
   }
   return all;
 }

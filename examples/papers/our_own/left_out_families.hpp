@@ -67,18 +67,15 @@ class material_library {
 };
 
 /// What experiments by this protocol are told.
-struct left_out_options {
+struct left_out_options : resumable_options {
   std::vector<std::filesystem::path> networks;
-  std::filesystem::path materials, state;
+  std::filesystem::path materials;
   Eigen::Index components = 100;
   cli::thinning thin{{3, 5}};
-  gonio::thread_count threads;
 };
 
-/// Adds `--networks`, `--materials`, `--components`, `--thin` and `--threads`.
+/// Adds `--networks`, `--materials`, `--components`, `--thin`, `--state` and `--threads`.
 void add_left_out_options(cli::command& to, left_out_options& options);
-/// Adds `--state`, for experiments that go on after an interruption.
-void add_state_option(cli::command& to, left_out_options& options);
 
 /// What is measured: reflectance in a pair of directions, sr^-1.
 using reflectance = std::function<gonio::rgb(const gonio::direction_pair&)>;
@@ -89,6 +86,7 @@ struct judged_material {
   gonio::brdf_table truth;
   reflectance measured;
   std::uint64_t number = 0;  ///< its position: each has noise and wrong samples of its own
+  std::size_t turn = 0;      ///< its family's, one process' own: what is learned without it serves all of the family
 };
 
 /// The measured materials of a library that was made from the same folder.
@@ -104,14 +102,13 @@ class left_out_experiment {
     return gonio::compare(table, material.truth, metric_, judge_, threads_);
   }
 
-  /// The result of some work, which is done if it was not done before. `shown` stands beside the progress.
+  /// The result of some work, as resumable_results has it. `shown` stands beside the progress.
   template <class Work>
-  [[nodiscard]] const cli::json& once(const cli::json& key, const std::string& shown, Work&& work) {
-    if (!results_.find(key)) {
+  [[nodiscard]] const cli::json& once(const cli::json& key, std::size_t turn, const std::string& shown, Work&& work) {
+    return results_.once(key, turn, [&] {
       bar_.draw(shown, 0.0);
-      results_.add(key, work());
-    }
-    return *results_.find(key);
+      return work();
+    });
   }
 
   cli::progress_bar& bar_;

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""gonio-mpi with 1, 2 and 4 ranks on this machine: bytes, processor time, what is sent, ranks that are killed, and what
-64 machines would take by these counts:
-  gonio-papers run --markdown docs/results/mpi.md -- examples/papers/our_own/mpi.py MATERIALS
-MATERIALS is a folder of the RGL database's .bsdf files. GONIO_BIN is the folder of gonio and gonio-mpi (default: those
-on the path), SIZE how many texels the sample of gonio svbrdf has each way, KILLS how often a rank is killed. Needs
-numpy, and mpirun of Open MPI."""
+"""gonio-mpi and gonio-papers-mpi with 1, 2 and 4 ranks on this machine: bytes, processor time, what is sent, ranks that
+are killed, and what 64 machines would take by these counts:
+  gonio-papers run --markdown docs/results/mpi.md -- examples/papers/our_own/mpi.py MATERIALS [NETWORKS]
+MATERIALS is a folder of the RGL database's .bsdf files, NETWORKS a file of networks (.npy), without which there is no
+row of gonio-papers-mpi. GONIO_BIN is the folder of the programs (default: those on the path), SIZE how many texels the
+sample of gonio svbrdf has each way, KILLS how often a rank is killed. Needs numpy, and mpirun of Open MPI."""
 
 import filecmp
 import json
@@ -37,8 +37,8 @@ def program(name):
     return str(pathlib.Path(FOLDER) / name) if FOLDER else name
 
 
-def in_ranks(ranks, words):
-    return ["mpirun", "-n", str(ranks), program("gonio-mpi"), *words]
+def in_ranks(ranks, words, tool="gonio"):
+    return ["mpirun", "-n", str(ranks), program(tool + "-mpi"), *words]
 
 
 def write_images(folder):
@@ -54,18 +54,20 @@ def write_images(folder):
 
 
 class Measured:
-    """A command in 1, 2 and 4 ranks: seconds of the clock, costs of each rank, and whether all wrote the same bytes."""
+    """A command in 1, 2 and 4 ranks: seconds of the clock, costs of each rank, and whether all wrote the same bytes into
+    what an option names."""
 
-    def __init__(self, name, words, folder):
+    def __init__(self, name, words, folder, tool="gonio", option="-o"):
         self.name = name
-        end = words.index("-o") + 1
+        end = words.index(option) + 1
         alone = folder / ("alone" + pathlib.Path(words[end]).suffix)
-        subprocess.run([program("gonio"), *words[:end], str(alone), *words[end + 1:]], check=True, cwd=folder,
+        subprocess.run([program(tool), *words[:end], str(alone), *words[end + 1:]], check=True, cwd=folder,
                        stdout=subprocess.DEVNULL)
         self.seconds, self.costs, self.same = {}, {}, True
         for ranks in RANKS:
+            (folder / words[end]).unlink(missing_ok=True)  # which a run may go on from
             start = time.monotonic()
-            said = subprocess.run(in_ranks(ranks, [*words, "--traffic"]), check=True, cwd=folder, env=ENVIRONMENT,
+            said = subprocess.run(in_ranks(ranks, [*words, "--traffic"], tool), check=True, cwd=folder, env=ENVIRONMENT,
                                   stdout=subprocess.PIPE, text=True).stdout
             self.seconds[ranks] = time.monotonic() - start
             self.costs[ranks] = [tuple(map(float, found)) for found in COST.findall(said)]
@@ -180,9 +182,9 @@ def print_extrapolated(svbrdf, design, learn, materials):
         row(svbrdf, n, svbrdf.size * (1 - 1 / n) / NETWORK, 16)
     for n in (16, 64):
         row(design, n, sweeps * (n - 1 + np.log2(n)) * LATENCY)
-    n = 16
-    received = (exchanged / n + kept) * (1 - 1 / n) + 2 * np.log2(n) * gram  # by rank 0
-    row(learn, n, received / NETWORK + materials * LATENCY)
+    for n in (16, 64):
+        received = (exchanged / n + kept) * (1 - 1 / n) + 2 * np.log2(n) * gram  # by rank 0
+        row(learn, n, received / NETWORK + materials * LATENCY)
 
 
 def main():
@@ -201,6 +203,11 @@ def main():
         print("|---|---|---|---|---|---|---|---|")
         for each in (svbrdf, design, learn):
             each.print_rows()
+        if len(sys.argv) > 2:
+            words = ["real-methods", "--networks", str(pathlib.Path(sys.argv[2]).resolve()), "--materials",
+                     str(materials.resolve()), "--random", "20", "100", "--repetitions", "1", "--threads", "1",
+                     "--state", "methods.state"]
+            Measured("papers real-methods", words, folder, "gonio-papers", "--state").print_rows()
         print_kills(["svbrdf", "images.json", "-o", "again.gsv", "--threads", "1"], folder / "alone.gsv", folder)
         print_extrapolated(svbrdf, design, learn, count)
 

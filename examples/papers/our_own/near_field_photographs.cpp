@@ -146,11 +146,12 @@ class near_field_photographs_experiment : photograph_experiment {
 
   [[nodiscard]] std::map<std::string, json> run() {
     std::map<std::string, json> found;
-    for (const std::string& name : given_.names) {
+    for (std::size_t number = 0; number < given_.names.size(); ++number) {
+      const std::string& name = given_.names[number];
       const json key{"near-field-photographs", name,          given_.directions.filename().string(),
                      given_.components,        given_.noise,  given_.angular_error,
                      given_.field_of_view,     given_.pixels, given_.block};
-      found[name] = once(key, name, [&] { return errors_of(material(name)); });
+      found[name] = once(key, number, name, [&] { return errors_of(material(name)); });
     }
     return found;
   }
@@ -234,7 +235,7 @@ void print(const std::map<std::string, json>& found) {
 
 }  // namespace
 
-void add_near_field_photographs(command& app) {
+void add_near_field_photographs(command& app, const team& processes) {
   auto command = app.add_subcommand("near-field-photographs",
                                     "Reconstruct measured materials from simulated raw photographs of a flat sample");
   const auto options = std::make_shared<near_field_photographs_options>();
@@ -254,13 +255,15 @@ void add_near_field_photographs(command& app) {
   command.add_option("--block", options->block, "Pixels a side of the blocks that become one sample")
       .check(check::range(1, 64))
       .capture_default_str();
-  add_state_option(command, *options);
-  command.callback([options] {
-    progress_bar bar;
-    near_field_photographs_experiment work(*options, bar);
-    const auto found = work.run();
-    bar.wipe();
-    print(found);
+  command.callback([options, &processes] {
+    run_together(processes, *options, [&] {
+      progress_bar bar;
+      near_field_photographs_experiment work(*options, bar);
+      const auto found = work.run();
+      if (!options->prints()) return;
+      bar.wipe();
+      print(found);
+    });
   });
 }
 

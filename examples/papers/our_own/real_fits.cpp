@@ -20,8 +20,8 @@ namespace papers {
 
 namespace {
 
-struct real_fits_options {
-  std::filesystem::path materials, state;
+struct real_fits_options : resumable_options {
+  std::filesystem::path materials;
   std::vector<std::string> models{"ggx", "torrance-sparrow", "ward-bounded", "phong-fresnel", "sum:lambert+ggx+ggx"};
   std::vector<std::string> metrics{"lin", "log", "cubic"}, losses{"l1", "l2", "huber"}, weightings{"none", "cosine"},
       cell_weights{"equal", "cosine"};
@@ -29,7 +29,6 @@ struct real_fits_options {
   Eigen::Index repetitions = 2;
   bool tables = false;
   thinning thin{{3, 5}};
-  gonio::thread_count threads;
 };
 
 /// How errors add up, as the options of gonio fit say it.
@@ -70,7 +69,7 @@ class fits_experiment {
         bar_(bar),
         library_({}, given.materials, given.thin, bar.listener(), given.threads),
         judge_(library_.cells(), 36, given.threads),
-        results_(given.state) {}
+        results_(given) {}
 
   /// A row for each way to add up errors, model and number of samples (0: a table), with the Delta E of each material.
   [[nodiscard]] json run() {
@@ -89,12 +88,13 @@ class fits_experiment {
         std::vector<double> errors;
         for (const judged_material& material : materials) {
           const json key{choice.key(), model, count, material.name, given_.repetitions};
-          if (!results_.find(key)) {
+          const json& error = results_.once(key, material.turn, [&]() -> json {
             bar_.draw(material.name + " " + model, 0.0);
-            results_.add(key, error_of(material, count, choice, model));
-          }
-          errors.push_back(results_.find(key)->number());
+            return error_of(material, count, choice, model);
+          });
+          if (!error.is_null()) errors.push_back(error.number());
         }
+        if (errors.empty()) continue;  // other processes' alone
         const distribution seen(errors);
         rows.push_back({{"choice", choice.key()},
                         {"model", model},
@@ -160,7 +160,7 @@ void print(const real_fits_options& given, const json& rows) {
 
 }  // namespace
 
-void add_real_fits(command& app) {
+void add_real_fits(command& app, const team& processes) {
   auto command =
       app.add_subcommand("real-fits", "Fit analytic models to measured materials, by every way to add up errors");
   const auto options = std::make_shared<real_fits_options>();
@@ -179,14 +179,16 @@ void add_real_fits(command& app) {
       .capture_default_str();
   command.add_flag("--tables", options->tables, "Fit all cells, with each of the weights that a cell may have");
   add_thin_option(command, options->thin);
-  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
-  add_threads_option(command, options->threads);
-  command.callback([options] {
-    progress_bar bar;
-    fits_experiment work(*options, bar);
-    const json rows = work.run();
-    bar.wipe();
-    print(*options, rows);
+  add_resumable_options(command, *options);
+  command.callback([options, &processes] {
+    run_together(processes, *options, [&] {
+      progress_bar bar;
+      fits_experiment work(*options, bar);
+      const json rows = work.run();
+      if (!options->prints()) return;
+      bar.wipe();
+      print(*options, rows);
+    });
   });
 }
 

@@ -71,7 +71,7 @@ class experiment : left_out_experiment {
           const json key{method,       where.name,         material.name, given_.components,
                          given_.noise, given_.repetitions, given_.set,    given_.surrogates,
                          given_.wrong};
-          by_material[material.name] = once(key, where.name + " " + method + " " + material.name,
+          by_material[material.name] = once(key, material.turn, where.name + " " + method + " " + material.name,
                                             [&] { return errors_of(material, where, method); });
         }
         rows.push_back({{"sampling", where.name}, {"method", method}, {"materials", by_material}});
@@ -87,7 +87,7 @@ class experiment : left_out_experiment {
     for (const std::string& name : gonio::nielsen_test_materials()) {
       const Eigen::Index i = library_.first().find(name);
       const auto measured = [f = known.networks[i]](const gonio::direction_pair& pair) { return f(pair.wi, pair.wo); };
-      all.push_back({name, "", library_.first().table(i), measured, all.size()});
+      all.push_back({name, "", library_.first().table(i), measured, all.size(), all.size()});
     }
     return all;
   }
@@ -288,7 +288,7 @@ void print(const real_materials_options& given, const json& rows) {
 
 }  // namespace
 
-void add_real_materials(command& app) {
+void add_real_materials(command& app, const team& processes) {
   auto command = app.add_subcommand("real-materials",
                                     "Reconstruct measured materials by priors that have not seen their families");
   const auto options = std::make_shared<real_materials_options>();
@@ -317,13 +317,15 @@ void add_real_materials(command& app) {
       .capture_default_str();
   command.add_flag("--surrogates", options->surrogates,
                    "Judge the ten test materials of Nielsen et al. among the networks, not the measured ones");
-  add_state_option(command, *options);
-  command.callback([options] {
-    progress_bar bar;
-    experiment work(*options, bar);
-    const json rows = work.run();
-    bar.wipe();
-    print(*options, rows);
+  command.callback([options, &processes] {
+    run_together(processes, *options, [&] {
+      progress_bar bar;
+      experiment work(*options, bar);
+      const json rows = work.run();
+      if (!options->prints()) return;
+      bar.wipe();
+      print(*options, rows);
+    });
   });
 }
 

@@ -126,7 +126,7 @@ class methods_experiment : left_out_experiment {
           for (const std::string& method : given_.methods) {
             const json key{method, count, wrong, material.name, given_.components, given_.repetitions};
             errors[row_name(count, wrong, method)][material.name] =
-                once(key, material.name + " " + std::to_string(count) + " " + method,
+                once(key, material.turn, material.name + " " + std::to_string(count) + " " + method,
                      [&] { return errors_of(material, count, wrong, method); });
           }
     json rows = json::array();
@@ -237,7 +237,7 @@ void print(const real_methods_options& given, const json& rows) {
 
 }  // namespace
 
-void add_real_methods(command& app) {
+void add_real_methods(command& app, const team& processes) {
   auto command = app.add_subcommand("real-methods",
                                     "Reconstruct measured materials by every method, with their families left out");
   const auto options = std::make_shared<real_methods_options>();
@@ -257,13 +257,15 @@ void add_real_methods(command& app) {
   command.add_option("--repetitions", options->repetitions, "Random sets of each number")
       .check(check::positive_number())
       .capture_default_str();
-  add_state_option(command, *options);
-  command.callback([options] {
-    progress_bar bar;
-    methods_experiment work(*options, bar);
-    const json rows = work.run();
-    bar.wipe();
-    print(*options, rows);
+  command.callback([options, &processes] {
+    run_together(processes, *options, [&] {
+      progress_bar bar;
+      methods_experiment work(*options, bar);
+      const json rows = work.run();
+      if (!options->prints()) return;
+      bar.wipe();
+      print(*options, rows);
+    });
   });
 }
 

@@ -98,12 +98,13 @@ class sphere_photograph_experiment : photograph_experiment {
   /// For each set and each material.
   [[nodiscard]] std::map<std::string, std::map<std::string, json>> run() {
     std::map<std::string, std::map<std::string, json>> found;
-    for (const std::string& name : given_.names) {
+    for (std::size_t number = 0; number < given_.names.size(); ++number) {
+      const std::string& name = given_.names[number];
       std::optional<estimator_type> estimator;
       for (const photograph_set& set : sets_of(given_)) {
         const json key{"sphere-photograph", name,          set.name,      given_.components,
                        given_.noise,        given_.pixels, given_.coarser};
-        found[set.name][name] = once(key, name + " " + set.name, [&] {
+        found[set.name][name] = once(key, number, name + " " + set.name, [&] {
           if (!estimator) estimator.emplace(estimator_of(prior_of(material(name))));
           return errors_of(material(name), photograph(material(name), set), set.pairs.size(), *estimator);
         });
@@ -199,7 +200,7 @@ void print(const std::map<std::string, std::map<std::string, json>>& found) {
 
 }  // namespace
 
-void add_sphere_photograph(command& app) {
+void add_sphere_photograph(command& app, const team& processes) {
   auto command =
       app.add_subcommand("sphere-photograph", "Reconstruct measured materials from simulated photographs of a sphere");
   const auto options = std::make_shared<sphere_photograph_options>();
@@ -213,13 +214,15 @@ void add_sphere_photograph(command& app) {
   command.add_option("--names", options->names, "Materials to photograph").capture_default_str();
   command.add_option("--noise", options->noise, "Relative noise of a pixel").capture_default_str();
   command.add_option("--pixels", options->pixels, "Pixels a side").check(check::range(64, 2048)).capture_default_str();
-  add_state_option(command, *options);
-  command.callback([options] {
-    progress_bar bar;
-    sphere_photograph_experiment work(*options, bar);
-    const auto found = work.run();
-    bar.wipe();
-    print(found);
+  command.callback([options, &processes] {
+    run_together(processes, *options, [&] {
+      progress_bar bar;
+      sphere_photograph_experiment work(*options, bar);
+      const auto found = work.run();
+      if (!options->prints()) return;
+      bar.wipe();
+      print(found);
+    });
   });
 }
 

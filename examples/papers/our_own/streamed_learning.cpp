@@ -28,6 +28,7 @@
 #include <iostream>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -38,8 +39,8 @@ namespace papers {
 namespace {
 
 struct streaming_experiment {
-  std::vector<Eigen::Index> counts{100, 1000, 10000};
-  Eigen::Index compared = 1000, grown = 300, components = 60;
+  std::vector<Eigen::Index> counts{100, 1000, 10000}, compared{100, 200, 340, 500, 1000};
+  Eigen::Index grown = 300, components = 60;
   std::filesystem::path prior, folder;
   gonio::thread_count threads;
 };
@@ -105,8 +106,14 @@ gonio::io::scratch_materials random_tables(Eigen::Index first, Eigen::Index end,
   return scratch;
 }
 
-gonio::streaming_options options_of(const streaming_experiment& given, Eigen::Index exact_columns = 3072) {
-  return {.components = given.components, .exact_columns = exact_columns, .threads = given.threads};
+gonio::streaming_options options_of(const streaming_experiment& given) {
+  return {.components = given.components, .threads = given.threads};
+}
+
+gonio::streaming_options exact_up_to(Eigen::Index columns, const streaming_experiment& given) {
+  gonio::streaming_options options = options_of(given);
+  options.exact_columns = columns;
+  return options;
 }
 
 // ---- time and memory ---------------------------------------------------------------------------
@@ -184,31 +191,38 @@ void print_same_as_in_memory(const streaming_experiment& given) {
             << std::flush;
 }
 
-void print_subspace_error(const streaming_experiment& given) {
+/// A line of the table: the same materials by their Gram matrix and in a random subspace.
+void print_both_ways(Eigen::Index materials, const streaming_experiment& given) {
   const auto found = separately([&] {
-    const gonio::material_rows rows = random_tables(0, given.compared, given).rows();
+    const gonio::material_rows rows = random_tables(0, materials, given).rows();
     std::array<double, 8> numbers{};
-    gonio::streamed_pca exact = gonio::learn_streamed_pca(rows, options_of(given, 3 * given.compared));
-    gonio::streamed_pca other = exact;
-    numbers[5] = seconds_of([&] { other = gonio::learn_streamed_pca(rows, options_of(given, 0)); });
-    const double variance = exact.prior.singular_values().squaredNorm() / exact.prior.explained_variance();
-    numbers[0] =
-        (exact.prior.singular_values().cwiseAbs2() - other.prior.singular_values().cwiseAbs2()).cwiseAbs().maxCoeff() /
-        variance;
-    numbers[1] = other.residual;
-    numbers[2] = exact.prior.explained_variance() - other.prior.explained_variance();
-    numbers[3] = outside(other.prior, exact.prior);
-    numbers[4] = 1.0 - exact.prior.explained_variance();
+    std::optional<gonio::streamed_pca> exact, other;
+    numbers[0] = seconds_of([&] { exact = gonio::learn_streamed_pca(rows, exact_up_to(rows.columns(), given)); });
+    numbers[1] = seconds_of([&] { other = gonio::learn_streamed_pca(rows, exact_up_to(0, given)); });
+    const auto squares = [](const gonio::streamed_pca& learned) { return learned.prior.singular_values().cwiseAbs2(); };
+    const double variance = squares(*exact).sum() / exact->prior.explained_variance();
+    numbers[2] = (squares(*exact) - squares(*other)).cwiseAbs().maxCoeff() / variance;
+    numbers[3] = other->residual;
+    numbers[4] = exact->prior.explained_variance() - other->prior.explained_variance();
+    numbers[5] = outside(other->prior, exact->prior);
+    numbers[6] = 1.0 - exact->prior.explained_variance();
     return numbers;
   });
-  const auto& values = found.values;
-  std::cout << "\nThe random subspace (seed 1) beside the exact decomposition of " << given.compared
-            << " materials, as shares of the variance: squared\nsingular values are off by at most "
-            << scientific(values[0]) << ", where the residual states " << scientific(values[1]) << ". What is kept is "
-            << scientific(values[2]) << " less than\nthe most that " << given.components
-            << " components can keep, which leaves " << scientific(values[4]) << ". Of the exact components' variation "
-            << scientific(values[3]) << " is\noutside of those found. They took " << fixed(values[5], 1) << " s.\n"
-            << std::flush;
+  const auto& [exact, other, error, residual, less, beside, lost, unused] = found.values;
+  std::cout << "| " << materials << " | " << 3 * materials << " | " << fixed(exact, 1) << " | " << fixed(other, 1);
+  for (const double value : {error, residual, lost, less, beside}) std::cout << " | " << scientific(value);
+  std::cout << " |\n" << std::flush;
+}
+
+void print_subspace_errors(const streaming_experiment& given) {
+  std::cout << "\nThe random subspace (seed 1) beside the exact decomposition, as shares of the variance: by how much "
+               "squared singular\nvalues are off at most, and what the residual states; what "
+            << given.components
+            << " components lose at least, and how much more the\nsubspace's lose. Of the exact components' variation, "
+               "what is outside of those found.\n\n| materials | columns | by the Gram matrix, s | in a random "
+               "subspace, s | squared singular values | stated | lost | more lost | outside "
+               "|\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const Eigen::Index materials : given.compared) print_both_ways(materials, given);
 }
 
 /// What the components of a prior leave of the materials' mapped values: rms.
@@ -272,7 +286,7 @@ void learn_streamed(const streaming_experiment& given) {
             << given.threads.resolve() << " threads.\n\n";
   print_costs(given);
   print_same_as_in_memory(given);
-  print_subspace_error(given);
+  print_subspace_errors(given);
   print_added(given);
 }
 
@@ -284,7 +298,8 @@ void add_streamed_learning(command& app) {
   const auto given = std::make_shared<streaming_experiment>();
   command.add_option("--materials", given->counts, "How many synthetic materials to learn from").capture_default_str();
   command
-      .add_option("--compared", given->compared, "Materials of which the exact and the fast decomposition are compared")
+      .add_option("--compared", given->compared,
+                  "Numbers of materials of which the exact and the fast decomposition are compared")
       .check(check::range(10, 1024))
       .capture_default_str();
   command.add_option("--grown", given->grown, "Materials of which a tenth is added to a prior of the others")

@@ -34,9 +34,9 @@ namespace papers {
 
 namespace {
 
-struct directions_options {
+struct directions_options : resumable_options {
   studied_networks networks;
-  std::filesystem::path state, folder;
+  std::filesystem::path folder;
   std::vector<std::string> sets{"published", "industry",  "random",         "condition",
                                 "a-optimal", "d-optimal", "expected-error", "perceived"};
   std::vector<Eigen::Index> counts{1, 2, 5, 10, 20};
@@ -275,9 +275,10 @@ void run(const directions_options& options) {
   progress_bar bar;
   const auto listener = bar.listener();
   // Find and judge each set, unless the state file has its result.
-  resumable_results results(options.state);
+  resumable_results results(options);
   std::optional<laboratory> lab;  // opened when there is something to do
   json all = json::array();
+  std::size_t turn = 0;
   for (const judged_set& set : sets_to_judge(options)) {
     const json key{options.geometry,
                    options.geometry == "point" || options.geometry == "sphere" ? 0.0 : options.field_of_view,
@@ -294,16 +295,15 @@ void run(const directions_options& options) {
                    options.expected,
                    options.networks.thin.steps.first,
                    options.networks.thin.steps.second};
-    const json* result = results.find(key);
-    if (!result) {
+    const json& result = results.once(key, turn++, [&] {
       if (!lab) lab.emplace(open_laboratory(options, listener));
       const designed found = find_set(*lab, options, set, listener);
       gonio::report(listener, "judging " + std::to_string(set.count) + " of " + set.name, 0.0);
-      results.add(key, judged(*lab, options, found));
-      result = results.find(key);
-    }
-    all.push_back({{"set", set.name}, {"count", set.count}, {"result", *result}});
+      return judged(*lab, options, found);
+    });
+    all.push_back({{"set", set.name}, {"count", set.count}, {"result", result}});
   }
+  if (!options.prints()) return;
   bar.wipe();
 
   // Write the sets, and print the errors.
@@ -320,7 +320,7 @@ void run(const directions_options& options) {
 
 }  // namespace
 
-void add_directions(command& app) {
+void add_directions(command& app, const team& processes) {
   auto command = app.add_subcommand(
       "directions", "Published directions and ours on ten materials, 90 others learned (Nielsen 2015, Xu 2016)");
   const auto options = std::make_shared<directions_options>();
@@ -364,11 +364,10 @@ void add_directions(command& app) {
       .capture_default_str();
   // Declare the run and its output.
   command.add_option("--seed", options->seed, "Seed of what is random").capture_default_str();
-  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
   command.add_output_folder("--write", options->folder, {}, "Folder to write each set to, as directions (.csv)");
   command.add_flag("--json", options->print_json, "Print everything, with the poses, as JSON");
-  add_threads_option(command, options->threads);
-  command.callback([options] { run(*options); });
+  add_resumable_options(command, *options);
+  command.callback([options, &processes] { run_together(processes, *options, [&] { run(*options); }); });
 }
 
 }  // namespace papers

@@ -20,7 +20,8 @@ struct streaming_options {
   Eigen::Index components = 60;
   cosine_weighting weighting = cosine_weighting::product;
   /// Up to as many columns, 3 a material, have their Gram matrix decomposed; more are found in a random subspace.
-  Eigen::Index exact_columns = 3072;
+  /// From 200 to 300 materials on that takes less time (docs/results/learn.md).
+  Eigen::Index exact_columns = 1024;
   subspace_options subspace = {};
   /// What the learner may hold, in bytes, beside the prior that it returns. With more threads than have room in it, it
   /// uses fewer.

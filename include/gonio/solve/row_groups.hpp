@@ -15,8 +15,8 @@
 
 namespace gonio {
 
-/// Contiguous groups of rows, whatever the matrix and the machine: a power of two.
-inline constexpr Eigen::Index row_groups = 16;
+/// Contiguous groups of rows, whatever the matrix and the machine: a power of two, as many as processes can share.
+inline constexpr Eigen::Index row_groups = 64;
 /// All of them.
 inline constexpr block all_row_groups{0, row_groups};
 
@@ -25,7 +25,7 @@ inline constexpr block all_row_groups{0, row_groups};
 [[nodiscard]] block rows_of_groups(Eigen::Index rows, block groups);
 
 /// The sum of what `of_group` gives for each of some groups, which are a subtree: 2^n of them, from a multiple of 2^n
-/// on. Throws gonio::error if they are not. Holds a matrix for each thread and at most 5 more with one thread.
+/// on. Throws gonio::error if they are not. Holds a matrix for each thread and at most 7 more with one thread.
 [[nodiscard]] Eigen::MatrixXd sum_over_groups(block groups, thread_count threads,
                                               const std::function<Eigen::MatrixXd(Eigen::Index group)>& of_group);
 

@@ -1,0 +1,100 @@
+#include "resumable_results.hpp"
+
+#include "command_line/threads_option.hpp"
+#include <gonio/core/error.hpp>
+
+#include <cstring>
+#include <iterator>
+#include <span>
+#include <sstream>
+#include <utility>
+
+namespace papers {
+
+namespace {
+
+cli::team::part bytes_of(const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+std::string text_of(const cli::team::part& bytes) {
+  std::string text(bytes.size(), ' ');
+  if (!bytes.empty()) std::memcpy(text.data(), bytes.data(), bytes.size());
+  return text;
+}
+
+/// What earlier runs left in a file, as text.
+std::string left_in(const std::filesystem::path& path) {
+  if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
+    gonio::refuse("'" + path.string() + "' is not a regular file");
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+void add_resumable_options(cli::command& to, resumable_options& options) {
+  to.add_output("--state", options.state, {}, "File that keeps what is done; an interrupted run goes on from it");
+  cli::add_threads_option(to, options.threads);
+}
+
+void run_together(const cli::team& processes, resumable_options& options, const std::function<void()>& work) {
+  options.processes = &processes;
+  options.threads = processes.threads(options.threads);
+  processes.together(work);
+}
+
+resumable_results::resumable_results(const resumable_options& options)
+    : processes_(*options.processes), path_(options.state) {
+  std::string earlier;
+  processes_.together([&] {
+    if (!processes_.writes() || path_.empty()) return;
+    earlier = left_in(path_);
+    file_.open(path_, std::ios::app);
+    if (!file_) gonio::refuse("cannot write '" + path_.string() + "'");
+  });
+  std::istringstream lines(text_of(processes_.of_writer(bytes_of(earlier))));
+  for (std::string line; std::getline(lines, line);) {
+    // A run that was killed may have left half a line.
+    const json entry = json::parse(line);
+    if (entry.is_object() && entry.contains("key") && entry.contains("result"))
+      results_.insert_or_assign(entry["key"].dump(), entry["result"]);
+  }
+  if (!results_.empty()) file_ << '\n';
+}
+
+const json* resumable_results::find(const json& key) const {
+  const auto found = results_.find(key.dump());
+  return found == results_.end() ? nullptr : &found->second;
+}
+
+const json& resumable_results::once(const json& key, std::size_t turn, const std::function<json()>& work) {
+  static const json nothing;
+  if (!find(key)) {
+    json result;
+    const auto done = processes_.compute_in_turn(turn, [&] {
+      result = work();
+      return bytes_of(json{{"key", key}, {"result", result}}.dump());
+    });
+    if (!done) return nothing;
+    if (!is_own(turn)) {
+      const json entry = json::parse(text_of(*done));
+      if (entry["key"].dump() != key.dump())
+        gonio::refuse("the processes do different work: do they read different inputs?");
+      result = entry["result"];
+    }
+    if (result.is_null()) return nothing;
+    add(key, result);
+  }
+  return *find(key);
+}
+
+void resumable_results::add(const json& key, const json& result) {
+  results_.insert_or_assign(key.dump(), result);
+  if (!file_.is_open()) return;
+  file_ << json{{"key", key}, {"result", result}}.dump() << std::endl;
+  if (!file_) gonio::refuse("cannot write '" + path_.string() + "'");
+}
+
+}  // namespace papers
