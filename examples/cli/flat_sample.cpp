@@ -48,14 +48,15 @@ class lit_from_afar {
   gonio::rgb irradiance_;
 };
 
-/// Makes the image white at the 99th percentile of its pixels' largest values, unless that is black.
+/// Makes the image white at the 99th percentile of its pixels' largest values that are not black, if there are any.
 void expose_by_itself(gonio::image& picture) {
   std::vector<float> brightest;
   const std::size_t pixels = picture.size() / 3, step = std::max<std::size_t>(pixels / 100'000, 1);
-  for (std::size_t i = 0; i < pixels; i += step)
-    brightest.push_back(*std::max_element(picture.data() + 3 * i, picture.data() + 3 * i + 3));
-  const double white = gonio::quantile(std::move(brightest), 0.99);
-  if (white > 0.0) gonio::render::expose(picture, 1.0 / white);
+  for (std::size_t i = 0; i < pixels; i += step) {
+    const float largest = *std::max_element(picture.data() + 3 * i, picture.data() + 3 * i + 3);
+    if (largest > 0.0f) brightest.push_back(largest);
+  }
+  if (!brightest.empty()) gonio::render::expose(picture, 1.0 / gonio::quantile(std::move(brightest), 0.99));
 }
 
 }  // namespace
@@ -78,6 +79,7 @@ gonio::image flat_sample_image(const std::filesystem::path& map, const std::file
     gonio::for_each_index(
         header.texels_of_band(number), 4096,
         [&](Eigen::Index texel) {
+          if (!band.has_material(texel)) return;
           gonio::rgb sum = gonio::rgb::Zero();
           for (const lit_from_afar& light : lit)
             sum += light(band.weights.data() + 3 * texel * header.functions.cols());

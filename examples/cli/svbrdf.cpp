@@ -70,7 +70,9 @@ class svbrdf_job {
   [[nodiscard]] std::vector<std::byte> band(const gonio::io::svbrdf_header& header, Eigen::Index number) const {
     const Eigen::Index first = number * header.band_rows;
     const gonio::block rows{first, std::min(first + header.band_rows, header.rows)};
-    const auto found = estimator_.solve(images_.read(rows, options_.threads), options_.threads);
+    const texel_values values = images_.read(rows, options_.threads);
+    gonio::texel_estimates found = estimator_.solve(values.reflectance, options_.threads);
+    for (const Eigen::Index texel : values.outside) found.clear(texel);
     return gonio::io::encode_band(header, number, gonio::io::as_halves(found, options_.threads));
   }
 
@@ -80,7 +82,7 @@ class svbrdf_job {
     std::vector<std::uint32_t> each;
     for (Eigen::Index i = 0; i < std::min(most, images_.rows()); ++i) {
       const Eigen::Index row = i * images_.rows() / std::min(most, images_.rows());
-      each.push_back(checksum_of_numbers(images_.read({row, row + 1}, options_.threads)));
+      each.push_back(checksum_of_numbers(images_.read({row, row + 1}, options_.threads).reflectance));
     }
     return gonio::io::detail::checksum(std::as_bytes(std::span(each)));
   }
