@@ -5,7 +5,6 @@
 #include <gonio/solve/impl/gram.ipp>
 #include <gonio/solve/impl/growing_cholesky.ipp>
 #include <gonio/solve/impl/householder_qr.ipp>
-#include <gonio/solve/impl/k_means.ipp>
 #include <gonio/solve/impl/kkt.ipp>
 #include <gonio/solve/impl/lasso.ipp>
 #include <gonio/solve/impl/leading_eigenpairs.ipp>

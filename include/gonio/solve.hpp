@@ -15,7 +15,6 @@
 #include <gonio/solve/growing_cholesky.hpp>
 #include <gonio/solve/householder_qr.hpp>
 #include <gonio/solve/iteration.hpp>
-#include <gonio/solve/k_means.hpp>
 #include <gonio/solve/kkt.hpp>
 #include <gonio/solve/lasso.hpp>
 #include <gonio/solve/leading_eigenpairs.hpp>

@@ -162,8 +162,8 @@ TEST_CASE("svbrdf: on a full disk it says so, and the command given again goes o
   const auto size = scratch::fs::file_size(given.folder / "map.gsv");
   // A limit of a file's size, in blocks of 512 bytes, stands for a full disk.
   const auto limited = [&](std::uintmax_t bytes, const std::string& arguments) {
-    return run_program("sh", "-c \"ulimit -f " + std::to_string(bytes / 512) + "; exec '" GONIO_TOOL "' " + arguments +
-                                 "\"");
+    return run_program("sh",
+                       "-c \"ulimit -f " + std::to_string(bytes / 512) + "; exec '" GONIO_TOOL "' " + arguments + "\"");
   };
   check_refusal(limited(size / 2, given.command("full.gsv")), {"full.gsv.part: cannot be written: File too large"});
   check_refusal(limited(size - 4096, given.command("full.gsv")),

@@ -167,7 +167,9 @@ TEST_CASE("map of a spatially varying BRDF: what is written before the disk is f
   auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit tight{4 * size, before.rlim_max};
   REQUIRE(::setrlimit(RLIMIT_FSIZE, &tight) == 0);
-  scratch::check_refused([&] { write_bands(path, header, header.bands()); }, {"map.gsv.part", "cannot be written", "the first 3 of 16 bands stay, and the same job goes on"});
+  scratch::check_refused(
+      [&] { write_bands(path, header, header.bands()); },
+      {"map.gsv.part", "cannot be written", "the first 3 of 16 bands stay, and the same job goes on"});
   REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
   std::signal(SIGXFSZ, handler);
   CHECK(svbrdf_writer(path, header).finished() == 3);
