@@ -227,6 +227,16 @@ void image_stack::mark_invalid(const source& image, const Eigen::Ref<const Eigen
   }
 }
 
+void image_stack::will_read(gonio::block rows) const noexcept {
+#if defined(POSIX_FADV_WILLNEED)
+  for (const source& image : sources_) {
+    const auto row = static_cast<off_t>(image.word_size) * 3 * columns_;
+    static_cast<void>(::posix_fadvise(image.file.get(), static_cast<off_t>(image.offset) + row * rows.begin,
+                                      row * rows.size(), POSIX_FADV_WILLNEED));
+  }
+#endif
+}
+
 texel_values image_stack::read(gonio::block rows, gonio::thread_count threads) const {
   texel_values all{Eigen::MatrixXf(3 * columns_ * rows.size(), std::ssize(sources_)), {}};
   gonio::for_each_index(

@@ -49,6 +49,8 @@ class image_stack {
   [[nodiscard]] Eigen::Index rows() const noexcept { return rows_; }
   [[nodiscard]] Eigen::Index columns() const noexcept { return columns_; }
 
+  /// Says that a range of rows is read next: the system reads it from the disk meanwhile.
+  void will_read(gonio::block rows) const noexcept;
   /// The texels of a range of rows. Throws gonio::error naming the image and the texel of the sample whose value is not
   /// finite, unless such texels are skipped.
   [[nodiscard]] texel_values read(gonio::block rows, gonio::thread_count threads) const;

@@ -69,9 +69,8 @@ class svbrdf_job {
 
   /// A band as the map has it.
   [[nodiscard]] std::vector<std::byte> band(const gonio::io::svbrdf_header& header, Eigen::Index number) const {
-    const Eigen::Index first = number * header.band_rows;
-    const gonio::block rows{first, std::min(first + header.band_rows, header.rows)};
-    const texel_values values = images_.read(rows, options_.threads);
+    const texel_values values = images_.read(rows_of(header, number), options_.threads);
+    images_.will_read(rows_of(header, number + 1));
     gonio::texel_estimates found = estimator_.solve(values.reflectance, options_.threads);
     for (const Eigen::Index texel : values.outside) found.clear(texel);
     return gonio::io::encode_band(header, number, gonio::io::as_halves(found, options_.threads));
@@ -89,6 +88,12 @@ class svbrdf_job {
   }
 
  private:
+  /// None behind the last band.
+  static gonio::block rows_of(const gonio::io::svbrdf_header& header, Eigen::Index band) {
+    const Eigen::Index first = std::min(band * header.band_rows, header.rows);
+    return {first, std::min(first + header.band_rows, header.rows)};
+  }
+
   static std::uint32_t checksum_of_numbers(const Eigen::MatrixXf& numbers) {
     return gonio::io::detail::checksum(
         std::as_bytes(std::span(numbers.data(), static_cast<std::size_t>(numbers.size()))));

@@ -137,7 +137,8 @@ TEST_CASE("k-means: points that clusters were not made from go to the nearest ce
   const auto found = gonio::capture::find_nearest(points, centres);
   CHECK(found.labels == Eigen::VectorXi{{1, 0, 3, 0}});
   CHECK(found.squared_distances == Eigen::VectorXd{{0.0625, 0.0625, 64, 1}});
-  const point_matrix cloud = blobs({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 4000, 0.7, 3);
+  const point_matrix middles{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const point_matrix cloud = blobs(middles, 4000, 0.7, 3);
   const auto clusters = k_means(cloud.topRows(500), 5, 2);
   const auto one = gonio::capture::find_nearest(cloud, clusters.centres, {1});
   CHECK(one.labels == gonio::capture::find_nearest(cloud, clusters.centres, {4}).labels);
