@@ -22,18 +22,26 @@ namespace papers {
 
 namespace {
 
-/// The largest share of texels that a naming of the clusters calls by their material: counts are clusters x materials.
-double share_right(const Eigen::MatrixXd& counts) {
+/// The materials that the clusters are called by, and the share of texels that are then called by their own.
+struct cluster_names {
+  std::vector<Eigen::Index> material;
+  double right = 0.0;
+};
+
+/// The best of all names: counts are clusters x materials.
+cluster_names best_names(const Eigen::MatrixXd& counts) {
   std::vector<Eigen::Index> material(static_cast<std::size_t>(counts.rows()));
   std::iota(material.begin(), material.end(), Eigen::Index{0});
-  double most = 0.0;
+  cluster_names best;
   do {
     double right = 0.0;
     for (Eigen::Index k = 0; k < counts.rows(); ++k) right += counts(k, material[static_cast<std::size_t>(k)]);
-    most = std::max(most, right);
+    if (right / counts.sum() > best.right) best = {material, right / counts.sum()};
   } while (std::ranges::next_permutation(material).found);
-  return most / counts.sum();
+  return best;
 }
+
+double share_right(const Eigen::MatrixXd& counts) { return best_names(counts).right; }
 
 /// Radiance times pi of a flat sample under the two lights, seen from ahead.
 template <class Brdf>
@@ -57,10 +65,10 @@ svbrdf_maps::svbrdf_maps(const gonio::log_relative_pca& prior, const gonio::io::
   for (const std::byte each : std::span(bytes).last(count)) labels_.push_back(std::to_integer<std::uint8_t>(each));
 }
 
-std::size_t svbrdf_maps::main_material(Eigen::Index row, Eigen::Index column) const {
+Eigen::Index svbrdf_maps::main_material(Eigen::Index row, Eigen::Index column) const {
   Eigen::Index most = 0;
   texels_.shares(row, column).maxCoeff(&most);
-  return static_cast<std::size_t>(most);
+  return most;
 }
 
 void svbrdf_maps::print_labels(gonio::thread_count threads) const {
@@ -81,7 +89,7 @@ void svbrdf_maps::print_labels(gonio::thread_count threads) const {
   // The same of 128 x 128 texels, with distances of their weights as they are.
   constexpr Eigen::Index across = 128;
   gonio::capture::point_matrix weights(across * across, 3 * r), mapped = weights;
-  std::vector<std::size_t> truth;
+  std::vector<Eigen::Index> truth, mostly_one;
   const Eigen::MatrixXf metric = gonio::texel_metric(prior_, map_.header().functions);
   for (Eigen::Index i = 0; i < across; ++i) {
     const Eigen::Index row = i * size / across;
@@ -95,17 +103,24 @@ void svbrdf_maps::print_labels(gonio::thread_count threads) const {
       weights.row(across * i + j) = Eigen::Map<const Eigen::RowVectorXf>(own.data(), 3 * r).cast<double>();
       mapped.row(across * i + j) = Eigen::Map<const Eigen::RowVectorXf>(moved.data(), 3 * r).cast<double>();
       truth.push_back(main_material(row, column));
+      if (texels_.shares(row, column).maxCoeff() >= 0.9) mostly_one.push_back(across * i + j);
     }
   }
-  const auto right = [&](const gonio::capture::point_matrix& points) {
-    const auto found = gonio::capture::k_means(points, count, 1, threads);
+  std::vector<Eigen::Index> all_of_grid(truth.size());
+  std::iota(all_of_grid.begin(), all_of_grid.end(), Eigen::Index{0});
+  const auto right = [&](const gonio::capture::point_matrix& points, const std::vector<Eigen::Index>& some) {
+    const gonio::capture::point_matrix own = points(some, Eigen::all);
+    const auto found = gonio::capture::k_means(own, count, 1, threads);
     Eigen::MatrixXd counts = Eigen::MatrixXd::Zero(count, count);
-    for (std::size_t i = 0; i < truth.size(); ++i)
-      counts(found.labels[static_cast<Eigen::Index>(i)], static_cast<Eigen::Index>(truth[i])) += 1.0;
+    for (Eigen::Index i = 0; i < own.rows(); ++i)
+      counts(found.labels[i], truth[static_cast<std::size_t>(some[static_cast<std::size_t>(i)])]) += 1.0;
     return cli::fixed(100.0 * share_right(counts), 1);
   };
-  std::cout << "| 128 x 128 of all, by logarithms of reflectance | | " << right(mapped)
-            << " % |\n| the same, by weights as they are | | " << right(weights) << " % |\n\n";
+  std::cout
+      << "\n| k-means of 128 x 128 texels | by logarithms of reflectance | by weights as they are |\n|---|---|---|\n"
+      << "| all | " << right(mapped, all_of_grid) << " % | " << right(weights, all_of_grid)
+      << " % |\n| nine tenths of one material, alone | " << right(mapped, mostly_one) << " % | "
+      << right(weights, mostly_one) << " % |\n\n";
 }
 
 gonio::image svbrdf_maps::figure(Eigen::Index size) const {
@@ -115,6 +130,11 @@ gonio::image svbrdf_maps::figure(Eigen::Index size) const {
   std::vector<gonio::rgb> seen;
   for (const auto& material : materials_) seen.push_back(lit(material));
   const Eigen::Index rows = map_.header().rows, band_rows = map_.header().band_rows;
+  Eigen::MatrixXd counts = Eigen::MatrixXd::Zero(std::ssize(materials_), std::ssize(materials_));
+  for (Eigen::Index row = 0; row < rows; row += 8)
+    for (Eigen::Index column = 0; column < rows; column += 8)
+      counts(label(row, column) - 1, main_material(row, column)) += 1.0;
+  const cluster_names names = best_names(counts);
   for (Eigen::Index i = 0; i < size; ++i) {
     const Eigen::Index row = (2 * i + 1) * rows / (2 * size);
     const auto band = map_.read_band(row / band_rows);
@@ -128,10 +148,11 @@ gonio::image svbrdf_maps::figure(Eigen::Index size) const {
       };
       set(0, truth);
       set(1, lit(gonio::fitted_brdf(prior_, gonio::io::weights_of_texel(map_.header(), band, texel))));
-      set(3, gonio::render::uncertainty_colour(gonio::from_half(band.uncertainty[static_cast<std::size_t>(texel)])));
+      set(3, gonio::render::category_colour(static_cast<int>(main_material(row, column))));
       set(4, gonio::render::sequential_colour(0.25 *
                                               gonio::from_half(band.disagreement[static_cast<std::size_t>(texel)])));
-      set(5, gonio::render::category_colour(label(row, column) - 1));
+      set(5, gonio::render::category_colour(
+                 static_cast<int>(names.material[static_cast<std::size_t>(label(row, column) - 1)])));
     }
   }
   std::vector<float> brightest;

@@ -25,12 +25,12 @@ class svbrdf_maps {
   /// The share of texels that are labelled by the material that they have most of; and by k-means of other distances.
   void print_labels(gonio::thread_count threads) const;
 
-  /// Truth, estimate and their Delta E, below them uncertainty, disagreement and clusters, each of `size` x `size`
-  /// texels of a grid. Prints the mean Delta E.
+  /// Truth, estimate and their Delta E, below them the material that a texel has most of, disagreement and the
+  /// clusters, each of `size` x `size` texels of a grid. Prints the mean Delta E.
   [[nodiscard]] gonio::image figure(Eigen::Index size) const;
 
  private:
-  [[nodiscard]] std::size_t main_material(Eigen::Index row, Eigen::Index column) const;
+  [[nodiscard]] Eigen::Index main_material(Eigen::Index row, Eigen::Index column) const;
   [[nodiscard]] std::uint8_t label(Eigen::Index row, Eigen::Index column) const {
     return labels_[static_cast<std::size_t>(row * map_.header().columns + column)];
   }
