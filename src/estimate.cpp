@@ -20,6 +20,7 @@
 #include <gonio/estimate/impl/scattered_options.ipp>
 #include <gonio/estimate/impl/soft_specular_decomposition.ipp>
 #include <gonio/estimate/impl/texel_decomposition.ipp>
+#include <gonio/estimate/impl/texel_metric.ipp>
 
 namespace gonio {
 

@@ -23,6 +23,7 @@ void add_fit(command& app, const std::vector<std::string>& words);
 void add_design(command& app, const std::vector<std::string>& words, const team& processes);
 void add_learn(command& app, const team& processes);
 void add_svbrdf(command& app, const team& processes);
+void add_texels(command& app);
 void add_compare(command& app);
 void add_convert(command& app);
 void add_render(command& app);

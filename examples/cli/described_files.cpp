@@ -114,28 +114,32 @@ json describe_soft_specular_prior(const path_type& path) {
 json describe_svbrdf(const path_type& path) {
   const gonio::io::svbrdf_map map(path);
   const gonio::io::svbrdf_header& header = map.header();
-  double uncertainty = 0.0, disagreement = 0.0, contradicted = 0.0;
+  double uncertainty = 0.0, disagreement = 0.0, contradicted = 0.0, texels = 0.0;
   for (Eigen::Index number = 0; number < header.bands(); ++number) {
     const gonio::io::svbrdf_band band = map.read_band(number);
-    for (const std::uint16_t half : band.uncertainty) uncertainty += gonio::from_half(half);
-    for (const std::uint16_t half : band.disagreement) {
-      const float value = gonio::from_half(half);
+    for (Eigen::Index i = 0; i < header.texels_of_band(number); ++i) {
+      if (!band.has_material(i)) continue;
+      texels += 1.0;
+      uncertainty += gonio::from_half(band.uncertainty[static_cast<std::size_t>(i)]);
+      const float value = gonio::from_half(band.disagreement[static_cast<std::size_t>(i)]);
       disagreement += value;
       contradicted += value > 3.0f ? 1.0 : 0.0;
     }
   }
-  const double texels = static_cast<double>(header.rows) * static_cast<double>(header.columns);
+  const double all = static_cast<double>(header.rows) * static_cast<double>(header.columns);
+  const double divisor = std::max(texels, 1.0);
   return {{"kind", "map of a spatially varying BRDF"},
           {"columns", header.columns},
           {"rows", header.rows},
+          {"share_of_the_sample", texels / all},
           {"images", header.directions.size()},
           {"components", header.functions.rows()},
           {"functions", header.functions.cols()},
           {"prior", header.prior_source},
           {"eta", header.eta},
-          {"mean_uncertainty", uncertainty / texels},
-          {"mean_disagreement", disagreement / texels},
-          {"share_of_disagreement_above_3", contradicted / texels}};
+          {"mean_uncertainty", uncertainty / divisor},
+          {"mean_disagreement", disagreement / divisor},
+          {"share_of_disagreement_above_3", contradicted / divisor}};
 }
 
 json describe_samples(const path_type& path, const measurement_options& reading) {

@@ -48,36 +48,24 @@ class lit_from_afar {
   gonio::rgb irradiance_;
 };
 
-/// Makes the image white at the 99th percentile of its pixels' largest values, unless that is black.
-void expose_by_itself(gonio::image& picture) {
-  std::vector<float> brightest;
-  const std::size_t pixels = picture.size() / 3, step = std::max<std::size_t>(pixels / 100'000, 1);
-  for (std::size_t i = 0; i < pixels; i += step)
-    brightest.push_back(*std::max_element(picture.data() + 3 * i, picture.data() + 3 * i + 3));
-  const double white = gonio::quantile(std::move(brightest), 0.99);
-  if (white > 0.0) gonio::render::expose(picture, 1.0 / white);
-}
-
 }  // namespace
 
-gonio::image flat_sample_image(const std::filesystem::path& map, const std::filesystem::path& prior,
-                               std::span<const gonio::directional_light> lights, std::optional<double> exposure,
-                               gonio::thread_count threads) {
-  const gonio::io::svbrdf_map all(map);
-  const gonio::log_relative_pca components = gonio::io::read_prior(prior);
-  all.require_prior(components);
-  const gonio::io::svbrdf_header& header = all.header();
+gonio::image flat_sample_radiance(const gonio::io::svbrdf_map& map, const gonio::log_relative_pca& prior,
+                                  std::span<const gonio::directional_light> lights, gonio::thread_count threads) {
+  map.require_prior(prior);
+  const gonio::io::svbrdf_header& header = map.header();
   std::vector<lit_from_afar> lit;
   for (const gonio::directional_light& light : lights)
-    if (light.towards.z() > 0.0) lit.emplace_back(components, header.functions, light);
+    if (light.towards.z() > 0.0) lit.emplace_back(prior, header.functions, light);
   gonio::image picture =
       gonio::uniform_image(static_cast<std::size_t>(header.rows), static_cast<std::size_t>(header.columns));
   for (Eigen::Index number = 0; number < header.bands(); ++number) {
-    const gonio::io::svbrdf_band band = all.read_band(number);
+    const gonio::io::svbrdf_band band = map.read_band(number);
     float* const first = picture.data() + 3 * number * header.band_rows * header.columns;
     gonio::for_each_index(
         header.texels_of_band(number), 4096,
         [&](Eigen::Index texel) {
+          if (!band.has_material(texel)) return;
           gonio::rgb sum = gonio::rgb::Zero();
           for (const lit_from_afar& light : lit)
             sum += light(band.weights.data() + 3 * texel * header.functions.cols());
@@ -85,10 +73,25 @@ gonio::image flat_sample_image(const std::filesystem::path& map, const std::file
         },
         threads);
   }
-  if (exposure)
-    gonio::render::expose(picture, *exposure);
-  else
-    expose_by_itself(picture);
+  return picture;
+}
+
+double exposure_of(const gonio::image& radiance) {
+  std::vector<float> brightest;
+  const std::size_t pixels = radiance.size() / 3, step = std::max<std::size_t>(pixels / 100'000, 1);
+  for (std::size_t i = 0; i < pixels; i += step) {
+    const float largest = *std::max_element(radiance.data() + 3 * i, radiance.data() + 3 * i + 3);
+    if (largest > 0.0f) brightest.push_back(largest);
+  }
+  return brightest.empty() ? 1.0 : 1.0 / gonio::quantile(std::move(brightest), 0.99);
+}
+
+gonio::image flat_sample_image(const std::filesystem::path& map, const std::filesystem::path& prior,
+                               std::span<const gonio::directional_light> lights, std::optional<double> exposure,
+                               gonio::thread_count threads) {
+  gonio::image picture =
+      flat_sample_radiance(gonio::io::svbrdf_map(map), gonio::io::read_prior(prior), lights, threads);
+  gonio::render::expose(picture, exposure ? *exposure : exposure_of(picture));
   return picture;
 }
 

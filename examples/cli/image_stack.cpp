@@ -5,8 +5,10 @@
 #include <gonio/core/error.hpp>
 #include <gonio/core/finite.hpp>
 #include <gonio/core/printable.hpp>
+#include <gonio/io/image.hpp>
 #include <gonio/io/npy.hpp>
 #include <gonio/io/text.hpp>
+#include <gonio/table/stored_codes.hpp>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -55,6 +57,19 @@ gonio::direction_pair directions_of(const json& image, const std::string& name) 
   return pair;
 }
 
+/// What a list says of texels that are not of the sample.
+void read_outside(const json& text, const std::filesystem::path& path, image_list& list) {
+  if (text.contains("mask")) {
+    if (!text["mask"].is_string())
+      gonio::refuse({path.string(), ": 'mask' must be the name of a PNG, black where texels are not of the sample"});
+    list.mask = path.parent_path() / text["mask"].text();
+  }
+  if (!text.contains("invalid")) return;
+  if (!text["invalid"].is_string() || (text["invalid"].text() != "skip" && text["invalid"].text() != "refuse"))
+    gonio::refuse({path.string(), ": 'invalid' must be \"refuse\" or \"skip\", not ", shown(text["invalid"])});
+  list.skips_invalid = text["invalid"].text() == "skip";
+}
+
 }  // namespace
 
 image_list read_image_list(const std::filesystem::path& path) {
@@ -72,6 +87,7 @@ image_list read_image_list(const std::filesystem::path& path) {
     gonio::refuse({name, ": 'quantity' is '", gonio::printable(text["quantity"].text()),
                    "', expected brdf, brdf-cosine, reflectance-factor or percent"});
   list.quantity = *quantity;
+  read_outside(text, path, list);
   for (const json& image : text["images"].elements()) {
     if (!image.is_object() || !image.contains("image") || !image["image"].is_string())
       gonio::refuse({name, ": 'image' is missing or no text in ", shown(image)});
@@ -100,6 +116,14 @@ gonio::io::detail::descriptor unnamed_file(const std::filesystem::path& folder) 
   return file;
 }
 
+void keep_decoded(const gonio::io::detail::descriptor& file, std::span<const std::byte> bytes, const std::string& name,
+                  const std::filesystem::path& folder) {
+  if (!gonio::io::detail::write_all(file, bytes))
+    gonio::io::detail::refuse_file(
+        folder,
+        {"the decoded ", name, " cannot be written into this folder: ", gonio::io::detail::system_reason(errno)});
+}
+
 /// All of the bytes, or a refusal.
 void read_exactly(const gonio::io::detail::descriptor& file, std::uint64_t offset, std::span<std::byte> bytes,
                   const std::string& name) {
@@ -108,11 +132,13 @@ void read_exactly(const gonio::io::detail::descriptor& file, std::uint64_t offse
 
 }  // namespace
 
-image_stack::image_stack(const image_list& list, const std::filesystem::path& folder) {
+image_stack::image_stack(const image_list& list, const std::filesystem::path& folder)
+    : skips_invalid_(list.skips_invalid) {
   for (const listed_image& image : list.images) {
     sources_.push_back(image.file.extension() == ".npy" ? open_npy(image.file) : decode(image.file, folder));
     sources_.back().factor = static_cast<float>(gonio::io::brdf_factor(list.quantity, image.at.wo));
   }
+  if (!list.mask.empty()) mask_ = decode_mask(list.mask, folder);
 }
 
 void image_stack::require_size(const std::string& name, Eigen::Index rows, Eigen::Index columns) {
@@ -149,11 +175,19 @@ image_stack::source image_stack::decode(const std::filesystem::path& path, const
   const gonio::image pixels = read_radiance(path);
   source image{path.string(), unnamed_file(folder)};
   require_size(image.name, static_cast<Eigen::Index>(pixels.shape(0)), static_cast<Eigen::Index>(pixels.shape(1)));
-  if (!gonio::io::detail::write_all(image.file, std::as_bytes(std::span(pixels.data(), pixels.size()))))
-    gonio::io::detail::refuse_file(
-        folder,
-        {"the decoded ", image.name, " cannot be written into this folder: ", gonio::io::detail::system_reason(errno)});
+  keep_decoded(image.file, std::as_bytes(std::span(pixels.data(), pixels.size())), image.name, folder);
   return image;
+}
+
+image_stack::source image_stack::decode_mask(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  const gonio::stored_codes pixels = gonio::io::read_png_codes(path);
+  source mask{path.string(), unnamed_file(folder)};
+  require_size(mask.name, static_cast<Eigen::Index>(pixels.rows), static_cast<Eigen::Index>(pixels.columns));
+  std::vector<std::uint8_t> outside;
+  for (auto pixel = pixels.values.begin(); pixel != pixels.values.end(); pixel += 3)
+    outside.push_back(std::all_of(pixel, pixel + 3, [](std::uint16_t code) { return code == 0; }) ? 1 : 0);
+  keep_decoded(mask.file, std::as_bytes(std::span(outside)), mask.name, folder);
+  return mask;
 }
 
 void image_stack::read_into(const source& image, gonio::block rows, Eigen::Ref<Eigen::VectorXf> out) const {
@@ -170,18 +204,52 @@ void image_stack::read_into(const source& image, gonio::block rows, Eigen::Ref<E
       gonio::io::detail::copy_halves(bytes, numbers);
   }
   if (image.factor != 1.0f) out *= image.factor;
-  if (gonio::all_finite(numbers)) return;
-  for (Eigen::Index i = 0; i < out.size(); ++i)
-    if (!std::isfinite(out[i]))
-      gonio::refuse({image.name, ": pixel (row ", rows.begin + i / 3 / columns_, ", column ", i / 3 % columns_,
-                     ") is not a finite number"});
 }
 
-Eigen::MatrixXf image_stack::read(gonio::block rows, gonio::thread_count threads) const {
-  Eigen::MatrixXf all(3 * columns_ * rows.size(), std::ssize(sources_));
+std::vector<std::uint8_t> image_stack::masked(gonio::block rows) const {
+  std::vector<std::uint8_t> outside(static_cast<std::size_t>(columns_ * rows.size()));
+  if (mask_)
+    read_exactly(mask_->file, static_cast<std::uint64_t>(columns_ * rows.begin),
+                 std::as_writable_bytes(std::span(outside)), mask_->name);
+  return outside;
+}
+
+void image_stack::mark_invalid(const source& image, const Eigen::Ref<const Eigen::VectorXf>& values,
+                               Eigen::Index first_row, std::vector<std::uint8_t>& outside) const {
+  if (gonio::all_finite(std::span(values.data(), static_cast<std::size_t>(values.size())))) return;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    std::uint8_t& is_outside = outside[static_cast<std::size_t>(i / 3)];
+    if (is_outside != 0 || std::isfinite(values[i])) continue;
+    if (!skips_invalid_)
+      gonio::refuse({image.name, ": pixel (row ", first_row + i / 3 / columns_, ", column ", i / 3 % columns_,
+                     ") is not a finite number: mask it, or skip such texels with \"invalid\": \"skip\" in the list"});
+    is_outside = 1;
+  }
+}
+
+void image_stack::will_read(gonio::block rows) const noexcept {
+#if defined(POSIX_FADV_WILLNEED)
+  for (const source& image : sources_) {
+    const auto row = static_cast<off_t>(image.word_size) * 3 * columns_;
+    static_cast<void>(::posix_fadvise(image.file.get(), static_cast<off_t>(image.offset) + row * rows.begin,
+                                      row * rows.size(), POSIX_FADV_WILLNEED));
+  }
+#endif
+}
+
+texel_values image_stack::read(gonio::block rows, gonio::thread_count threads) const {
+  texel_values all{Eigen::MatrixXf(3 * columns_ * rows.size(), std::ssize(sources_)), {}};
   gonio::for_each_index(
-      all.cols(), 1, [&](Eigen::Index i) { read_into(sources_[static_cast<std::size_t>(i)], rows, all.col(i)); },
-      threads);
+      std::ssize(sources_), 1,
+      [&](Eigen::Index i) { read_into(sources_[static_cast<std::size_t>(i)], rows, all.reflectance.col(i)); }, threads);
+  std::vector<std::uint8_t> outside = masked(rows);
+  for (Eigen::Index i = 0; i < std::ssize(sources_); ++i)
+    mark_invalid(sources_[static_cast<std::size_t>(i)], all.reflectance.col(i), rows.begin, outside);
+  for (Eigen::Index texel = 0; texel < std::ssize(outside); ++texel) {
+    if (outside[static_cast<std::size_t>(texel)] == 0) continue;
+    all.outside.push_back(texel);
+    all.reflectance.middleRows(3 * texel, 3).setZero();
+  }
   return all;
 }
 

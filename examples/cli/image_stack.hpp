@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,24 +26,34 @@ struct listed_image {
 struct image_list {
   gonio::io::sample_quantity quantity = gonio::io::sample_quantity::brdf;
   std::vector<listed_image> images;
+  std::filesystem::path mask;  ///< a PNG, black where texels are not of the sample; none if empty
+  bool skips_invalid = false;  ///< texels that have a value that is not finite in an image are not of the sample
 };
 
 /// Throws gonio::error naming the list and the image of it that is not what it should be.
 [[nodiscard]] image_list read_image_list(const std::filesystem::path& path);
 
+/// Reflectance in sr^-1 of a range of texels: a column for each image, red, green and blue of a texel after another.
+struct texel_values {
+  Eigen::MatrixXf reflectance;
+  std::vector<Eigen::Index> outside;  ///< the texels of the range that are not of the sample, whose values are zeros
+};
+
 class image_stack {
  public:
   /// Opens all images: .npy is read from its place; .exr and .hdr, of which no part can be read alone, are decoded one
   /// after the other into a file without a name in `folder`. Throws gonio::error naming the image that cannot be read,
-  /// or has another size than the first.
+  /// or has another size than the first. So is a mask, a byte for each texel.
   image_stack(const image_list& list, const std::filesystem::path& folder);
 
   [[nodiscard]] Eigen::Index rows() const noexcept { return rows_; }
   [[nodiscard]] Eigen::Index columns() const noexcept { return columns_; }
 
-  /// Reflectance in sr^-1 of a range of rows: a column for each image, red, green and blue of a texel after another.
-  /// Throws gonio::error naming the image and the texel whose value is not finite.
-  [[nodiscard]] Eigen::MatrixXf read(gonio::block rows, gonio::thread_count threads) const;
+  /// Says that a range of rows is read next: the system reads it from the disk meanwhile.
+  void will_read(gonio::block rows) const noexcept;
+  /// The texels of a range of rows. Throws gonio::error naming the image and the texel of the sample whose value is not
+  /// finite, unless such texels are skipped.
+  [[nodiscard]] texel_values read(gonio::block rows, gonio::thread_count threads) const;
 
  private:
   struct source {
@@ -55,11 +66,19 @@ class image_stack {
 
   [[nodiscard]] source open_npy(const std::filesystem::path& path);
   [[nodiscard]] source decode(const std::filesystem::path& path, const std::filesystem::path& folder);
+  [[nodiscard]] source decode_mask(const std::filesystem::path& path, const std::filesystem::path& folder);
+  /// A byte for each texel, zero if it is of the sample as far as the mask says.
+  [[nodiscard]] std::vector<std::uint8_t> masked(gonio::block rows) const;
+  /// Marks the texels that have a value that is not finite in an image, or refuses the first.
+  void mark_invalid(const source& image, const Eigen::Ref<const Eigen::VectorXf>& values, Eigen::Index first_row,
+                    std::vector<std::uint8_t>& outside) const;
   void require_size(const std::string& name, Eigen::Index rows, Eigen::Index columns);
   void read_into(const source& image, gonio::block rows, Eigen::Ref<Eigen::VectorXf> out) const;
 
   Eigen::Index rows_ = 0, columns_ = 0;
   std::vector<source> sources_;
+  std::optional<source> mask_;
+  bool skips_invalid_;
 };
 
 }  // namespace cli

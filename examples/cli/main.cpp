@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   cli::add_reconstruct(app, words);
   cli::add_report(app, words);
   cli::add_svbrdf(app, alone);
+  cli::add_texels(app);
   cli::add_fit(app, words);
   cli::add_compare(app);
   cli::add_convert(app);

@@ -181,8 +181,8 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
   command.add_output("--uncertainty", options->uncertainty, {".binary", ".npy"},
                      "Table to write of how well each direction is known: 0.06 is to 6 % in 68 of 100 cases");
   command.add_output("--uncertainty-image", options->uncertainty_image, {".png"},
-                     "Image of a sphere to write (.png), coloured by how well its brightness is known: blue to 1 %, "
-                     "cyan to 5 %, yellow to 22 %, red to 100 % and worse");
+                     "Image of a sphere to write (.png), coloured by how well its brightness is known: light to 2 %, "
+                     "dark blue from 100 % on, in steps of equal factors");
   add_report_option(command, options->report, words);
   // Declare the corrections.
   add_correction_options(command, *options);

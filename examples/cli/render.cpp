@@ -1,5 +1,6 @@
 /// gonio render: images of tables, side by side.
 
+#include "colour_scale.hpp"
 #include "command_line/file_start.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/prior_option.hpp"
@@ -9,25 +10,22 @@
 #include "contact_sheet.hpp"
 #include "exr_files.hpp"
 #include "flat_sample.hpp"
-#include "image_text.hpp"
 #include "images.hpp"
+#include "lights.hpp"
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/svbrdf_map.hpp>
-#include <gonio/io/text.hpp>
 #include <gonio/render/false_colour.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
 #include <gonio/render/sampled_sphere.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -56,50 +54,10 @@ gonio::image read_environment(const std::filesystem::path& path) {
   return is_exr(path) ? read_exr(path) : gonio::io::read_hdr(path);
 }
 
-/// The light of a text such as 45,35: degrees to the right of the camera, and above it.
-gonio::direction light_of(const std::string& text) {
-  std::vector<std::string_view> fields;
-  gonio::io::detail::split_fields(text, fields);
-  if (fields.size() != 2) gonio::refuse({"--light needs two angles, as 45,35, not ", gonio::io::detail::quoted(text)});
-  std::array<double, 2> angles{};
-  for (std::size_t i = 0; i < 2; ++i)
-    if (const char* wrong = gonio::io::detail::read_number(fields[i], angles[i]))
-      gonio::refuse({"--light: ", gonio::io::detail::quoted(fields[i]), ",", wrong});
-  if (std::abs(angles[0]) > 180.0 || std::abs(angles[1]) > 90.0)
-    gonio::refuse(
-        {"--light needs an angle from -180 to 180 and one from -90 to 90, not ", gonio::io::detail::quoted(text)});
-  const double right = gonio::radians(angles[0]), up = gonio::radians(angles[1]);
-  return {std::sin(right) * std::cos(up), std::sin(up), std::cos(right) * std::cos(up)};
-}
-
-gonio::render::directional_lighting lighting_of(const render_options& options) {
-  if (options.lights.empty()) return gonio::render::two_lights();
-  std::vector<gonio::directional_light> lights;
-  for (const std::string& text : options.lights) lights.push_back({light_of(text)});
-  return gonio::render::directional_lighting(std::move(lights));
-}
-
-/// From so many columns on the numbers of a scale have room.
-constexpr int smallest_with_scale = 64;
-
-/// The colours of Delta E from 0 to 20 with numbers, over the lowest rows, where a sphere is narrow.
-void draw_scale(gonio::image& image) {
-  const std::size_t columns = image.shape(1), unit = std::max<std::size_t>(columns / 200, 1);
-  const std::size_t top = image.shape(0) - 16 * unit;
-  const gonio::render::false_colour_range range;
-  for (std::size_t row = top; row < image.shape(0); ++row)
-    for (std::size_t column = 0; column < columns; ++column) {
-      const double value = range.red * static_cast<double>(column) / static_cast<double>(columns - 1);
-      const bool is_bar = row < top + 4 * unit;
-      gonio::set_pixel(image, row, column,
-                       is_bar ? gonio::render::false_colour(value, range) : gonio::rgb(gonio::rgb::Zero()));
-    }
-  for (const int value : {0, 5, 10, 15, 20}) {
-    const std::string text = value == 20 ? "20+" : std::to_string(value);
-    const std::size_t width = extent_of(text, unit).columns, middle = columns * static_cast<std::size_t>(value) / 20;
-    const std::size_t left = std::min(std::max(middle, width / 2) - width / 2, columns - width);
-    draw_text(image, top + 6 * unit, left, text, unit, gonio::rgb::Constant(0.6));
-  }
+/// The colours of Delta E from 0 to 20, over the lowest rows, where a sphere is narrow.
+colour_scale delta_e_scale() {
+  return {[](double share) { return gonio::render::false_colour(20.0 * share); },
+          {{0.0, "0"}, {0.25, "5"}, {0.5, "10"}, {0.75, "15"}, {1.0, "20+"}}};
 }
 
 /// CIELAB's Delta E of each pixel of two images as a colour, as in Noell et al. 2014, Fig. 3, and its mean over the
@@ -122,7 +80,7 @@ image_difference difference_of(const gonio::image& one, const gonio::image& othe
       gonio::set_pixel(found.image, row, column, gonio::render::false_colour(delta_e));
     }
   found.mean = count > 0.0 ? sum / count : 0.0;
-  draw_scale(found.image);
+  draw_scale(found.image, delta_e_scale());
   return found;
 }
 
@@ -131,7 +89,7 @@ void require_comparable(const render_options& options) {
   if (options.tables.size() != 2)
     gonio::refuse("--compare needs two tables, not " + std::to_string(options.tables.size()));
   if (is_exr(options.output)) gonio::refuse("--compare draws colours for people: its -o needs the extension .png");
-  if (options.image.size < smallest_with_scale)
+  if (options.image.size < static_cast<int>(smallest_with_scale))
     gonio::refuse("--compare needs a --size of at least " + std::to_string(smallest_with_scale) +
                   ", for the numbers of its scale");
 }
@@ -162,8 +120,9 @@ void render_flat_sample(const render_options& options) {
     gonio::refuse({options.tables.front().native(),
                    ": a map is drawn alone, under lights, without --slices, --compare, --environment, --labels and ",
                    "--caption"});
-  const gonio::image sample = flat_sample_image(options.tables.front(), options.prior, lighting_of(options).lights(),
-                                                options.image.exposure, options.threads);
+  const gonio::image sample =
+      flat_sample_image(options.tables.front(), options.prior, lighting_of(options.lights).lights(),
+                        options.image.exposure, options.threads);
   if (is_exr(options.output)) return write_exr(options.output, sample);
   gonio::io::write_png(options.output, sample);
 }
@@ -172,7 +131,7 @@ void render(const render_options& options) {
   require_no_text(options);
   if (gonio::io::is_svbrdf_map(options.tables.front())) return render_flat_sample(options);
   if (options.compares) require_comparable(options);
-  const gonio::render::directional_lighting lamps = lighting_of(options);
+  const gonio::render::directional_lighting lamps = lighting_of(options.lights);
   std::optional<gonio::render::environment_sampler> light;
   if (!options.environment.empty())
     light.emplace(gonio::render::environment_map(read_environment(options.environment)));
@@ -225,13 +184,7 @@ void add_render(command& app) {
   auto environment = command.add_input("--environment", options->environment,
                                        "Light from all around: a latitude-longitude image (.hdr or .exr)");
   environment.excludes(slices);
-  command
-      .add_option("--light", options->lights,
-                  "Instead of the two lights: degrees to the right of the camera and above it, as 45,35. May be given "
-                  "several times")
-      .repeatable()
-      .excludes(environment)
-      .excludes(slices);
+  add_light_option(command, options->lights).excludes(environment).excludes(slices);
   command
       .add_option("--quality", options->quality,
                   "Pairs of directions for each pixel, by the BRDF and by the environment")

@@ -1,6 +1,7 @@
 /// gonio svbrdf: registered images of a flat sample in, a BRDF for each texel out.
 
 #include "cli/image_stack.hpp"
+#include "cli/texel_arrays.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/team.hpp"
@@ -68,9 +69,10 @@ class svbrdf_job {
 
   /// A band as the map has it.
   [[nodiscard]] std::vector<std::byte> band(const gonio::io::svbrdf_header& header, Eigen::Index number) const {
-    const Eigen::Index first = number * header.band_rows;
-    const gonio::block rows{first, std::min(first + header.band_rows, header.rows)};
-    const auto found = estimator_.solve(images_.read(rows, options_.threads), options_.threads);
+    const texel_values values = images_.read(rows_of(header, number), options_.threads);
+    images_.will_read(rows_of(header, number + 1));
+    gonio::texel_estimates found = estimator_.solve(values.reflectance, options_.threads);
+    for (const Eigen::Index texel : values.outside) found.clear(texel);
     return gonio::io::encode_band(header, number, gonio::io::as_halves(found, options_.threads));
   }
 
@@ -80,12 +82,18 @@ class svbrdf_job {
     std::vector<std::uint32_t> each;
     for (Eigen::Index i = 0; i < std::min(most, images_.rows()); ++i) {
       const Eigen::Index row = i * images_.rows() / std::min(most, images_.rows());
-      each.push_back(checksum_of_numbers(images_.read({row, row + 1}, options_.threads)));
+      each.push_back(checksum_of_numbers(images_.read({row, row + 1}, options_.threads).reflectance));
     }
     return gonio::io::detail::checksum(std::as_bytes(std::span(each)));
   }
 
  private:
+  /// None behind the last band.
+  static gonio::block rows_of(const gonio::io::svbrdf_header& header, Eigen::Index band) {
+    const Eigen::Index first = std::min(band * header.band_rows, header.rows);
+    return {first, std::min(first + header.band_rows, header.rows)};
+  }
+
   static std::uint32_t checksum_of_numbers(const Eigen::MatrixXf& numbers) {
     return gonio::io::detail::checksum(
         std::as_bytes(std::span(numbers.data(), static_cast<std::size_t>(numbers.size()))));
@@ -103,31 +111,15 @@ class svbrdf_job {
   image_stack images_;
 };
 
-/// A part of all bands as an array of half floats, with these extents behind rows and columns.
-void write_array(const std::filesystem::path& path, const gonio::io::svbrdf_map& map,
-                 std::vector<std::uint16_t> gonio::io::svbrdf_band::*part, const std::vector<std::size_t>& extents) {
-  if (path.empty()) return;
-  const gonio::io::svbrdf_header& header = map.header();
-  std::vector<std::size_t> shape{static_cast<std::size_t>(header.rows), static_cast<std::size_t>(header.columns)};
-  shape.insert(shape.end(), extents.begin(), extents.end());
-  const std::string start = gonio::io::detail::npy_header("<f2", gonio::io::detail::npy_shape_text(shape));
-  gonio::io::write_atomically(path, [&](gonio::io::file_writer& file) {
-    file.write(std::as_bytes(std::span(start)));
-    for (Eigen::Index band = 0; band < header.bands(); ++band) {
-      const gonio::io::svbrdf_band values = map.read_band(band);
-      file.write(std::as_bytes(std::span(values.*part)));
-    }
-  });
-}
-
 /// What is asked for of a whole map.
 void write_arrays(const svbrdf_command& options) {
   const gonio::io::svbrdf_map map(options.output);
   const Eigen::MatrixXf& functions = map.header().functions;
   using band = gonio::io::svbrdf_band;
-  write_array(options.weights, map, &band::weights, {3, static_cast<std::size_t>(functions.cols())});
-  write_array(options.uncertainty, map, &band::uncertainty, {});
-  write_array(options.disagreement, map, &band::disagreement, {});
+  if (!options.weights.empty())
+    write_texel_array(options.weights, map, &band::weights, {3, static_cast<std::size_t>(functions.cols())});
+  if (!options.uncertainty.empty()) write_texel_array(options.uncertainty, map, &band::uncertainty, {});
+  if (!options.disagreement.empty()) write_texel_array(options.disagreement, map, &band::disagreement, {});
   if (options.functions.empty()) return;
   xt::xtensor<float, 2> columns(std::array<std::size_t, 2>{static_cast<std::size_t>(functions.rows()),
                                                            static_cast<std::size_t>(functions.cols())});

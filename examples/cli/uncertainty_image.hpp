@@ -8,8 +8,8 @@
 namespace cli {
 
 /// A sphere under the two lights of `sphere_image`, coloured by how well the luminance of each pixel is known: the
-/// relative uncertainties of the reflectances that it is made of, weighted by what they contribute. From blue (1 % and
-/// better) by cyan (5 %) and yellow (22 %) to red (100 % and worse), in steps of equal factors; black around it.
+/// relative uncertainties of the reflectances that it is made of, weighted by what they contribute. From light (2 % and
+/// better) to dark blue (100 % and worse), in steps of equal factors (`render::uncertainty_colour`); black around it.
 [[nodiscard]] gonio::image uncertainty_image(const gonio::brdf_table& table, const gonio::brdf_table& uncertainty,
                                              int size, gonio::thread_count threads);
 

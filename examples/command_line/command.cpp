@@ -279,6 +279,9 @@ void clean_up_on_signals() {
   }
 }
 
+/// Where a file may grow no further (ulimit -f), writing fails, which is said in a sentence, as on a full disk.
+void go_on_at_size_limits() { ::signal(SIGXFSZ, SIG_IGN); }
+
 /// The long options of a subcommand, those of its groups, too.
 std::vector<std::string> long_options(const CLI::App& known) {
   std::vector<std::string> names;
@@ -341,6 +344,7 @@ int program::run(int argc, char** argv) {
     return code;
   };
   clean_up_on_signals();
+  go_on_at_size_limits();
   try {
     all_->parse(argc, argv);
     return 0;

@@ -3,6 +3,9 @@
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/file.hpp>
 
+#include <future>
+#include <utility>
+
 namespace cli {
 
 const team& alone() {
@@ -14,6 +17,21 @@ std::uint32_t checksum_of(std::span<const std::string> words) {
   std::string all;
   for (const std::string& word : words) all.append(word).push_back('\0');
   return gonio::io::detail::checksum(std::as_bytes(std::span(all)));
+}
+
+void team::compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
+                            const std::function<void(Eigen::Index, part)>& take) const {
+  // Its destructor waits: nothing is computed that no one waits for.
+  std::future<part> ahead;
+  const auto begin = [&](Eigen::Index i) {
+    if (i < range.end) ahead = std::async(std::launch::async, [&compute, i] { return compute(i); });
+  };
+  begin(range.begin);
+  for (Eigen::Index i = range.begin; i < range.end; ++i) {
+    part own = ahead.get();
+    begin(i + 1);
+    take(i, std::move(own));
+  }
 }
 
 void agree_on_file(const team& processes, const std::filesystem::path& path, const std::string& what) {

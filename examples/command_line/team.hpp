@@ -83,10 +83,9 @@ class team {
     return compute();
   }
   /// `compute(i)` for each i of a range, each in one of the processes; the one that writes takes the parts in order.
+  /// The next is computed while one is taken. Throws what either throws, once neither is at work.
   virtual void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
-                                const std::function<void(Eigen::Index, part)>& take) const {
-    for (Eigen::Index i = range.begin; i < range.end; ++i) take(i, compute(i));
-  }
+                                const std::function<void(Eigen::Index, part)>& take) const;
 };
 
 /// This process alone.

@@ -38,4 +38,5 @@
 #include <gonio/estimate/soft_or_specular.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/estimate/texel_decomposition.hpp>
+#include <gonio/estimate/texel_metric.hpp>
 #include <gonio/estimate/values_at.hpp>

@@ -130,3 +130,19 @@ TEST_CASE("k-means: bad input") {
   points(2, 0) = std::nan("");
   CHECK_THROWS_WITH_AS((void)k_means(points, 2, 0), doctest::Contains("point 3 is not finite"), gonio::error);
 }
+
+TEST_CASE("k-means: points that clusters were not made from go to the nearest centre, the first of equally near ones") {
+  const point_matrix centres = Eigen::VectorXd{{1000, 1002, 1002, 5}};
+  const point_matrix points = Eigen::VectorXd{{1001.75, 1000.25, -3, 1001}};
+  const auto found = gonio::capture::find_nearest(points, centres);
+  CHECK(found.labels == Eigen::VectorXi{{1, 0, 3, 0}});
+  CHECK(found.squared_distances == Eigen::VectorXd{{0.0625, 0.0625, 64, 1}});
+  const point_matrix middles{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const point_matrix cloud = blobs(middles, 4000, 0.7, 3);
+  const auto clusters = k_means(cloud.topRows(500), 5, 2);
+  const auto one = gonio::capture::find_nearest(cloud, clusters.centres, {1});
+  CHECK(one.labels == gonio::capture::find_nearest(cloud, clusters.centres, {4}).labels);
+  CHECK(one.labels.head(500) == clusters.labels);
+  CHECK_THROWS_WITH_AS((void)gonio::capture::find_nearest(points, clusters.centres), doctest::Contains("1 numbers"),
+                       gonio::error);
+}

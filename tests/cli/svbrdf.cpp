@@ -1,14 +1,12 @@
 /// gonio svbrdf: registered images in, a map of BRDFs out.
 
-#include "../io/scratch.hpp"
-#include "../synthetic_materials.hpp"
+#include "svbrdf_images.hpp"
 #include "tool.hpp"
 #include <gonio/core/half.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/npy.hpp>
-#include <gonio/io/prior.hpp>
 #include <gonio/io/svbrdf_map.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/table/image.hpp>
@@ -18,58 +16,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <random>
 #include <string>
 #include <thread>
 #include <vector>
-
-namespace {
-
-/// Four images of 70 x 1500 texels, whose bands have 43 rows; a prior of few cells.
-struct images_folder {
-  scratch::folder folder;
-  gonio::log_relative_pca prior = learn(synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 12), 6);
-  std::vector<gonio::half_difference> angles{{0.1, 0.2, 0.4}, {0.4, 0.5, 1.5}, {0.02, 0.9, 1.0}, {0.9, 0.3, 0.7}};
-  std::vector<xt::xtensor<float, 3>> images;
-
-  images_folder() {
-    gonio::io::write_prior(folder / "small.prior", prior);
-    prior = gonio::io::read_prior(folder / "small.prior");
-    std::string list = "{\"quantity\": \"brdf\", \"images\": [";
-    for (std::size_t i = 0; i < angles.size(); ++i) {
-      std::mt19937 generator(static_cast<unsigned>(i));
-      std::uniform_real_distribution<float> value(0.01f, 0.4f);
-      xt::xtensor<float, 3> image(std::array<std::size_t, 3>{70, 1500, 3});
-      for (float& each : image) each = value(generator);
-      const std::string name = "image-" + std::to_string(i) + ".npy";
-      gonio::io::write_npy(folder / name, image);
-      images.push_back(image);
-      list += (i > 0 ? "," : "") + entry(name, i);
-    }
-    scratch::put(folder / "images.json", list + "]}");
-  }
-
-  [[nodiscard]] std::string entry(const std::string& name, std::size_t i) const {
-    return "{\"image\": \"" + name + "\", \"theta_h\": " + std::to_string(gonio::degrees(angles[i].theta_h)) +
-           ", \"theta_d\": " + std::to_string(gonio::degrees(angles[i].theta_d)) +
-           ", \"phi_d\": " + std::to_string(gonio::degrees(angles[i].phi_d)) + "}";
-  }
-  [[nodiscard]] std::string command(const std::string& output, const std::string& list = "images.json",
-                                    const std::string& eta = "2.5") const {
-    return "svbrdf " + (folder / list).string() + " --prior " + (folder / "small.prior").string() + " --eta " + eta +
-           " -o " + (folder / output).string();
-  }
-  void replace(std::size_t i, const xt::xtensor<float, 3>& image) const {
-    gonio::io::write_npy(folder / ("image-" + std::to_string(i) + ".npy"), image);
-  }
-};
-
-}  // namespace
 
 TEST_CASE("svbrdf: each texel is what a decomposition of its samples finds") {
   const images_folder given;
@@ -182,6 +139,45 @@ TEST_CASE("svbrdf: two jobs on one output, the second is refused") {
   const gonio::io::svbrdf_map map(given.folder / "map.gsv");
   const gonio::io::svbrdf_writer first(given.folder / "busy.gsv", map.header());
   refuses(given.command("busy.gsv"), {"busy.gsv", "another process is writing"});
+}
+
+TEST_CASE("svbrdf: of two commands at once one writes the map, and the other does so later or is refused") {
+  const images_folder given;
+  run(given.command("map.gsv"));
+  std::array<tool_result, 2> both;
+  {
+    std::jthread other([&] { both[1] = gonio_tool(given.command("both.gsv")); });
+    both[0] = gonio_tool(given.command("both.gsv"));
+  }
+  for (const tool_result& each : both)
+    if (each.exit_code != 0) check_refusal(each, {"both.gsv", "another process is writing"});
+  CHECK(std::min(both[0].exit_code, both[1].exit_code) == 0);
+  CHECK(scratch::get(given.folder / "both.gsv") == scratch::get(given.folder / "map.gsv"));
+  CHECK(!scratch::fs::exists(given.folder / "both.gsv.part"));
+}
+
+TEST_CASE("svbrdf: on a full disk it says so, and the command given again goes on with what is written") {
+  const images_folder given;
+  run(given.command("map.gsv"));
+  const auto size = scratch::fs::file_size(given.folder / "map.gsv");
+  // A limit of a file's size, in blocks of 512 bytes, stands for a full disk.
+  const auto limited = [&](std::uintmax_t bytes, const std::string& arguments) {
+    return run_program("sh",
+                       "-c \"ulimit -f " + std::to_string(bytes / 512) + "; exec '" GONIO_TOOL "' " + arguments + "\"");
+  };
+  check_refusal(limited(size / 2, given.command("full.gsv")), {"full.gsv.part: cannot be written: File too large"});
+  check_refusal(limited(size - 4096, given.command("full.gsv")),
+                {"full.gsv.part", "File too large", "the first 1 of 2 bands stay"});
+  CHECK(!scratch::fs::exists(given.folder / "full.gsv"));
+  CHECK(run(given.command("full.gsv")).find("went on behind band 1 of 2") != std::string::npos);
+  CHECK(scratch::get(given.folder / "full.gsv") == scratch::get(given.folder / "map.gsv"));
+  // Where images are decoded.
+  const auto image = gonio::uniform_image(70, 1500, gonio::rgb::Constant(0.1));
+  gonio::io::write_hdr(given.folder / "image.hdr", image);
+  scratch::put(given.folder / "hdr.json",
+               "{\"quantity\": \"brdf\", \"images\": [" + given.entry("image.hdr", 0) + "]}");
+  check_refusal(limited(1 << 20, given.command("hdr.gsv", "hdr.json")), {"the decoded", "image.hdr", "File too large"});
+  CHECK(!scratch::fs::exists(given.folder / "hdr.gsv.part"));
 }
 
 TEST_CASE("svbrdf: quantities are made BRDFs") {

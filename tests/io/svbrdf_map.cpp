@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <limits>
 #include <random>
@@ -84,6 +85,20 @@ TEST_CASE("map of a spatially varying BRDF: what was written is read") {
   scratch::check_refused([&] { return map.read_band(3); }, {"map.gsv", "no band 3"});
 }
 
+TEST_CASE("map of a spatially varying BRDF: texels that are not of the sample are told from those of tiny numbers") {
+  auto found = estimates(4, 2, 1);
+  found.uncertainty = Eigen::ArrayXf::Constant(4, 1e-12f);
+  found.weights.setConstant(1e-12f);
+  found.weights(1, 10) = 3.0f;
+  found.clear(2);
+  const auto band = io::as_halves(found);
+  for (const Eigen::Index texel : {0, 1, 2, 3}) CHECK(band.has_material(texel) == (texel != 2));
+  CHECK(band.disagreement[2] == 0);
+  CHECK(std::count(band.weights.begin(), band.weights.end(), 0) == 21);
+  CHECK(band.weights[0] == 1);
+  CHECK(band.weights[18] == 0);  // another weight of this texel is not zero
+}
+
 TEST_CASE("map of a spatially varying BRDF: an interrupted job goes on, wherever it was cut, to the same bytes") {
   const scratch::folder here;
   const auto header = header_of(9, 4, 2);
@@ -152,7 +167,9 @@ TEST_CASE("map of a spatially varying BRDF: what is written before the disk is f
   auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit tight{4 * size, before.rlim_max};
   REQUIRE(::setrlimit(RLIMIT_FSIZE, &tight) == 0);
-  scratch::check_refused([&] { write_bands(path, header, header.bands()); }, {"map.gsv.part", "cannot be written"});
+  scratch::check_refused(
+      [&] { write_bands(path, header, header.bands()); },
+      {"map.gsv.part", "cannot be written", "the first 3 of 16 bands stay, and the same job goes on"});
   REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
   std::signal(SIGXFSZ, handler);
   CHECK(svbrdf_writer(path, header).finished() == 3);

@@ -48,6 +48,17 @@ TEST_CASE("texels for renderers: each is the component BRDF of its weights") {
   }
 }
 
+TEST_CASE("texels for renderers: one that is not of the sample is black") {
+  const auto prior = learn(synthetic_materials(small_cells(), 8), 5);
+  const gonio::render::shared_components<float> components(prior);
+  std::vector<std::uint16_t> weights(30);
+  weights[29] = 1;  // which is enough to be of it
+  const gonio::render::texel_brdf sample(components, weights);
+  const gonio::direction up(0, 0, 1);
+  CHECK((sample(0, up, up) == 0.0).all());
+  CHECK((sample(1, up, up) > 0.0).all());
+}
+
 TEST_CASE("texels for renderers: weights that are not of whole texels are refused") {
   const auto prior = learn(synthetic_materials(small_cells(), 8), 5);
   const gonio::render::shared_components<float> components(prior);

@@ -6,28 +6,24 @@
 #include "command_line/thinning.hpp"
 #include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
+#include "papers/our_own/svbrdf_maps.hpp"
 #include "papers/our_own/synthetic_texels.hpp"
+#include "papers/our_own/tool_process.hpp"
 #include <gonio/core/half.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/texel_decomposition.hpp>
 #include <gonio/evaluate/sphere_delta_e.hpp>
+#include <gonio/io/image.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/rgl.hpp>
 #include <gonio/io/svbrdf_map.hpp>
 #include <gonio/render/lighting.hpp>
 
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -43,7 +39,7 @@ namespace {
 
 struct svbrdf_options {
   std::vector<std::filesystem::path> materials;
-  std::filesystem::path prior, folder;
+  std::filesystem::path prior, folder, image;
   Eigen::Index size = 4096, judged = 12;
   int kills = 20;
   double noise = 0.02;
@@ -62,56 +58,14 @@ double seconds_of(const Act& act) {
   return seconds_since(start);
 }
 
-// ---- the tool as a process ---------------------------------------------------------------------
-
-struct process_cost {
-  double seconds = 0.0, processor_seconds = 0.0, megabytes = 0.0;
-  bool was_killed = false;
-};
-
-/// `gonio svbrdf`, which is beside this program; killed after some seconds, if they are positive.
-process_cost run_tool(const std::filesystem::path& images, const std::filesystem::path& map,
-                      const svbrdf_options& given, double kill_after) {
-  const std::string tool = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "gonio").string();
-  const std::vector<std::string> words{tool,
-                                       "svbrdf",
-                                       images.string(),
-                                       "-o",
-                                       map.string(),
-                                       "--prior",
-                                       given.prior.string(),
-                                       "--noise",
-                                       std::to_string(given.noise),
-                                       "--threads",
-                                       std::to_string(given.threads.resolve())};
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));  // which exec keeps
-  arguments.push_back(nullptr);
-  const auto start = std::chrono::steady_clock::now();
-  const pid_t child = ::fork();
-  if (child < 0) gonio::refuse("no process for gonio svbrdf");
-  if (child == 0) {
-    const int nowhere = ::open("/dev/null", O_WRONLY);
-    ::dup2(nowhere, 1);
-    ::execv(tool.c_str(), arguments.data());
-    ::_exit(127);
-  }
-  if (kill_after > 0.0) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(kill_after));
-    ::kill(child, SIGKILL);
-  }
-  int status = 0;
-  rusage used{};
-  ::wait4(child, &status, 0, &used);
-  process_cost cost{.seconds = seconds_since(start)};
-  cost.was_killed = WIFSIGNALED(status);
-  if (!cost.was_killed && WEXITSTATUS(status) != 0) gonio::refuse({tool, " svbrdf failed"});
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  cost.processor_seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
-  cost.megabytes = static_cast<double>(used.ru_maxrss) / 1024.0;
-  return cost;
+/// The words of `gonio svbrdf`.
+std::vector<std::string> words_of(const std::filesystem::path& images, const std::filesystem::path& map,
+                                  const svbrdf_options& given) {
+  return {"svbrdf",    images.string(),
+          "-o",        map.string(),
+          "--prior",   given.prior.string(),
+          "--noise",   std::to_string(given.noise),
+          "--threads", std::to_string(given.threads.resolve())};
 }
 
 bool same_bytes(const std::filesystem::path& one, const std::filesystem::path& other) {
@@ -150,6 +104,7 @@ class svbrdf_experiment {
     print_times();
     print_interruptions();
     print_errors();
+    print_maps();
   }
 
  private:
@@ -186,7 +141,7 @@ class svbrdf_experiment {
   void print_times() {
     const double reading = seconds_of_reading();
     std::filesystem::remove(file("map.gsv"));
-    whole_ = run_tool(file("images.json"), file("map.gsv"), given_, 0.0);
+    whole_ = run_tool(words_of(file("images.json"), file("map.gsv"), given_));
     const auto bytes = static_cast<double>(std::filesystem::file_size(file("map.gsv")));
     std::cout << given_.size << " x " << given_.size << " texels, " << directions_.size() << " images, "
               << prior_.size() << " components, noise of " << fixed(100.0 * given_.noise, 0) << " %, "
@@ -251,7 +206,7 @@ class svbrdf_experiment {
     double seconds = 0.0;
     bool same = true;
     for (int killed = 0; killed < given_.kills;) {
-      const process_cost cost = run_tool(file("images.json"), again, given_, moment(generator));
+      const process_cost cost = run_tool(words_of(file("images.json"), again, given_), moment(generator));
       seconds += cost.seconds;
       std::error_code none;
       if (cost.was_killed) {
@@ -263,7 +218,7 @@ class svbrdf_experiment {
         std::filesystem::remove(again);
       }
     }
-    seconds += run_tool(file("images.json"), again, given_, 0.0).seconds;
+    seconds += run_tool(words_of(file("images.json"), again, given_)).seconds;
     same = same && same_bytes(file("map.gsv"), again);
     std::cout << "Killed " << given_.kills << " times at random moments, " << with_bands
               << " times with bands in the file, and given again each time: "
@@ -307,6 +262,21 @@ class svbrdf_experiment {
     print_row("error in the metric's domain, rms over directions", errors);
     print_row("the same over the stated uncertainty", ratios);
     print_row("disagreement", halves);
+  }
+
+  /// Clusters, found by the tool, and an image of the maps.
+  void print_maps() const {
+    const process_cost cost =
+        run_tool({"texels", file("map.gsv").string(), "--prior", given_.prior.string(), "--clusters",
+                  std::to_string(materials_.size()), "--labels", file("labels.npy").string(), "--threads",
+                  std::to_string(given_.threads.resolve())});
+    std::cout << "\n`gonio texels --clusters " << materials_.size() << "` takes " << fixed(cost.seconds, 1) << " s and "
+              << fixed(cost.megabytes, 0) << " MB.\n\n";
+    const gonio::io::svbrdf_map map(file("map.gsv"));
+    const svbrdf_maps maps(prior_, map, *texels_, materials_, file("labels.npy"));
+    maps.print_labels(given_.threads);
+    if (!given_.image.empty())
+      gonio::io::write_png(given_.image, maps.figure(std::min<Eigen::Index>(given_.size, 256)));
   }
 
   static gonio::brdf_table blended(const std::vector<gonio::brdf_table>& tables, const Eigen::VectorXd& shares) {
@@ -354,9 +324,11 @@ void add_svbrdf(command& app) {
   command.add_input("--materials", options->materials, "Materials that the sample is made of (.bsdf)").required();
   add_prior_option(command, options->prior);
   command
-      .add_output_folder("--folder", options->folder, {"images.json", "map.gsv", "again.gsv"},
+      .add_output_folder("--folder", options->folder, {"images.json", "map.gsv", "again.gsv", "labels.npy"},
                          "Folder for the images and the maps, which takes 10 GB for 4096 x 4096 texels")
       .required();
+  command.add_output("--image", options->image, {".png"},
+                     "Image to write of the sample, its errors, and how well it is known");
   command.add_option("--size", options->size, "Rows and columns of texels").capture_default_str();
   command.add_option("--judged", options->judged, "Texels each way that are compared with the truth")
       .capture_default_str();

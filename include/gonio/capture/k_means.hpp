@@ -54,6 +54,16 @@ namespace detail {
 [[nodiscard]] point_clusters k_means(const point_matrix_view& points, Eigen::Index k, std::uint64_t seed,
                                      thread_count threads = {});
 
+/// Of points the nearest of some centres, the first of equally near ones.
+struct nearest_centres {
+  Eigen::VectorXi labels;
+  Eigen::VectorXd squared_distances;
+};
+/// Where points belong that clusters were not made from. Points and centres, k x d, have equally many numbers,
+/// otherwise gonio::error is thrown. O(n k d), same bytes for any number of threads.
+[[nodiscard]] nearest_centres find_nearest(const point_matrix_view& points, const point_matrix& centres,
+                                           thread_count threads = {});
+
 /// How well clusters stand apart, from -1 to 1: the mean over the points of (b - a) / max(a, b), where a is a point's
 /// mean distance to the others of its cluster and b that to the points of the nearest other cluster. A point alone in
 /// its cluster counts 0 (Rousseeuw 1987), and so does every point if there is one cluster only. `labels` has a number

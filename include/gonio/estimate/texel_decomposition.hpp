@@ -25,12 +25,18 @@ namespace gonio {
 struct texel_estimates {
   Eigen::MatrixXf weights;  ///< r x 3t: column 3i + c has the weights V' x of channel c of texel i
   /// t values: the standard deviation of a mapped value, root mean square over all cells of the prior; natural
-  /// logarithms, so that 0.06 is 6 %.
+  /// logarithms, so that 0.06 is 6 %. Positive, but of texels that are not of the sample.
   Eigen::ArrayXf uncertainty;
   /// t values: how far each image is from what the others say of it, in the deviations that are expected of it; root
   /// mean square over images and channels. About 1 where the eta is right for the sample; more where images contradict
   /// each other (a shadow, a misregistered edge) or the prior does not know the material.
   Eigen::ArrayXf disagreement;
+
+  /// Makes a texel one that is not of the sample: zeros throughout.
+  void clear(Eigen::Index texel) {
+    weights.middleCols(3 * texel, 3).setZero();
+    uncertainty[texel] = disagreement[texel] = 0.0f;
+  }
 };
 
 /// `decomposition{prior, penalty}` of samples of weight 1 for many texels at once, in single precision: weights agree

@@ -49,9 +49,13 @@ struct svbrdf_header {
 struct svbrdf_band {
   std::vector<std::uint16_t> weights;                    ///< texels x 3 x r: the weights of red, of green, of blue
   std::vector<std::uint16_t> uncertainty, disagreement;  ///< texels
+
+  /// Is a texel of the sample? The others have zeros throughout.
+  [[nodiscard]] bool has_material(Eigen::Index texel) const { return uncertainty.at(texel) != 0; }
 };
 
-/// Each number rounded to 11 bits. Throws gonio::error if one is beyond the range of half floats.
+/// Each number rounded to 11 bits. A texel whose uncertainty is not zero is of the sample: neither its uncertainty nor
+/// all of its weights are rounded to zero. Throws gonio::error if a number is beyond the range of half floats.
 [[nodiscard]] svbrdf_band as_halves(const texel_estimates& found, thread_count threads = {});
 
 /// A band as the file has it, its checksum at the end. Throws gonio::error unless it has as many numbers as the header
@@ -121,7 +125,8 @@ class svbrdf_map {
 /// Does the file start as a map does?
 [[nodiscard]] bool is_svbrdf_map(const std::filesystem::path& path);
 
-/// The weights of the prior's components of a texel of a band, k x 3, for `render::component_brdf` and `fitted_brdf`.
+/// The weights of the prior's components of a texel of a band, k x 3, for `render::component_brdf` and `fitted_brdf`;
+/// zeros if it is not of the sample.
 [[nodiscard]] Eigen::MatrixXd weights_of_texel(const svbrdf_header& header, const svbrdf_band& band,
                                                Eigen::Index texel);
 

@@ -1,13 +1,16 @@
 #pragma once
 /// Numbers as colours. From blue over green to red, for images of how large a difference is: Noell, Koehler and
 /// Stricker 2014, Fig. 3, CIELAB differences "from blue (0.0), over green to red (20.0 and higher)". From blue over
-/// white to red, for what has a sign.
+/// white to red, for what has a sign. From light to dark, and in colours that are told apart by all who see colours
+/// differently, for maps.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/rgb.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace gonio::render {
 
@@ -35,6 +38,54 @@ struct false_colour_range {
   GONIO_ASSERT(value == value);
   const double share = std::clamp(value / limit, -1.0, 1.0);
   return {1.0 + std::min(share, 0.0), 1.0 - std::abs(share), 1.0 - std::max(share, 0.0)};
+}
+
+/// The linear colour of a share from 0, light, to 1, dark blue; others are clipped. Lightness falls evenly and tells
+/// the order by itself, to all who see colours differently, too. Black is left for where there is no value. NaN is not
+/// a share.
+[[nodiscard]] inline rgb sequential_colour(double share) noexcept {
+  GONIO_ASSERT(share == share);
+  // From #f3ecd2 to #123a63, as examples/report has it: quarters of what a display mixes, in linear light.
+  constexpr std::array<std::array<double, 3>, 5> quarters{{{0.8963, 0.8388, 0.6445},
+                                                           {0.4955, 0.5241, 0.4692},
+                                                           {0.2251, 0.2918, 0.3255},
+                                                           {0.0689, 0.1342, 0.2113},
+                                                           {0.0060, 0.0423, 0.1248}}};
+  const double position = 4.0 * std::clamp(share, 0.0, 1.0);
+  const auto below = std::min(static_cast<std::size_t>(position), std::size_t{3});
+  const double above = position - static_cast<double>(below);
+  const auto &low = quarters[below], &high = quarters[below + 1];
+  return {(1.0 - above) * low[0] + above * high[0], (1.0 - above) * low[1] + above * high[1],
+          (1.0 - above) * low[2] + above * high[2]};
+}
+
+/// Where on a scale from 2 % to 100 % with equal steps for equal factors a relative uncertainty stands: 0 up to 2 %.
+[[nodiscard]] inline double place_of_uncertainty(double uncertainty) noexcept {
+  return std::log(std::max(uncertainty, 0.02) / 0.02) / std::log(50.0);
+}
+
+/// The linear colour of a relative uncertainty: light up to 2 %, dark from 100 % on.
+[[nodiscard]] inline rgb uncertainty_colour(double uncertainty) noexcept {
+  return sequential_colour(place_of_uncertainty(uncertainty));
+}
+
+/// So many categories have colours.
+inline constexpr int categories = 8;
+
+/// The linear colour of one of 8 categories: those of Okabe and Ito (Color Universal Design, 2002), with grey instead
+/// of black, which is left for what is of no category.
+[[nodiscard]] inline rgb category_colour(int category) noexcept {
+  GONIO_ASSERT(category >= 0 && category < categories);
+  constexpr std::array<std::array<double, 3>, categories> colours{{{0.791, 0.347, 0.0},
+                                                                   {0.093, 0.456, 0.815},
+                                                                   {0.0, 0.342, 0.171},
+                                                                   {0.871, 0.776, 0.054},
+                                                                   {0.0, 0.168, 0.445},
+                                                                   {0.665, 0.112, 0.0},
+                                                                   {0.604, 0.191, 0.386},
+                                                                   {0.352, 0.352, 0.352}}};
+  const auto& own = colours[static_cast<std::size_t>(category)];
+  return {own[0], own[1], own[2]};
 }
 
 }  // namespace gonio::render

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstdint>
@@ -43,7 +44,8 @@ class texel_brdf {
 
   [[nodiscard]] Eigen::Index texels() const noexcept { return std::ssize(weights_) / (3 * components_->size()); }
 
-  /// Reflectance in sr^-1 of a texel in a pair of unit vectors, `float` or `double`; black where `component_brdf` is.
+  /// Reflectance in sr^-1 of a texel in a pair of unit vectors, `float` or `double`; black where `component_brdf` is,
+  /// and if the texel is not of the sample: all of its weights are zeros.
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Array<Real, 3, 1> operator()(Eigen::Index texel, const Eigen::Matrix<Real, 3, 1>& wi,
                                                     const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
@@ -52,6 +54,8 @@ class texel_brdf {
     // The three weights of a component beside each other, as component_brdf has them.
     std::array<float, 3 * most_components> own;
     const std::uint16_t* const stored = weights_.data() + 3 * k * texel;
+    if (std::all_of(stored, stored + 3 * k, [](std::uint16_t each) { return each == 0; }))
+      return Eigen::Array<Real, 3, 1>::Zero();
     for (Eigen::Index c = 0; c < 3; ++c)
       for (Eigen::Index i = 0; i < k; ++i) own[3 * i + c] = from_half(stored[c * k + i]);
     return detail::evaluate_components<Interpolation>(*components_, own.data(), wi, wo);

@@ -182,6 +182,16 @@ GONIO_INLINE point_clusters k_means(const point_matrix_view& points, Eigen::Inde
   return best;
 }
 
+GONIO_INLINE nearest_centres find_nearest(const point_matrix_view& points, const point_matrix& centres,
+                                          thread_count threads) {
+  if (centres.rows() < 1 || points.cols() != centres.cols())
+    refuse(
+        {"points of ", points.cols(), " numbers have no nearest of ", centres.rows(), " centres of ", centres.cols()});
+  nearest_centres found{Eigen::VectorXi::Zero(points.rows()), Eigen::VectorXd(points.rows())};
+  static_cast<void>(detail::assign(points, centres, found.labels, found.squared_distances, threads));
+  return found;
+}
+
 GONIO_INLINE double mean_silhouette(const point_matrix_view& points, const Eigen::VectorXi& labels,
                                     thread_count threads) {
   if (labels.size() != points.rows() || points.rows() == 0 || labels.minCoeff() < 0)

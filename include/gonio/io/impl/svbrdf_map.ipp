@@ -156,6 +156,17 @@ void to_halves(const Numbers& numbers, std::vector<std::uint16_t>& halves, threa
       threads);
 }
 
+/// Texels of the sample whose numbers are rounded to zero get the smallest half float, 6e-8: zeros have no material.
+GONIO_INLINE void keep_materials(const texel_estimates& found, svbrdf_band& band) {
+  const std::size_t own = band.weights.size() / std::max<std::size_t>(band.uncertainty.size(), 1);
+  for (std::size_t i = 0; i < band.uncertainty.size(); ++i) {
+    if (found.uncertainty[static_cast<Eigen::Index>(i)] == 0.0f) continue;
+    band.uncertainty[i] = std::max<std::uint16_t>(band.uncertainty[i], 1);
+    const std::span<std::uint16_t> weights(band.weights.data() + i * own, own);
+    if (std::ranges::all_of(weights, [](std::uint16_t each) { return each == 0; })) weights.front() = 1;
+  }
+}
+
 }  // namespace gonio::io::detail
 
 namespace gonio::io {
@@ -187,6 +198,7 @@ GONIO_INLINE svbrdf_band as_halves(const texel_estimates& found, thread_count th
   detail::to_halves(found.weights, band.weights, threads);
   detail::to_halves(found.uncertainty, band.uncertainty, threads);
   detail::to_halves(found.disagreement, band.disagreement, threads);
+  detail::keep_materials(found, band);
   return band;
 }
 
@@ -298,7 +310,10 @@ GONIO_INLINE void svbrdf_writer::commit() {
 }
 
 [[gnu::cold]] GONIO_INLINE void svbrdf_writer::fail() const {
-  detail::refuse_file(part_, {"cannot be written: ", detail::system_reason(errno)});
+  const std::string reason = detail::system_reason(errno);
+  if (finished_ == 0) detail::refuse_file(part_, {"cannot be written: ", reason});
+  detail::refuse_file(part_, {"cannot be written: ", reason, "; the first ", finished_, " of ", header_.bands(),
+                              " bands stay, and the same job goes on behind them"});
 }
 
 // ---- reading -----------------------------------------------------------------------------------
