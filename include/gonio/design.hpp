@@ -11,6 +11,7 @@
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/design/expected_error.hpp>
 #include <gonio/design/image_candidates.hpp>
+#include <gonio/design/left_out_squares.hpp>
 #include <gonio/design/near_field_geometry.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/design/search.hpp>

@@ -72,8 +72,8 @@ struct false_colour_range {
 /// So many categories have colours.
 inline constexpr int categories = 8;
 
-/// The linear colour of one of 8 categories: those of Okabe and Ito (Color Universal Design, 2002), with grey instead
-/// of black, which is left for what is of no category.
+/// The linear colour of one of 8 categories: those of Okabe and Ito (Color Universal Design, 2002), with light grey
+/// instead of black, which is left for what is of no category.
 [[nodiscard]] inline rgb category_colour(int category) noexcept {
   GONIO_ASSERT(category >= 0 && category < categories);
   constexpr std::array<std::array<double, 3>, categories> colours{{{0.791, 0.347, 0.0},
@@ -83,7 +83,7 @@ inline constexpr int categories = 8;
                                                                    {0.0, 0.168, 0.445},
                                                                    {0.665, 0.112, 0.0},
                                                                    {0.604, 0.191, 0.386},
-                                                                   {0.352, 0.352, 0.352}}};
+                                                                   {0.6, 0.6, 0.6}}};
   const auto& own = colours[static_cast<std::size_t>(category)];
   return {own[0], own[1], own[2]};
 }
