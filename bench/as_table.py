@@ -9,6 +9,7 @@ benchmarks whose names differ only in "KEY:value" share a row, with a column for
 import argparse
 import json
 import subprocess
+import tempfile
 
 OF_EVERY_RUN = {
     "family_index", "per_family_instance_index", "run_name", "run_type", "repetitions", "repetition_index", "threads",
@@ -17,10 +18,13 @@ OF_EVERY_RUN = {
 
 
 def benchmarks_of(command, parser):
-    printed = subprocess.run(command + ["--benchmark_format=json"], stdout=subprocess.PIPE, text=True)
-    if printed.returncode != 0:
-        parser.error(f"{command[0]} failed")
-    found = json.loads(printed.stdout)["benchmarks"]
+    # Not from its output: what a benchmark calls may print, too.
+    with tempfile.NamedTemporaryFile("r", suffix=".json") as file:
+        told = subprocess.run(command + ["--benchmark_out=" + file.name, "--benchmark_out_format=json"],
+                              stdout=subprocess.DEVNULL)
+        if told.returncode != 0:
+            parser.error(f"{command[0]} failed")
+        found = json.load(file)["benchmarks"]
     if not found:
         parser.error(f"{command[0]} printed no benchmark")
     for benchmark in found:

@@ -11,6 +11,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <concepts>
 
 namespace {
@@ -123,10 +124,11 @@ BENCHMARK(eigen_product)->UseRealTime()->Unit(benchmark::kMillisecond);
 /// Reading the rows of all channels, of one cell in `step`.
 void read_every(benchmark::State& state, Eigen::Index step) {
   const Eigen::Index count = materials().cells.size() / step, functions = std::ssize(corrections());
+  const std::array channels{corrections().channel(0), corrections().channel(1), corrections().channel(2)};
   for (auto _ : state) {
     const float sum = gonio::sum_over_blocks(count, 1024, 0.0f, [&](float& part, gonio::block range) {
       for (Eigen::Index i = range.begin; i < range.end; ++i)
-        for (Eigen::Index c = 0; c < 3; ++c) part += corrections().channel(c).values().row(i * step).sum();
+        for (const auto& channel : channels) part += channel.values().row(i * step).sum();
     });
     benchmark::DoNotOptimize(sum);
   }

@@ -4,12 +4,13 @@
 /// scattered pairs, interpolated.
 
 #include "scattered_pairs.hpp"
+#include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/rgl.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/model/fit_model.hpp>
 #include <gonio/render/lookup_table.hpp>
-#include <gonio/table/tabulate.hpp>
+#include <gonio/table/brdf_table.hpp>
 
 #include <libbsdf/Brdf/HalfDifferenceCoordinatesBrdf.h>
 #include <libbsdf/Fitter/SimpleGgxFitter.h>
@@ -36,10 +37,8 @@ const lb::Brdf& their_table() {
 }
 
 void gonio_fit(benchmark::State& state) {
-  gonio::sample_set samples;
   const auto& cells = measured().cells();
-  for (const Eigen::Index cell : gonio::random_choice(cells.size(), state.range(0), 1))
-    samples.push_back({cells.angles(cell), measured()[cell], 1.0});
+  const auto samples = gonio::sample_table(measured(), gonio::random_cells(cells, state.range(0), 1));
   const auto observations = gonio::model::fit_observations(samples);
   const std::vector<const gonio::model::lobe_kind*> kinds{&gonio::model::lobe_kind_named("ggx")};
   for (auto _ : state) benchmark::DoNotOptimize(gonio::model::fit_model(kinds, observations, gonio::log()).loss);
@@ -57,7 +56,7 @@ BENCHMARK(libbsdf_fit)->Arg(10'000)->UseRealTime()->Unit(benchmark::kMillisecond
 
 void gonio_trilinear(benchmark::State& state) {
   using gonio::render::interpolation;
-  static const auto table = gonio::render::lookup_table<float, interpolation::trilinear>(measured());
+  static const auto table = gonio::render::lookup_table<float, interpolation::trilinear>::tabulated(measured());
   look_up_pairs<Eigen::Vector3f, float>(state, [](const auto& wi, const auto& wo) { return table(wi, wo).sum(); });
 }
 BENCHMARK(gonio_trilinear);

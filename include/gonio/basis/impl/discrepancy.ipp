@@ -48,20 +48,21 @@ using discrepancy_places = Eigen::Matrix<double, 4, Eigen::Dynamic>;
   return places;
 }
 
-/// k of places from the `first` on with one.
+/// k of one place with the last ones of others, a row each: as many as `out` has.
 template <class Column>
-inline void covariances_with(const Eigen::Vector4d& place, const discrepancy_places& places, Eigen::Index first,
-                             Column&& out) {
-  out = (-0.5 * (places.rightCols(places.cols() - first).colwise() - place).colwise().squaredNorm().array())
-            .exp()
-            .transpose();
+inline void covariances_with(const Eigen::Vector4d& place, const Eigen::ArrayX4d& others, Column&& out) {
+  const auto last = others.bottomRows(out.size());
+  out = (-0.5 * ((last.col(0) - place[0]).square() + (last.col(1) - place[1]).square() +
+                 (last.col(2) - place[2]).square() + (last.col(3) - place[3]).square()))
+            .exp();
 }
 
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd covariance_of(const discrepancy_places& places) {
   const Eigen::Index n = places.cols();
+  const Eigen::ArrayX4d rows = places.transpose();
   Eigen::MatrixXd all(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    covariances_with(places.col(j), places, j, all.col(j).tail(n - j));
+    covariances_with(places.col(j), rows, all.col(j).tail(n - j));
     all.row(j).tail(n - j) = all.col(j).tail(n - j).transpose();
   }
   return all;
@@ -107,10 +108,10 @@ GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, dou
 }
 
 GONIO_INLINE void discrepancy_functions::read(std::span<const half_difference> angles, row_block out) const {
+  const Eigen::ArrayX4d centres = shared_->places.transpose();
   Eigen::MatrixXd columns(size(), std::ssize(angles));
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    detail::covariances_with(detail::discrepancy_place(angles[i], shared_->lengths), shared_->places, 0,
-                             columns.col(i));
+    detail::covariances_with(detail::discrepancy_place(angles[i], shared_->lengths), centres, columns.col(i));
   out = std::sqrt(shared_->amplitude) * shared_->factors.solve_lower(columns).transpose();
 }
 
