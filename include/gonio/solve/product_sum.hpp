@@ -78,7 +78,7 @@ class product_sum {
   /// Two vector registers by six columns: twelve sums in flight, which hide the latency of a fused multiply-add.
   static constexpr Eigen::Index tile_rows = 2 * std::max(EIGEN_MAX_ALIGN_BYTES, 16) / Eigen::Index{sizeof(Scalar)};
   static constexpr Eigen::Index tile_columns = 6;
-  static constexpr Eigen::Index panel_columns = 8 * tile_columns;
+  static constexpr Eigen::Index panel_columns = 18 * tile_columns;
   using piece = Eigen::Array<Scalar, tile_rows, 1>;
 
   using row_major = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
