@@ -1,6 +1,5 @@
-#include <gonio/core/huge_pages.hpp>
-
 #include "../sanitized.hpp"
+#include <gonio/core/huge_pages.hpp>
 
 #include <doctest/doctest.h>
 
