@@ -76,22 +76,12 @@ gonio::image flat_sample_radiance(const gonio::io::svbrdf_map& map, const gonio:
   return picture;
 }
 
-double exposure_of(const gonio::image& radiance) {
-  std::vector<float> brightest;
-  const std::size_t pixels = radiance.size() / 3, step = std::max<std::size_t>(pixels / 100'000, 1);
-  for (std::size_t i = 0; i < pixels; i += step) {
-    const float largest = *std::max_element(radiance.data() + 3 * i, radiance.data() + 3 * i + 3);
-    if (largest > 0.0f) brightest.push_back(largest);
-  }
-  return brightest.empty() ? 1.0 : 1.0 / gonio::quantile(std::move(brightest), 0.99);
-}
-
 gonio::image flat_sample_image(const std::filesystem::path& map, const std::filesystem::path& prior,
                                std::span<const gonio::directional_light> lights, std::optional<double> exposure,
                                gonio::thread_count threads) {
   gonio::image picture =
       flat_sample_radiance(gonio::io::svbrdf_map(map), gonio::io::read_prior(prior), lights, threads);
-  gonio::render::expose(picture, exposure ? *exposure : exposure_of(picture));
+  gonio::render::expose(picture, exposure ? *exposure : gonio::render::exposure_of(picture));
   return picture;
 }
 

@@ -19,14 +19,8 @@ namespace cli {
                                                 std::span<const gonio::directional_light> lights,
                                                 gonio::thread_count threads);
 
-/// The exposure with which an image is white at the 99th percentile of its pixels' largest values that are not black; 1
-/// if all are.
-[[nodiscard]] double exposure_of(const gonio::image& radiance);
-
-/// The image of a map with an exposure. `exposure`
-/// is what a white Lambertian surface that faces a light of irradiance 1 has; by default the image is white at the 99th
-/// percentile of what is not black, as texels are that are not of the sample. Throws gonio::error as
-/// `flat_sample_radiance` does.
+/// The image of a map with an exposure, which is what a white Lambertian surface that faces a light of irradiance 1
+/// has; by default `render::exposure_of` it. Throws gonio::error as `flat_sample_radiance` does.
 [[nodiscard]] gonio::image flat_sample_image(const std::filesystem::path& map, const std::filesystem::path& prior,
                                              std::span<const gonio::directional_light> lights,
                                              std::optional<double> exposure, gonio::thread_count threads);

@@ -1,6 +1,7 @@
 #pragma once
 /// Numbers of a map's texels as arrays, written band by band.
 
+#include <gonio/io/file.hpp>
 #include <gonio/io/svbrdf_map.hpp>
 
 #include <Eigen/Core>
@@ -14,11 +15,11 @@
 
 namespace cli {
 
-/// Writes an array (.npy) of rows x columns x `extents`, of elements of a type as NumPy spells it; `bytes_of` is called
+/// Writes an array (.npy) of rows x columns x `extents`, of elements of a type as NumPy spells it; `write` is called
 /// once for each band, in order.
 void write_texel_array(const std::filesystem::path& path, const gonio::io::svbrdf_header& header, std::string_view type,
                        const std::vector<std::size_t>& extents,
-                       const std::function<std::vector<std::byte>(Eigen::Index)>& bytes_of);
+                       const std::function<void(gonio::io::file_writer&, Eigen::Index)>& write);
 
 /// A part of all bands, half floats, as an array.
 void write_texel_array(const std::filesystem::path& path, const gonio::io::svbrdf_map& map,

@@ -121,10 +121,9 @@ void write_labels(const std::filesystem::path& path, const gonio::io::svbrdf_map
     };
     write_texel_image(path, map, colours_of, nullptr);
   } else {
-    write_texel_array(path, map.header(), "|u1", {}, [&](Eigen::Index number) {
+    write_texel_array(path, map.header(), "|u1", {}, [&](gonio::io::file_writer& file, Eigen::Index number) {
       const std::vector<std::uint8_t> labels = clusters.assign(map.read_band(number));
-      const auto bytes = std::as_bytes(std::span(labels));
-      return std::vector<std::byte>(bytes.begin(), bytes.end());
+      file.write(std::as_bytes(std::span(labels)));
     });
   }
 }
@@ -175,7 +174,7 @@ void compare(const texels_options& options, const gonio::io::svbrdf_map& map, co
   const auto lighting = lighting_of(options.lights);
   gonio::image one = flat_sample_radiance(map, prior, lighting.lights(), options.threads);
   gonio::image two = flat_sample_radiance(other, prior, lighting.lights(), options.threads);
-  const double exposure = options.exposure ? *options.exposure : exposure_of(one);
+  const double exposure = options.exposure ? *options.exposure : gonio::render::exposure_of(one);
   for (gonio::image* each : {&one, &two}) gonio::render::expose(*each, exposure);
   const std::vector<float> differences = differences_of(one, two, options.threads);
   const auto of_band = [&](Eigen::Index number) {
@@ -187,10 +186,9 @@ void compare(const texels_options& options, const gonio::io::svbrdf_map& map, co
   for (const float each : differences) sum += double{each};
   std::cout << "Delta E of the maps: " << fixed(sum / static_cast<double>(differences.size()), 2) << " in the mean\n";
   if (!is_png(options.delta_e))
-    return write_texel_array(options.delta_e, header, "<f4", {}, [&](Eigen::Index number) {
-      const auto bytes = std::as_bytes(of_band(number));
-      return std::vector<std::byte>(bytes.begin(), bytes.end());
-    });
+    return write_texel_array(
+        options.delta_e, header, "<f4", {},
+        [&](gonio::io::file_writer& file, Eigen::Index number) { file.write(std::as_bytes(of_band(number))); });
   const colour_scale scale{gonio::render::sequential_colour,
                            {{0.0, "0"}, {0.2, "2"}, {0.4, "4"}, {0.6, "6"}, {0.8, "8"}, {1.0, "10+"}}};
   const auto colours_of = [&](const band&, Eigen::Index number) {

@@ -4,12 +4,11 @@
 
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <iterator>
-#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace cli {
 
@@ -52,11 +51,7 @@ sweep_record::sweep_record(const std::filesystem::path& output, std::uint32_t ch
       gonio::refuse({path_.string(), ": was begun with other inputs or options: remove it, or name another -o"});
     if (!text.empty()) text.erase(0, head_.size());
   });
-  const auto bytes = std::as_bytes(std::span(text));
-  const team::part told = processes.of_writer({bytes.begin(), bytes.end()});
-  text.resize(told.size());
-  if (!told.empty()) std::memcpy(text.data(), told.data(), told.size());
-  earlier_ = numbers_in(text);
+  earlier_ = numbers_in(processes.text_of_writer(std::move(text)));
 }
 
 Eigen::Index sweep_record::next(const std::function<Eigen::Index()>& sweep) {

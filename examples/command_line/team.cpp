@@ -3,10 +3,22 @@
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/file.hpp>
 
+#include <algorithm>
 #include <future>
 #include <utility>
 
 namespace cli {
+
+team::part bytes_of(std::string_view text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+std::string text_of(const team::part& bytes) {
+  std::string text(bytes.size(), ' ');
+  std::ranges::transform(bytes, text.begin(), [](std::byte each) { return std::to_integer<char>(each); });
+  return text;
+}
 
 const team& alone() {
   static const team one;

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -73,8 +74,8 @@ class team {
   [[nodiscard]] virtual Eigen::Index number_of_writer(Eigen::Index number) const { return number; }
 
   using part = std::vector<std::byte>;
-  /// The bytes of the process that writes.
-  [[nodiscard]] virtual part of_writer(part bytes) const { return bytes; }
+  /// The text of the process that writes.
+  [[nodiscard]] virtual std::string text_of_writer(std::string text) const { return text; }
   /// What one process computes, that with the number `turn` modulo their number. The one that writes waits for it;
   /// others go on with nothing.
   [[nodiscard]] virtual std::optional<part> compute_in_turn(std::size_t turn,
@@ -87,6 +88,9 @@ class team {
   virtual void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
                                 const std::function<void(Eigen::Index, part)>& take) const;
 };
+
+[[nodiscard]] team::part bytes_of(std::string_view text);
+[[nodiscard]] std::string text_of(const team::part& bytes);
 
 /// This process alone.
 [[nodiscard]] const team& alone();

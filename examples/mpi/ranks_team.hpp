@@ -30,7 +30,9 @@ class ranks_team : public team {
   [[nodiscard]] gonio::shared_groups groups() const override;
   [[nodiscard]] std::vector<std::vector<float>> exchange_rows(std::vector<float> own, Eigen::Index rows) const override;
   [[nodiscard]] Eigen::Index number_of_writer(Eigen::Index number) const override;
-  [[nodiscard]] part of_writer(part bytes) const override { return ranks_.broadcast(std::move(bytes)); }
+  [[nodiscard]] std::string text_of_writer(std::string text) const override {
+    return text_of(ranks_.broadcast(bytes_of(text)));
+  }
   [[nodiscard]] std::optional<part> compute_in_turn(std::size_t turn,
                                                     const std::function<part()>& compute) const override;
   void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,

@@ -48,5 +48,7 @@ void add_adaptive_design(command& app, const team& processes);
 void add_in_plane(command& app, const team& processes);
 void add_near_field_photographs(command& app, const team& processes);
 void add_sphere_photograph(command& app, const team& processes);
+/// All of these.
+void add_resumable(command& app, const team& processes);
 
 }  // namespace papers

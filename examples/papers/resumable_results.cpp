@@ -3,26 +3,13 @@
 #include "command_line/threads_option.hpp"
 #include <gonio/core/error.hpp>
 
-#include <cstring>
 #include <iterator>
-#include <span>
 #include <sstream>
 #include <utility>
 
 namespace papers {
 
 namespace {
-
-cli::team::part bytes_of(const std::string& text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
-
-std::string text_of(const cli::team::part& bytes) {
-  std::string text(bytes.size(), ' ');
-  if (!bytes.empty()) std::memcpy(text.data(), bytes.data(), bytes.size());
-  return text;
-}
 
 /// What earlier runs left in a file, as text.
 std::string left_in(const std::filesystem::path& path) {
@@ -54,7 +41,7 @@ resumable_results::resumable_results(const resumable_options& options)
     file_.open(path_, std::ios::app);
     if (!file_) gonio::refuse("cannot write '" + path_.string() + "'");
   });
-  std::istringstream lines(text_of(processes_.of_writer(bytes_of(earlier))));
+  std::istringstream lines(processes_.text_of_writer(std::move(earlier)));
   for (std::string line; std::getline(lines, line);) {
     // A run that was killed may have left half a line.
     const json entry = json::parse(line);
@@ -75,11 +62,11 @@ const json& resumable_results::once(const json& key, std::size_t turn, const std
     json result;
     const auto done = processes_.compute_in_turn(turn, [&] {
       result = work();
-      return bytes_of(json{{"key", key}, {"result", result}}.dump());
+      return cli::bytes_of(json{{"key", key}, {"result", result}}.dump());
     });
     if (!done) return nothing;
     if (!is_own(turn)) {
-      const json entry = json::parse(text_of(*done));
+      const json entry = json::parse(cli::text_of(*done));
       if (entry["key"].dump() != key.dump())
         gonio::refuse("the processes do different work: do they read different inputs?");
       result = entry["result"];

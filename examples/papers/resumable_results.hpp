@@ -3,6 +3,7 @@
 
 #include "command_line/command.hpp"
 #include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
 #include "command_line/team.hpp"
 
 #include <cstddef>
@@ -10,6 +11,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
 namespace papers {
@@ -31,6 +33,25 @@ void add_resumable_options(cli::command& to, resumable_options& options);
 
 /// Does the same work in all processes, each with its share of the machine's cores.
 void run_together(const cli::team& processes, resumable_options& options, const std::function<void()>& work);
+
+/// Has a command do `work(options)` in all processes.
+template <class Options, class Work>
+void do_together(cli::command& command, const cli::team& processes, const std::shared_ptr<Options>& options,
+                 Work work) {
+  command.callback([=, &processes] { run_together(processes, *options, [&] { work(*options); }); });
+}
+
+/// Does an experiment that is made of options and a progress bar; what its `run()` found goes to `print` where all of
+/// it is.
+template <class Experiment, class Options, class Print>
+void run_and_print(const Options& options, const Print& print) {
+  cli::progress_bar bar;
+  Experiment work(options, bar);
+  const auto found = work.run();
+  if (!options.prints()) return;
+  bar.wipe();
+  print(found);
+}
 
 /// Results that earlier runs left in a file, one JSON object a line; new ones are appended as they come. Without a file
 /// they are only remembered.

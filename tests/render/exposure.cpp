@@ -41,3 +41,13 @@ TEST_CASE("spheres that are shown together are exposed alike, by the brightest")
   const std::array black{sphere_with(0.0, rgb::Zero(), rgb::Zero())};
   CHECK(gonio::render::exposure_of_spheres(black) == 1.0);
 }
+
+TEST_CASE("an image is white at the 99th percentile of what is not black") {
+  image picture = gonio::uniform_image(20, 20);
+  CHECK(gonio::render::exposure_of(picture) == 1.0);
+  for (std::size_t row = 0; row < 10; ++row)
+    for (std::size_t column = 0; column < 20; ++column) gonio::set_pixel(picture, row, column, rgb(0.5, 4.0, 1.0));
+  CHECK(gonio::render::exposure_of(picture) == doctest::Approx(0.25));
+  gonio::set_pixel(picture, 3, 3, rgb(100.0, 0.0, 0.0));  // half a percent
+  CHECK(gonio::render::exposure_of(picture) == doctest::Approx(0.25));
+}

@@ -169,7 +169,7 @@ void add_models(command& app, const team& processes) {
   command.add_option("--materials", options->only, "Only these materials");
   command.add_flag("--json", options->print_json, "Print every fit as JSON");
   add_resumable_options(command, *options);
-  command.callback([options, &processes] { run_together(processes, *options, [&] { run(*options); }); });
+  do_together(command, processes, options, run);
 }
 
 }  // namespace papers

@@ -358,7 +358,7 @@ void add_noell(command& app, const std::string& name, const std::string& descrip
       .check(check::positive_number());
   command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
   add_resumable_options(command, *options);
-  command.callback([options, &processes] { run_together(processes, *options, [&] { run_noell(*options); }); });
+  do_together(command, processes, options, run_noell);
 }
 
 }  // namespace

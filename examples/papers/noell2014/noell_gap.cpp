@@ -388,7 +388,7 @@ void add_noell_gap(command& app, const team& processes) {
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of cells and outliers").capture_default_str();
   add_resumable_options(command, *options);
-  command.callback([options, &processes] { run_together(processes, *options, [&] { run_gap(*options); }); });
+  do_together(command, processes, options, run_gap);
 }
 
 }  // namespace papers

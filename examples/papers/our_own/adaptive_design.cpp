@@ -154,16 +154,9 @@ void add_adaptive_design(command& app, const team& processes) {
           "all that was read before")
       .check(check::one_of({"perceived", "expected-error", "mean-material", "first-five", "adaptive"}))
       .capture_default_str();
-  command.callback([options, &processes] {
-    if (std::ranges::min(options->counts) < 5) gonio::refuse("--counts needs numbers of at least 5");
-    run_together(processes, *options, [&] {
-      progress_bar bar;
-      adaptive_experiment work(*options, bar);
-      const json rows = work.run();
-      if (!options->prints()) return;
-      bar.wipe();
-      print(rows);
-    });
+  do_together(command, processes, options, [](const auto& given) {
+    if (std::ranges::min(given.counts) < 5) gonio::refuse("--counts needs numbers of at least 5");
+    run_and_print<adaptive_experiment>(given, print);
   });
 }
 

@@ -375,7 +375,7 @@ void add_directions_measured(command& app, const team& processes) {
       .capture_default_str();
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_resumable_options(command, *options);
-  command.callback([options, &processes] { run_together(processes, *options, [&] { run(*options); }); });
+  do_together(command, processes, options, run);
 }
 
 }  // namespace papers

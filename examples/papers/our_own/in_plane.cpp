@@ -208,16 +208,14 @@ void add_in_plane(command& app, const team& processes) {
   command.add_option("--more", options->more, "Further directions")
       .check(check::positive_number())
       .capture_default_str();
-  command.callback([options, &processes] {
-    run_together(processes, *options, [&] {
-      progress_bar bar;
-      in_plane_experiment work(*options, bar);
-      const auto found = work.run();
-      if (!options->prints()) return;
-      const auto recommended = work.recommended();
-      bar.wipe();
-      print(found, recommended, work.samples(), options->more);
-    });
+  do_together(command, processes, options, [](const auto& given) {
+    progress_bar bar;
+    in_plane_experiment work(given, bar);
+    const auto found = work.run();
+    if (!given.prints()) return;
+    const auto recommended = work.recommended();
+    bar.wipe();
+    print(found, recommended, work.samples(), given.more);
   });
 }
 

@@ -255,15 +255,8 @@ void add_near_field_photographs(command& app, const team& processes) {
   command.add_option("--block", options->block, "Pixels a side of the blocks that become one sample")
       .check(check::range(1, 64))
       .capture_default_str();
-  command.callback([options, &processes] {
-    run_together(processes, *options, [&] {
-      progress_bar bar;
-      near_field_photographs_experiment work(*options, bar);
-      const auto found = work.run();
-      if (!options->prints()) return;
-      bar.wipe();
-      print(found);
-    });
+  do_together(command, processes, options, [](const auto& given) {
+    run_and_print<near_field_photographs_experiment>(given, [](const auto& found) { print(found); });
   });
 }
 

@@ -180,15 +180,8 @@ void add_real_fits(command& app, const team& processes) {
   command.add_flag("--tables", options->tables, "Fit all cells, with each of the weights that a cell may have");
   add_thin_option(command, options->thin);
   add_resumable_options(command, *options);
-  command.callback([options, &processes] {
-    run_together(processes, *options, [&] {
-      progress_bar bar;
-      fits_experiment work(*options, bar);
-      const json rows = work.run();
-      if (!options->prints()) return;
-      bar.wipe();
-      print(*options, rows);
-    });
+  do_together(command, processes, options, [](const auto& given) {
+    run_and_print<fits_experiment>(given, [&](const json& rows) { print(given, rows); });
   });
 }
 

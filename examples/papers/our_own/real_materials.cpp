@@ -317,15 +317,8 @@ void add_real_materials(command& app, const team& processes) {
       .capture_default_str();
   command.add_flag("--surrogates", options->surrogates,
                    "Judge the ten test materials of Nielsen et al. among the networks, not the measured ones");
-  command.callback([options, &processes] {
-    run_together(processes, *options, [&] {
-      progress_bar bar;
-      experiment work(*options, bar);
-      const json rows = work.run();
-      if (!options->prints()) return;
-      bar.wipe();
-      print(*options, rows);
-    });
+  do_together(command, processes, options, [](const auto& given) {
+    run_and_print<experiment>(given, [&](const json& rows) { print(given, rows); });
   });
 }
 

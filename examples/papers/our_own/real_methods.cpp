@@ -257,15 +257,8 @@ void add_real_methods(command& app, const team& processes) {
   command.add_option("--repetitions", options->repetitions, "Random sets of each number")
       .check(check::positive_number())
       .capture_default_str();
-  command.callback([options, &processes] {
-    run_together(processes, *options, [&] {
-      progress_bar bar;
-      methods_experiment work(*options, bar);
-      const json rows = work.run();
-      if (!options->prints()) return;
-      bar.wipe();
-      print(*options, rows);
-    });
+  do_together(command, processes, options, [](const auto& given) {
+    run_and_print<methods_experiment>(given, [&](const json& rows) { print(given, rows); });
   });
 }
 

@@ -214,15 +214,8 @@ void add_sphere_photograph(command& app, const team& processes) {
   command.add_option("--names", options->names, "Materials to photograph").capture_default_str();
   command.add_option("--noise", options->noise, "Relative noise of a pixel").capture_default_str();
   command.add_option("--pixels", options->pixels, "Pixels a side").check(check::range(64, 2048)).capture_default_str();
-  command.callback([options, &processes] {
-    run_together(processes, *options, [&] {
-      progress_bar bar;
-      sphere_photograph_experiment work(*options, bar);
-      const auto found = work.run();
-      if (!options->prints()) return;
-      bar.wipe();
-      print(found);
-    });
+  do_together(command, processes, options, [](const auto& given) {
+    run_and_print<sphere_photograph_experiment>(given, [](const auto& found) { print(found); });
   });
 }
 

@@ -155,10 +155,8 @@ gonio::image svbrdf_maps::figure(Eigen::Index size) const {
                  static_cast<int>(names.material[static_cast<std::size_t>(label(row, column) - 1)])));
     }
   }
-  std::vector<float> brightest;
-  for (std::size_t i = 0; i < images[0].size(); i += 3)
-    brightest.push_back(*std::max_element(images[0].data() + i, images[0].data() + i + 3));
-  for (std::size_t each : {0u, 1u}) gonio::render::expose(images[each], 1.0 / gonio::quantile(brightest, 0.99));
+  const double exposure = gonio::render::exposure_of(images[0]);
+  for (std::size_t each : {0u, 1u}) gonio::render::expose(images[each], exposure);
   double sum = 0.0;
   for (std::size_t i = 0; i < extent; ++i)
     for (std::size_t j = 0; j < extent; ++j) {

@@ -367,7 +367,7 @@ void add_directions(command& app, const team& processes) {
   command.add_output_folder("--write", options->folder, {}, "Folder to write each set to, as directions (.csv)");
   command.add_flag("--json", options->print_json, "Print everything, with the poses, as JSON");
   add_resumable_options(command, *options);
-  command.callback([options, &processes] { run_together(processes, *options, [&] { run(*options); }); });
+  do_together(command, processes, options, run);
 }
 
 }  // namespace papers

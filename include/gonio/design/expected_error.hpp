@@ -187,7 +187,8 @@ class extended_error {
 };
 
 #if defined(GONIO_COMPILED)
-/// Sweeps are made in single precision, steps of a descent in double.
+/// Steps of a descent are made in double; many candidates in single precision, unless they stand in tiles
+/// (`error_sweep`).
 extern template class extended_error<float>;
 extern template class extended_error<double>;
 #endif

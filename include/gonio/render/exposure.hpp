@@ -1,5 +1,5 @@
 #pragma once
-/// How bright images of spheres are shown: those that are compared with one another, all alike.
+/// How bright images are shown: those of spheres that are compared with one another, all alike.
 
 #include <gonio/table/image.hpp>
 
@@ -14,6 +14,10 @@ namespace gonio::render {
 /// The factor at which the brightest of some spheres is white at its 99th percentile: what is brighter, a highlight of
 /// a hundredth of the sphere, is clipped. 1 if all are black.
 [[nodiscard]] double exposure_of_spheres(std::span<const image> images);
+
+/// The factor at which an image is white at the 99th percentile of its pixels' brightest channels, of those that are
+/// not black, or of every n-th, some 100,000. 1 if all are black.
+[[nodiscard]] double exposure_of(const image& picture);
 
 /// Multiplies all values.
 void expose(image& picture, double exposure);

@@ -23,6 +23,9 @@ template <class Scalar>
 class product_sum {
  public:
   static constexpr Eigen::Index block_rows = 128;
+  /// Two vector registers by six columns: twelve sums in flight, which hide the latency of a fused multiply-add.
+  static constexpr Eigen::Index tile_rows = 2 * std::max(EIGEN_MAX_ALIGN_BYTES, 16) / Eigen::Index{sizeof(Scalar)};
+  static constexpr Eigen::Index tile_columns = 6;
 
   /// Takes at most `rows` rows at a time.
   explicit product_sum(Eigen::Index columns, Eigen::Index rows = block_rows) : columns_(columns) {
@@ -75,9 +78,6 @@ class product_sum {
   }
 
  private:
-  /// Two vector registers by six columns: twelve sums in flight, which hide the latency of a fused multiply-add.
-  static constexpr Eigen::Index tile_rows = 2 * std::max(EIGEN_MAX_ALIGN_BYTES, 16) / Eigen::Index{sizeof(Scalar)};
-  static constexpr Eigen::Index tile_columns = 6;
   static constexpr Eigen::Index panel_columns = 18 * tile_columns;
   using piece = Eigen::Array<Scalar, tile_rows, 1>;
 

@@ -141,15 +141,14 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
       rows, 1,
       [&](Eigen::Index row) {
         const int j = static_cast<int>(row);
-        Eigen::ArrayX3d places(columns, 3);
+        Eigen::ArrayX4d places(columns, 4);
         for (int k = 0; k < columns; ++k)
-          places.row(k) = detail::discrepancy_place({0.0, over.theta_d(j), over.phi_d(k)}, lengths).tail<3>();
+          places.row(k) = detail::discrepancy_place({0.0, over.theta_d(j), over.phi_d(k)}, lengths);
         Eigen::MatrixXd slice(columns, size());
         for (Eigen::Index centre = 0; centre < size(); ++centre) {
-          const Eigen::Array3d at = shared_->places.col(centre).tail<3>();
-          slice.col(centre) = (-0.5 * ((places.col(0) - at[0]).square() + (places.col(1) - at[1]).square() +
-                                       (places.col(2) - at[2]).square()))
-                                  .exp();
+          Eigen::Vector4d beside = shared_->places.col(centre);
+          beside[0] = 0.0;  // theta_h has its own factor
+          detail::covariances_with(beside, places, slice.col(centre));
         }
         const Eigen::MatrixXd values = product(slice, by_height);
         for (int i = 0; i < heights; ++i)

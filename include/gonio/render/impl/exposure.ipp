@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gonio::render {
@@ -28,6 +30,16 @@ GONIO_INLINE double exposure_of_spheres(std::span<const image> images) {
   double brightest = 0.0;
   for (const image& picture : images) brightest = std::max(brightest, brightness_of_sphere(picture));
   return brightest > 0.0 ? 1.0 / brightest : 1.0;
+}
+
+GONIO_INLINE double exposure_of(const image& picture) {
+  std::vector<float> brightest;
+  const std::size_t pixels = picture.size() / 3, step = std::max<std::size_t>(pixels / 100'000, 1);
+  for (std::size_t i = 0; i < pixels; i += step) {
+    const float largest = *std::max_element(picture.data() + 3 * i, picture.data() + 3 * i + 3);
+    if (largest > 0.0f) brightest.push_back(largest);
+  }
+  return brightest.empty() ? 1.0 : 1.0 / quantile(std::move(brightest), 0.99);
 }
 
 GONIO_INLINE void expose(image& picture, double exposure) {

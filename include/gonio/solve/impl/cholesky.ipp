@@ -71,15 +71,12 @@ GONIO_INLINE void cholesky::solve_lower_in_place(double* b) const noexcept {
 
 namespace detail {
 
-/// Two vector registers of rows, by at most six columns: as in `product_sum`.
-inline constexpr Eigen::Index substitution_rows =
-    2 * std::max(EIGEN_MAX_ALIGN_BYTES, 16) / Eigen::Index{sizeof(double)};
-
-/// Takes L x from a tile of some columns of x, `known` unknowns of which are found; both matrices have k rows.
+/// Takes L x from a tile of some columns of x, `known` unknowns of which are found; both matrices have k rows. A tile
+/// of the size of `product_sum`'s stays in registers, as there.
 template <std::size_t... Column>
 inline void subtract_known(const double* lower, const double* found, Eigen::Index known, double* tile, Eigen::Index k,
                            std::index_sequence<Column...> /*columns*/) {
-  using piece = Eigen::Array<double, substitution_rows, 1>;
+  using piece = Eigen::Array<double, product_sum<double>::tile_rows, 1>;
   std::array<piece, sizeof...(Column)> sums{((void)Column, piece(piece::Zero()))...};
   for (Eigen::Index j = 0; j < known; ++j) {
     const piece rows = Eigen::Map<const piece>(lower + j * k);
@@ -92,7 +89,8 @@ inline void subtract_known(const double* lower, const double* found, Eigen::Inde
 
 GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
   // Solve for some unknowns of all columns, then take them from the other equations.
-  constexpr Eigen::Index panel = 32, together = 6;
+  using sum_type = detail::product_sum<double>;
+  constexpr Eigen::Index panel = 32, rows = sum_type::tile_rows, columns = sum_type::tile_columns;
   const Eigen::Index k = lower_.rows();
   Eigen::MatrixXd x = b;
   for (Eigen::Index begin = 0; begin < k; begin += panel) {
@@ -103,14 +101,13 @@ GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
         add_scaled(-known, lower_.data() + j * (k + 1) + 1, &x(j, column) + 1, end - j - 1);
       }
     Eigen::Index row = end;
-    for (; row + detail::substitution_rows <= k; row += detail::substitution_rows) {
+    for (; row + rows <= k; row += rows) {
+      const auto subtract = [&](Eigen::Index column, auto together) {
+        detail::subtract_known(&lower_(row, begin), &x(begin, column), end - begin, &x(row, column), k, together);
+      };
       Eigen::Index column = 0;
-      for (; column + together <= x.cols(); column += together)
-        detail::subtract_known(&lower_(row, begin), &x(begin, column), end - begin, &x(row, column), k,
-                               std::make_index_sequence<together>());
-      for (; column < x.cols(); ++column)
-        detail::subtract_known(&lower_(row, begin), &x(begin, column), end - begin, &x(row, column), k,
-                               std::make_index_sequence<1>());
+      for (; column + columns <= x.cols(); column += columns) subtract(column, std::make_index_sequence<columns>());
+      for (; column < x.cols(); ++column) subtract(column, std::make_index_sequence<1>());
     }
     if (row == k) continue;
     for (Eigen::Index column = 0; column < x.cols(); ++column)
