@@ -219,22 +219,14 @@ fitted_brdf<Basis>::tabulate_rows(const valid_cells& cells, thread_count threads
 const {
   const metric_type& metric = basis_.metric();
   constexpr int fields_count = 3 + metric_type::companions;
-  cell_fields<fields_count> fields(fields_count, basis_.cells().size());
   const mapped_fields channels = mapped_field(threads);
-  for_each_index(
-      fields.cols(), 16384,
-      [&](Eigen::Index cell) {
-        float* field = &fields(0, cell);
-        std::copy_n(&channels(0, cell), 3, field);
-        if constexpr (metric_type::companions > 0) {
-          const auto companions = metric.companion(cell);
-          std::copy(companions.begin(), companions.end(), field + 3);
-        }
-      },
-      threads);
+  const auto read = [&](Eigen::Index cell, float* out) {
+    std::copy_n(&channels(0, cell), 3, out);
+    if constexpr (metric_type::companions > 0) std::ranges::copy(metric.companion(cell), out + 3);
+  };
   brdf_table table(cells);
-  upsample<fields_count>(
-      basis_.cells(), fields, cells,
+  upsample<fields_count, metric_type::mean>(
+      basis_.cells(), read, cells,
       [&](const cell_row& row, auto& values) {
         metric.inverse_row(row, values, table.values().subspan(3 * row.first, 3 * row.count));
       },

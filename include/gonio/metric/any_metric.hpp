@@ -49,6 +49,7 @@ class any_metric {
 
   /// As many as the metric with the most has; of the others it is zero. See `row_metric`.
   static constexpr int companions = log_relative::companions;
+  static constexpr weighted_mean mean = weighted_mean::arithmetic;
   [[nodiscard]] std::array<float, companions> companion(Eigen::Index cell) const noexcept {
     const auto* relative = std::get_if<log_relative>(&held_);
     return relative ? relative->companion(cell) : std::array<float, companions>{};
@@ -57,6 +58,7 @@ class any_metric {
   void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
     const auto invert = [&](const auto& metric) {
       if constexpr (std::remove_cvref_t<decltype(metric)>::companions == companions) {
+        exponentiate(values.data(), values.size());
         metric.inverse_row(row, values, out);
       } else {
         metric.unmap_all(values);

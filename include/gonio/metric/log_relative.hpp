@@ -89,25 +89,25 @@ class log_relative {
 
   /// The logarithm of the reference is interpolated beside the channels. See `row_metric`.
   static constexpr int companions = 1;
+  static constexpr weighted_mean mean = weighted_mean::geometric;
   [[nodiscard]] std::array<float, 1> companion(Eigen::Index cell) const noexcept { return {(*log_reference_)[cell]}; }
   template <class Values>
-  void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
-    exponentiate(values.data(), values.size());
+  void inverse_row(const cell_row& row, const Values& values, std::span<float> out) const {
     constexpr Eigen::Index at_once = shifts_at_once;
     for (Eigen::Index begin = 0; begin < row.count; begin += at_once) {
       const Eigen::Index count = std::min(at_once, row.count - begin);
       std::array<float, at_once> shift;
       compute_shifts(row, begin, {shift.data(), static_cast<std::size_t>(count)});
-      for (Eigen::Index i = 0; i < count; ++i) {
-        // A vector of four, of which the next cell overwrites the last number.
-        const Eigen::Array4f relative = Eigen::Map<const Eigen::Array4f>(values.data() + 4 * (begin + i));
-        const Eigen::Array4f value = (relative * (relative[3] + shift[i]) - shift[i]).max(0.0f);
-        float* cell = out.data() + 3 * (begin + i);
-        if (begin + i + 1 < row.count)
-          Eigen::Map<Eigen::Array4f>{cell} = value;
-        else
-          std::copy_n(value.data(), 3, cell);
-      }
+      const float* relative = values.data() + 4 * begin;
+      float* cell = out.data() + 3 * begin;
+      const auto value_at = [&](Eigen::Index i) -> Eigen::Array4f {
+        const Eigen::Array4f these = Eigen::Map<const Eigen::Array4f>(relative + 4 * i);
+        return (these * (these[3] + shift[i]) - shift[i]).max(0.0f);
+      };
+      // A vector of four, of which the next cell overwrites the last number.
+      for (Eigen::Index i = 0; i + 1 < count; ++i) Eigen::Map<Eigen::Array4f>{cell + 3 * i} = value_at(i);
+      const Eigen::Array4f last = value_at(count - 1);
+      std::copy_n(last.data(), 3, cell + 3 * (count - 1));
     }
   }
 

@@ -21,6 +21,7 @@ class place_free_metric {
 
   /// Nothing needs interpolating beside the three channels.
   static constexpr int companions = 0;
+  static constexpr weighted_mean mean = weighted_mean::arithmetic;
 
   /// See `row_metric`.
   template <class Values>

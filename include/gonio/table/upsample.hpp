@@ -1,7 +1,8 @@
 #pragma once
 /// Interpolates fields over the cells of one grid to all cells of another, a row at a time: what `locate` and
-/// `interpolate` give cell by cell, up to float rounding, at a few operations a value. Trilinear interpolation
-/// is a product of three linear ones, so the two polar axes are blended once for a whole row of phi_d.
+/// `interpolate` give cell by cell, up to float rounding, at a few operations a value. Trilinear interpolation is a
+/// product of three linear ones, and along an axis it is an arithmetic progression from node to node. Its exponential is
+/// a geometric one: a multiplication a value instead of an exponential.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/parallel.hpp>
@@ -11,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -20,6 +22,10 @@ namespace gonio {
 /// Several fields over the cells of a grid: one row for each field, one column for each cell.
 template <int Fields>
 using cell_fields = Eigen::Array<float, Fields, Eigen::Dynamic>;
+
+/// What `upsample` gives between nodes: the weighted mean of the fields there, or of their exponentials, of which the
+/// geometric mean is the exponential of the interpolated field.
+enum class weighted_mean { arithmetic, geometric };
 
 /// The valid cells of a grid with one theta_h and theta_d: neighbours along phi_d, because both cosines depend on
 /// |cos phi_d| alone, numbered one after the other.
@@ -42,105 +48,172 @@ struct cell_row {
 
 namespace detail {
 
+/// Nodes of one grid's axis that follow each other between the same two nodes of another's. They are equally far apart,
+/// so that what is interpolated there is a progression.
+struct axis_run {
+  /// Rounding grows along a progression: so many nodes at most.
+  static constexpr Eigen::Index longest = 8;
+
+  Eigen::Index first = 0, count = 1;
+  std::array<Eigen::Index, 2> around{};  ///< the other axis' nodes
+  float share = 0.0f;                    ///< of the second of them at the first node
+  float step = 0.0f;                     ///< and how much this grows from node to node
+};
+
+/// The runs of an axis' nodes, of which `intervals` says where on the other axis they are.
+[[nodiscard]] std::vector<axis_run> axis_runs(std::span<const axis_interval> intervals);
+
+/// The runs of one grid's axes on those of another.
+struct grid_runs {
+  grid_runs(const grid& source, const grid& target);
+
+  std::vector<axis_interval> theta_h;  ///< not equally far apart in angle, and few
+  std::vector<axis_run> theta_d, phi_d;
+};
+
+/// The rows of a grid's valid cells.
+class cell_rows {
+ public:
+  explicit cell_rows(valid_cells cells);
+
+  /// With a count of zero where no cell of the row is valid.
+  [[nodiscard]] cell_row row(Eigen::Index theta_h, Eigen::Index theta_d) const;
+
+  /// Is no cell valid between two rows with the same theta_h?
+  [[nodiscard]] bool none(Eigen::Index theta_h, block theta_d) const {
+    return cells_.row_begin(number(theta_h, theta_d.begin)) == cells_.row_begin(number(theta_h, theta_d.end));
+  }
+
+ private:
+  struct angle {
+    double value, cosine, sine;
+  };
+
+  [[nodiscard]] Eigen::Index number(Eigen::Index theta_h, Eigen::Index theta_d) const {
+    return theta_h * std::ssize(theta_d_) + theta_d;
+  }
+
+  valid_cells cells_;
+  std::vector<angle> theta_h_, theta_d_;
+  std::vector<double> cos_phi_d_;
+};
+
 /// The fields at all cells of a grid, so that blending needs no case for the horizon.
-template <int Fields>
-[[nodiscard]] cell_fields<Fields> extended_fields(const valid_cells& from, const cell_fields<Fields>& fields,
-                                                  thread_count threads) {
+template <int Fields, class Read>
+[[nodiscard]] cell_fields<Fields> extended_fields(const valid_cells& from, Read&& read, thread_count threads) {
   const Eigen::Index size = from.grid().size();
   cell_fields<Fields> dense(Fields, size);
   for_each_index(
-      size, 16384,
-      [&](Eigen::Index linear) {
-        std::copy_n(fields.data() + Fields * from.representative(linear), Fields, dense.data() + Fields * linear);
-      },
+      size, 16384, [&](Eigen::Index linear) { read(from.representative(linear), dense.data() + Fields * linear); },
       threads);
   return dense;
 }
 
-/// Where the nodes of a grid along phi_d are on the axis of another, and their cosines.
-struct phi_d_nodes {
-  phi_d_nodes(const grid& source, const grid& target) {
-    for (int k = 0; k < target.extents().phi_d; ++k) {
-      const axis_interval at = periodic_interval(source.phi_d_coordinate(target.phi_d(k)), source.extents().phi_d);
-      along.push_back({at.node[0], at.node[1], static_cast<float>(at.weight[0]), static_cast<float>(at.weight[1])});
-      cosine.push_back(std::cos(target.phi_d(k)));
+/// The source's rows around a theta_h, blended, at the first theta_d of a run; and how much they grow to the next.
+template <int Fields>
+void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis_interval& h, const axis_run& run,
+                std::span<float> first, std::span<float> step) {
+  const auto row = [&](Eigen::Index a, Eigen::Index d) {
+    return dense.data() + Fields * source.linear({h.node[a], static_cast<int>(d), 0});
+  };
+  const std::array nearer{row(0, run.around[0]), row(0, run.around[1])},
+      farther{row(1, run.around[0]), row(1, run.around[1])};
+  const auto weight = static_cast<float>(h.weight[1]);
+  const auto blended = [&](Eigen::Index d, std::size_t i) {
+    return nearer[d][i] + weight * (farther[d][i] - nearer[d][i]);
+  };
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const float start = blended(0, i), growth = blended(1, i) - start;
+    first[i] = start + run.share * growth;
+    step[i] = run.step * growth;
+  }
+}
+
+/// From one value of a progression to the next.
+template <weighted_mean Mean, class Value>
+void advance(Value&& value, const auto& step) {
+  if constexpr (Mean == weighted_mean::geometric)
+    value *= step;
+  else
+    value += step;
+}
+
+/// Interpolates a line over the source's phi_d to all of the target's.
+template <int Fields, weighted_mean Mean>
+class phi_d_line {
+ public:
+  explicit phi_d_line(std::span<const axis_run> runs)
+      : runs_(runs), first_(Fields, runs.size()), step_(Fields, runs.size()) {}
+
+  void interpolate(std::span<const float> line, cell_fields<Fields>& out) {
+    using fields_of_cell = Eigen::Array<float, Fields, 1>;
+    const auto at = [&](Eigen::Index node) { return Eigen::Map<const fields_of_cell>(line.data() + Fields * node); };
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const axis_run& run = runs_[r];
+      const fields_of_cell start = at(run.around[0]), growth = at(run.around[1]) - start;
+      first_.col(r) = start + run.share * growth;
+      step_.col(r) = run.step * growth;
+    }
+    if constexpr (Mean == weighted_mean::geometric) {
+      exponentiate(first_.data(), first_.size());
+      exponentiate(step_.data(), step_.size());
+    }
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const axis_run& run = runs_[r];
+      fields_of_cell value = first_.col(r);
+      const fields_of_cell step = step_.col(r);
+      for (Eigen::Index k = run.first; k < run.first + run.count; ++k) {
+        out.col(k) = value;
+        advance<Mean>(value, step);
+      }
     }
   }
 
-  struct interval {
-    Eigen::Index before, after;
-    float share_before, share_after;
-  };
-
-  std::vector<interval> along;
-  std::vector<double> cosine;
+ private:
+  std::span<const axis_run> runs_;
+  cell_fields<Fields> first_, step_;
 };
-
-/// Blends a grid's rows around (theta_h, theta_d) into one line over phi_d.
-template <int Fields>
-void blend_rows(const grid& source, const cell_fields<Fields>& dense, double theta_h, double theta_d,
-                std::span<float> line) {
-  const grid_extents extents = source.extents();
-  const auto h = clamped_interval(source.theta_h_coordinate(theta_h), extents.theta_h);
-  const auto d = clamped_interval(source.theta_d_coordinate(theta_d), extents.theta_d);
-  std::ranges::fill(line, 0.0f);
-  for (Eigen::Index a = 0; a < 2; ++a)
-    for (Eigen::Index b = 0; b < 2; ++b) {
-      const auto weight = static_cast<float>(h.weight[a] * d.weight[b]);
-      const auto start = source.linear({h.node[a], d.node[b], 0});
-      if (weight != 0.0f) add_scaled(weight, dense.data() + Fields * start, line.data(), std::ssize(line));
-    }
-}
 
 }  // namespace detail
 
 /// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order; `values` is a
-/// Fields x count array of the fields there, for the callee to write over. Reading and blending costs O(target cells x
-/// Fields).
-template <int Fields, class Use>
-void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const valid_cells& to, Use&& use,
-              thread_count threads = {}) {
+/// Fields x count array of what the mean gives of the fields there, for the callee to write over. `read(cell, out)` gives
+/// the fields of a cell of the source. Costs O(target cells x Fields).
+template <int Fields, weighted_mean Mean, class Read, class Use>
+void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&& use, thread_count threads = {}) {
   const grid& source = from.grid();
   const grid& target = to.grid();
-  const Eigen::Index theta_d_count = target.extents().theta_d, phi_d_count = target.extents().phi_d;
-  const cell_fields<Fields> dense = detail::extended_fields<Fields>(from, fields, threads);
-  const detail::phi_d_nodes nodes(source, target);
+  const Eigen::Index phi_d_count = target.extents().phi_d;
+  const cell_fields<Fields> dense = detail::extended_fields<Fields>(from, read, threads);
+  const detail::grid_runs runs(source, target);
+  const detail::cell_rows rows(to);
 
-  // Visit the target's rows in parallel.
-  for_each_block(
-      target.extents().theta_h * theta_d_count, theta_d_count,
-      [&](block range) {
-        std::vector<float> line(Fields * source.extents().phi_d), values(Fields * phi_d_count);
-        for (Eigen::Index r = range.begin; r < range.end; ++r) {
-          const auto count = to.row_begin(r + 1) - to.row_begin(r);
-          if (count == 0) continue;
-          const double theta_h = target.theta_h(static_cast<double>(r / theta_d_count));
-          const double theta_d = target.theta_d(static_cast<double>(r % theta_d_count));
-          detail::blend_rows<Fields>(source, dense, theta_h, theta_d, line);
-          // Interpolate along the line at the row's cells.
-          const Eigen::Index first = to.row_begin(r), first_phi_d = to.linear(first) - r * phi_d_count;
-          GONIO_ASSERT(to.linear(first + count - 1) == to.linear(first) + count - 1);
-          for (Eigen::Index i = 0; i < count; ++i) {
-            const auto& p = nodes.along[first_phi_d + i];
-            using fields_of_cell = Eigen::Array<float, Fields, 1>;
-            const fields_of_cell before = Eigen::Map<const fields_of_cell>(line.data() + Fields * p.before),
-                                 after = Eigen::Map<const fields_of_cell>(line.data() + Fields * p.after);
-            Eigen::Map<fields_of_cell>(values.data() + Fields * i) = p.share_before * before + p.share_after * after;
+  for_each_index(
+      target.extents().theta_h, 1,
+      [&](Eigen::Index h) {
+        std::vector<float> first(Fields * source.extents().phi_d), step(first.size());
+        cell_fields<Fields> line(Fields, phi_d_count), growth(Fields, phi_d_count);
+        detail::phi_d_line<Fields, Mean> along_phi_d(runs.phi_d);
+        for (const detail::axis_run& run : runs.theta_d) {
+          const block along_theta_d{run.first, run.first + run.count};
+          if (rows.none(h, along_theta_d)) continue;
+          detail::blend_rows<Fields>(source, dense, runs.theta_h[h], run, first, step);
+          along_phi_d.interpolate(first, line);
+          if (run.count > 1) along_phi_d.interpolate(step, growth);
+          for (Eigen::Index d = along_theta_d.begin; d < along_theta_d.end; ++d) {
+            if (const cell_row row = rows.row(h, d); row.count > 0) {
+              Eigen::Map<const cell_fields<Fields>> values(&line(0, row.first_phi_d), Fields, row.count);
+              use(row, values);
+            }
+            if (d + 1 < along_theta_d.end) detail::advance<Mean>(line, growth);
           }
-          // Hand the row to the caller.
-          Eigen::Map<cell_fields<Fields>> row_values(values.data(), Fields, count);
-          const cell_row row{first,
-                             count,
-                             theta_h,
-                             theta_d,
-                             first_phi_d,
-                             std::cos(theta_h) * std::cos(theta_d),
-                             std::sin(theta_h) * std::sin(theta_d),
-                             nodes.cosine.data()};
-          use(row, row_values);
         }
       },
       threads);
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/upsample.ipp>
+#endif

@@ -22,6 +22,7 @@ GONIO_INLINE float dot(const float* a, const float* b, Eigen::Index count) {
 
 GONIO_INLINE std::array<float, 3> dot_each(const float* a, const float* columns, Eigen::Index rows) {
   using eight = Eigen::Array<float, 8, 1>;
+  using four = Eigen::Array4f;
   const float *b = columns, *c = b + rows, *d = c + rows;
   eight sum_b = eight::Zero(), sum_c = sum_b, sum_d = sum_b;
   Eigen::Index i = 0;
@@ -31,7 +32,16 @@ GONIO_INLINE std::array<float, 3> dot_each(const float* a, const float* columns,
     sum_c += these * Eigen::Map<const eight>(c + i);
     sum_d += these * Eigen::Map<const eight>(d + i);
   }
-  std::array<float, 3> sums{sum_b.sum(), sum_c.sum(), sum_d.sum()};
+  four half_b = sum_b.head<4>() + sum_b.tail<4>(), half_c = sum_c.head<4>() + sum_c.tail<4>(),
+       half_d = sum_d.head<4>() + sum_d.tail<4>();
+  if (i + 4 <= rows) {
+    const four these = Eigen::Map<const four>(a + i);
+    half_b += these * Eigen::Map<const four>(b + i);
+    half_c += these * Eigen::Map<const four>(c + i);
+    half_d += these * Eigen::Map<const four>(d + i);
+    i += 4;
+  }
+  std::array<float, 3> sums{half_b.sum(), half_c.sum(), half_d.sum()};
   for (; i < rows; ++i) {
     sums[0] += a[i] * b[i];
     sums[1] += a[i] * c[i];
