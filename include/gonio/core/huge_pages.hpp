@@ -5,13 +5,28 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <new>
+#include <utility>
 
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
 
 namespace gonio {
+
+inline constexpr std::size_t huge_page = std::size_t{1} << 21;
+
+/// Asks the system for pages of 2 MB for memory that nothing was written to yet. Systems that have none, or that are not
+/// Linux, give what they have: nothing but speed depends on it.
+inline void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
+#if defined(__linux__)
+  void* begin = memory;
+  std::size_t space = bytes;
+  if (std::align(huge_page, huge_page, begin, space) != nullptr)
+    static_cast<void>(::madvise(begin, space / huge_page * huge_page, MADV_HUGEPAGE));
+#endif
+}
 
 /// An allocator that asks the system for pages of 2 MB where it needs more than one. Systems that have none, or that
 /// are not Linux, give what they have: nothing but speed depends on it. Costs up to 2 MB more than is asked for.
@@ -29,9 +44,7 @@ struct huge_page_allocator {
     if (!is_large(count)) return static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{64}));
     const std::size_t bytes = (count * sizeof(T) + page - 1) / page * page;
     void* memory = ::operator new (bytes, std::align_val_t{page});
-#if defined(__linux__)
-    static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));
-#endif
+    advise_huge_pages(memory, bytes);
     return static_cast<T*>(memory);
   }
 
@@ -44,9 +57,30 @@ struct huge_page_allocator {
   }
 
  private:
-  static constexpr std::size_t page = std::size_t{1} << 21;
+  static constexpr std::size_t page = huge_page;
 
   [[nodiscard]] static bool is_large(std::size_t count) noexcept { return count > page / sizeof(T); }
+};
+
+/// An allocator whose vectors of a size alone have no values yet.
+template <class T>
+struct uninitialised_allocator : std::allocator<T> {
+  template <class Other>
+  struct rebind {
+    using other = uninitialised_allocator<Other>;
+  };
+  using std::allocator<T>::allocator;
+
+  /// A vector of a size alone has no values yet: what fills a table from several threads then also takes its pages there.
+  template <class Element>
+  void construct(Element* place) noexcept(noexcept(::new (static_cast<void*>(place)) Element)) {
+    ::new (static_cast<void*>(place)) Element;
+  }
+  template <class Element, class... Arguments>
+  void construct(Element* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) Element(std::forward<Arguments>(arguments)...);
+  }
+
 };
 
 }  // namespace gonio

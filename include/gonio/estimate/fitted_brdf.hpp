@@ -181,7 +181,7 @@ const {
           rgb(0.0, 0.0, 0.0));
   };
   const bool own = cells == basis_.cells();
-  brdf_table table(cells);
+  brdf_table table = brdf_table::uninitialised(cells);
   for_each_index(
       cells.size(), 4096,
       [&](Eigen::Index cell) {
@@ -224,7 +224,7 @@ const {
     std::copy_n(&channels(0, cell), 3, out);
     if constexpr (metric_type::companions > 0) std::ranges::copy(metric.companion(cell), out + 3);
   };
-  brdf_table table(cells);
+  brdf_table table = brdf_table::uninitialised(cells);
   upsample<fields_count, metric_type::mean>(
       basis_.cells(), read, cells,
       [&](const cell_row& row, auto& values) {

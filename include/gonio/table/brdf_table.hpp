@@ -2,6 +2,7 @@
 /// A dense RGB table of a BRDF over the valid cells of a grid.
 
 #include <gonio/core/brdf.hpp>
+#include <gonio/core/huge_pages.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/table/location.hpp>
 
@@ -20,8 +21,13 @@ class brdf_table {
   /// A table of zeros.
   explicit brdf_table(valid_cells cells) : cells_(std::move(cells)), values_(3 * cells_.size(), 0.0f) {}
 
-  /// Takes values of shape (cells, 3). Throws gonio::error if their number is not 3 per cell.
-  brdf_table(valid_cells cells, std::vector<float> values);
+  /// Copies values of shape (cells, 3). Throws gonio::error if their number is not 3 per cell.
+  brdf_table(valid_cells cells, std::span<const float> values);
+
+  /// A table without values, for whoever sets them all.
+  [[nodiscard]] static brdf_table uninitialised(valid_cells cells) {
+    return brdf_table(cells, values_type(3 * cells.size()));
+  }
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] std::span<const float> values() const noexcept { return values_; }
@@ -54,8 +60,12 @@ class brdf_table {
   }
 
  private:
+  using values_type = std::vector<float, uninitialised_allocator<float>>;
+
+  brdf_table(const valid_cells& cells, values_type values) : cells_(cells), values_(std::move(values)) {}
+
   valid_cells cells_;
-  std::vector<float> values_;
+  values_type values_;
 };
 
 static_assert(brdf<brdf_table>);
@@ -82,7 +92,7 @@ static_assert(brdf<nearest_lookup>);
 /// Evaluates a BRDF at every valid cell. Same bytes for any number of threads.
 template <brdf Brdf>
 [[nodiscard]] brdf_table tabulate(const Brdf& f, const valid_cells& cells, thread_count threads = {}) {
-  brdf_table table(cells);
+  brdf_table table = brdf_table::uninitialised(cells);
   for_each_index(
       cells.size(), 4096,
       [&](Eigen::Index cell) {
