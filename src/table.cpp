@@ -8,4 +8,5 @@
 #include <gonio/table/impl/spectral_samples.ipp>
 #include <gonio/table/impl/spectral_table.ipp>
 #include <gonio/table/impl/tensor_view.ipp>
+#include <gonio/table/impl/upsample.ipp>
 #include <gonio/table/impl/valid_cells.ipp>

@@ -25,4 +25,5 @@
 #include <gonio/core/spectrum.hpp>
 #include <gonio/core/spelling.hpp>
 #include <gonio/core/statistics.hpp>
+#include <gonio/core/uninitialised.hpp>
 #include <gonio/core/vector_kernels.hpp>

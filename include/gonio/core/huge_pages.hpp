@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 #include <new>
-#include <utility>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -17,8 +16,8 @@ namespace gonio {
 
 inline constexpr std::size_t huge_page = std::size_t{1} << 21;
 
-/// Asks the system for pages of 2 MB for memory that nothing was written to yet. Systems that have none, or that are not
-/// Linux, give what they have: nothing but speed depends on it.
+/// Asks the system for pages of 2 MB for memory that nothing was written to yet. Systems that have none, or that are
+/// not Linux, give what they have: nothing but speed depends on it.
 inline void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #if defined(__linux__)
   void* begin = memory;
@@ -60,27 +59,6 @@ struct huge_page_allocator {
   static constexpr std::size_t page = huge_page;
 
   [[nodiscard]] static bool is_large(std::size_t count) noexcept { return count > page / sizeof(T); }
-};
-
-/// An allocator whose vectors of a size alone have no values yet.
-template <class T>
-struct uninitialised_allocator : std::allocator<T> {
-  template <class Other>
-  struct rebind {
-    using other = uninitialised_allocator<Other>;
-  };
-  using std::allocator<T>::allocator;
-
-  /// A vector of a size alone has no values yet: what fills a table from several threads then also takes its pages there.
-  template <class Element>
-  void construct(Element* place) noexcept(noexcept(::new (static_cast<void*>(place)) Element)) {
-    ::new (static_cast<void*>(place)) Element;
-  }
-  template <class Element, class... Arguments>
-  void construct(Element* place, Arguments&&... arguments) {
-    ::new (static_cast<void*>(place)) Element(std::forward<Arguments>(arguments)...);
-  }
-
 };
 
 }  // namespace gonio

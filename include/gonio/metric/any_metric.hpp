@@ -1,6 +1,7 @@
 #pragma once
 /// An error metric chosen at run time, for command lines. Programs that know theirs name it instead.
 
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/log_relative.hpp>
@@ -49,21 +50,21 @@ class any_metric {
 
   /// As many as the metric with the most has; of the others it is zero. See `row_metric`.
   static constexpr int companions = log_relative::companions;
+  /// What is held is not known when the fields are interpolated.
   static constexpr weighted_mean mean = weighted_mean::arithmetic;
   [[nodiscard]] std::array<float, companions> companion(Eigen::Index cell) const noexcept {
     const auto* relative = std::get_if<log_relative>(&held_);
     return relative ? relative->companion(cell) : std::array<float, companions>{};
   }
   template <class Values>
-  void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
+  void inverse_row(const cell_row& row, const Values& values, std::span<float> out) const {
     const auto invert = [&](const auto& metric) {
-      if constexpr (std::remove_cvref_t<decltype(metric)>::companions == companions) {
-        exponentiate(values.data(), values.size());
-        metric.inverse_row(row, values, out);
+      if constexpr (std::remove_cvref_t<decltype(metric)>::mean == weighted_mean::geometric) {
+        cell_fields<3 + companions> exponentials = values;
+        exponentiate(exponentials.data(), exponentials.size());
+        metric.inverse_row(row, exponentials, out);
       } else {
-        metric.unmap_all(values);
-        Eigen::Map<Eigen::Array<float, 3, Eigen::Dynamic>>(out.data(), 3, row.count) =
-            values.template topRows<3>().max(0.0f);
+        metric.inverse_row(row, values.template topRows<3>(), out);
       }
     };
     std::visit(invert, held_);

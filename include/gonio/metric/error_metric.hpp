@@ -68,13 +68,15 @@ concept smooth_metric = error_metric<Metric> && requires(const Metric& metric, d
 /// A metric that maps a whole row of cells back at once, which is how tables are expanded fast.
 ///
 /// `companions` fields of its own are interpolated beside the three channels, given cell by cell by
-/// `companion(cell)` (an array of that many floats; not needed if there are none); `inverse_row(row, values, out)`
-/// takes an array of 3 + companions rows and a column for each cell of `row`, which it may destroy, and writes
-/// `inverse` of the three channels, clamped at zero, to `out`, cell by cell.
+/// `companion(cell)` (an array of that many floats; not needed if there are none). `mean` says whether the row is what
+/// is interpolated or, at the cost of a multiplication, its exponential. `inverse_row(row, values, out)` takes an array
+/// of 3 + companions rows and a column for each cell of `row`, and writes `inverse` of the three channels, clamped at
+/// zero, to `out`, cell by cell.
 template <class Metric>
 concept row_metric = error_metric<Metric> &&
-    requires(const Metric& metric, const cell_row& row, cell_fields<3 + Metric::companions>& values,
+    requires(const Metric& metric, const cell_row& row, const cell_fields<3 + Metric::companions>& values,
              std::span<float> out) {
+  { Metric::mean } -> std::convertible_to<weighted_mean>;
   metric.inverse_row(row, values, out);
 };
 

@@ -92,13 +92,13 @@ class log_relative {
   static constexpr weighted_mean mean = weighted_mean::geometric;
   [[nodiscard]] std::array<float, 1> companion(Eigen::Index cell) const noexcept { return {(*log_reference_)[cell]}; }
   template <class Values>
-  void inverse_row(const cell_row& row, const Values& values, std::span<float> out) const {
+  void inverse_row(const cell_row& row, const Values& exponentials, std::span<float> out) const {
     constexpr Eigen::Index at_once = shifts_at_once;
     for (Eigen::Index begin = 0; begin < row.count; begin += at_once) {
       const Eigen::Index count = std::min(at_once, row.count - begin);
       std::array<float, at_once> shift;
       compute_shifts(row, begin, {shift.data(), static_cast<std::size_t>(count)});
-      const float* relative = values.data() + 4 * begin;
+      const float* relative = exponentials.data() + 4 * begin;
       float* cell = out.data() + 3 * begin;
       const auto value_at = [&](Eigen::Index i) -> Eigen::Array4f {
         const Eigen::Array4f these = Eigen::Map<const Eigen::Array4f>(relative + 4 * i);

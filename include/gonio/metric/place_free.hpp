@@ -25,9 +25,11 @@ class place_free_metric {
 
   /// See `row_metric`.
   template <class Values>
-  void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
-    metric().unmap_all(values);
-    Eigen::Map<Eigen::Array<float, 3, Eigen::Dynamic>>(out.data(), 3, row.count) = values.max(0.0f);
+  void inverse_row(const cell_row& row, const Values& values, std::span<float> out) const {
+    Eigen::Map<Eigen::Array<float, 3, Eigen::Dynamic>> unmapped(out.data(), 3, row.count);
+    unmapped = values;
+    metric().unmap_all(unmapped);
+    unmapped = unmapped.max(0.0f);
   }
 
  private:

@@ -2,8 +2,8 @@
 /// A dense RGB table of a BRDF over the valid cells of a grid.
 
 #include <gonio/core/brdf.hpp>
-#include <gonio/core/huge_pages.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/uninitialised.hpp>
 #include <gonio/table/location.hpp>
 
 #include <Eigen/Core>

@@ -1,8 +1,8 @@
 #pragma once
 /// Interpolates fields over the cells of one grid to all cells of another, a row at a time: what `locate` and
 /// `interpolate` give cell by cell, up to float rounding, at a few operations a value. Trilinear interpolation is a
-/// product of three linear ones, and along an axis it is an arithmetic progression from node to node. Its exponential is
-/// a geometric one: a multiplication a value instead of an exponential.
+/// product of three linear ones, and along an axis it is an arithmetic progression from node to node. Its exponential
+/// is a geometric one: a multiplication a value instead of an exponential.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/parallel.hpp>
@@ -53,6 +53,8 @@ namespace detail {
 struct axis_run {
   /// Rounding grows along a progression: so many nodes at most.
   static constexpr Eigen::Index longest = 8;
+  /// Of nodes that are farther apart than this there are too few for a progression to be worth while.
+  static constexpr double largest_step = 0.5;
 
   Eigen::Index first = 0, count = 1;
   std::array<Eigen::Index, 2> around{};  ///< the other axis' nodes
@@ -98,13 +100,22 @@ class cell_rows {
   std::vector<double> cos_phi_d_;
 };
 
+/// Logarithms of what a geometric progression can hold: with steps of a half, the change along both axes of the ratio
+/// from one value to the next is in the range of floats, too.
+inline constexpr float largest_logarithm = 43.0f;
+
 /// The fields at all cells of a grid, so that blending needs no case for the horizon.
-template <int Fields, class Read>
+template <int Fields, weighted_mean Mean, class Read>
 [[nodiscard]] cell_fields<Fields> extended_fields(const valid_cells& from, Read&& read, thread_count threads) {
   const Eigen::Index size = from.grid().size();
   cell_fields<Fields> dense(Fields, size);
   for_each_index(
-      size, 16384, [&](Eigen::Index linear) { read(from.representative(linear), dense.data() + Fields * linear); },
+      size, 16384,
+      [&](Eigen::Index linear) {
+        auto fields = dense.col(linear);
+        read(from.representative(linear), fields.data());
+        if constexpr (Mean == weighted_mean::geometric) fields = fields.max(-largest_logarithm).min(largest_logarithm);
+      },
       threads);
   return dense;
 }
@@ -177,14 +188,15 @@ class phi_d_line {
 }  // namespace detail
 
 /// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order; `values` is a
-/// Fields x count array of what the mean gives of the fields there, for the callee to write over. `read(cell, out)` gives
-/// the fields of a cell of the source. Costs O(target cells x Fields).
+/// Fields x count array of what the mean gives of the fields there. `read(cell, out)` writes the fields of a cell of
+/// the source; a geometric mean is of fields that are held within 43 of zero, and rounded by at most 2e-6 of its value.
+/// Costs O(target cells x Fields).
 template <int Fields, weighted_mean Mean, class Read, class Use>
 void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&& use, thread_count threads = {}) {
   const grid& source = from.grid();
   const grid& target = to.grid();
   const Eigen::Index phi_d_count = target.extents().phi_d;
-  const cell_fields<Fields> dense = detail::extended_fields<Fields>(from, read, threads);
+  const cell_fields<Fields> dense = detail::extended_fields<Fields, Mean>(from, read, threads);
   const detail::grid_runs runs(source, target);
   const detail::cell_rows rows(to);
 

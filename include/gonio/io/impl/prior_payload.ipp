@@ -3,9 +3,9 @@
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/compiled.hpp>
-#include <gonio/core/huge_pages.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/finite.hpp>
+#include <gonio/core/huge_pages.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/prior_payload.hpp>
 #include <gonio/io/quantise.hpp>
@@ -144,7 +144,7 @@ GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& nam
   for (float& value : reference) value = std::exp(value);
   std::vector<float> mean = detail::dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
   cell_matrix functions(cells.size(), k);
-  advise_huge_pages(functions.data(), functions.size() * sizeof(float));
+  advise_huge_pages(functions.data(), functions.size() * sizeof(float));  // an expansion reads them all
   for (Eigen::Index c = 0; c < k; ++c) {
     const auto column = take_quantised<std::uint8_t>(in, cells.size());
     for (Eigen::Index cell = 0; cell < cells.size(); ++cell) functions(cell, c) = dequantise(column, cell);

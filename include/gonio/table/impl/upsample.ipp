@@ -24,7 +24,7 @@ GONIO_INLINE std::vector<axis_run> axis_runs(std::span<const axis_interval> inte
     if (k > 0 && runs.back().count < axis_run::longest && here.node == intervals[k - 1].node) {
       const double grown = here.weight[1] - intervals[k - 1].weight[1];
       if (runs.back().count == 1) step = grown;
-      if (std::abs(grown - step) <= rounding) {
+      if (grown <= axis_run::largest_step + rounding && std::abs(grown - step) <= rounding) {
         ++runs.back().count;
         runs.back().step = static_cast<float>(step);
         continue;
