@@ -62,6 +62,7 @@ void check_held(const Metric& metric) {
     all(3, column) = beside[0];
     if constexpr (Metric::companions > 0) own(3, column) = metric.companion(first + i)[0];
   }
+  if constexpr (Metric::mean == gonio::weighted_mean::geometric) gonio::exponentiate(own.data(), own.size());
   std::array<float, 3 * count> expected{}, found{};
   metric.inverse_row(row, own, expected);
   chosen.inverse_row(row, all, found);

@@ -7,6 +7,8 @@
 #include <rapidcheck.h>
 
 #include <cmath>
+#include <span>
+#include <vector>
 
 /// Increasing, odd, undone by its inverse, with the slope of its differences, the same at a cell and at a location, and
 /// a row of cells is mapped back as one by one.
@@ -36,15 +38,25 @@ void check_place_free(const Metric& metric) {
     CHECK(metric.slope(rho) == doctest::Approx(difference).epsilon(1e-6));
   }
 
-  gonio::cell_fields<3> values(3, 2);
-  values << 0.5f, -0.5f, 2e-4f, 0.0f, 3.0f, 1.0f;
-  const gonio::cell_fields<3> mapped = values;
+  gonio::cell_fields<3> mapped(3, 2);
+  mapped << 0.5f, -0.5f, 2e-4f, 0.0f, 3.0f, 1.0f;
   std::array<float, 6> out{};
   gonio::cell_row row;
   row.count = 2;
-  metric.inverse_row(row, values, out);
+  metric.inverse_row(row, mapped, out);
   for (Eigen::Index i = 0; i < 6; ++i) {
     const double one = std::max(metric.inverse(double{mapped.data()[i]}, std::size_t{0}), 0.0);
     CHECK(double{out[i]} == doctest::Approx(one).epsilon(1e-6));
+  }
+
+  // The same bytes wherever a number stands: vectors of eight begin at multiples of 32 bytes.
+  std::vector<float> numbers(40);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 0.07f * static_cast<float>(i);
+  std::vector<float> all = numbers;
+  metric.unmap_all(all);
+  for (std::size_t first = 0; first < 9; ++first) {
+    std::vector<float> some = numbers;
+    metric.unmap_all(std::span(some).subspan(first, 20));
+    for (std::size_t i = first; i < first + 20; ++i) CHECK(some[i] == all[i]);
   }
 }

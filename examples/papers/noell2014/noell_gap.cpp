@@ -8,6 +8,7 @@
 #include "papers/networks_option.hpp"
 #include "papers/noell2014/noell_experiment.hpp"
 #include "papers/resumable_results.hpp"
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/sphere_delta_e.hpp>
@@ -25,6 +26,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <span>
 
 namespace papers {
 
@@ -37,9 +39,10 @@ struct scaled_log : gonio::place_free_metric<scaled_log> {
   explicit scaled_log(double unit) : scale(unit) {}
   [[nodiscard]] double map(double rho) const noexcept { return std::copysign(std::log1p(scale * std::abs(rho)), rho); }
   [[nodiscard]] double unmap(double y) const noexcept { return std::copysign(std::expm1(std::abs(y)), y) / scale; }
-  template <class Values>
-  void unmap_all(Values& values) const {
-    values = (values.max(0.0f).exp() - 1.0f) / static_cast<float>(scale);
+  void unmap_all(std::span<float> values) const {
+    const float unit = 1.0f / static_cast<float>(scale);
+    gonio::map_by_eights(values.data(), std::ssize(values),
+                         [&](auto& these) { these = unit * (these.max(0.0f).exp() - 1.0f); });
   }
 };
 

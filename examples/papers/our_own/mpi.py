@@ -94,7 +94,8 @@ class Measured:
 
     def print_rows(self):
         for ranks in RANKS:
-            print(f"| {self.name} | {ranks} | {self.seconds[ranks]:.1f} s | {self.work(ranks):.1f} s | "
+            print(f"| {self.name} | {ranks} | {self.seconds[ranks]:.1f} s | "
+                  f"{self.seconds[1] / self.seconds[ranks]:.2f} | {self.work(ranks):.1f} s | "
                   f"{100 * self.efficiency(ranks):.0f} % | {self.messages(ranks):.0f} | "
                   f"{self.bytes(ranks) / 1e6:.3f} MB | {'yes' if self.same else 'NO'} |")
 
@@ -199,8 +200,9 @@ def main():
                                    "my.prior", "--threads", "1"], folder)
         print(f"{SIZE} x {SIZE} texels and {IMAGES} images; 6 directions for the prior that ships; {count} materials "
               f"of the RGL database, {COMPONENTS} components. One thread a rank.\n")
-        print("| command | ranks | time | work of the busiest rank | efficiency | messages | sent | bytes of gonio |")
-        print("|---|---|---|---|---|---|---|---|")
+        print("| command | ranks | time | times as fast as one | work of the busiest rank | efficiency | messages | "
+              "sent | bytes of gonio |")
+        print("|---|---|---|---|---|---|---|---|---|")
         for each in (svbrdf, design, learn):
             each.print_rows()
         if len(sys.argv) > 2:

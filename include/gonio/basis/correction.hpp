@@ -14,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -64,11 +65,13 @@ struct correction_rule {
 
 namespace detail {
 
-/// Turns an array of mapped values into reflectances, at least zero. A metric that is chosen at run time has `held()`.
+/// Turns an array of mapped values, a row for each cell, into reflectances, at least zero. A metric that is chosen at
+/// run time has `held()`.
 template <error_metric Metric, class Values>
-void unmap_at_cells(const Metric& metric, const valid_cells& cells, Eigen::Index first, Values&& values) {
-  if constexpr (requires { metric.unmap_all(values); }) {
-    metric.unmap_all(values);
+void unmap_at_cells(const Metric& metric, const valid_cells& cells, Eigen::Index first, Values& values) {
+  const std::span<float> all(values.data(), values.size());
+  if constexpr (requires { metric.unmap_all(all); }) {
+    metric.unmap_all(all);
     values = values.max(0.0f);
   } else if constexpr (requires { metric.held(); }) {
     std::visit([&](const auto& one) { unmap_at_cells(one, cells, first, values); }, metric.held());

@@ -5,6 +5,7 @@
 /// maximisation (Dempster, Laird and Rubin 1977, doi:10.1111/j.2517-6161.1977.tb01600.x); inliers' residuals follow
 /// Student's t (Lange, Little and Taylor 1989, doi:10.1080/01621459.1989.10478852).
 
+#include <gonio/core/parallel.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlier_weights.hpp>
 #include <gonio/estimate/sample_regions.hpp>
@@ -146,6 +147,7 @@ struct automatic_weights {
   /// If given, good residuals have another scale in each region of the samples (of which there must be as many as are
   /// weighed): a fit that is good elsewhere must not make outliers of a highlight that it misses.
   std::shared_ptr<const sample_regions> regions = {};
+  thread_count threads = {};
 
   [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const;
 
@@ -153,24 +155,25 @@ struct automatic_weights {
   [[nodiscard]] outlier_mixture mixture(const channel_values& measured, const channel_values& estimated) const;
 
   /// `logarithm_offset` of each channel.
-  [[nodiscard]] static Eigen::Array3f offsets(const channel_values& measured);
+  [[nodiscard]] static Eigen::Array3f offsets(const channel_values& measured, thread_count threads = {});
 
  private:
   struct deviations {
     Eigen::ArrayXf residual;   // mean of the channels' residuals
     Eigen::ArrayXf distance;   // root mean square of them
     Eigen::ArrayXf logarithm;  // mean of the channels' logarithms
+    Eigen::ArrayXd outliers;   // the density of outliers there
   };
 
-  [[nodiscard]] static deviations deviate(const channel_values& measured, const channel_values& estimated);
+  [[nodiscard]] deviations deviate(const channel_values& measured, const channel_values& estimated) const;
 
-  /// Of some of the samples, which have a mixture of their own.
-  [[nodiscard]] Eigen::ArrayXd weigh(const outlier_mixture& mixture, const deviations& found,
-                                     const outlier_density& density, std::span<const Eigen::Index> samples) const;
+  /// Of some of the samples, which have a mixture of their own: a list or a range of their numbers.
+  template <class Some>
+  [[nodiscard]] Eigen::ArrayXf weigh(const outlier_mixture& mixture, const deviations& found,
+                                     const Some& samples) const;
 
   /// The scale of good samples' distances, where `mixture` has that of their residuals: at least that.
-  [[nodiscard]] static double scale_of_distances(const deviations& found, const outlier_density& density,
-                                                 const outlier_mixture& mixture);
+  [[nodiscard]] double scale_of_distances(const deviations& found, const outlier_mixture& mixture) const;
 
   /// The residual below which half of the good ones among some samples lie, if these are the ones with the least.
   [[nodiscard]] static double half_of_the_good(const Eigen::ArrayXf& residuals, std::span<const Eigen::Index> samples,
@@ -180,9 +183,15 @@ struct automatic_weights {
   [[nodiscard]] static outlier_mixture rescaled(const outlier_mixture& mixture, double ratio);
 
   /// Every so many values, at most 20,000: enough to know two parameters and a density to a percent.
-  [[nodiscard]] static std::vector<double> subset(const Eigen::ArrayXf& values);
+  template <class Values>
+  [[nodiscard]] static std::vector<double> subset(const Values& values) {
+    const Eigen::Index step = (values.size() + 19'999) / 20'000;
+    std::vector<double> chosen;
+    for (Eigen::Index i = 0; i < values.size(); i += step) chosen.push_back(values[i]);
+    return chosen;
+  }
 
-  [[nodiscard]] static outlier_mixture estimate_from(const deviations& found, const outlier_density& density);
+  [[nodiscard]] static outlier_mixture estimate_from(const deviations& found);
 };
 
 static_assert(outlier_weighting<automatic_weights>);

@@ -61,7 +61,7 @@ class robust_decomposition {
   [[nodiscard]] Eigen::VectorXd inlier_weights(const located_samples& given) const {
     const located_samples samples = out_of_gamut_as_xyz(given);
     const pca<Metric>& prior = estimator_.prior();
-    const automatic_weights weighting{.down_weight_tail = false};
+    const automatic_weights weighting{.down_weight_tail = false, .threads = threads_};
     const tikhonov solver(estimator_.observations() * estimator_.model().error_variance);
     const channel_values measured = samples.channels();
     const auto weigh = [&](const channel_values& estimated) {

@@ -233,8 +233,8 @@ correction_round damped_step(Run& run, const channel_values& inlier_weights) {
 }
 
 /// Outliers are told from inliers in each of the samples' regions by itself.
-[[nodiscard]] inline automatic_weights weights_by_region(const located_samples& samples) {
-  return {.regions = std::make_shared<const sample_regions>(samples.locations)};
+[[nodiscard]] inline automatic_weights weights_by_region(const located_samples& samples, thread_count threads) {
+  return {.regions = std::make_shared<const sample_regions>(samples.locations), .threads = threads};
 }
 
 }  // namespace detail
@@ -279,7 +279,7 @@ template <error_metric Metric>
 robust_run<Metric> robust_reconstruction<Metric>::initialise_located(const located_samples& all) const {
   const located_samples used = some_of(all, options_.most_samples);
   const auto [initial, guide] = initial_state_of(some_of(used, options_.samples));
-  const automatic_weights weighting = detail::weights_by_region(used);
+  const automatic_weights weighting = detail::weights_by_region(used, threads_);
   run_type run{initial, corrections_, used, weighting, nnls{}, limits_, threads_};
   channel_values inlier_weights = weighting.weigh(run.measured(), run.estimated_by(guide));
   return {std::move(run), std::move(inlier_weights), options_.initial_weight_rounds};
@@ -293,9 +293,9 @@ located_samples robust_reconstruction<Metric>::some_of(const located_samples& sa
 template <error_metric Metric>
 typename robust_reconstruction<Metric>::initial_state robust_reconstruction<Metric>::initial_state_of(
     const located_samples& some) const {
-  const automatic_weights weighting = detail::weights_by_region(some);
+  const automatic_weights weighting = detail::weights_by_region(some, threads_);
   const channel_values measured = some.channels();
-  const Eigen::Array3f offsets = automatic_weights::offsets(measured);
+  const Eigen::Array3f offsets = automatic_weights::offsets(measured, threads_);
   const detail::reweighted_combination<Metric> combination(materials_, some, threads_);
 
   const nearest_material<Metric> nearest(materials_, options_.seed, threads_);
@@ -309,7 +309,7 @@ typename robust_reconstruction<Metric>::initial_state robust_reconstruction<Metr
   run_type rough{initial_type{materials_, found}, corrections_, some, weighting, nnls{}, limits_, threads_};
   for (int i = 0; i < options_.corrections; ++i) detail::damped_step(rough, rough.inlier_weights());
 
-  const automatic_weights whole{.down_weight_tail = false, .regions = weighting.regions};
+  const automatic_weights whole{.down_weight_tail = false, .regions = weighting.regions, .threads = threads_};
   const detail::reweighted_combination<Metric> expected(materials_, expectation(nearest, chosen), threads_);
   const solution again = combination.solve(whole.weigh(measured, rough.estimated()), expected);
   return {initial_type{materials_, again}, std::move(rough)};

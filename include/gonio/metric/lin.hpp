@@ -3,6 +3,8 @@
 
 #include <gonio/metric/place_free.hpp>
 
+#include <span>
+
 namespace gonio {
 
 /// forward(rho) = rho, for negative reflectance too. Its errors are those of the brightest cells: a highlight a
@@ -12,8 +14,7 @@ struct lin : place_free_metric<lin> {
   [[nodiscard]] static double unmap(double y) noexcept { return y; }
   /// The derivative of `map`.
   [[nodiscard]] static double slope(double /*rho*/) noexcept { return 1.0; }
-  template <class Values>
-  static void unmap_all(Values& /*values*/) noexcept {}
+  static void unmap_all(std::span<float> /*values*/) noexcept {}
 };
 
 static_assert(row_metric<lin> && smooth_metric<lin>);

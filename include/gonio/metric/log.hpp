@@ -5,6 +5,7 @@
 #include <gonio/metric/place_free.hpp>
 
 #include <cmath>
+#include <span>
 
 namespace gonio {
 
@@ -17,15 +18,16 @@ struct log : place_free_metric<log> {
   [[nodiscard]] static double slope(double rho) noexcept { return 1.0 / (1.0 + std::abs(rho)); }
   /// Up to 1/2 by the series of exp(y) - 1, beyond by exp, each held where it leaves its range: within 5e-7 of the
   /// value, and three times as fast as Eigen's expm1, which takes a logarithm, too.
-  template <class Values>
-  static void unmap_all(Values& values) {
+  static void unmap_all(std::span<float> values) {
     constexpr float border = 0.5f;
     float exp_at_border = border;
     exponentiate(&exp_at_border, 1);  // rounded as all others
-    const auto y = values.max(0.0f).min(border);
-    const auto high = 1.0f / 24 + y * (1.0f / 120 + y * (1.0f / 720 + y * (1.0f / 5040)));
-    const auto series = y * (1.0f + y * (1.0f / 2 + y * (1.0f / 6 + y * high)));
-    values = series + (values.max(border).exp() - exp_at_border);
+    map_by_eights(values.data(), std::ssize(values), [&](auto& these) {
+      const auto y = these.max(0.0f).min(border);
+      const auto high = 1.0f / 24 + y * (1.0f / 120 + y * (1.0f / 720 + y * (1.0f / 5040)));
+      const auto series = y * (1.0f + y * (1.0f / 2 + y * (1.0f / 6 + y * high)));
+      these = series + (these.max(border).exp() - exp_at_border);
+    });
   }
 };
 

@@ -9,7 +9,7 @@
 namespace gonio {
 
 /// Base of a metric given by `static double map(double rho)`, `static double unmap(double y)` or members of that name,
-/// and `unmap_all(values)` on an array of floats: turns them into an `error_metric` that also maps whole rows back.
+/// and `unmap_all(values)` on a span of floats: turns them into an `error_metric` that also maps whole rows back.
 template <class Metric>
 class place_free_metric {
  public:
@@ -28,7 +28,7 @@ class place_free_metric {
   void inverse_row(const cell_row& row, const Values& values, std::span<float> out) const {
     Eigen::Map<Eigen::Array<float, 3, Eigen::Dynamic>> unmapped(out.data(), 3, row.count);
     unmapped = values;
-    metric().unmap_all(unmapped);
+    metric().unmap_all(out);
     unmapped = unmapped.max(0.0f);
   }
 

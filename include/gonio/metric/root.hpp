@@ -3,10 +3,12 @@
 /// Noell, Koehler and Stricker 2014, section 3.1 (in the text on Table 2).
 
 #include <gonio/core/error.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/metric/place_free.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 namespace gonio {
@@ -33,12 +35,12 @@ class root : public place_free_metric<root> {
     const double size = std::max(std::abs(rho), 1e-12);
     return std::pow(size, 1.0 / p_ - 1.0) / p_;
   }
-  template <class Values>
-  void unmap_all(Values& values) const {
+  void unmap_all(std::span<float> values) const {
+    const auto p = static_cast<float>(p_);
     if (p_ == 2.0)
-      values *= values.abs();
+      map_by_eights(values.data(), std::ssize(values), [](auto& these) { these *= these.abs(); });
     else
-      values = values.max(0.0f).pow(static_cast<float>(p_));
+      map_by_eights(values.data(), std::ssize(values), [&](auto& these) { these = these.max(0.0f).pow(p); });
   }
 
  private:

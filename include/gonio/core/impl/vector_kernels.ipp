@@ -73,20 +73,7 @@ GONIO_INLINE void add_scaled(float factor, const float* a, float* sum, Eigen::In
 }
 
 GONIO_INLINE void exponentiate(float* numbers, Eigen::Index count) {
-  // Eight at a time, the last ones too: Eigen rounds otherwise where a number stands alone before or after whole vector
-  // registers, which depends on where the memory begins.
-  using eight = Eigen::Array<float, 8, 1>;
-  const Eigen::Index whole = count / 8 * 8;
-  for (Eigen::Index i = 0; i < whole; i += 8) {
-    Eigen::Map<eight> these(numbers + i);
-    these = these.exp();
-  }
-  if (whole == count) return;
-  eight rest;
-  std::fill_n(rest.data(), 8, 0.0f);
-  std::copy_n(numbers + whole, count - whole, rest.data());
-  rest = rest.exp();
-  std::copy_n(rest.data(), count - whole, numbers + whole);
+  map_by_eights(numbers, count, [](auto& these) { these = these.exp(); });
 }
 
 GONIO_INLINE Eigen::MatrixXf to_float(const Eigen::MatrixXd& numbers) {

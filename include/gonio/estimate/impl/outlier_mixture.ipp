@@ -2,6 +2,7 @@
 /// Bodies of estimate/outlier_mixture.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/parallel.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/outlier_weights.hpp>
@@ -13,13 +14,15 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <numeric>
 #include <span>
 #include <vector>
 
 namespace gonio {
 
 namespace detail {
+
+/// Samples whose weights are computed together: their logarithms stay in the cache.
+inline constexpr Eigen::Index samples_at_once = 4096;
 
 /// The share p at which the sum of ln(p g + (1 - p) o) + ln p is largest: g and o are what good ones' and outliers'
 /// densities are at each measurement. By bisection of its slope, which falls with p.
@@ -60,66 +63,106 @@ GONIO_INLINE outlier_mixture estimate_mixture(const std::vector<double>& residua
 GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measured,
                                                      const channel_values& estimated) const {
   deviations found = deviate(measured, estimated);
-  const outlier_density density(subset(found.logarithm));
-  const outlier_mixture mixture = estimate_from(found, density);
+  const outlier_mixture mixture = estimate_from(found);
   // Distances are larger than residuals, the more so the less the channels have in common.
-  found.distance *= static_cast<float>(mixture.scale / scale_of_distances(found, density, mixture));
-  Eigen::ArrayXd weights(measured.cols());
+  found.distance *= static_cast<float>(mixture.scale / scale_of_distances(found, mixture));
+  Eigen::ArrayXf weights(measured.cols());
   if (regions) {
     const double typical = half_of_the_good(found.distance, regions->all(), mixture.inlier_fraction);
-    for (Eigen::Index region = 0; region < regions->count(); ++region) {
-      const std::span<const Eigen::Index> here = (*regions)[region];
-      const double ratio = half_of_the_good(found.distance, here, mixture.inlier_fraction) / typical;
-      weights(here) = weigh(rescaled(mixture, ratio), found, density, here);
-    }
+    for_each_index(
+        regions->count(), 1,
+        [&](Eigen::Index region) {
+          const std::span<const Eigen::Index> here = (*regions)[region];
+          const double ratio = half_of_the_good(found.distance, here, mixture.inlier_fraction) / typical;
+          weights(here) = weigh(rescaled(mixture, ratio), found, here);
+        },
+        threads);
   } else {
-    std::vector<Eigen::Index> all(measured.cols());
-    std::iota(all.begin(), all.end(), Eigen::Index{0});
-    weights = weigh(mixture, found, density, all);
+    for_each_block(
+        weights.size(), detail::samples_at_once,
+        [&](block range) {
+          const auto here = Eigen::seqN(range.begin, range.size());
+          weights(here) = weigh(mixture, found, here);
+        },
+        threads);
   }
-  return weights.cast<float>().transpose().replicate<3, 1>();
+  return weights.transpose().replicate<3, 1>();
 }
 
 GONIO_INLINE outlier_mixture automatic_weights::mixture(const channel_values& measured,
                                                         const channel_values& estimated) const {
-  const deviations found = deviate(measured, estimated);
-  return estimate_from(found, outlier_density(subset(found.logarithm)));
+  return estimate_from(deviate(measured, estimated));
 }
 
-GONIO_INLINE Eigen::Array3f automatic_weights::offsets(const channel_values& measured) {
-  return {static_cast<float>(logarithm_offset(measured.row(0))), static_cast<float>(logarithm_offset(measured.row(1))),
-          static_cast<float>(logarithm_offset(measured.row(2)))};
+GONIO_INLINE Eigen::Array3f automatic_weights::offsets(const channel_values& measured, thread_count threads) {
+  Eigen::Array3f found;
+  for_each_index(
+      3, 1, [&](Eigen::Index c) { found[c] = static_cast<float>(logarithm_offset(measured.row(c))); }, threads);
+  return found;
 }
 
 GONIO_INLINE automatic_weights::deviations automatic_weights::deviate(const channel_values& measured,
-                                                                      const channel_values& estimated) {
-  const Eigen::Array3f offset = offsets(measured);
-  const channel_values logarithms = (measured.max(0.0f).colwise() + offset).log();
-  const channel_values differences = logarithms - (estimated.colwise() + offset).log();
-  return {differences.colwise().mean().transpose(), differences.square().colwise().mean().sqrt().transpose(),
-          logarithms.colwise().mean().transpose()};
+                                                                      const channel_values& estimated) const {
+  const Eigen::Index count = measured.cols();
+  const Eigen::Array3f offset = offsets(measured, threads);
+  deviations found{Eigen::ArrayXf(count), Eigen::ArrayXf(count), Eigen::ArrayXf(count), Eigen::ArrayXd(count)};
+  for_each_block(
+      count, detail::samples_at_once,
+      [&](block range) {
+        const Eigen::Index begin = range.begin, size = range.size();
+        const channel_values logarithms = (measured.middleCols(begin, size).max(0.0f).colwise() + offset).log();
+        const channel_values differences = logarithms - (estimated.middleCols(begin, size).colwise() + offset).log();
+        found.residual.segment(begin, size) = differences.colwise().mean();
+        found.distance.segment(begin, size) = differences.square().colwise().mean().sqrt();
+        found.logarithm.segment(begin, size) = logarithms.colwise().mean();
+      },
+      threads);
+  const outlier_density density(subset(found.logarithm));
+  for_each_index(
+      count, detail::samples_at_once, [&](Eigen::Index i) { found.outliers[i] = density(found.logarithm[i]); },
+      threads);
+  return found;
 }
 
-GONIO_INLINE Eigen::ArrayXd automatic_weights::weigh(const outlier_mixture& mixture, const deviations& found,
-                                                     const outlier_density& density,
-                                                     std::span<const Eigen::Index> samples) const {
-  const Eigen::ArrayXd residuals = found.residual(samples).cast<double>(),
-                       distances = found.distance(samples).cast<double>();
-  const Eigen::ArrayXd outliers = found.logarithm(samples).unaryExpr([&](float value) { return density(value); });
-  const Eigen::ArrayXd good = mixture.probability(residuals, outliers);
-  return down_weight_tail ? Eigen::ArrayXd(good * mixture.tail_weight(distances)) : good;
+template <class Some>
+Eigen::ArrayXf automatic_weights::weigh(const outlier_mixture& mixture, const deviations& found,
+                                        const Some& samples) const {
+  const Eigen::ArrayXd residuals = found.residual(samples).template cast<double>(), outliers = found.outliers(samples);
+  Eigen::ArrayXd weights = mixture.probability(residuals, outliers);
+  if (down_weight_tail) {
+    const Eigen::ArrayXd distances = found.distance(samples).template cast<double>();
+    weights *= mixture.tail_weight(distances);
+  }
+  return weights.cast<float>();
 }
 
-GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& found, const outlier_density& density,
-                                                          const outlier_mixture& mixture) {
+GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& found,
+                                                          const outlier_mixture& mixture) const {
   constexpr double nu = outlier_mixture::degrees_of_freedom;
-  const Eigen::ArrayXd outliers = found.logarithm.unaryExpr([&](float value) { return density(value); });
-  const Eigen::ArrayXd good = mixture.probability(Eigen::ArrayXd(found.residual.cast<double>()), outliers),
-                       squares = found.distance.cast<double>().square();
+  const Eigen::Index count = found.residual.size();
+  // Squared distances, and how much each counts: its probability to be good.
+  Eigen::ArrayXd squares(count), good(count);
+  for_each_block(
+      count, detail::samples_at_once,
+      [&](block range) {
+        const auto here = Eigen::seqN(range.begin, range.size());
+        const Eigen::ArrayXd residuals = found.residual(here).cast<double>(), outliers = found.outliers(here);
+        squares(here) = found.distance(here).cast<double>().square();
+        good(here) = mixture.probability(residuals, outliers);
+      },
+      threads);
+  const auto sum = [&](auto&& of_block) {
+    return sum_over_blocks(
+        count, detail::samples_at_once, 0.0,
+        [&](double& total, block range) { total += of_block(Eigen::seqN(range.begin, range.size())); }, threads);
+  };
+  const double total = sum([&](const auto& here) { return good(here).sum(); });
   double scale = mixture.scale;
   for (int step = 0; step < 20; ++step) {
-    const Eigen::ArrayXd tail = 1.0 / (1.0 + squares / (nu * scale * scale));
-    scale = std::max(std::sqrt((nu + 1.0) / nu * (good * tail * squares).sum() / good.sum()), mixture.scale);
+    const double inverse = 1.0 / (nu * scale * scale);
+    const double weighted =
+        sum([&](const auto& here) { return (good(here) * squares(here) / (1.0 + inverse * squares(here))).sum(); });
+    scale = std::max(std::sqrt((nu + 1.0) / nu * weighted / total), mixture.scale);
   }
   return scale;
 }
@@ -127,6 +170,7 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
 GONIO_INLINE double automatic_weights::half_of_the_good(const Eigen::ArrayXf& residuals,
                                                         std::span<const Eigen::Index> samples, double inlier_fraction) {
   std::vector<float> sorted;
+  sorted.reserve(samples.size());
   for (const Eigen::Index sample : samples) sorted.push_back(residuals[sample]);
   // Of n values, not of the n - 1 steps between them as `quantile` has it: a region may have but eight samples.
   const auto middle =
@@ -140,17 +184,8 @@ GONIO_INLINE outlier_mixture automatic_weights::rescaled(const outlier_mixture& 
           std::clamp(ratio * mixture.scale, outlier_mixture::smallest_scale, std::max(mixture.scale, 1.0))};
 }
 
-GONIO_INLINE std::vector<double> automatic_weights::subset(const Eigen::ArrayXf& values) {
-  const Eigen::Index step = (values.size() + 19'999) / 20'000;
-  std::vector<double> chosen;
-  for (Eigen::Index i = 0; i < values.size(); i += step) chosen.push_back(values[i]);
-  return chosen;
-}
-
-GONIO_INLINE outlier_mixture automatic_weights::estimate_from(const deviations& found, const outlier_density& density) {
-  std::vector<double> outliers = subset(found.logarithm);
-  for (double& value : outliers) value = density(value);
-  return estimate_mixture(subset(found.residual), outliers);
+GONIO_INLINE outlier_mixture automatic_weights::estimate_from(const deviations& found) {
+  return estimate_mixture(subset(found.residual), subset(found.outliers));
 }
 
 }  // namespace gonio
