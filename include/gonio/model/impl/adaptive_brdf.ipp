@@ -16,6 +16,9 @@
 
 namespace gonio::model::detail {
 
+/// Between two numbers, without the guarantees of `std::lerp`, whose choices cost more than the rest of a look-up.
+[[nodiscard]] inline double mixed(double from, double to, double share) noexcept { return from + share * (to - from); }
+
 /// A point of the unit square.
 struct square_point {
   double across = 0.0;  ///< the rows
@@ -42,13 +45,12 @@ struct square_patch {
   [[nodiscard]] patch_sides sides(const unit_square_tables& tables, Eigen::Index table) const noexcept {
     const float* low = tables.row(table, row) + column;
     const float* high = tables.row(table, row + 1) + column;
-    return {std::lerp(double{low[0]}, double{high[0]}, inside.across),
-            std::lerp(double{low[1]}, double{high[1]}, inside.across)};
+    return {mixed(low[0], high[0], inside.across), mixed(low[1], high[1], inside.across)};
   }
 
   [[nodiscard]] double value(const unit_square_tables& tables, Eigen::Index table) const noexcept {
     const auto [left, right] = sides(tables, table);
-    return std::lerp(left, right, inside.along);
+    return mixed(left, right, inside.along);
   }
 
  private:
@@ -75,12 +77,26 @@ struct neighbouring_angles {
   /// What `value(number)` is at the two, interpolated.
   template <class Value>
   [[nodiscard]] double interpolate(const Value& value) const noexcept {
-    return std::lerp(double{value(first)}, double{value(first + 1)}, fraction);
+    return mixed(value(first), value(first + 1), fraction);
+  }
+
+  /// The sides of a patch between the two's tables.
+  [[nodiscard]] patch_sides sides(const square_patch& patch, const unit_square_tables& tables) const noexcept {
+    const patch_sides near = patch.sides(tables, first), far = patch.sides(tables, first + 1);
+    return {mixed(near.left, far.left, fraction), mixed(near.right, far.right, fraction)};
   }
 };
 
-[[nodiscard]] inline double polar_coordinate(const direction& w) noexcept {
-  return std::sqrt(gonio::polar_angle(w) * (2.0 / std::numbers::pi));
+/// Of a polar angle, along the rows.
+[[nodiscard]] inline double polar_coordinate(double polar_angle) noexcept {
+  return std::sqrt(polar_angle * (2.0 / std::numbers::pi));
+}
+
+/// The azimuth of `w` relative to that of `reference`, or, where that has none, to the x axis; radians.
+[[nodiscard]] inline double relative_azimuth(const direction& w, const direction& reference) noexcept {
+  const double x = reference.x(), y = reference.y();
+  if (x == 0.0 && y == 0.0) return std::atan2(w.y(), w.x());
+  return std::atan2(x * w.y() - y * w.x(), x * w.x() + y * w.y());
 }
 
 /// The trapezoids of a table, in units of its patches.
@@ -111,9 +127,8 @@ struct table_sums {
   const square_patch patch(density, half);
   const square_point& inside = patch.inside;
   // Along the rows: the trapezoids before the patch, and the part of its own on this side of the half vector.
-  const double left = angles.interpolate([&](Eigen::Index t) { return patch.sides(density, t).left; });
-  const double right = angles.interpolate([&](Eigen::Index t) { return patch.sides(density, t).right; });
-  const double before = angles.interpolate([&](Eigen::Index t) { return patch.sides(along, t).left; });
+  const auto [left, right] = angles.sides(patch, density);
+  const double before = angles.sides(patch, along).left;
   const double part = before + inside.along * (left + 0.5 * inside.along * (right - left));
   // Across the rows: those before the patch, and the part of its own.
   const auto row_sum = [&](Eigen::Index row) {
@@ -121,7 +136,7 @@ struct table_sums {
   };
   const double low = row_sum(patch.row), high = row_sum(patch.row + 1);
   const double rows_before = angles.interpolate([&](Eigen::Index t) { return across.row(0, t)[patch.row]; });
-  const double whole = std::lerp(low, high, inside.across);
+  const double whole = mixed(low, high, inside.across);
   return {rows_before + inside.across * (low + 0.5 * inside.across * (high - low)),
           whole > 0.0 ? part / whole : half.along};
 }
@@ -189,14 +204,15 @@ GONIO_INLINE rgb adaptive_brdf::as_measured(const direction& wi, const direction
   const auto& [theta_i, normals, area, visible, reflectance] = tables_->parts;
   // Map the half vector to the unit square, its azimuth relative to the light's.
   const direction sum = wi + wo;
-  const double turns = (std::atan2(sum.y(), sum.x()) - std::atan2(wi.y(), wi.x())) / (2.0 * std::numbers::pi) + 0.5;
-  const detail::square_point half{turns - std::floor(turns), detail::polar_coordinate(sum)};
-  const detail::square_point light{0.5, detail::polar_coordinate(wi)};
+  const double turns = detail::relative_azimuth(sum, wi) / (2.0 * std::numbers::pi) + 0.5;
+  const double theta = polar_angle(wi);
+  const detail::square_point half{turns - std::floor(turns), detail::polar_coordinate(polar_angle(sum))};
+  const detail::square_point light{0.5, detail::polar_coordinate(theta)};
   // Look the three channels up where the visible normals map it to, and undo what they were divided by.
   const double divisor = 4.0 * wo.z() * detail::square_patch(area, light).value(area, 0);
   if (!(divisor > 0.0)) return rgb::Zero();
   const double scale = detail::square_patch(normals, half).value(normals, 0) / divisor;
-  const detail::neighbouring_angles angles(theta_i, polar_angle(wi));
+  const detail::neighbouring_angles angles(theta_i, theta);
   const detail::square_patch patch(
       reflectance, detail::visible_position(visible, tables_->along_rows, tables_->across_rows, half, angles));
   rgb value;

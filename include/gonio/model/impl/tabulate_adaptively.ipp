@@ -176,7 +176,7 @@ inline void fill_reflectance(const brdf_function& f, const adaptive_brdf_parts& 
   const unit_square_tables& visible = parts.visible_normals;
   const visible_normal_quantiles quantiles(visible.row(number, 0), visible.rows, visible.columns);
   const direction wi = light_at(parts, number);
-  const square_point light{0.5, polar_coordinate(wi)};
+  const square_point light{0.5, polar_coordinate(polar_angle(wi))};
   const double area = square_patch(parts.projected_area, light).value(parts.projected_area, 0);
   const Eigen::Index size = reflectance.rows * reflectance.columns;
   float* red = reflectance.values.data() + 3 * number * size;
