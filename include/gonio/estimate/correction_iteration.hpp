@@ -31,7 +31,8 @@ namespace detail {
 /// What a round did, given the inlier weight of each measurement, what it counted, the factor that was wanted for its
 /// estimate and the one that was found.
 [[nodiscard]] correction_round describe_round(const channel_values& inlier_weights, const channel_values& weights,
-                                              const channel_values& wanted, const channel_values& found);
+                                              const channel_values& wanted, const channel_values& found,
+                                              thread_count threads);
 
 /// The product of all rounds' corrections over the cells, given the weights of the functions in each. O(cells k
 /// rounds).
@@ -91,7 +92,7 @@ class correction_run {
     const channel_values found = functions_.apply(beta);
     total_ = (total_ * found).min(correction_factor::largest_factor);
     weights_.push_back(std::move(beta));
-    history_.push_back(detail::describe_round(inlier_weights, weights, wanted, found));
+    history_.push_back(detail::describe_round(inlier_weights, weights, wanted, found, threads_));
     return history_.back();
   }
 

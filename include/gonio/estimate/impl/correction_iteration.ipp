@@ -16,11 +16,21 @@
 namespace gonio::detail {
 
 GONIO_INLINE correction_round describe_round(const channel_values& inlier_weights, const channel_values& weights,
-                                             const channel_values& wanted, const channel_values& found) {
-  const double total = weights.cast<double>().sum();
-  const double squares = (weights.cast<double>() * (wanted.cast<double>() - 1.0).square()).sum();
-  return {total > 0.0 ? std::sqrt(squares / total) : 0.0, (found - 1.0f).abs().cast<double>().mean(),
-          (inlier_weights < 0.5f).cast<double>().mean()};
+                                             const channel_values& wanted, const channel_values& found,
+                                             thread_count threads) {
+  // Sums of weights, of weighted squares, of changes and of samples that count less than half.
+  const Eigen::Array4d sums = sum_over_blocks(
+      weights.cols(), 4096, Eigen::Array4d(Eigen::Array4d::Zero()),
+      [&](Eigen::Array4d& sum, block range) {
+        const auto some = [&](const channel_values& all) { return all.middleCols(range.begin, range.size()); };
+        const auto weight = some(weights).cast<double>();
+        sum += Eigen::Array4d(weight.sum(), (weight * (some(wanted).cast<double>() - 1.0).square()).sum(),
+                              (some(found) - 1.0f).abs().cast<double>().sum(),
+                              static_cast<double>((some(inlier_weights) < 0.5f).count()));
+      },
+      threads);
+  const auto count = static_cast<double>(weights.size());
+  return {sums[0] > 0.0 ? std::sqrt(sums[1] / sums[0]) : 0.0, sums[2] / count, sums[3] / count};
 }
 
 GONIO_INLINE brdf_table total_correction(const correction& corrections, const std::vector<Eigen::MatrixXd>& weights,
