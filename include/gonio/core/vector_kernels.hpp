@@ -26,6 +26,9 @@ namespace gonio {
 void add_scaled(double factor, const double* a, double* sum, Eigen::Index count);
 void add_scaled(float factor, const float* a, float* sum, Eigen::Index count);
 
+/// Multiplies product[i] by a[i].
+void multiply(const float* a, float* product, Eigen::Index count);
+
 /// Replaces each number by its exponential, within 2 units of the last place, and the same wherever a number stands.
 void exponentiate(float* numbers, Eigen::Index count);
 

@@ -3,7 +3,6 @@
 /// doi:10.1145/2816795.2818085, Eq. 10).
 
 #include <gonio/basis/combine.hpp>
-#include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/estimator.hpp>
@@ -18,6 +17,10 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+
+#if defined(GONIO_COMPILED)
+#include <gonio/basis/measured.hpp>
+#endif
 
 namespace gonio {
 

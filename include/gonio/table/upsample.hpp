@@ -112,9 +112,10 @@ template <int Fields, weighted_mean Mean, class Read>
   for_each_index(
       size, 16384,
       [&](Eigen::Index linear) {
-        auto fields = dense.col(linear);
-        read(from.representative(linear), fields.data());
-        if constexpr (Mean == weighted_mean::geometric) fields = fields.max(-largest_logarithm).min(largest_logarithm);
+        float* fields = dense.data() + Fields * linear;
+        read(from.representative(linear), fields);
+        if constexpr (Mean == weighted_mean::geometric)
+          for (int f = 0; f < Fields; ++f) fields[f] = std::clamp(fields[f], -largest_logarithm, largest_logarithm);
       },
       threads);
   return dense;
@@ -140,49 +141,50 @@ void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis
   }
 }
 
-/// From one value of a progression to the next.
-template <weighted_mean Mean, class Value>
-void advance(Value&& value, const auto& step) {
-  if constexpr (Mean == weighted_mean::geometric)
-    value *= step;
-  else
-    value += step;
-}
-
 /// Interpolates a line over the source's phi_d to all of the target's.
 template <int Fields, weighted_mean Mean>
 class phi_d_line {
  public:
   explicit phi_d_line(std::span<const axis_run> runs)
-      : runs_(runs), first_(Fields, runs.size()), step_(Fields, runs.size()) {}
+      : runs_(runs), first_(Fields * runs.size()), step_(Fields * runs.size()) {}
 
-  void interpolate(std::span<const float> line, cell_fields<Fields>& out) {
+  void interpolate(std::span<const float> line, float* out) {
+    begin_runs(line);
     using fields_of_cell = Eigen::Array<float, Fields, 1>;
-    const auto at = [&](Eigen::Index node) { return Eigen::Map<const fields_of_cell>(line.data() + Fields * node); };
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       const axis_run& run = runs_[r];
-      const fields_of_cell start = at(run.around[0]), growth = at(run.around[1]) - start;
-      first_.col(r) = start + run.share * growth;
-      step_.col(r) = run.step * growth;
-    }
-    if constexpr (Mean == weighted_mean::geometric) {
-      exponentiate(first_.data(), first_.size());
-      exponentiate(step_.data(), step_.size());
-    }
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-      const axis_run& run = runs_[r];
-      fields_of_cell value = first_.col(r);
-      const fields_of_cell step = step_.col(r);
+      fields_of_cell value = Eigen::Map<const fields_of_cell>(&first_[Fields * r]);
+      const fields_of_cell step = Eigen::Map<const fields_of_cell>(&step_[Fields * r]);
       for (Eigen::Index k = run.first; k < run.first + run.count; ++k) {
-        out.col(k) = value;
-        advance<Mean>(value, step);
+        Eigen::Map<fields_of_cell>{out + Fields* k} = value;
+        if constexpr (Mean == weighted_mean::geometric)
+          value *= step;
+        else
+          value += step;
       }
     }
   }
 
  private:
+  void begin_runs(std::span<const float> line) {
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const axis_run& run = runs_[r];
+      const float *before = &line[Fields * run.around[0]], *after = &line[Fields * run.around[1]];
+      float *first = &first_[Fields * r], *step = &step_[Fields * r];
+      for (int f = 0; f < Fields; ++f) {
+        const float growth = after[f] - before[f];
+        first[f] = before[f] + run.share * growth;
+        step[f] = run.step * growth;
+      }
+    }
+    if constexpr (Mean == weighted_mean::geometric) {
+      exponentiate(first_.data(), std::ssize(first_));
+      exponentiate(step_.data(), std::ssize(step_));
+    }
+  }
+
   std::span<const axis_run> runs_;
-  cell_fields<Fields> first_, step_;
+  std::vector<float> first_, step_;  // of each run, and from one of its nodes to the next
 };
 
 }  // namespace detail
@@ -210,14 +212,18 @@ void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&&
           const block along_theta_d{run.first, run.first + run.count};
           if (rows.none(h, along_theta_d)) continue;
           detail::blend_rows<Fields>(source, dense, runs.theta_h[h], run, first, step);
-          along_phi_d.interpolate(first, line);
-          if (run.count > 1) along_phi_d.interpolate(step, growth);
+          along_phi_d.interpolate(first, line.data());
+          if (run.count > 1) along_phi_d.interpolate(step, growth.data());
           for (Eigen::Index d = along_theta_d.begin; d < along_theta_d.end; ++d) {
             if (const cell_row row = rows.row(h, d); row.count > 0) {
-              Eigen::Map<const cell_fields<Fields>> values(&line(0, row.first_phi_d), Fields, row.count);
+              Eigen::Map<const cell_fields<Fields>> values(line.data() + Fields * row.first_phi_d, Fields, row.count);
               use(row, values);
             }
-            if (d + 1 < along_theta_d.end) detail::advance<Mean>(line, growth);
+            if (d + 1 == along_theta_d.end) break;
+            if constexpr (Mean == weighted_mean::geometric)
+              multiply(growth.data(), line.data(), line.size());
+            else
+              add_scaled(1.0f, growth.data(), line.data(), line.size());
           }
         }
       },

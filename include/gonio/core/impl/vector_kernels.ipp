@@ -72,6 +72,10 @@ GONIO_INLINE void add_scaled(float factor, const float* a, float* sum, Eigen::In
   Eigen::Map<Eigen::VectorXf>(sum, count) += factor * Eigen::Map<const Eigen::VectorXf>(a, count);
 }
 
+GONIO_INLINE void multiply(const float* a, float* product, Eigen::Index count) {
+  Eigen::Map<Eigen::ArrayXf>(product, count) *= Eigen::Map<const Eigen::ArrayXf>(a, count);
+}
+
 GONIO_INLINE void exponentiate(float* numbers, Eigen::Index count) {
   map_by_eights(numbers, count, [](auto& these) { these = these.exp(); });
 }
