@@ -26,7 +26,7 @@ class brdf_table {
 
   /// A table without values, for whoever sets them all.
   [[nodiscard]] static brdf_table uninitialised(valid_cells cells) {
-    return brdf_table(cells, values_type(3 * cells.size()));
+    return brdf_table(std::move(cells), without_values());
   }
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
@@ -60,12 +60,12 @@ class brdf_table {
   }
 
  private:
-  using values_type = std::vector<float, uninitialised_allocator<float>>;
+  struct without_values {};
 
-  brdf_table(const valid_cells& cells, values_type values) : cells_(cells), values_(std::move(values)) {}
+  brdf_table(valid_cells cells, without_values /*unused*/) : cells_(std::move(cells)), values_(3 * cells_.size()) {}
 
   valid_cells cells_;
-  values_type values_;
+  std::vector<float, uninitialised_allocator<float>> values_;
 };
 
 static_assert(brdf<brdf_table>);
