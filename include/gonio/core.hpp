@@ -26,3 +26,4 @@
 #include <gonio/core/spelling.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/core/vector_kernels.hpp>
+#include <gonio/core/wavelengths.hpp>
