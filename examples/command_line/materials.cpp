@@ -60,17 +60,18 @@ std::vector<named_table> tables_of(const material_source& source, gonio::thread_
 std::vector<double> wavelengths_in(const std::string& text) {
   std::array<double, 3> numbers{};
   std::string_view left = text;
-  const char* wrong = nullptr;
-  for (std::size_t i = 0; i < numbers.size() && wrong == nullptr; ++i) {
-    const std::size_t end = i + 1 < numbers.size() ? left.find(':') : left.size();
-    wrong = end == std::string_view::npos ? " " : gonio::io::detail::read_number(left.substr(0, end), numbers[i]);
-    if (wrong == nullptr) left.remove_prefix(std::min(end + 1, left.size()));
+  bool is_range = std::ranges::count(text, ':') == 2;
+  for (std::size_t i = 0; i < numbers.size() && is_range; ++i) {
+    const std::size_t end = std::min(left.find(':'), left.size());
+    is_range = gonio::io::detail::read_number(left.substr(0, end), numbers[i]) == nullptr;
+    left.remove_prefix(std::min(end + 1, left.size()));
   }
   const auto [first, step, last] = numbers;
-  if (wrong != nullptr || !(first > 0.0 && step >= 0.01 && last >= first && last <= 1e5))
+  if (!is_range || !(first > 0.0 && step > 0.0 && last >= first))
     gonio::refuse({"--wavelengths ", text, ": expected FIRST:STEP:LAST in nanometres, as 400:10:700"});
+  if (!(last - first < 1024.0 * step)) gonio::refuse({"--wavelengths ", text, ": expected at most 1024 wavelengths"});
   std::vector<double> all;
-  for (int i = 0; first + i * step <= last + 1e-6 * step; ++i) all.push_back(first + i * step);
+  for (int i = 0; first + i * step <= last + 1e-6 * step; ++i) all.push_back(std::min(first + i * step, last));
   return all;
 }
 

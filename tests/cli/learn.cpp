@@ -152,8 +152,10 @@ TEST_CASE("gonio learn --spectra refuses what are no spectra, or spectra of othe
   refuses(learn + " --spectra --split", {"--split"});
   refuses(learn + " --spectra --rgl " + at("others"), {"paint-1.bsdf", "other wavelengths", "--wavelengths"});
   refuses(learn + " --spectra --wavelengths 400:100:800", {"paint-0.bsdf", "from 400 to 800 nm"});
-  for (const char* range : {"400", "400:100", "400:0:700", "700:10:400", "400:x:700", "400:10:700:1", "nan:1:2"})
+  for (const char* range :
+       {"400", "400:100", "400:0:700", "700:10:400", "400:x:700", "400:10:700:1", "nan:1:2", "400:inf:700"})
     refuses(learn + " --spectra --wavelengths " + range, {"--wavelengths", "FIRST:STEP:LAST"});
+  refuses(learn + " --spectra --wavelengths 400:0.01:700", {"--wavelengths", "at most 1024"});
   refuses(learn + " --spectra --merl " + at("paints"), {"--spectra", "--rgl"});
   gonio::io::write_rgl(folder / "paints" / "grey.bsdf", gonio::model::lambertian{gonio::rgb::Constant(0.5)});
   refuses(learn + " --spectra", {"grey.bsdf", "in RGB"});
