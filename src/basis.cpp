@@ -4,6 +4,7 @@
 #include <gonio/basis/impl/add_materials.ipp>
 #include <gonio/basis/impl/component_variance.ipp>
 #include <gonio/basis/impl/discrepancy.ipp>
+#include <gonio/basis/impl/expand_materials.ipp>
 #include <gonio/basis/impl/learn_pca.ipp>
 #include <gonio/basis/impl/learn_streamed_pca.ipp>
 #include <gonio/basis/impl/mapped_materials.ipp>

@@ -12,6 +12,7 @@
 #include <gonio/core/impl/rotation.ipp>
 #include <gonio/core/impl/spelling.ipp>
 #include <gonio/core/impl/vector_kernels.ipp>
+#include <gonio/core/impl/wavelengths.ipp>
 
 namespace gonio::detail {
 

@@ -2,11 +2,14 @@
 /// A small database for tests: smooth synthetic materials over any cells.
 
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/table/material_rows.hpp>
 #include <gonio/table/material_set.hpp>
 
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 /// A grid of few cells.
 inline const gonio::valid_cells& small_cells() {
@@ -30,6 +33,16 @@ inline gonio::material_set synthetic_materials(const gonio::valid_cells& cells, 
     }
   }
   return set;
+}
+
+/// The columns of such materials as those of others at some wavelengths, which must divide them.
+inline gonio::material_rows at_wavelengths(gonio::material_set set, std::vector<double> wavelengths) {
+  gonio::material_rows rows = gonio::rows_of(std::move(set));
+  const auto columns = static_cast<std::size_t>(rows.columns());
+  rows.names.clear();
+  for (std::size_t m = 0; m < columns / wavelengths.size(); ++m) rows.names.push_back("spectra-" + std::to_string(m));
+  rows.wavelengths = std::move(wavelengths);
+  return rows;
 }
 
 /// A prior learned from such materials.

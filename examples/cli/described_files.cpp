@@ -371,6 +371,7 @@ json describe(const gonio::log_relative_pca& prior) {
              {"components", prior.size()},
              {"explained_variance", prior.explained_variance()},
              {"cosine_weight", prior.metric().weighting() == gonio::cosine_weighting::larger ? "larger" : "product"}};
+  if (!prior.wavelengths().empty()) facts["wavelengths_nm"] = prior.wavelengths();
   facts.update(grid_facts(prior.cells()));
   facts["names"] = prior.names();
   return facts;

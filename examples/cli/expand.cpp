@@ -1,6 +1,7 @@
 /// gonio expand: a material as a table, from a network, the prior or a formula.
 
 #include "command_line/chosen_networks.hpp"
+#include "command_line/file_kinds.hpp"
 #include "command_line/measurement_files.hpp"
 #include "command_line/prior_material.hpp"
 #include "command_line/prior_option.hpp"
@@ -9,15 +10,20 @@
 #include <gonio/basis/component_variance.hpp>
 #include <gonio/core/finite.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/estimate/fitted_spectra.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/rgl_spectra.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/model/formula_materials.hpp>
 
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cli {
@@ -27,7 +33,7 @@ namespace {
 struct expand_options {
   std::filesystem::path networks, prior, output;
   std::string name, formula;
-  std::vector<std::string> weights;  ///< lists of numbers: one for all channels, or one for each
+  std::vector<std::string> weights;  ///< lists of numbers: one for all channels (or wavelengths), or one for each
   bool in_deviations = false;
   gonio::thread_count threads;
 };
@@ -49,13 +55,16 @@ std::vector<double> numbers_of(std::string_view list) {
   return numbers;
 }
 
-/// The weights that --weights gives, components x 3: zero where it gives none.
+/// The weights that --weights gives, components x channels: zero where it gives none.
 Eigen::MatrixXd given_weights(const expand_options& options, const gonio::log_relative_pca& prior) {
-  if (options.weights.size() != 1 && options.weights.size() != 3)
+  const Eigen::Index channels = prior.channels(), lists = std::ssize(options.weights);
+  if (lists != 1 && lists != channels && prior.wavelengths().empty())
+    gonio::refuse({"--weights needs one list for all channels, or three for red, green and blue, not ", lists});
+  if (lists != 1 && lists != channels)
     gonio::refuse(
-        {"--weights needs one list for all channels, or three for red, green and blue, not ", options.weights.size()});
-  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), 3);
-  for (Eigen::Index channel = 0; channel < 3; ++channel) {
+        {"--weights needs one list for all wavelengths, or one for each of ", channels, " wavelengths, not ", lists});
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), channels);
+  for (Eigen::Index channel = 0; channel < channels; ++channel) {
     const auto numbers = numbers_of(options.weights[options.weights.size() == 1 ? 0 : channel]);
     if (std::ssize(numbers) > prior.size())
       gonio::refuse({"--weights: ", numbers.size(), " numbers are more than the ", prior.size(), " components of ",
@@ -66,25 +75,44 @@ Eigen::MatrixXd given_weights(const expand_options& options, const gonio::log_re
   return weights;
 }
 
-/// One of the materials a prior was learned from, by the coefficients that it stores, or its mean; and what the weights
-/// given add.
-gonio::brdf_table table_of_prior(const expand_options& options, const gonio::valid_cells& cells) {
-  const auto prior = gonio::io::read_prior(options.prior);
-  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), 3);
-  if (!options.name.empty()) weights = prior.weights_of(material_number(prior, options.name, options.prior));
-  if (!options.weights.empty()) weights += given_weights(options, prior);
-  gonio::brdf_table table = gonio::fitted_brdf(prior, weights).tabulate(cells, options.threads);
-  if (!options.weights.empty() && !gonio::all_finite(table.values()))
+void require_finite(const expand_options& options, std::span<const float> values) {
+  if (!options.weights.empty() && !gonio::all_finite(values))
     gonio::refuse("--weights are too large: their table is not finite (gonio info --components has the deviations)");
-  return table;
 }
 
-gonio::brdf_table table_of(const expand_options& options, const gonio::valid_cells& cells) {
+/// Spectra where the format holds them, else their colours.
+void write_spectra(const expand_options& options, const gonio::spectral_table& table) {
+  if (options.output.extension() != ".bsdf" || table.bands() == 1)
+    return write_table(options.output, table.colours(gonio::illuminant::d65, options.threads));
+  const std::string name = options.name.empty() ? options.output.stem().string() : options.name;
+  write_file(options.output, gonio::io::tabulate_adaptively(table, name, options.threads));
+}
+
+/// One of the materials a prior was learned from, by the coefficients that it stores, or its mean; and what the weights
+/// given add.
+void write_of_prior(const expand_options& options, const gonio::valid_cells& cells) {
+  const auto prior = gonio::io::read_prior(options.prior);
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), prior.channels());
+  if (!options.name.empty()) weights = prior.weights_of(material_number(prior, options.name, options.prior));
+  if (!options.weights.empty()) weights += given_weights(options, prior);
+  if (prior.wavelengths().empty()) {
+    const gonio::brdf_table table = gonio::fitted_brdf(prior, weights).tabulate(cells, options.threads);
+    require_finite(options, table.values());
+    return write_table(options.output, table);
+  }
+  const gonio::fitted_spectra fitted(prior.wavelengths(), prior, {std::move(weights), {}});
+  const gonio::spectral_table table = fitted.tabulate(cells, options.threads);
+  require_finite(options, {table.values().data(), static_cast<std::size_t>(table.values().size())});
+  write_spectra(options, table);
+}
+
+void expand(const expand_options& options, const gonio::valid_cells& cells) {
   if (!options.formula.empty())
-    return gonio::tabulate(gonio::model::formula_material(options.formula), cells, options.threads);
-  if (options.networks.empty()) return table_of_prior(options, cells);
+    return write_table(options.output,
+                       gonio::tabulate(gonio::model::formula_material(options.formula), cells, options.threads));
+  if (options.networks.empty()) return write_of_prior(options, cells);
   const auto chosen = networks_in(gonio::io::read_networks(options.networks), {options.name});
-  return gonio::model::tabulate_networks(chosen, cells, options.threads).table(0);
+  write_table(options.output, gonio::model::tabulate_networks(chosen, cells, options.threads).table(0));
 }
 
 }  // namespace
@@ -100,7 +128,8 @@ void add_expand(command& app) {
   auto weights = command
                      .add_option("--weights", options->weights,
                                  "Weights of the prior's components, as 0.5,-1,2: those that are not given are zero. "
-                                 "Once for all channels, or three times, for red, green and blue. With --name they are "
+                                 "Once for all channels, or three times, for red, green and blue (of a prior of "
+                                 "spectra, for each wavelength). With --name they are "
                                  "added to that material's")
                      .repeatable()
                      .excludes(networks);
@@ -123,7 +152,7 @@ void add_expand(command& app) {
     if (options->formula.empty() && options->name.empty() && options->weights.empty())
       gonio::refuse(
           "expand needs a material: --name NAME (of --prior or --networks), --weights W1,W2,... or --formula NAME");
-    write_table(options->output, table_of(*options, gonio::valid_cells()));
+    expand(*options, gonio::valid_cells());
   });
 }
 

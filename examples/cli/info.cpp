@@ -11,6 +11,7 @@
 #include <gonio/core/printable.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/text.hpp>
 
 #include <iostream>
 #include <memory>
@@ -39,7 +40,12 @@ json array_of(const Eigen::VectorXd& values) { return std::vector<double>(values
 /// The weights of one of its materials, as --weights of gonio expand takes them.
 json weights_of(const gonio::log_relative_pca& prior, const info_options& options) {
   const Eigen::MatrixXd weights = prior.weights_of(material_number(prior, options.weights_of, options.file));
-  return {{"r", array_of(weights.col(0))}, {"g", array_of(weights.col(1))}, {"b", array_of(weights.col(2))}};
+  if (prior.wavelengths().empty())
+    return {{"r", array_of(weights.col(0))}, {"g", array_of(weights.col(1))}, {"b", array_of(weights.col(2))}};
+  json all;
+  for (Eigen::Index band = 0; band < prior.channels(); ++band)
+    all[gonio::io::detail::shortest(prior.wavelengths()[band]) + "nm"] = array_of(weights.col(band));
+  return all;
 }
 
 /// To four decimals, for people.

@@ -13,6 +13,7 @@
 #include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
+#include <gonio/io/text.hpp>
 
 #include <iostream>
 #include <memory>
@@ -45,6 +46,14 @@ std::string source_of(const material_source& source, std::size_t materials) {
       text += (text.size() == start ? "" : ", ") + path.lexically_normal().filename().string();
   for (const std::string& name : source.exclude) text += (name == source.exclude.front() ? ", without " : ", ") + name;
   return text;
+}
+
+std::string source_of(const material_source& source, const gonio::material_rows& materials) {
+  const std::string text = source_of(source, materials.names.size());
+  if (materials.wavelengths.empty()) return text;
+  return text + ", at " + std::to_string(materials.wavelengths.size()) + " wavelengths from " +
+         gonio::io::detail::shortest(materials.wavelengths.front()) + " to " +
+         gonio::io::detail::shortest(materials.wavelengths.back()) + " nm";
 }
 
 /// "kept 60 components of 45 soft of 90 materials of networks.npy: 99.87 % of the mapped variance".
@@ -110,14 +119,14 @@ void learn(const learn_options& options, const team& processes) {
     const auto old = gonio::io::read_prior(options.add_to);
     const auto materials = stream(options, old.cells(), bar.listener(), processes);
     const std::string source =
-        old.source() + (old.source().empty() ? "" : "; then ") + source_of(options.materials, materials.names.size());
+        old.source() + (old.source().empty() ? "" : "; then ") + source_of(options.materials, materials);
     const auto learned = gonio::add_materials(old, materials, streaming, bar.listener());
     return finish(learned, learned.prior, source);
   }
   const auto materials = stream(options, {}, bar.listener(), processes);
   const auto cells = options.thin.of(materials.cells);
   const auto learned = gonio::learn_streamed_pca(materials, streaming, bar.listener());
-  finish(learned, gonio::thin(learned.prior, cells), source_of(options.materials, materials.names.size()));
+  finish(learned, gonio::thin(learned.prior, cells), source_of(options.materials, materials));
 }
 
 void learn_together(learn_options options, const team& processes) {
@@ -147,6 +156,18 @@ void add_learn(command& app, const team& processes) {
       "--split", options->split,
       "Two priors in one file, of the soft and of the specular half of the materials by the contrast of "
       "their highlights, for gonio reconstruct --method soft-specular (Nielsen et al. 2015, section 8)");
+  const auto spectra =
+      command
+          .add_flag(
+              "--spectra", options->materials.as_spectra,
+              "Learn each wavelength of --rgl materials that are spectra, instead of their colours. All must be at "
+              "the same wavelengths, or --wavelengths says at which")
+          .excludes(split);
+  command
+      .add_option("--wavelengths", options->materials.wavelengths,
+                  "With --spectra: the wavelengths, FIRST:STEP:LAST in nanometres, as 400:10:700; between those of the "
+                  "materials, reflectance is linear")
+      .needs(spectra);
   const auto thin = add_thin_option(command, options->thin);
   command
       .add_input(
@@ -166,8 +187,10 @@ void add_learn(command& app, const team& processes) {
   command.add_input_folder("--scratch", options->scratch, {}, "Folder of the scratch file (default: that of --output)")
       .excludes(split);
   command
-      .add_option("--seed", options->seed,
-                  "Seed of the random subspace in which more than 341 materials are decomposed (Halko et al. 2011)")
+      .add_option(
+          "--seed", options->seed,
+          "Seed of the random subspace in which more than 1024 columns are decomposed, three a material or one for "
+          "each wavelength (Halko et al. 2011)")
       .excludes(split)
       .capture_default_str();
   command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();

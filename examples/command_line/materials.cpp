@@ -6,24 +6,30 @@
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/prior.hpp>
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/rgl_spectra.hpp>
+#include <gonio/io/text.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <span>
+#include <string_view>
 #include <utility>
 
 namespace cli {
 
 namespace {
 
-/// A material by its name, and what writes its table over given cells to the columns of a set.
+/// A material by its name, and what has its values over given cells: all channels of a cell, then those of the next.
 struct named_table {
   std::string name;
-  std::function<gonio::brdf_table(const gonio::valid_cells&)> tabulate;
+  std::function<std::vector<float>(const gonio::valid_cells&)> tabulate;
 };
+
+std::vector<float> values_of(const gonio::brdf_table& table) { return {table.values().begin(), table.values().end()}; }
 
 /// Those of all sources, none of them read yet but the networks.
 std::vector<named_table> tables_of(const material_source& source, gonio::thread_count threads) {
@@ -33,21 +39,91 @@ std::vector<named_table> tables_of(const material_source& source, gonio::thread_
     for (std::size_t i = 0; i < known.names.size(); ++i)
       all.push_back({known.names[i], [network = known.networks[i], threads](const gonio::valid_cells& cells) {
                        const auto set = gonio::model::tabulate_networks({{"one"}, {network}}, cells, threads);
-                       return set.table(0);
+                       return values_of(set.table(0));
                      }});
   }
   for (const std::filesystem::path& folder : source.tables)
     for (const auto& [name, path] : gonio::io::list_merl_directory(folder))
       all.push_back({name, [path, threads](const gonio::valid_cells& cells) {
-                       gonio::brdf_table table = gonio::io::read_merl_any(path, {{}, cells});
-                       return table.cells() == cells ? table : gonio::resample(table, cells, threads);
+                       const gonio::brdf_table table = gonio::io::read_merl_any(path, {{}, cells});
+                       return values_of(table.cells() == cells ? table : gonio::resample(table, cells, threads));
                      }});
   for (const std::filesystem::path& folder : source.rgl)
     for (const auto& [name, path] : gonio::io::list_rgl_directory(folder))
       all.push_back({name, [path, threads](const gonio::valid_cells& cells) {
-                       return gonio::tabulate(gonio::io::read_rgl(path).material, cells, threads);
+                       return values_of(gonio::tabulate(gonio::io::read_rgl(path).material, cells, threads));
                      }});
   return all;
+}
+
+/// 400, 410, ... 700 of 400:10:700.
+std::vector<double> wavelengths_in(const std::string& text) {
+  std::array<double, 3> numbers{};
+  std::string_view left = text;
+  bool is_range = std::ranges::count(text, ':') == 2;
+  for (std::size_t i = 0; i < numbers.size() && is_range; ++i) {
+    const std::size_t end = std::min(left.find(':'), left.size());
+    is_range = gonio::io::detail::read_number(left.substr(0, end), numbers[i]) == nullptr;
+    left.remove_prefix(std::min(end + 1, left.size()));
+  }
+  const auto [first, step, last] = numbers;
+  if (!is_range || !(first > 0.0 && step > 0.0 && last >= first))
+    gonio::refuse({"--wavelengths ", text, ": expected FIRST:STEP:LAST in nanometres, as 400:10:700"});
+  if (!(last - first < 1024.0 * step)) gonio::refuse({"--wavelengths ", text, ": expected at most 1024 wavelengths"});
+  std::vector<double> all;
+  for (int i = 0; first + i * step <= last + 1e-6 * step; ++i) all.push_back(std::min(first + i * step, last));
+  return all;
+}
+
+gonio::io::rgl_material read_spectral_material(const std::filesystem::path& path) {
+  gonio::io::rgl_material material = gonio::io::read_rgl(path);
+  if (!material.spectra)
+    gonio::refuse({path.native(), ": is in RGB, but --spectra needs spectra (gonio convert --spectra makes some)"});
+  return material;
+}
+
+/// The spectra of a file over cells, at the wavelengths that are asked for.
+std::vector<float> spectra_over(const gonio::valid_cells& cells, const std::filesystem::path& path,
+                                const std::vector<double>& wavelengths, bool resampled, gonio::thread_count threads) {
+  gonio::io::rgl_material material = read_spectral_material(path);
+  if (material.spectra->wavelengths != wavelengths) {
+    if (!resampled)
+      gonio::refuse(
+          {path.native(), ": is at other wavelengths than the first material: --wavelengths FIRST:STEP:LAST"});
+    try {
+      material.spectra = gonio::io::at_wavelengths(*material.spectra, wavelengths);
+    } catch (const gonio::error& refusal) {
+      gonio::refuse({path.native(), ": ", refusal.what()});
+    }
+  }
+  const gonio::spectral_table table = gonio::io::tabulate_spectra(material, cells, threads);
+  return {table.values().data(), table.values().data() + table.values().size()};
+}
+
+/// Those of folders of spectra, none of them read yet.
+std::vector<named_table> spectra_of(const material_source& source, const std::vector<double>& wavelengths,
+                                    gonio::thread_count threads) {
+  std::vector<named_table> all;
+  const bool resampled = !source.wavelengths.empty();
+  for (const std::filesystem::path& folder : source.rgl)
+    for (const auto& [name, path] : gonio::io::list_rgl_directory(folder))
+      all.push_back({name, [path, wavelengths, resampled, threads](const gonio::valid_cells& cells) {
+                       return spectra_over(cells, path, wavelengths, resampled, threads);
+                     }});
+  return all;
+}
+
+/// The wavelengths that are asked for, or those of the first material; none of colours.
+std::vector<double> wavelengths_of(const material_source& source) {
+  if (!source.as_spectra) return {};
+  if (!source.networks.empty() || !source.tables.empty())
+    gonio::refuse("--spectra needs materials that are spectra: --rgl, without --networks and --merl");
+  if (!source.wavelengths.empty()) return wavelengths_in(source.wavelengths);
+  for (const std::filesystem::path& folder : source.rgl)
+    for (const auto& [name, path] : gonio::io::list_rgl_directory(folder))
+      if (std::ranges::find(source.exclude, name) == source.exclude.end())
+        return read_spectral_material(path).spectra->wavelengths;
+  gonio::refuse("the sources hold no material");
 }
 
 void exclude(std::vector<named_table>& all, const std::vector<std::string>& names) {
@@ -62,8 +138,11 @@ void require_different(const std::vector<named_table>& all) {
     if (++seen[each.name] > 1) gonio::refuse("two materials of the sources are named '" + each.name + "'");
 }
 
-std::vector<named_table> chosen_tables(const material_source& source, gonio::thread_count threads) {
-  std::vector<named_table> all = tables_of(source, threads);
+/// In colours, or at some wavelengths.
+std::vector<named_table> chosen_tables(const material_source& source, const std::vector<double>& wavelengths,
+                                       gonio::thread_count threads) {
+  std::vector<named_table> all =
+      wavelengths.empty() ? tables_of(source, threads) : spectra_of(source, wavelengths, threads);
   exclude(all, source.exclude);
   if (all.empty()) gonio::refuse("the sources hold no material");
   require_different(all);
@@ -72,15 +151,15 @@ std::vector<named_table> chosen_tables(const material_source& source, gonio::thr
 
 gonio::material_set read_mixed(const material_source& source, gonio::thread_count threads,
                                const gonio::progress& listener) {
-  const std::vector<named_table> all = chosen_tables(source, threads);
+  const std::vector<named_table> all = chosen_tables(source, {}, threads);
   gonio::material_set set{gonio::valid_cells(), {}, {}};
   const auto cells = static_cast<Eigen::Index>(set.cells.size());
   set.values.resize(cells, 3 * std::ssize(all));
   for (const named_table& each : all) {
     const auto done = std::ssize(set.names);
     gonio::report(listener, "reading " + each.name, static_cast<double>(done) / static_cast<double>(all.size()));
-    const gonio::brdf_table table = each.tabulate(set.cells);
-    set.values.middleCols(3 * done, 3) = Eigen::Map<const gonio::cell_matrix>(table.values().data(), cells, 3);
+    const std::vector<float> values = each.tabulate(set.cells);
+    set.values.middleCols(3 * done, 3) = Eigen::Map<const gonio::cell_matrix>(values.data(), cells, 3);
     set.names.push_back(each.name);
   }
   return set;
@@ -101,6 +180,13 @@ std::uint32_t checksum_of(const gonio::material_rows& materials) {
   for (Eigen::Index i = 0; i < most; ++i)
     materials.read({i * cells / most, i * cells / most + 1}, rows.middleRows(i, 1));
   return gonio::io::detail::checksum(std::as_bytes(std::span(rows.data(), static_cast<std::size_t>(rows.size()))));
+}
+
+void append(gonio::io::scratch_materials& scratch, const std::string& name, const gonio::valid_cells& cells,
+            const std::vector<double>& wavelengths, std::vector<float> values) {
+  if (wavelengths.empty()) return scratch.append(name, gonio::brdf_table(cells, std::move(values)));
+  const Eigen::Map<const gonio::cell_matrix> spectra(values.data(), cells.size(), std::ssize(wavelengths));
+  scratch.append(name, gonio::spectral_table(cells, wavelengths, spectra));
 }
 
 /// A folder of MERL tables alone, over their own cells.
@@ -147,24 +233,30 @@ gonio::material_set read_materials(const material_source& source, gonio::thread_
 gonio::material_rows stream_materials(const material_source& source, const std::optional<gonio::valid_cells>& cells,
                                       gonio::io::scratch_materials scratch, gonio::thread_count threads,
                                       const gonio::progress& listener, const team& processes) {
-  if (!cells && source.networks.empty() && source.rgl.empty() && source.tables.size() == 1)
+  if (!cells && !source.as_spectra && source.networks.empty() && source.rgl.empty() && source.tables.size() == 1)
     return stream_folder(source, scratch, listener, processes);
+  std::vector<double> wavelengths;
   std::vector<named_table> all;
-  processes.together([&] { all = chosen_tables(source, threads); });
+  processes.together([&] {
+    wavelengths = wavelengths_of(source);
+    all = chosen_tables(source, wavelengths, threads);
+  });
   std::vector<std::string> names;
   for (const named_table& each : all) names.push_back(each.name);
+  for (const double wavelength : wavelengths) names.push_back(gonio::io::detail::shortest(wavelength));
   agree_on_names(processes, names);
   const gonio::valid_cells over = cells ? *cells : gonio::valid_cells();
+  const auto channels = static_cast<std::size_t>(wavelengths.empty() ? 3 : wavelengths.size());
   for (std::size_t begin = 0; begin < all.size(); begin += processes.size()) {
     const std::size_t own = begin + processes.number();
     gonio::report(listener, "reading " + all[begin].name, static_cast<double>(begin) / static_cast<double>(all.size()));
-    std::vector<float> values(3 * static_cast<std::size_t>(over.size()));
+    std::vector<float> values(channels * static_cast<std::size_t>(over.size()));
     processes.together([&] {
-      if (own < all.size()) std::ranges::copy(all[own].tabulate(over).values(), values.begin());
+      if (own < all.size()) values = all[own].tabulate(over);
     });
     std::vector<std::vector<float>> each = processes.exchange_rows(std::move(values), over.size());
     for (std::size_t i = 0; i < each.size() && begin + i < all.size(); ++i)
-      scratch.append(all[begin + i].name, {over, std::move(each[i])});
+      append(scratch, all[begin + i].name, over, wavelengths, std::move(each[i]));
   }
   return scratch.rows();
 }

@@ -21,6 +21,8 @@ struct material_source {
   std::vector<std::filesystem::path> networks, tables, rgl;
   std::filesystem::path prior;
   std::vector<std::string> exclude;
+  bool as_spectra = false;       ///< reflectance at wavelengths, of RGL materials that have it; else colours
+  std::string wavelengths = {};  ///< as 400:10:700, nanometres; those of the materials if it is empty
 
   [[nodiscard]] bool is_prior() const { return networks.empty() && tables.empty() && rgl.empty(); }
 };
@@ -38,8 +40,9 @@ option_group add_material_options(command& to, material_source& source);
 
 /// The same, each read once, one after the other, and held by a scratch file. With `cells` all are over these: tables
 /// are interpolated, or copied where the cells' nodes coincide. Without, they are where read_materials has them. Not of
-/// a prior. Several processes each tabulate some of the materials, and hand one another the rows of their groups; a
-/// single folder of MERL tables each reads by itself.
+/// a prior. All spectra are at the wavelengths that are asked for, or else must be at the same ones. Several processes
+/// each tabulate some of the materials, and hand one another the rows of their groups; a single folder of MERL tables
+/// each reads by itself.
 [[nodiscard]] gonio::material_rows stream_materials(const material_source& source,
                                                     const std::optional<gonio::valid_cells>& cells,
                                                     gonio::io::scratch_materials scratch, gonio::thread_count threads,

@@ -27,3 +27,4 @@
 #include <gonio/core/statistics.hpp>
 #include <gonio/core/uninitialised.hpp>
 #include <gonio/core/vector_kernels.hpp>
+#include <gonio/core/wavelengths.hpp>

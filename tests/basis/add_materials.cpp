@@ -76,6 +76,27 @@ TEST_CASE("singular values of a thinned prior stay in the scale of the cells it 
   CHECK(added.prior.singular_values()[0] < 1.5 * old.singular_values()[0]);
 }
 
+TEST_CASE("spectra are added to spectra of the same wavelengths, and to no others") {
+  const std::vector<double> wavelengths{400.0, 500.0, 600.0, 700.0};
+  const auto old_rows = at_wavelengths(materials(0, 20), wavelengths);
+  auto more = at_wavelengths(materials(20, 4), wavelengths);
+  for (std::string& name : more.names) name = "new-" + name;
+  const auto old = gonio::learn_streamed_pca(old_rows, {.components = 8}).prior;
+  const auto all = gonio::add_materials(old, more, {.components = 8}).prior;
+  CHECK(all.wavelengths() == wavelengths);
+  CHECK(all.names().size() == 18);
+  CHECK(all.coefficients().rows() == 72);
+  const auto refuses = [&](const gonio::material_rows& rows, const char* what) {
+    CHECK_THROWS_WITH_AS(gonio::add_materials(old, rows), doctest::Contains(what), gonio::error);
+  };
+  refuses(gonio::rows_of(materials(20, 4)), "the prior's materials are at 4 wavelengths, those to add are in colours");
+  more.wavelengths = {400.0, 500.0, 600.0, 690.0};
+  refuses(more, "wavelength 4 of the materials to add is 690");
+  CHECK_THROWS_WITH_AS(gonio::add_materials(learn(materials(0, 20), 8), old_rows),
+                       doctest::Contains("the prior's materials are in colours, those to add are at 4 wavelengths"),
+                       gonio::error);
+}
+
 TEST_CASE("materials that cannot be added are refused") {
   const auto old = learn(materials(0, 5), 6);
   CHECK_THROWS_WITH_AS(gonio::add_materials(old, gonio::rows_of(materials(4, 3))),

@@ -38,6 +38,28 @@ TEST_CASE("streamed components are those of tables in memory") {
   CHECK(streamed.prior.explained_variance() == doctest::Approx(known.explained_variance()).epsilon(1e-6));
 }
 
+TEST_CASE("wavelengths are columns as colours are: how many belong to a material changes nothing in the components") {
+  const auto set = synthetic_materials(small_cells(), 12);
+  const auto colours = gonio::learn_streamed_pca(gonio::rows_of(set), {.components = 8}).prior;
+  CHECK(colours.channels() == 3);
+  CHECK(colours.wavelengths().empty());
+  for (const std::vector<double>& wavelengths :
+       {std::vector<double>{633.0}, {450.0, 550.0, 650.0}, {400.0, 500.0, 600.0, 700.0}}) {
+    const auto spectra = gonio::learn_streamed_pca(at_wavelengths(set, wavelengths), {.components = 8}).prior;
+    CHECK(spectra.wavelengths() == wavelengths);
+    CHECK(spectra.channels() == std::ssize(wavelengths));
+    CHECK(std::ssize(spectra.names()) == 36 / std::ssize(wavelengths));
+    CHECK(spectra.components() == colours.components());
+    CHECK(spectra.coefficients() == colours.coefficients());
+    CHECK(spectra.singular_values() == colours.singular_values());
+    CHECK(spectra.weights_of(2) ==
+          spectra.coefficients().middleRows(2 * spectra.channels(), spectra.channels()).transpose().cast<double>());
+    CHECK(spectra.truncated(3).wavelengths() == wavelengths);
+    CHECK(spectra.with_source("here").wavelengths() == wavelengths);
+    CHECK(gonio::thin(spectra, gonio::valid_cells(gonio::grid({5, 5, 5}))).wavelengths() == wavelengths);
+  }
+}
+
 TEST_CASE("streaming gives the same bytes for any number of threads") {
   const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({18, 12, 18})), 20);
   for (const Eigen::Index exact_columns : {100, 10}) {
@@ -84,6 +106,13 @@ TEST_CASE("passes whose subtrees are summed elsewhere give the same bytes") {
 }
 
 TEST_CASE("materials that cannot be streamed are refused") {
+  auto spectra = synthetic_materials(small_cells(), 12);
+  spectra.values(5, 9) = std::nanf("");
+  CHECK_THROWS_WITH_AS(gonio::learn_streamed_pca(at_wavelengths(spectra, {400.0, 500.0, 600.0, 700.0})),
+                       doctest::Contains("'spectra-2' is not finite at cell 5"), gonio::error);
+  CHECK_THROWS_WITH_AS(
+      gonio::learn_streamed_pca(at_wavelengths(synthetic_materials(small_cells(), 12), {400.0, 600.0, 500.0, 700.0})),
+      doctest::Contains("wavelength 3 of a spectrum is not above the one before"), gonio::error);
   auto set = synthetic_materials(small_cells(), 3);
   CHECK_THROWS_WITH_AS(learn_streamed(set, 0), doctest::Contains("at least one"), gonio::error);
   CHECK_THROWS_AS(gonio::learn_streamed_pca({small_cells(), {}, {}}), gonio::error);

@@ -6,6 +6,8 @@
 #include "tool.hpp"
 #include <gonio/io/merl.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/rgl_spectra.hpp>
+#include <gonio/model/lambert.hpp>
 
 #include <doctest/doctest.h>
 
@@ -88,6 +90,76 @@ TEST_CASE("gonio learn --add-to: materials join a prior without the tables of th
           {"material-10", "already"});
   refuses("learn --merl " + made.at("new") + " --add-to " + made.at("no.prior") + " -o " + made.at("x.prior"),
           {"no.prior"});
+}
+
+namespace {
+
+/// A folder of some materials at wavelengths from 400 nm on, every 100.
+void write_spectra(const std::filesystem::path& folder, Eigen::Index first, Eigen::Index end, Eigen::Index bands) {
+  std::filesystem::create_directory(folder);
+  const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({18, 12, 18})), 12);
+  std::vector<double> wavelengths;
+  for (Eigen::Index band = 0; band < bands; ++band) wavelengths.push_back(400.0 + 100.0 * static_cast<double>(band));
+  for (Eigen::Index m = first; m < end; ++m) {
+    gonio::spectral_table table(set.cells, wavelengths);
+    for (Eigen::Index band = 0; band < bands; ++band) table.values().col(band) = set.values.col(3 * m + band % 3);
+    const std::string name = "paint-" + std::to_string(m);
+    gonio::io::write_rgl(folder / (name + ".bsdf"), gonio::io::tabulate_adaptively(table, name));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("gonio learn --spectra: a column for each wavelength, which the prior and its users know") {
+  const scratch::folder folder;
+  const auto at = [&](const std::string& name) { return (folder / name).string(); };
+  write_spectra(folder / "paints", 0, 3, 4);
+  const std::string learn = "learn --spectra --rgl " + at("paints") + " --thin 30 60 --components 8 ";
+  const std::string told = run(learn + "-o " + at("one.prior") + " --threads 1");
+  CHECK(told.find("3 materials of paints, at 4 wavelengths from 400 to 700 nm") != std::string::npos);
+  run(learn + "--memory 1 --wavelengths 400:100:700 -o " + at("other.prior") + " --threads 3");
+  CHECK(bytes_of(at("one.prior")) == bytes_of(at("other.prior")));
+  const auto prior = gonio::io::read_prior(at("one.prior"));
+  CHECK(prior.wavelengths() == std::vector<double>{400.0, 500.0, 600.0, 700.0});
+  CHECK(prior.coefficients().rows() == 12);
+  CHECK(parse_json(run("info --json " + at("one.prior"))).at("wavelengths_nm").size() == 4);
+  run(learn + "--wavelengths 450:75:600 -o " + at("between.prior"));
+  CHECK(gonio::io::read_prior(at("between.prior")).wavelengths() == std::vector<double>{450.0, 525.0, 600.0});
+
+  run("expand --prior " + at("one.prior") + " --name paint-1 -o " + at("paint.bsdf"));
+  CHECK(gonio::io::read_rgl(at("paint.bsdf")).spectra->wavelengths == prior.wavelengths());
+  run("expand --prior " + at("one.prior") + " --name paint-1 --weights 0.1 -o " + at("paint.binary"));
+  refuses("expand --prior " + at("one.prior") + " --weights 1 --weights 2 -o " + at("x.binary"), {"--weights", "4"});
+  CHECK(run("info --weights-of paint-1 " + at("one.prior")).find("600nm") != std::string::npos);
+  run("design --prior " + at("one.prior") + " --count 2 -o " + at("two.csv"));
+
+  write_spectra(folder / "more", 3, 4, 4);
+  run("learn --spectra --rgl " + at("more") + " --add-to " + at("one.prior") + " --components 8 -o " +
+      at("four.prior"));
+  CHECK(gonio::io::read_prior(at("four.prior")).coefficients().rows() == 16);
+  const std::string add = "learn --rgl " + at("more") + " --add-to " + at("one.prior") + " -o " + at("x.prior");
+  refuses(add, {"at 4 wavelengths", "in colours"});
+  refuses(add + " --spectra --wavelengths 400:50:700", {"at 4 wavelengths", "at 7 wavelengths"});
+}
+
+TEST_CASE("gonio learn --spectra refuses what are no spectra, or spectra of other wavelengths") {
+  const scratch::folder folder;
+  const auto at = [&](const std::string& name) { return (folder / name).string(); };
+  write_spectra(folder / "paints", 0, 1, 4);
+  write_spectra(folder / "others", 1, 2, 3);
+  const std::string learn = "learn --rgl " + at("paints") + " -o " + at("x.prior");
+  refuses(learn + " --wavelengths 400:100:700", {"--wavelengths", "--spectra"});
+  refuses(learn + " --spectra --split", {"--split"});
+  refuses(learn + " --spectra --rgl " + at("others"), {"paint-1.bsdf", "other wavelengths", "--wavelengths"});
+  refuses(learn + " --spectra --wavelengths 400:100:800", {"paint-0.bsdf", "from 400 to 800 nm"});
+  for (const char* range :
+       {"400", "400:100", "400:0:700", "700:10:400", "400:x:700", "400:10:700:1", "nan:1:2", "400:inf:700"})
+    refuses(learn + " --spectra --wavelengths " + range, {"--wavelengths", "FIRST:STEP:LAST"});
+  refuses(learn + " --spectra --wavelengths 400:0.01:700", {"--wavelengths", "at most 1024"});
+  refuses(learn + " --spectra --merl " + at("paints"), {"--spectra", "--rgl"});
+  gonio::io::write_rgl(folder / "paints" / "grey.bsdf", gonio::model::lambertian{gonio::rgb::Constant(0.5)});
+  refuses(learn + " --spectra", {"grey.bsdf", "in RGB"});
+  CHECK_FALSE(std::filesystem::exists(at("x.prior")));
 }
 
 TEST_CASE("gonio learn refuses tables that do not belong together, or cannot be read, by their names") {

@@ -5,6 +5,7 @@
 #include <rapidcheck.h>
 
 #include <array>
+#include <utility>
 
 namespace {
 
@@ -27,9 +28,10 @@ error_sweep::tiles tiles_of(const gonio::design::expected_error& criterion, Eige
 }  // namespace
 
 TEST_CASE("eight candidates side by side have the errors of each by itself, as extended_error has them") {
-  for (const bool leave_out : {false, true})
+  for (const auto& [basis, leave_out] : {std::pair{&candidate_basis(), false}, std::pair{&candidate_basis(), true},
+                                         std::pair{&spectral_candidate_basis(), true}})
     for (const double common_shift : {0.0, 0.3}) {
-      const gonio::design::expected_error criterion(candidate_basis(),
+      const gonio::design::expected_error criterion(*basis,
                                                     {.eta = 2.0, .common_shift = common_shift, .leave_out = leave_out});
       CHECK(rc::check([&] {
         const auto n = *rc::gen::inRange<Eigen::Index>(0, 11);

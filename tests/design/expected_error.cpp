@@ -6,7 +6,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <random>
+#include <utility>
 
 using gonio::design::expected_error;
 static_assert(gonio::design::design_criterion<expected_error>);
@@ -122,26 +125,25 @@ namespace {
 
 /// The error of each material's reconstruction by a basis that has its prior from the others, by the textbook: their
 /// weights' mean and covariance, Bayes' rule, and the norm over all cells.
-double each_left_out(const Eigen::MatrixXd& measured, double eta, double noise) {
-  const Eigen::MatrixXd q = candidate_basis().components().cast<double>(),
-                        c = candidate_basis().coefficients().cast<double>();
-  const Eigen::Index m = c.rows(), k = c.cols(), n = measured.rows();
+double each_left_out(const gonio::log_relative_pca& basis, const Eigen::MatrixXd& measured, double eta, double noise) {
+  const Eigen::MatrixXd q = basis.components().cast<double>(), c = basis.coefficients().cast<double>();
+  const Eigen::Index m = c.rows(), k = c.cols(), n = measured.rows(), channels = basis.channels();
   const Eigen::MatrixXd of_all =
       q * measured.transpose() *
       dense_reference::inverse(measured * measured.transpose() +
                                (eta + static_cast<double>(m) * noise * noise) * Eigen::MatrixXd::Identity(n, n));
   const double own = of_all.squaredNorm() * noise * noise;
   double sum = 0.0;
-  for (Eigen::Index first = 0; first < m; first += 3) {
-    Eigen::MatrixXd others(m - 3, k);
-    others << c.topRows(first), c.bottomRows(m - 3 - first);
+  for (Eigen::Index first = 0; first < m; first += channels) {
+    Eigen::MatrixXd others(m - channels, k);
+    others << c.topRows(first), c.bottomRows(m - channels - first);
     const Eigen::RowVectorXd mean = others.colwise().mean();
     const Eigen::MatrixXd apart = others.rowwise() - mean, covariance = apart.transpose() * apart;
     const Eigen::MatrixXd gain =
         covariance * measured.transpose() *
         dense_reference::inverse(measured * covariance * measured.transpose() +
                                  (eta + static_cast<double>(m) * noise * noise) * Eigen::MatrixXd::Identity(n, n));
-    for (Eigen::Index row = first; row < first + 3; ++row) {
+    for (Eigen::Index row = first; row < first + channels; ++row) {
       const Eigen::VectorXd t = (c.row(row) - mean).transpose();
       sum += std::sqrt((q * (t - gain * (measured * t))).squaredNorm() + own);
     }
@@ -152,32 +154,88 @@ double each_left_out(const Eigen::MatrixXd& measured, double eta, double noise) 
 }  // namespace
 
 TEST_CASE("out of sample it is the error of each material with the prior of the others") {
-  for (const double eta : {0.02, 1.0, 40.0})
-    for (const double noise : {0.0, 0.3}) {
-      const expected_error criterion(candidate_basis(), {.eta = eta, .noise = noise, .leave_out = true}),
-          in_sample(candidate_basis(), {.eta = eta, .noise = noise});
-      for (const std::vector<Eigen::Index>& cells :
-           {std::vector<Eigen::Index>{5}, {0, 100}, {3, 60, 200, 222, 310}, {7, 7, 8}}) {
-        CAPTURE(eta);
-        const Eigen::MatrixXd measured = components_at(cells);
-        CHECK(criterion(measured) == doctest::Approx(each_left_out(measured, eta, noise)).epsilon(1e-5));
-        CHECK(criterion(measured) > in_sample(measured));
+  for (const gonio::log_relative_pca& basis : {candidate_basis(), spectral_candidate_basis()})
+    for (const double eta : {0.02, 1.0, 40.0})
+      for (const double noise : {0.0, 0.3}) {
+        const expected_error criterion(basis, {.eta = eta, .noise = noise, .leave_out = true}),
+            in_sample(basis, {.eta = eta, .noise = noise});
+        for (const std::vector<Eigen::Index>& cells :
+             {std::vector<Eigen::Index>{5}, {0, 100}, {3, 60, 200, 222, 310}, {7, 7, 8}}) {
+          CAPTURE(eta);
+          const Eigen::MatrixXd measured = components_at(cells);
+          CHECK(criterion(measured) == doctest::Approx(each_left_out(basis, measured, eta, noise)).epsilon(1e-5));
+          CHECK(criterion(measured) > in_sample(measured));
+        }
+        CHECK(criterion(expected_error::rows(0, criterion.coefficients().rows())) ==
+              doctest::Approx(each_left_out(basis, Eigen::MatrixXd(0, basis.components().cols()), eta, 0.0))
+                  .epsilon(1e-5));
       }
-      CHECK(criterion(expected_error::rows(0, criterion.coefficients().rows())) ==
-            doctest::Approx(each_left_out(Eigen::MatrixXd(0, candidate_basis().components().cols()), eta, 0.0))
-                .epsilon(1e-5));
+}
+
+TEST_CASE("a material that is left out is left out with all of its wavelengths") {
+  // The same columns in other groups: in sample nothing changes; out of sample more of them leave more unknown.
+  const Eigen::MatrixXd measured = components_at({3, 60, 200, 222, 310});
+  const auto error = [&](const gonio::log_relative_pca& basis, bool leave_out) {
+    return expected_error(basis, {.eta = 1.0, .leave_out = leave_out})(measured);
+  };
+  const auto grouped = [](Eigen::Index by) {
+    const std::vector<double> all{400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0, 750.0, 800.0};
+    return gonio::learn_streamed_pca(
+               at_wavelengths(synthetic_materials(small_cells(), 12), {all.begin(), all.begin() + by}),
+               {.components = 100})
+        .prior;
+  };
+  const auto colours =
+      gonio::learn_streamed_pca(gonio::rows_of(synthetic_materials(small_cells(), 12)), {.components = 100}).prior;
+  CHECK(error(grouped(9), false) == error(grouped(1), false));
+  CHECK(error(grouped(3), true) == error(colours, true));
+  CHECK(error(grouped(1), true) < error(grouped(3), true));
+}
+
+TEST_CASE("materials with more channels that are all the same have the same errors and designs") {
+  const auto grey = [](Eigen::Index channels) {
+    const auto set = synthetic_materials(small_cells(), 12);
+    gonio::material_rows rows = gonio::rows_of(set);
+    rows.wavelengths.resize(static_cast<std::size_t>(channels));
+    std::iota(rows.wavelengths.begin(), rows.wavelengths.end(), 500.0);
+    rows.read = [set, channels](gonio::block range, gonio::cell_rows out) {
+      for (Eigen::Index i = 0; i < range.size(); ++i)
+        for (Eigen::Index j = 0; j < out.cols(); ++j) out(i, j) = set.values(range.begin + i, 3 * (j / channels) + 1);
+    };
+    return gonio::learn_streamed_pca(std::move(rows), {.components = 11}).prior;
+  };
+  // As many columns as there are, the variance is larger by, and eta with it.
+  const auto candidates = [](const gonio::log_relative_pca& basis) {
+    const double eta = 0.2 * static_cast<double>(basis.channels());
+    return gonio::design::cell_candidates(basis, expected_error(basis, {.eta = eta, .leave_out = true}));
+  };
+  const gonio::design::cell_candidates three = candidates(grey(3)), one = candidates(grey(1)),
+                                       seven = candidates(grey(7));
+  std::vector<Eigen::Index> chosen;
+  for (int number = 0; number < 4; ++number) {
+    CAPTURE(number);
+    const auto errors = three.errors_with_each(chosen);
+    for (const auto* other : {&one, &seven}) {
+      CHECK((*other)(chosen) == doctest::Approx(three(chosen)).epsilon(1e-4));
+      const auto others = other->errors_with_each(chosen);
+      for (Eigen::Index cell = 0; cell < std::ssize(errors); ++cell)
+        REQUIRE(others[cell] == doctest::Approx(errors[cell]).epsilon(1e-3));
     }
+    chosen.push_back(std::ranges::min_element(errors) - errors.begin());
+  }
 }
 
 TEST_CASE("out of sample it is what eta is chosen by") {
   const std::vector<Eigen::Index> cells{3, 60, 200, 222, 310};
   std::vector<gonio::location> places;
   for (const Eigen::Index cell : cells) places.push_back(gonio::locate_cell(small_cells(), cell));
-  const gonio::leave_one_material_out_error chosen_by(candidate_basis(), places, Eigen::VectorXd::Ones(5), 0.0);
-  for (const double eta : {0.1, 3.0}) {
-    const expected_error criterion(candidate_basis(), {.eta = eta, .leave_out = true});
-    CHECK(criterion(components_at(cells)) ==
-          doctest::Approx(chosen_by(Eigen::VectorXd::Constant(1, eta))[0]).epsilon(1e-4));
+  for (const gonio::log_relative_pca& basis : {candidate_basis(), spectral_candidate_basis()}) {
+    const gonio::leave_one_material_out_error chosen_by(basis, places, Eigen::VectorXd::Ones(5), 0.0);
+    for (const double eta : {0.1, 3.0}) {
+      const expected_error criterion(basis, {.eta = eta, .leave_out = true});
+      CHECK(criterion(components_at(cells)) ==
+            doctest::Approx(chosen_by(Eigen::VectorXd::Constant(1, eta))[0]).epsilon(1e-4));
+    }
   }
 }
 
@@ -201,7 +259,8 @@ TEST_CASE("what cannot be is refused") {
   CHECK_THROWS_WITH_AS(expected_error(candidate_basis(), {.common_shift = -1.0}),
                        doctest::Contains("the common shift must be finite and not negative"), gonio::error);
   const auto one = learn(synthetic_materials(small_cells(), 1), 3);
-  CHECK_THROWS_WITH_AS(expected_error(one, {.leave_out = true}), doctest::Contains("can be left out"), gonio::error);
+  CHECK_THROWS_WITH_AS(expected_error(one, {.leave_out = true}),
+                       doctest::Contains("one material alone cannot be left out"), gonio::error);
   CHECK_THROWS_AS(expected_error(candidate_basis(), {.eta = std::nan("")}), gonio::error);
   CHECK_THROWS_WITH_AS(expected_error(candidate_basis(), {}, Eigen::MatrixXd::Identity(2, 2)),
                        doctest::Contains("square matrix"), gonio::error);

@@ -1,5 +1,6 @@
 #include "../synthetic_materials.hpp"
 #include "scratch.hpp"
+#include <gonio/basis/learn_streamed_pca.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/prior.hpp>
@@ -7,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <random>
 
 namespace io = gonio::io;
@@ -63,6 +65,49 @@ TEST_CASE("a prior keeps the cosine weight of its metric; the bytes of one with 
   CHECK(back.metric().cosine_weight(at.cosine) == std::max(at.cosine.i, at.cosine.o));
 }
 
+TEST_CASE(
+    "wavelengths come back, in files that older programs refuse by their version; those of colours stay as they were") {
+  const std::vector<double> wavelengths{405.0, 532.0, 633.0, 780.0, 1064.0};
+  const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5);
+  const auto prior = gonio::learn_streamed_pca(at_wavelengths(set, wavelengths), {.components = 8}).prior;
+  const auto bytes = io::encode_prior(prior), colours = io::encode_prior(learn(set, 8));
+  CHECK(bytes[9] == std::byte{2});
+  CHECK(colours[9] == std::byte{1});
+  const auto back = io::decode_prior(bytes, "x");
+  CHECK(back.wavelengths() == wavelengths);
+  CHECK(back.channels() == 5);
+  CHECK(back.names() == prior.names());
+  CHECK(back.coefficients() == prior.coefficients());
+  CHECK(io::decode_prior(colours, "x").wavelengths().empty());
+  try {
+    static_cast<void>(io::decode_checked({"gonio-pca", 1, "prior"}, bytes, "x.prior"));  // as older programs do
+    FAIL("an older program reads it");
+  } catch (const gonio::error& refusal) {
+    CHECK(std::string(refusal.what()) == "x.prior: prior format version 2, this program reads version 1");
+  }
+}
+
+TEST_CASE("wavelengths that a file cannot have are refused") {
+  const auto refusal_of = [](std::uint32_t count, double second) {
+    io::byte_writer payload;
+    for (int axis = 0; axis < 3; ++axis) payload.put(std::uint32_t{4});
+    payload.put(std::uint32_t{4});  // wavelengths
+    payload.put(0.0);
+    payload.put(std::uint32_t{1});  // a component of a material
+    payload.put(std::uint32_t{1});
+    payload.put(count);
+    payload.put(500.0);
+    payload.put(second);
+    for (int i = 0; i < 1000; ++i) payload.put(std::uint64_t{0});
+    return refusal(io::encode_checked({"gonio-pca", 2, "prior"}, payload.bytes()));
+  };
+  CHECK(refusal_of(0, 600.0).find("cannot hold 0 wavelengths") != std::string::npos);
+  CHECK(refusal_of(0xffffffff, 600.0).find("cannot hold 4294967295 wavelengths") != std::string::npos);
+  CHECK(refusal_of(2, 600.0).find("follow the last component") != std::string::npos);
+  CHECK(refusal_of(2, 400.0).find("wavelength 2 of a spectrum is not above") != std::string::npos);
+  CHECK(refusal_of(2, std::nan("")).find("wavelength 2 of a spectrum is not above") != std::string::npos);
+}
+
 TEST_CASE("what was read is written with the same bytes") {
   const auto once = io::encode_prior(small_prior());
   const auto back = io::decode_prior(once, "x");
@@ -100,7 +145,7 @@ TEST_CASE("damaged priors are refused with what is wrong") {
   CHECK(refusal(longer) != "");
   auto version = whole;
   version[9] = std::byte{77};
-  CHECK(refusal(version).find("version 77") != std::string::npos);
+  CHECK(refusal(version) == "x.prior: prior format version 77, this program reads versions 1 to 2");
   auto size = whole;
   size[13 + 7] = std::byte{0xff};
   CHECK(refusal(size).find("not believable") != std::string::npos);

@@ -68,6 +68,51 @@ TEST_CASE("the tables of three wavelengths are those of the material that has th
   CHECK(same.spectra->values.values == material.spectra->values.values);
 }
 
+TEST_CASE("spectra over cells are those in the cells' directions") {
+  gonio::spectral_table table = diffuse_table();
+  for (Eigen::Index cell = 0; cell < cells().size(); ++cell)
+    table.values().row(cell).array() += static_cast<float>(0.1 * cells().angles(cell).theta_h);
+  const auto material = gonio::io::tabulate_adaptively(table);
+  const gonio::valid_cells coarse(gonio::grid({7, 5, 6}));
+  const auto found = gonio::io::tabulate_spectra(material, coarse);
+  CHECK(found.wavelengths() == table.wavelengths());
+  std::vector<gonio::sample_directions> directions;
+  for (Eigen::Index cell = 0; cell < coarse.size(); ++cell) {
+    const auto angles = coarse.angles(cell);
+    directions.push_back({angles.theta_h, angles.theta_d, angles.phi_d});
+  }
+  const gonio::spectral_samples samples = gonio::io::sample_spectra(material, directions);
+  CHECK((found.values() - samples.values).cwiseAbs().maxCoeff() < 1e-5f);
+  CHECK(found.values() == gonio::io::tabulate_spectra(material, coarse, gonio::thread_count{3}).values());
+}
+
+TEST_CASE("spectra at other wavelengths are linear between their own") {
+  const auto material = gonio::io::tabulate_adaptively(diffuse_table());
+  const gonio::io::rgl_spectra& known = *material.spectra;
+  const auto same = gonio::io::at_wavelengths(known, known.wavelengths);
+  CHECK(same.values.values == known.values.values);
+  const auto other = gonio::io::at_wavelengths(known, {420.0, 440.0, 660.0});
+  CHECK(other.wavelengths == std::vector<double>{420.0, 440.0, 660.0});
+  const Eigen::Index size = known.values.rows * known.values.columns, angles = known.values.tables / 4;
+  REQUIRE(other.values.tables == 3 * angles);
+  for (Eigen::Index angle = 0; angle < angles; ++angle)
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const auto of = [&](const gonio::io::rgl_spectra& all, Eigen::Index bands, Eigen::Index band) {
+        return double{all.values.values[(angle * bands + band) * size + i]};
+      };
+      CHECK(of(other, 3, 0) == of(known, 4, 0));
+      CHECK(of(other, 3, 1) == doctest::Approx(0.75 * of(known, 4, 0) + 0.25 * of(known, 4, 1)).epsilon(1e-6));
+      CHECK(of(other, 3, 2) == of(known, 4, 3));
+    }
+  check_refused(
+      [&] {
+        return gonio::io::at_wavelengths(known, {410.0, 500.0});
+      },
+      {"from 420 to 660 nm", "from 410 to"});
+  check_refused([&] { return gonio::io::at_wavelengths(known, {500.0, 661.0}); }, {"to 661 nm"});
+  check_refused([&] { return gonio::io::at_wavelengths(known, {500.0, 500.0}); }, {"wavelength 2"});
+}
+
 TEST_CASE("what is no spectral material is refused") {
   const gonio::spectral_table laser(cells(), {633.0});
   check_refused([&] { return gonio::io::tabulate_adaptively(laser); }, {"two wavelengths"});
@@ -78,4 +123,5 @@ TEST_CASE("what is no spectral material is refused") {
       "",
       {}};
   check_refused([&] { return gonio::io::sample_spectra(in_rgb, {}); }, {"in RGB"});
+  check_refused([&] { return gonio::io::tabulate_spectra(in_rgb, cells()); }, {"in RGB"});
 }

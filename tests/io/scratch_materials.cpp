@@ -39,12 +39,33 @@ TEST_CASE("tables come back from memory and from the scratch file") {
   }
 }
 
+TEST_CASE("spectra come back, too, all wavelengths of a material one beside another") {
+  const std::vector<double> wavelengths{400.0, 500.0, 600.0, 700.0};
+  const auto set = synthetic_materials(small_cells(), 8);
+  const std::uint64_t table = 16 * small_cells().size();
+  for (const std::uint64_t memory : {std::uint64_t{0}, 2 * table, 100 * table}) {
+    gonio::io::scratch_materials scratch(std::filesystem::temp_directory_path(), memory);
+    for (Eigen::Index m = 0; m < 6; ++m)
+      scratch.append(std::to_string(m),
+                     gonio::spectral_table(small_cells(), wavelengths, set.values.middleCols(4 * m, 4)));
+    const gonio::material_rows rows = scratch.rows();
+    CHECK(rows.wavelengths == wavelengths);
+    CHECK(rows.columns() == 24);
+    CHECK(scratch.file_size() == (memory < 6 * table ? 6 * table : 0));
+    gonio::cell_matrix all(set.values.rows(), set.values.cols());
+    rows.read({0, all.rows()}, all);
+    CHECK(all == set.values);
+  }
+}
+
 TEST_CASE("tables that cannot be held are refused") {
   gonio::io::scratch_materials none(std::filesystem::temp_directory_path());
   CHECK_THROWS_AS(none.rows(), gonio::error);
   none.append("one", gonio::brdf_table(small_cells()));
   CHECK_THROWS_WITH_AS(none.append("other", gonio::brdf_table(gonio::valid_cells(gonio::grid({5, 5, 5})))),
                        doctest::Contains("'other' is over other cells"), gonio::error);
+  CHECK_THROWS_WITH_AS(none.append("spectra", gonio::spectral_table(small_cells(), {500.0, 600.0, 700.0})),
+                       doctest::Contains("'spectra' is at other wavelengths"), gonio::error);
   gonio::io::scratch_materials nowhere("/no/such/folder", 0);
   nowhere.append("one", gonio::brdf_table(small_cells()));
   CHECK_THROWS_WITH_AS(nowhere.append("other", gonio::brdf_table(small_cells())), doctest::Contains("/no/such/folder"),

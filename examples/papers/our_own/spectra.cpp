@@ -5,6 +5,8 @@
 #include "command_line/prior_option.hpp"
 #include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
+#include <gonio/basis/expand_materials.hpp>
+#include <gonio/basis/learn_streamed_pca.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/core/statistics.hpp>
@@ -33,6 +35,7 @@ struct spectra_options {
   std::filesystem::path prior;
   std::vector<Eigen::Index> counts{5, 20, 100};
   Eigen::Index repetitions = 20;
+  bool compares_priors = false;
   gonio::thread_count threads;
 };
 
@@ -192,16 +195,22 @@ struct comparison {
   all_errors wavelengths, rgb, xyz;
 };
 
+/// Some measurements at random, and the others.
+std::pair<gonio::spectral_samples, gonio::spectral_samples> parted(const gonio::spectral_samples& all,
+                                                                   Eigen::Index count, Eigen::Index seed) {
+  const std::vector<Eigen::Index> chosen = gonio::random_choice(all.size(), count, seed);
+  std::vector<Eigen::Index> rest;
+  for (Eigen::Index i = 0; i < all.size(); ++i)
+    if (!std::ranges::binary_search(chosen, i)) rest.push_back(i);
+  return {all.subset(chosen), all.subset(rest)};
+}
+
 comparison compare(const spectral_fit_estimator& estimator, const gonio::spectral_samples& all, Eigen::Index count,
                    const spectra_options& given) {
   const gonio::model::smooth_spectra smooth(all.wavelengths);
   comparison found;
   for (Eigen::Index r = 0; r < given.repetitions; ++r) {
-    const std::vector<Eigen::Index> chosen = gonio::random_choice(all.size(), count, r);
-    std::vector<Eigen::Index> rest;
-    for (Eigen::Index i = 0; i < all.size(); ++i)
-      if (!std::ranges::binary_search(chosen, i)) rest.push_back(i);
-    const gonio::spectral_samples fitted = all.subset(chosen), unused = all.subset(rest);
+    const auto [fitted, unused] = parted(all, count, r);
     const held_out others(unused);
     found.wavelengths.push_back(fit_wavelengths(estimator, fitted, others));
     found.rgb.push_back(fit_colours(estimator, fitted, colour_space::rgb, smooth, others));
@@ -210,17 +219,62 @@ comparison compare(const spectral_fit_estimator& estimator, const gonio::spectra
   return found;
 }
 
+/// A line of a table: its first columns, and one for each measure.
+template <class EntryOf>
+void print_row(const std::string& start, const EntryOf& entry_of) {
+  std::cout << start;
+  for (const measure& one : measures) std::cout << ' ' << entry_of(one) << " |";
+  std::cout << '\n';
+}
+
 void print_rows(const std::string& material, Eigen::Index count, const comparison& found) {
-  const auto print_row = [&](const char* name, const auto& entry_of) {
-    std::cout << "| " << material << " | " << count << " | " << name << " |";
-    for (const measure& one : measures) std::cout << ' ' << entry_of(one) << " |";
-    std::cout << '\n';
+  const auto print = [&](const char* name, const auto& entry_of) {
+    print_row("| " + material + " | " + std::to_string(count) + " | " + name + " |", entry_of);
   };
-  print_row("wavelengths", [&](const measure& one) { return described(found.wavelengths, one); });
-  print_row("RGB", [&](const measure& one) { return described(found.rgb, one); });
-  print_row("XYZ", [&](const measure& one) { return described(found.xyz, one); });
-  print_row("wavelengths nearer than RGB", [&](const measure& one) { return wins(found.wavelengths, found.rgb, one); });
-  print_row("wavelengths nearer than XYZ", [&](const measure& one) { return wins(found.wavelengths, found.xyz, one); });
+  print("wavelengths", [&](const measure& one) { return described(found.wavelengths, one); });
+  print("RGB", [&](const measure& one) { return described(found.rgb, one); });
+  print("XYZ", [&](const measure& one) { return described(found.xyz, one); });
+  print("wavelengths nearer than RGB", [&](const measure& one) { return wins(found.wavelengths, found.rgb, one); });
+  print("wavelengths nearer than XYZ", [&](const measure& one) { return wins(found.wavelengths, found.xyz, one); });
+}
+
+// ---- a prior of spectra ------------------------------------------------------------------------
+
+/// The materials of a prior as the smoothest spectra that have their colours, learned with as many components.
+gonio::log_relative_pca learn_as_spectra(const gonio::log_relative_pca& prior, const std::vector<double>& wavelengths,
+                                         gonio::thread_count threads) {
+  const gonio::model::smooth_spectra smooth(wavelengths);
+  const gonio::material_set set = gonio::expand(prior, threads);
+  const Eigen::Index bands = std::ssize(wavelengths);
+  const auto read = [&](gonio::block range, gonio::cell_rows out) {
+    for (Eigen::Index i = 0; i < range.size(); ++i)
+      for (Eigen::Index m = 0; m < std::ssize(set.names); ++m) {
+        const Eigen::Array3f colour = set.values.row(range.begin + i).segment<3>(3 * m).transpose();
+        out.row(i).segment(bands * m, bands) = smooth(colour.cast<double>()).cast<float>().matrix().transpose();
+      }
+  };
+  return gonio::learn_streamed_pca({set.cells, set.names, read, wavelengths},
+                                   {.components = prior.size(), .threads = threads})
+      .prior;
+}
+
+void compare_priors(const std::string& name, const gonio::spectral_samples& all, const spectra_options& given) {
+  const auto colours = gonio::io::read_prior(given.prior);
+  const spectral_fit_estimator by_colours{colours, {}, given.threads},
+      by_spectra{learn_as_spectra(colours, all.wavelengths, given.threads), {}, given.threads};
+  for (const Eigen::Index count : given.counts) {
+    all_errors of_colours, of_spectra;
+    for (Eigen::Index r = 0; r < given.repetitions; ++r) {
+      const auto [fitted, unused] = parted(all, count, r);
+      const held_out others(unused);
+      of_colours.push_back(fit_wavelengths(by_colours, fitted, others));
+      of_spectra.push_back(fit_wavelengths(by_spectra, fitted, others));
+    }
+    const std::string start = "| " + name + " | " + std::to_string(count) + " | ";
+    print_row(start + "colours |", [&](const measure& one) { return described(of_colours, one); });
+    print_row(start + "spectra |", [&](const measure& one) { return described(of_spectra, one); });
+    print_row(start + "spectra nearer |", [&](const measure& one) { return wins(of_spectra, of_colours, one); });
+  }
 }
 
 /// All files, before anything is printed. Throws gonio::error for one that has too few measurements.
@@ -239,9 +293,15 @@ void run(const spectra_options& given) {
   const std::vector<gonio::spectral_samples> files = read_all(given);
   const spectral_fit_estimator estimator{gonio::io::read_prior(given.prior), {}, given.threads};
   std::cout << "Directions that were not fitted, means (medians) of " << given.repetitions << " random sets each.\n\n"
-            << "| material | fitted | what is fitted |";
+            << "| material | fitted | " << (given.compares_priors ? "materials of the prior" : "what is fitted")
+            << " |";
   for (const measure& one : measures) std::cout << ' ' << one.title << " |";
   std::cout << "\n|---|---|---|---|---|---|---|---|---|\n";
+  if (given.compares_priors) {
+    for (Eigen::Index file = 0; file < std::ssize(files); ++file)
+      compare_priors(given.samples[file].stem().string(), files[file], given);
+    return;
+  }
   for (Eigen::Index file = 0; file < std::ssize(files); ++file)
     for (const Eigen::Index count : given.counts)
       print_rows(given.samples[file].stem().string(), count, compare(estimator, files[file], count, given));
@@ -258,6 +318,10 @@ void add_spectra(command& app) {
                  "Spectral measurements (.csv with columns like 400nm, or .brdf in Cornell's text format)")
       .required();
   add_prior_option(command, options->prior);
+  command.add_flag(
+      "--prior-of-spectra", options->compares_priors,
+      "Fit wavelengths by the prior, and by one that is learned from its materials as the smoothest spectra "
+      "that have their colours");
   command.add_option("--counts", options->counts, "Numbers of measurements that are fitted")
       .check(check::positive_number())
       .capture_default_str();

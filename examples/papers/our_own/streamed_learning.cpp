@@ -40,7 +40,7 @@ namespace {
 
 struct streaming_experiment {
   std::vector<Eigen::Index> counts{100, 1000, 10000}, compared{100, 200, 340, 500, 1000};
-  Eigen::Index grown = 300, components = 60;
+  Eigen::Index grown = 300, components = 60, wavelengths = 0;  ///< 0: colours
   std::filesystem::path prior, folder;
   gonio::thread_count threads;
 };
@@ -97,12 +97,28 @@ std::string scientific(double value) {
 /// Half of MERL's theta_h, a third of its theta_d, a fifth of its phi_d.
 gonio::valid_cells coarse_cells() { return gonio::valid_cells(gonio::grid({45, 30, 36})); }
 
+/// At as many wavelengths from 400 to 700 nm as are wanted.
+std::optional<gonio::model::smooth_spectra> spectra_of(const streaming_experiment& given) {
+  if (given.wavelengths == 0) return {};
+  std::vector<double> wavelengths;
+  for (Eigen::Index i = 0; i < given.wavelengths; ++i)
+    wavelengths.push_back(400.0 + 300.0 * static_cast<double>(i) / static_cast<double>(given.wavelengths - 1));
+  return gonio::model::smooth_spectra(wavelengths);
+}
+
 /// Materials `first` to `end` of the random ones.
 gonio::io::scratch_materials random_tables(Eigen::Index first, Eigen::Index end, const streaming_experiment& given) {
   const gonio::valid_cells cells = coarse_cells();
   gonio::io::scratch_materials scratch(given.folder);
-  for (Eigen::Index i = first; i < end; ++i)
-    scratch.append("random-" + std::to_string(i), random_material(static_cast<std::uint64_t>(i), cells, given.threads));
+  const std::optional<gonio::model::smooth_spectra> spectra = spectra_of(given);
+  for (Eigen::Index i = first; i < end; ++i) {
+    const auto number = static_cast<std::uint64_t>(i);
+    const std::string name = "random-" + std::to_string(i);
+    if (spectra)
+      scratch.append(name, random_spectra(number, *spectra, cells, given.threads));
+    else
+      scratch.append(name, random_material(number, cells, given.threads));
+  }
   return scratch;
 }
 
@@ -283,8 +299,11 @@ void print_added(const streaming_experiment& given) {
 void learn_streamed(const streaming_experiment& given) {
   const gonio::valid_cells cells = coarse_cells();
   std::cout << cells.size() << " cells of a grid of 45 x 30 x 36, " << given.components << " components, "
-            << given.threads.resolve() << " threads.\n\n";
+            << given.threads.resolve() << " threads";
+  if (given.wavelengths > 0) std::cout << "; each material at " << given.wavelengths << " wavelengths";
+  std::cout << ".\n\n";
   print_costs(given);
+  if (given.wavelengths > 0) return;
   print_same_as_in_memory(given);
   print_subspace_errors(given);
   print_added(given);
@@ -305,6 +324,10 @@ void add_streamed_learning(command& app) {
   command.add_option("--grown", given->grown, "Materials of which a tenth is added to a prior of the others")
       .check(check::range(10, 1024))
       .capture_default_str();
+  command
+      .add_option("--wavelengths", given->wavelengths,
+                  "Number of wavelengths, instead of three colours, of each material: prints time and memory alone")
+      .check(check::range(4, 1024));
   command.add_option("--components", given->components, "Components to keep")
       .check(check::positive_number())
       .capture_default_str();

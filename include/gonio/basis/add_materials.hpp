@@ -12,7 +12,8 @@ namespace gonio {
 /// `options.weighting` is not used: the prior's stays.
 ///
 /// O(cells (k + m)^2) for m new columns and k old components, or as learn_streamed_pca above `exact_columns`. Throws
-/// gonio::error as that does, and if the materials are over other cells or one has a name that the prior has.
+/// gonio::error as that does, and if the materials are over other cells, at other wavelengths, or one has a name that
+/// the prior has.
 ///
 /// ```cpp
 /// const auto learned = gonio::add_materials(gonio::io::read_prior("old.prior"), gonio::rows_of(materials));

@@ -7,30 +7,46 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <span>
+
 namespace gonio {
 
+namespace detail {
+
+/// What each channel of a prior's materials adds to red, green and blue under D65: 3 x channels. Throws gonio::error if
+/// none of several wavelengths is visible.
+[[nodiscard]] Eigen::MatrixXd colours_of_channels(std::span<const double> wavelengths);
+
+}  // namespace detail
+
 /// Every material that principal components were learned from, over the components' own cells, as far as they are kept:
-/// mu + Q c mapped back, at least zero. Lets the small file of a prior stand in for the database wherever a
-/// `material_set` is wanted. O(cells x materials x components).
+/// mu + Q c mapped back, at least zero; of spectra their colours under D65, at least zero, too. Lets the small file of
+/// a prior stand in for the database wherever a `material_set` is wanted. O(cells x observations x components). Throws
+/// gonio::error if none of several wavelengths is visible.
 template <error_metric Metric>
 [[nodiscard]] material_set expand(const pca<Metric>& prior, thread_count threads = {}) {
-  material_set materials{prior.cells(), prior.names(), {}};
-  const Eigen::Index columns = prior.coefficients().rows();
-  materials.values.resize(prior.cells().size(), columns);
-  const Eigen::MatrixXd coefficients = prior.coefficients().transpose().template cast<double>();
+  const Eigen::Index channels = prior.channels(), count = std::ssize(prior.names());
+  material_set materials{prior.cells(), prior.names(), cell_matrix(prior.cells().size(), 3 * count)};
+  const Eigen::MatrixXd coefficients = prior.coefficients().transpose().template cast<double>(),
+                        colours = detail::colours_of_channels(prior.wavelengths());
   for_each_block(
       prior.cells().size(), 1024,
       [&](block range) {
-        const Eigen::Index begin = range.begin, count = range.size();
-        auto rows = materials.values.middleRows(begin, count);
-        const Eigen::MatrixXd mapped =
-            product(prior.components().middleRows(begin, count).template cast<double>(), coefficients);
-        for (Eigen::Index i = 0; i < count; ++i) {
-          const Eigen::Index cell = begin + i;
+        Eigen::MatrixXd values =
+            product(prior.components().middleRows(range.begin, range.size()).template cast<double>(), coefficients);
+        for (Eigen::Index i = 0; i < values.rows(); ++i) {
+          const Eigen::Index cell = range.begin + i;
           const location at = locate_cell(prior.cells(), cell);
-          for (Eigen::Index j = 0; j < columns; ++j)
-            rows(i, j) =
-                static_cast<float>(std::max(prior.metric().inverse(mapped(i, j) + prior.offset(cell), at), 0.0));
+          for (Eigen::Index j = 0; j < values.cols(); ++j)
+            values(i, j) = std::max(prior.metric().inverse(values(i, j) + prior.offset(cell), at), 0.0);
+          for (Eigen::Index m = 0; m < count; ++m)
+            for (Eigen::Index c = 0; c < 3; ++c) {
+              double sum = 0.0;
+              for (Eigen::Index j = 0; j < channels; ++j)
+                if (colours(c, j) != 0.0) sum += colours(c, j) * values(i, channels * m + j);
+              materials.values(cell, 3 * m + c) = static_cast<float>(std::max(sum, 0.0));
+            }
         }
       },
       threads);
@@ -42,3 +58,7 @@ extern template material_set expand(const log_relative_pca& prior, thread_count 
 #endif
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/basis/impl/expand_materials.ipp>
+#endif

@@ -86,7 +86,8 @@ template <error_metric Metric>
     mean[cell] = static_cast<float>(offset_at(basis, at));
   }
   return pca<Metric>({cells, basis.metric().on(cells), basis.names(), basis.singular_values(), std::move(components),
-                      std::move(mean), basis.coefficients(), basis.explained_variance(), basis.source()});
+                      std::move(mean), basis.coefficients(), basis.explained_variance(), basis.source(),
+                      basis.wavelengths()});
 }
 
 #if defined(GONIO_COMPILED)

@@ -19,8 +19,8 @@ namespace gonio {
 struct streaming_options {
   Eigen::Index components = 60;
   cosine_weighting weighting = cosine_weighting::product;
-  /// Up to as many columns, 3 a material, have their Gram matrix decomposed; more are found in a random subspace.
-  /// From 200 to 300 materials on that takes less time (docs/results/learn.md).
+  /// Up to as many columns, 3 a material or one for each wavelength, have their Gram matrix decomposed; more are found
+  /// in a random subspace. From 600 to 900 columns on that takes less time (docs/results/learn.md).
   Eigen::Index exact_columns = 1024;
   subspace_options subspace = {};
   /// What the learner may hold, in bytes, beside the prior that it returns. With more threads than have room in it, it

@@ -5,6 +5,7 @@
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/wavelengths.hpp>
 #include <gonio/metric/log_relative.hpp>
 #include <gonio/table/cell_matrix.hpp>
 
@@ -22,13 +23,14 @@ template <error_metric Metric, domain Places = valid_cells>
 struct pca_parts {
   Places cells;
   Metric metric;
-  std::vector<std::string> names;   ///< the materials it was learned from
-  Eigen::VectorXd singular_values;  ///< Sigma, k values, largest first
-  cell_matrix components;           ///< Q = V Sigma, cells x k
-  std::vector<float> mean;          ///< mu, one value per cell
-  Eigen::MatrixXf coefficients;     ///< observations (3 a material) x k: j is mu + Q coefficients.row(j)'
-  double explained_variance = 1.0;  ///< share of the observations' variance that the k components keep
-  std::string source = {};          ///< what it was learned from, for people
+  std::vector<std::string> names;        ///< the materials it was learned from
+  Eigen::VectorXd singular_values;       ///< Sigma, k values, largest first
+  cell_matrix components;                ///< Q = V Sigma, cells x k
+  std::vector<float> mean;               ///< mu, one value per cell
+  Eigen::MatrixXf coefficients;          ///< observations (the channels of each material) x k: j is mu + Q row(j)'
+  double explained_variance = 1.0;       ///< share of the observations' variance that the k components keep
+  std::string source = {};               ///< what it was learned from, for people
+  std::vector<double> wavelengths = {};  ///< of the channels of each material, nanometres; none: red, green and blue
 };
 
 /// Principal components over the valid cells of a grid, or another domain. A value type whose copies share their
@@ -40,15 +42,16 @@ class pca {
   /// A component times -1 is as good a component: see `has_arbitrary_sign`.
   static constexpr bool arbitrary_sign = true;
 
-  /// Throws gonio::error if the sizes of the parts do not match.
+  /// Throws gonio::error if the sizes of the parts do not match, and for wavelengths that do not ascend.
   explicit pca(parts_type parts) : parts_(std::make_shared<const parts_type>(std::move(parts))) {
     const Eigen::Index cells = parts_->cells.size();
     const Eigen::Index k = parts_->components.cols();
+    if (!parts_->wavelengths.empty()) require_wavelengths(parts_->wavelengths);
     if (k == 0 || parts_->components.rows() != cells || std::ssize(parts_->mean) != cells ||
         parts_->singular_values.size() != k || parts_->coefficients.cols() != k ||
-        parts_->coefficients.rows() != channels * std::ssize(parts_->names))
+        parts_->coefficients.rows() != channels() * std::ssize(parts_->names))
       refuse({"the parts of a principal component basis of ", k, " components over ", cells, " cells and ",
-              parts_->names.size(), " materials do not match in size"});
+              parts_->names.size(), " materials of ", channels(), " channels do not match in size"});
   }
 
   /// Number of components k.
@@ -68,6 +71,13 @@ class pca {
   [[nodiscard]] const std::vector<float>& mean() const noexcept { return parts_->mean; }
   [[nodiscard]] const Eigen::VectorXd& singular_values() const noexcept { return parts_->singular_values; }
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return parts_->names; }
+  /// Wavelengths that the materials were measured at, in nanometres, ascending; none of materials in colours.
+  [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return parts_->wavelengths; }
+  /// The channels of each material, which are as many rows of `coefficients`, one after the other: its wavelengths, or
+  /// red, green and blue (or as many as the domain says).
+  [[nodiscard]] Eigen::Index channels() const noexcept {
+    return parts_->wavelengths.empty() ? channels_over<Places> : std::ssize(parts_->wavelengths);
+  }
   [[nodiscard]] const Eigen::MatrixXf& coefficients() const noexcept { return parts_->coefficients; }
   [[nodiscard]] double explained_variance() const noexcept { return parts_->explained_variance; }
   [[nodiscard]] const std::string& source() const noexcept { return parts_->source; }
@@ -78,7 +88,7 @@ class pca {
     const double share = parts_->singular_values.head(k).squaredNorm() / parts_->singular_values.squaredNorm();
     return pca({parts_->cells, parts_->metric, parts_->names, parts_->singular_values.head(k),
                 parts_->components.leftCols(k), parts_->mean, parts_->coefficients.leftCols(k),
-                parts_->explained_variance * share, parts_->source});
+                parts_->explained_variance * share, parts_->source, parts_->wavelengths});
   }
 
   /// The same basis that tells people where it comes from.
@@ -88,14 +98,12 @@ class pca {
     return pca(std::move(parts));
   }
 
-  /// Weights, k x 3 (or as many as there are channels), that expand to one of the materials the basis was learned from.
+  /// Weights, k x channels, that expand to one of the materials the basis was learned from.
   [[nodiscard]] Eigen::MatrixXd weights_of(Eigen::Index material) const {
-    return parts_->coefficients.middleRows(channels * material, channels).transpose().template cast<double>();
+    return parts_->coefficients.middleRows(channels() * material, channels()).transpose().template cast<double>();
   }
 
  private:
-  static constexpr Eigen::Index channels = channels_over<Places>;
-
   std::shared_ptr<const parts_type> parts_;
 };
 

@@ -49,7 +49,8 @@ class error_sweep {
   void take_away(const float* tile, found& of) const;
   [[nodiscard]] lanes own_growth(const found& of, const lanes& sample_noise_penalty) const;
   [[nodiscard]] lanes mean(const found& of, const lanes& grown) const;
-  [[nodiscard]] lanes mean_left_out(const found& of, const lanes& own) const;
+  template <class Channels>
+  [[nodiscard]] lanes mean_left_out(Channels channels, const found& of, const lanes& own) const;
   [[nodiscard]] lanes shift(const float* tile, const found& of) const;
 
   Eigen::Index measurements_, observations_;
@@ -60,7 +61,8 @@ class error_sweep {
   Eigen::Array<float, 2 * observations_together, Eigen::Dynamic> by_observation_;
   Eigen::MatrixXf inverse_, cross_;  ///< K^-1 and Y W'
   Eigen::ArrayXf squared_errors_;
-  Eigen::Array<float, Eigen::Dynamic, 6> missed_, unknown_;  ///< none unless materials are left out
+  Eigen::Index channels_;
+  Eigen::MatrixXf inverse_unknown_, missed_;  ///< of `remainder`: none unless materials are left out
   Eigen::ArrayXf own_variances_;
   Eigen::ArrayXf noise_response_, weighted_response_;  ///< the second is W times the first
   float noise_energy_, own_energy_;

@@ -41,11 +41,12 @@ struct expected_error_options {
 /// squared error grows by the sum of v_i [K^-1 W Y' K^-1]_ii, by what such errors add to it on average. Independent
 /// noise is such an error of the same variance everywhere.
 ///
-/// Without a material's three channels the others have another mean and covariance, and the whole is Woodbury's
-/// identity once more (`leave_one_material_out_error`, of which this is the same error for samples in cells). It comes
-/// to the formula of leave-one-out for linear fits: with the material's three rows C_3 of C, the 3 x 3 matrices
+/// Without a material's channels, its colours or wavelengths, the others have another mean and covariance, and the
+/// whole is Woodbury's identity once more (`leave_one_material_out_error`, of which this is the same error for samples
+/// in cells). It comes to the formula of leave-one-out for linear fits: with the material's rows C_j of C, one for each
+/// channel, and the matrices of as many rows and columns
 ///
-///   X = (what is missed of C_3' with all in the basis)' M (the same),   L = I - 1 1' / m - C_3 A' K^-1 A C_3',   A = S
+///   X = (what is missed of C_j' with all in the basis)' M (the same),   L = I - 1 1' / m - C_j A' K^-1 A C_j',   A = S
 ///   Q,
 ///
 /// its squared errors are the diagonal of L^-1 X L^-1. What errors of the measurements add is taken from the basis of
@@ -81,12 +82,14 @@ class expected_error {
 
   /// Errors in the norm x'M x of the components' weights; M is k x k, symmetric and positive semidefinite. With M = Q'D
   /// Q and a diagonal D, cells count as much as D says. Throws gonio::error for a negative eta, noise or shift, a
-  /// wrong size, and materials to leave out that are fewer than two or do not have three observations each.
+  /// wrong size, and fewer than two materials to leave out.
   template <error_metric Metric>
   expected_error(const pca<Metric>& basis, const expected_error_options& options, const Eigen::MatrixXd& norm)
-      : expected_error(basis.coefficients(), options, norm) {}
+      : expected_error(basis.coefficients(), basis.channels(), options, norm) {}
 
   [[nodiscard]] const expected_error_options& options() const noexcept { return options_; }
+  /// The channels of each material: so many observations, one after the other.
+  [[nodiscard]] Eigen::Index channels() const noexcept { return channels_; }
   /// C and C M: m x k. A measurement whose row of components is q has the rows C q and C M q of Y and W.
   [[nodiscard]] const Eigen::MatrixXd& coefficients() const noexcept { return coefficients_; }
   [[nodiscard]] const Eigen::MatrixXd& weighted_coefficients() const noexcept { return weighted_; }
@@ -109,18 +112,16 @@ class expected_error {
     return static_cast<double>(coefficients_.rows()) * options_.noise * options_.noise;
   }
 
-  /// Symmetric 3 x 3 matrices, one a material in each of six columns: 00, 11, 22, 01, 02, 12.
-  using blocks = Eigen::Array<double, Eigen::Dynamic, 6>;
-
   /// What is left unknown when some measurements are made, and how to add to them.
   struct remainder {
-    Eigen::MatrixXd inverse;         ///< K^-1, n x n
-    Eigen::VectorXd squared_errors;  ///< of each observation
-    blocks missed, unknown;          ///< X and L of each material, where they are left out
-    Eigen::VectorXd own_variances;   ///< v of each measurement's own error
-    double own_energy = 0.0;         ///< what these add to each squared error
-    Eigen::VectorXd noise_response;  ///< C (SQ)+_eta S O: what a common shift adds to the weights
-    double noise_energy = 0.0;       ///< |Q (SQ)+_eta S O|^2
+    Eigen::MatrixXd inverse;                  ///< K^-1, n x n
+    Eigen::VectorXd squared_errors;           ///< of each observation
+    Eigen::MatrixXd inverse_unknown, missed;  ///< L^-1 and L^-1 X L^-1 of one material beside another: channels x m,
+                                              ///< if they are left out
+    Eigen::VectorXd own_variances;            ///< v of each measurement's own error
+    double own_energy = 0.0;                  ///< what these add to each squared error
+    Eigen::VectorXd noise_response;           ///< C (SQ)+_eta S O: what a common shift adds to the weights
+    double noise_energy = 0.0;                ///< |Q (SQ)+_eta S O|^2
 
     [[nodiscard]] double error(double common_shift) const;
   };
@@ -128,14 +129,16 @@ class expected_error {
   [[nodiscard]] remainder state(const rows& measured) const;
 
  private:
-  expected_error(const Eigen::MatrixXf& coefficients, const expected_error_options& options,
+  expected_error(const Eigen::MatrixXf& coefficients, Eigen::Index channels, const expected_error_options& options,
                  const Eigen::MatrixXd& norm);
 
-  /// X and L of `remainder` with what Y' K^-1 and Y' K^-1 W Y' K^-1 make of the measurements: m x n each.
+  /// What `remainder` has of materials left out, given what Y' K^-1 and Y' K^-1 W Y' K^-1 make of the measurements: m x
+  /// n each. O(n m channels + m channels^2).
   void leave_each_out(const rows& measured, const Eigen::MatrixXd& known, const Eigen::MatrixXd& spread,
                       remainder& left) const;
 
   expected_error_options options_;
+  Eigen::Index channels_;
   Eigen::MatrixXd coefficients_, weighted_;
   Eigen::VectorXd energies_;
 };
@@ -146,8 +149,8 @@ static_assert(design_criterion<expected_error>);
 /// matrix of rank one: with t = C A q, w = C A M A q, d = eta + q'A q and r = q'A M A q of a candidate q, the squared
 /// errors grow by r t^2 / d^2 - 2 t w / d. O(n m) for each candidate. With errors of their own, d contains the
 /// candidate's own eta, and with a = K^-1 SQ q, b = K^-1 SQ M A q and its v, all squared errors grow by
-/// (v + a'diag(v) a) r / d^2 - 2 a'diag(v) b / d more. Where materials are left out, L falls by t_3 t_3' / d, and X
-/// changes as the squared errors do.
+/// (v + a'diag(v) a) r / d^2 - 2 a'diag(v) b / d more. Where materials are left out, L falls by t t' / d, and X changes
+/// as the squared errors do (`sum_of_left_out_errors`): O(m channels) more.
 template <class Scalar>
 class extended_error {
  public:
@@ -174,14 +177,15 @@ class extended_error {
   [[nodiscard]] knowledge take_away(columns& both, columns& twice) const;
   [[nodiscard]] Scalar own_growth(const knowledge& known, Eigen::Index candidate, Scalar sample_noise_penalty, Scalar d,
                                   Scalar r) const;
-  /// The mean over the observations of materials left out, given the candidate's t and w and what own errors add.
+  /// The mean over the observations of materials left out, given the candidate's t and A w and what own errors add.
   [[nodiscard]] Scalar mean_left_out(const Scalar* t, const Scalar* w, Scalar d, Scalar r, Scalar own) const;
 
   Scalar eta_, common_shift_;
+  Eigen::Index channels_;
   columns both_;               ///< Y' above W'
   columns y_, minus_inverse_;  ///< Y, -K^-1
   column squared_errors_;
-  Eigen::Array<Scalar, Eigen::Dynamic, 6> missed_, unknown_;  ///< none unless materials are left out
+  columns inverse_unknown_, missed_;  ///< of `remainder`: none unless materials are left out
   Eigen::Matrix<Scalar, Eigen::Dynamic, 1> noise_response_, own_variances_;
   Scalar noise_energy_, own_energy_;
 };

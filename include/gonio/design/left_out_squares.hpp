@@ -1,24 +1,62 @@
 #pragma once
-/// Squared errors of materials that are left out of the basis which reconstructs them: symmetric 3 x 3 matrices X and L
-/// of each (`expected_error`), as six numbers, or as six arrays of them for several candidates side by side.
+/// Errors of a material that is left out of the basis which reconstructs it, when a measurement is added
+/// (`extended_error`): for one candidate, or for several side by side (`error_sweep`).
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
 
 namespace gonio::design::detail {
 
-/// The rows and columns of a symmetric 3 x 3 matrix that six numbers are.
-inline constexpr int block_rows[6] = {0, 1, 2, 0, 0, 1}, block_columns[6] = {0, 1, 2, 1, 2, 2};
-
-/// The diagonal of L^-1 X L^-1 of symmetric 3 x 3 matrices, by the adjugate of L.
+/// 0 of what rounding makes negative.
 template <class Number>
-inline void left_out_squares(const Number (&x)[6], const Number (&l)[6], Number (&squares)[3]) {
-  const Number a00 = l[1] * l[2] - l[5] * l[5], a01 = l[4] * l[5] - l[3] * l[2], a02 = l[3] * l[5] - l[4] * l[1],
-               a11 = l[0] * l[2] - l[4] * l[4], a12 = l[3] * l[4] - l[0] * l[5], a22 = l[0] * l[1] - l[3] * l[3],
-               scale = 1 / (l[0] * a00 + l[3] * a01 + l[4] * a02);
-  const auto square = [&](const Number& p, const Number& q, const Number& r) -> Number {
-    return (p * (p * x[0] + 2 * (q * x[3] + r * x[4])) + q * (q * x[1] + 2 * r * x[5]) + r * r * x[2]) * scale * scale;
+[[nodiscard]] inline Number root_of_positive(const Number& square) {
+  if constexpr (std::is_arithmetic_v<Number>)
+    return std::sqrt(std::max(square, Number(0)));
+  else
+    return square.max(0).sqrt();
+}
+
+/// What is known of a material before: G = L^-1 and Z = L^-1 X L^-1 of `expected_error`, channels x channels each, and
+/// room for two numbers a channel.
+template <class Number, class Scalar>
+struct left_out_material {
+  const Scalar* inverse;
+  const Scalar* missed;
+  Number* room;
+};
+
+/// The sum over a material's channels of the square roots of its squared errors, each `own` larger. L falls by t t' /
+/// d, X by (t u' + u t') / d - t t' r / d^2. By Sherman and Morrison, with p = G t, g = Z t - G u and a = d - t'p, the
+/// diagonal of L^-1 X L^-1 becomes Z_ii + 2 p_i g_i / a + p_i^2 (t'g - p'u + r) / a^2. O(channels^2).
+/// `t(i)` and `u(i)` are those of a channel.
+template <class Channels, class Number, class Scalar, class OfT, class OfU>
+[[nodiscard]] inline Number sum_of_left_out_errors(const Channels channels,
+                                                   const left_out_material<Number, Scalar>& material, const OfT& t,
+                                                   const OfU& u, const Number& d, const Number& r, const Number& own) {
+  Number a = d, energy = r;
+  Number *const p = material.room, *const g = p + channels;
+  for (Eigen::Index i = 0; i < channels; ++i) {
+    const Scalar *const inverse = material.inverse + i * channels, *const missed = material.missed + i * channels;
+    p[i] = inverse[0] * t(0);
+    g[i] = missed[0] * t(0) - inverse[0] * u(0);
+    for (Eigen::Index j = 1; j < channels; ++j) {
+      p[i] += inverse[j] * t(j);
+      g[i] += missed[j] * t(j) - inverse[j] * u(j);
+    }
+    a -= t(i) * p[i];
+    energy += t(i) * g[i] - u(i) * p[i];
+  }
+  const Number scale = Scalar(1) / a, along = energy * scale * scale, twice = Scalar(2) * scale;
+  const auto error_of = [&](Eigen::Index i) -> Number {
+    const Number square = material.missed[i * channels + i] + own + p[i] * (twice * g[i] + along * p[i]);
+    return root_of_positive(square);
   };
-  squares[0] = square(a00, a01, a02);
-  squares[1] = square(a01, a11, a12);
-  squares[2] = square(a02, a12, a22);
+  Number sum = error_of(0);
+  for (Eigen::Index i = 1; i < channels; ++i) sum += error_of(i);
+  return sum;
 }
 
 }  // namespace gonio::design::detail

@@ -16,13 +16,13 @@
 
 namespace gonio {
 
-/// The mean over all observations (colour channels of materials) that a basis was learned from of the norm, over the
-/// cells that it was learned on, of what the reconstruction misses; sqrt(bias^2 + variance) of each.
+/// The mean over all observations (colours or wavelengths of materials) that a basis was learned from of the norm, over
+/// the cells that it was learned on, of what the reconstruction misses; sqrt(bias^2 + variance) of each.
 ///
 /// Leaving a material out needs no new components. The m observations have coefficients C, m x k, with orthonormal
-/// columns that sum to zero; without three of them, C_3, the others have the mean c = -C_3'1 / (m - 3) and the sum of
-/// squares S = C'C - C_3'C_3 - (m - 3) c c' = I - N N' with N = C_3'R, R R' = I + 1 1' / (m - 3). The reconstruction by
-/// the others' components is that by all, with S for the weights' prior covariance instead of I:
+/// columns that sum to zero; without those of a material, the p rows C_j, the others have the mean c = -C_j'1 / (m - p)
+/// and the sum of squares S = C'C - C_j'C_j - (m - p) c c' = I - N N' with N = C_j'R, R R' = I + 1 1' / (m - p). The
+/// reconstruction by the others' components is that by all, with S for the weights' prior covariance instead of I:
 ///
 ///   x = c + S A'(A S A' + eta I)^-1 (y - A c), A the rows of the basis at the locations, y the mapped measurement.
 ///
@@ -34,21 +34,22 @@ namespace gonio {
 class leave_one_material_out_error {
  public:
   /// n locations with a weight each, as a least-squares problem has them, and the relative deviation of what is
-  /// measured there. O(n k^2 + k^3 + materials k^2). Throws gonio::error for noise that is negative or not finite, as
-  /// many weights as there are not locations, and a basis of fewer than two materials.
+  /// measured there. O(n k^2 + k^3 + observations k^2). Throws gonio::error for noise that is negative or not finite,
+  /// as many weights as there are not locations, and a basis of fewer than two materials.
   template <error_metric Metric>
   leave_one_material_out_error(const pca<Metric>& basis, std::span<const location> locations,
                                const Eigen::VectorXd& weights, double noise, thread_count threads = {})
       : threads_(threads) {
     require_sensible(locations.size(), weights, basis.names().size());
     const mapped_noise mapped = map_noise(basis, locations, noise, threads);
-    initialise(add_rows(basis, locations, weights, mapped, threads), basis.singular_values(), basis.coefficients());
+    initialise(add_rows(basis, locations, weights, mapped, threads), basis.singular_values(), basis.coefficients(),
+               basis.channels());
   }
 
   /// The largest eigenvalue of A'WA.
   [[nodiscard]] double largest() const { return values_[values_.size() - 1]; }
 
-  /// The error at each eta, which must be positive. O(materials r^2) each, where r <= min(n, k) is the rows' rank.
+  /// The error at each eta, which must be positive. O(observations r^2) each, where r <= min(n, k) is the rows' rank.
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& etas) const;
 
  private:
@@ -66,9 +67,9 @@ class leave_one_material_out_error {
 
   /// A material in the eigenvectors V: t is what it differs by from the others' mean, n as above, M = Sigma^2.
   struct left_out {
-    Eigen::MatrixXd t, n, mt, mn;  // V't, V'N, V'M t, V'M N: r x 3
-    Eigen::Matrix3d nmn, nmt;      // N'M N, N'M t
-    Eigen::Vector3d energy;        // t'M t of each channel
+    Eigen::MatrixXd t, n, mt, mn;  // V't, V'N, V'M t, V'M N: r x channels
+    Eigen::MatrixXd nmn, nmt;      // N'M N, N'M t
+    Eigen::VectorXd energy;        // t'M t of each channel
   };
 
   template <error_metric Metric>
@@ -96,19 +97,20 @@ class leave_one_material_out_error {
   /// Throws gonio::error unless there are as many weights as locations, at least one, and two materials.
   static void require_sensible(Eigen::Index locations, const Eigen::VectorXd& weights, Eigen::Index materials);
 
-  void initialise(const sums& all, const Eigen::VectorXd& singular_values, const Eigen::MatrixXf& coefficients);
+  void initialise(const sums& all, const Eigen::VectorXd& singular_values, const Eigen::MatrixXf& coefficients,
+                  Eigen::Index channels);
 
   /// V and l, without what is rounding, and all that does not depend on the material. `energies` is the diagonal of M.
   void decompose(const Eigen::VectorXd& energies, const sums& all);
 
-  /// `own`: the material's three rows of C, as columns.
+  /// `own`: the material's rows of C, as columns.
   [[nodiscard]] left_out leave_out(const Eigen::VectorXd& energies, const Eigen::MatrixXd& own,
                                    double observations) const;
 
   [[nodiscard]] double error_at(double eta) const;
 
   /// Of each channel.
-  [[nodiscard]] Eigen::Vector3d squared_bias(const left_out& material, const Eigen::VectorXd& d) const;
+  [[nodiscard]] Eigen::VectorXd squared_bias(const left_out& material, const Eigen::VectorXd& d) const;
 
   Eigen::VectorXd values_;        // l, ascending
   Eigen::MatrixXd vectors_;       // V

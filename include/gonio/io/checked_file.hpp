@@ -18,8 +18,9 @@ namespace gonio::io {
 /// A kind of file.
 struct checked_file_kind {
   std::string_view magic;
-  std::uint32_t version;
-  std::string_view noun;  ///< what errors call it
+  std::uint32_t version;     ///< of what is written
+  std::string_view noun;     ///< what errors call it
+  std::uint32_t oldest = 0;  ///< the first version that is read, too; 0: `version` alone is
 };
 
 namespace detail {

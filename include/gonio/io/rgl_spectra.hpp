@@ -8,6 +8,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace gonio::io {
 
@@ -16,6 +17,15 @@ namespace gonio::io {
 /// `model::tabulate_adaptively` and of a `model::tabulate_over` for each three wavelengths.
 [[nodiscard]] rgl_material tabulate_adaptively(const spectral_table& table, const std::string& description = "gonio",
                                                thread_count threads = {});
+
+/// Spectra at other wavelengths, in nanometres: linear between their own, as renderers read them. Throws gonio::error
+/// for wavelengths that are none, or beyond their own. O(values).
+[[nodiscard]] rgl_spectra at_wavelengths(const rgl_spectra& spectra, std::vector<double> wavelengths);
+
+/// The spectra of a material over the valid cells of a grid. Throws gonio::error for a material in RGB. The cost of
+/// `tabulate` for each three wavelengths.
+[[nodiscard]] spectral_table tabulate_spectra(const rgl_material& material, const valid_cells& cells,
+                                              thread_count threads = {});
 
 /// The spectra of a material in some directions, as measurements. Throws gonio::error for a material in RGB, and for
 /// directions at or below the horizon.

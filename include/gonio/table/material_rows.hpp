@@ -17,14 +17,19 @@ namespace gonio {
 using cell_rows = Eigen::Ref<cell_matrix, 0, Eigen::OuterStride<>>;
 
 /// Named materials over common cells. `read(range, out)` writes the values of a block of cells, in sr^-1, into `out`,
-/// a row for each cell, red, green and blue of each material. It is called from several threads at once, and may be
-/// asked for the same cells again.
+/// a row for each cell, all channels of the first material before those of the next. It is called from several threads
+/// at once, and may be asked for the same cells again.
 struct material_rows {
   valid_cells cells;
   std::vector<std::string> names;
   std::function<void(block range, cell_rows out)> read;
+  std::vector<double> wavelengths = {};  ///< of the channels of each, nanometres, ascending; none: red, green and blue
 
-  [[nodiscard]] Eigen::Index columns() const noexcept { return 3 * std::ssize(names); }
+  /// The channels of each material: its wavelengths, or three.
+  [[nodiscard]] Eigen::Index channels() const noexcept {
+    return wavelengths.empty() ? channels_over<valid_cells> : std::ssize(wavelengths);
+  }
+  [[nodiscard]] Eigen::Index columns() const noexcept { return channels() * std::ssize(names); }
 };
 
 /// Those of a set that is at hand.

@@ -2,6 +2,7 @@
 /// Measurements of a spectrum in each pair of directions: what a spectral gonioreflectometer hands in.
 
 #include <gonio/core/spectrum.hpp>
+#include <gonio/core/wavelengths.hpp>
 #include <gonio/table/cell_matrix.hpp>
 #include <gonio/table/sample_set.hpp>
 
@@ -39,10 +40,6 @@ struct spectral_samples {
   /// Some of the measurements, by their positions.
   [[nodiscard]] spectral_samples subset(std::span<const Eigen::Index> positions) const;
 };
-
-/// Refuses wavelengths that are none: throws gonio::error unless there is one at least and all are positive, finite and
-/// ascending, naming the first that is not.
-void require_wavelengths(std::span<const double> wavelengths);
 
 /// Refuses what no estimator can use: throws gonio::error for wavelengths that are none, for sizes that do not match,
 /// and naming the first sample that `require_usable` of a `sample_set` would refuse.

@@ -70,6 +70,19 @@ struct appended_columns {
     return old_variation() / prior.explained_variance() + added.total_variation() + scale() * scale() * between;
   }
 
+  void require_same_channels() const {
+    const auto described = [](const std::vector<double>& wavelengths) {
+      return wavelengths.empty() ? std::string("in colours") : message_of({"at ", wavelengths.size(), " wavelengths"});
+    };
+    const std::vector<double>&known = prior.wavelengths(), &given = added.materials().wavelengths;
+    if (known.size() != given.size())
+      refuse({"the prior's materials are ", described(known), ", those to add are ", described(given)});
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (known[i] != given[i])
+        refuse(
+            {"wavelength ", i + 1, " of the materials to add is ", given[i], " nm, that of the prior's is ", known[i]});
+  }
+
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> all = prior.names();
     for (const std::string& name : added.materials().names) {
@@ -88,6 +101,7 @@ GONIO_INLINE streamed_pca add_materials(const log_relative_pca& prior, material_
   const auto new_count = static_cast<double>(materials.columns());
   const detail::appended_columns all{prior, mapped_materials(std::move(materials), prior.metric()),
                                      static_cast<double>(prior.coefficients().rows()), new_count};
+  all.require_same_channels();
   std::vector<std::string> names = all.names();
   detail::streamed_components found =
       detail::components_of(all.rows(all.added.first_pass()), all.rows(all.added.rows()), options, listener);
@@ -95,8 +109,16 @@ GONIO_INLINE streamed_pca add_materials(const log_relative_pca& prior, material_
   const double variation = all.variation();
   const double scale = prior.singular_values().norm() / std::sqrt(all.old_variation());
   const auto& [values, vectors, residual] = found.pairs;
-  return {log_relative_pca({prior.cells(), prior.metric(), std::move(names), scale * values.cwiseSqrt(),
-                            std::move(found.scaled), all.mean(), all.coefficients(vectors), values.sum() / variation}),
+  return {log_relative_pca({prior.cells(),
+                            prior.metric(),
+                            std::move(names),
+                            scale * values.cwiseSqrt(),
+                            std::move(found.scaled),
+                            all.mean(),
+                            all.coefficients(vectors),
+                            values.sum() / variation,
+                            {},
+                            prior.wavelengths()}),
           found.exact, residual / variation};
 }
 

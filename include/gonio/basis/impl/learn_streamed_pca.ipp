@@ -136,7 +136,9 @@ GONIO_INLINE streamed_pca learn_streamed_pca(material_rows materials, const stre
                             std::move(found.scaled),
                             {mapped.mean().begin(), mapped.mean().end()},
                             vectors.cast<float>(),
-                            values.sum() / variance}),
+                            values.sum() / variance,
+                            {},
+                            mapped.materials().wavelengths}),
           found.exact, residual / variance};
 }
 

@@ -27,7 +27,7 @@ struct mapped_materials::state {
     if (rows.row(row).allFinite()) return;
     Eigen::Index column = 0;
     while (std::isfinite(rows(row, column))) ++column;
-    refuse({"material '", materials.names[column / 3], "' is not finite at cell ", cell});
+    refuse({"material '", materials.names[column / materials.channels()], "' is not finite at cell ", cell});
   }
 
   /// Maps a row of reflectances in place.

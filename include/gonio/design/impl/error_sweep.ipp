@@ -13,7 +13,9 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace gonio::design {
 
@@ -82,7 +84,8 @@ GONIO_INLINE error_sweep::error_sweep(const expected_error& criterion, const exp
     : measurements_(measured.size()),
       observations_(measured.both.cols()),
       eta_(static_cast<float>(criterion.options().eta)),
-      common_shift_(static_cast<float>(criterion.options().common_shift)) {
+      common_shift_(static_cast<float>(criterion.options().common_shift)),
+      channels_(criterion.channels()) {
   const expected_error::remainder left = criterion.state(measured);
   const Eigen::Index n = measurements_, m = observations_;
   const auto y = measured.materials(), w = measured.weighted();
@@ -98,8 +101,8 @@ GONIO_INLINE error_sweep::error_sweep(const expected_error& criterion, const exp
   inverse_ = to_float(left.inverse);
   if (n > 0) cross_ = to_float(product(w, y.transpose()));  // transposed, as K^-1 is in any case
   squared_errors_ = left.squared_errors.cast<float>();
+  inverse_unknown_ = left.inverse_unknown.cast<float>();
   missed_ = left.missed.cast<float>();
-  unknown_ = left.unknown.cast<float>();
   own_variances_ = left.own_variances.cast<float>();
   noise_response_ = left.noise_response.cast<float>();
   weighted_response_.resize(n);
@@ -122,7 +125,12 @@ GONIO_INLINE void error_sweep::operator()(const tiles& candidates, Eigen::Index 
     of.d = eta_ + sample_noise_penalties[number];
     take_away(tile, of);
     const lanes grown = own_growth(of, sample_noise_penalties[number]);
-    errors[number] = missed_.rows() > 0 ? mean_left_out(of, own_energy_ + grown) : mean(of, grown);
+    if (missed_.size() == 0)
+      errors[number] = mean(of, grown);
+    else if (const lanes own = own_energy_ + grown; channels_ == 3)
+      errors[number] = mean_left_out(std::integral_constant<Eigen::Index, 3>(), of, own);
+    else
+      errors[number] = mean_left_out(channels_, of, own);
     if (common_shift_ > 0.0f) errors[number] += shift(tile, of);
   }
 }
@@ -168,23 +176,17 @@ GONIO_INLINE error_sweep::lanes error_sweep::mean(const found& of, const lanes& 
 }
 
 /// The same of materials left out.
-GONIO_INLINE error_sweep::lanes error_sweep::mean_left_out(const found& of, const lanes& own) const {
-  const lanes inverse = 1.0f / of.d, along = of.r * inverse * inverse;
+template <class Channels>
+error_sweep::lanes error_sweep::mean_left_out(Channels channels, const found& of, const lanes& own) const {
+  std::vector<lanes> room(static_cast<std::size_t>(2 * channels));
   lanes sum = lanes::Zero();
-  const float* at = of.left.data();
-  for (Eigen::Index material = 0; material < missed_.rows(); ++material, at += 3 * 2 * width) {
-    const lanes t[3] = {detail::lanes_at(at), detail::lanes_at(at + 2 * width), detail::lanes_at(at + 4 * width)},
-                u[3] = {detail::lanes_at(at + width), detail::lanes_at(at + 3 * width),
-                        detail::lanes_at(at + 5 * width)};
-    lanes x[6], l[6], squares[3];
-    for (int e = 0; e < 6; ++e) {
-      const int a = detail::block_rows[e], b = detail::block_columns[e];
-      const lanes both = t[a] * t[b];
-      x[e] = missed_(material, e) - (t[a] * u[b] + u[a] * t[b]) * inverse + both * along;
-      l[e] = unknown_(material, e) - both * inverse;
-    }
-    detail::left_out_squares(x, l, squares);
-    for (const lanes& square : squares) sum += (square + own).max(0.0f).sqrt();
+  for (Eigen::Index first = 0; first < missed_.cols(); first += channels) {
+    const float* at = of.left.col(first).data();
+    const detail::left_out_material<lanes, float> material{&inverse_unknown_(0, first), &missed_(0, first),
+                                                           room.data()};
+    sum += detail::sum_of_left_out_errors(
+        channels, material, [&](Eigen::Index c) { return detail::lanes_at(at + 2 * width * c); },
+        [&](Eigen::Index c) { return detail::lanes_at(at + 2 * width * c + width); }, of.d, of.r, own);
   }
   return sum / static_cast<float>(observations_);
 }

@@ -7,6 +7,7 @@
 #include <gonio/design/left_out_squares.hpp>
 #include <gonio/solve/dense.hpp>
 #include <gonio/solve/float_product.hpp>
+#include <gonio/solve/semidefinite.hpp>
 
 #include <Eigen/Core>
 
@@ -14,19 +15,19 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace gonio::design {
 
-GONIO_INLINE expected_error::expected_error(const Eigen::MatrixXf& coefficients, const expected_error_options& options,
-                                            const Eigen::MatrixXd& norm)
-    : options_(options), coefficients_(coefficients.cast<double>()) {
+GONIO_INLINE expected_error::expected_error(const Eigen::MatrixXf& coefficients, Eigen::Index channels,
+                                            const expected_error_options& options, const Eigen::MatrixXd& norm)
+    : options_(options), channels_(channels), coefficients_(coefficients.cast<double>()) {
   detail::require_positive_eta(options.eta);
   for (const auto& [name, value] : {std::pair{"noise", options.noise}, {"common shift", options.common_shift}})
     if (!(value >= 0.0 && std::isfinite(value)))
       refuse({"the ", name, " must be finite and not negative, not ", value});
-  if (options.leave_out && (coefficients.rows() % 3 != 0 || coefficients.rows() < 6))
-    refuse({"materials of three observations each, at least two of them, can be left out of what was learned, not ",
-            coefficients.rows(), " observations"});
+  if (options.leave_out && coefficients.rows() < 2 * channels)
+    refuse("one material alone cannot be left out of what was learned from it");
   const Eigen::Index k = coefficients.cols();
   if (norm.rows() != k || norm.cols() != k)
     refuse("a norm of " + std::to_string(k) + " weights must be a square matrix of as many rows");
@@ -102,32 +103,36 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
 
 GONIO_INLINE void expected_error::leave_each_out(const rows& measured, const Eigen::MatrixXd& known,
                                                  const Eigen::MatrixXd& spread, remainder& left) const {
-  const Eigen::Index m = coefficients_.rows(), materials = m / 3;
-  left.missed.resize(materials, 6);
-  left.unknown.resize(materials, 6);
+  const Eigen::Index m = coefficients_.rows();
+  left.inverse_unknown.resize(channels_, m);
+  left.missed.resize(channels_, m);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(channels_, channels_);
   const auto y = measured.materials(), w = measured.weighted();
-  for (Eigen::Index j = 0; j < materials; ++j) {
-    double x[6], l[6], squares[3];
-    for (int e = 0; e < 6; ++e) {
-      const Eigen::Index a = 3 * j + detail::block_rows[e], b = 3 * j + detail::block_columns[e];
-      x[e] = coefficients_.row(a).dot(weighted_.row(b));
-      l[e] = (a == b ? 1.0 : 0.0) - 1.0 / static_cast<double>(m);
-      for (Eigen::Index i = 0; i < measured.size(); ++i) {
-        x[e] += spread(a, i) * y(i, b) - known(a, i) * w(i, b) - known(b, i) * w(i, a);
-        l[e] -= known(a, i) * y(i, b);
+  Eigen::MatrixXd x(channels_, channels_), l(channels_, channels_);
+  for (Eigen::Index first = 0; first < m; first += channels_) {
+    for (Eigen::Index p = 0; p < channels_; ++p)
+      for (Eigen::Index q = 0; q <= p; ++q) {
+        const Eigen::Index a = first + p, b = first + q;
+        double missed = coefficients_.row(a).dot(weighted_.row(b)), known_of = 1.0 / static_cast<double>(m);
+        for (Eigen::Index i = 0; i < measured.size(); ++i) {
+          missed += spread(a, i) * y(i, b) - known(a, i) * w(i, b) - known(b, i) * w(i, a);
+          known_of += known(a, i) * y(i, b);
+        }
+        x(p, q) = x(q, p) = missed;
+        l(p, q) = (p == q ? 1.0 : 0.0) - known_of;
       }
-      left.missed(j, e) = x[e];
-      left.unknown(j, e) = l[e];
-    }
-    detail::left_out_squares(x, l, squares);
-    for (Eigen::Index c = 0; c < 3; ++c) left.squared_errors[3 * j + c] = squares[c];
+    const Eigen::MatrixXd inverse = solve_semidefinite(l, identity), all = product(inverse, product(x, inverse));
+    left.inverse_unknown.middleCols(first, channels_) = inverse;
+    left.missed.middleCols(first, channels_) = all;
+    for (Eigen::Index c = 0; c < channels_; ++c) left.squared_errors[first + c] = all(c, c);
   }
 }
 
 template <class Scalar>
 extended_error<Scalar>::extended_error(const expected_error& criterion, const expected_error::rows& measured)
     : eta_(static_cast<Scalar>(criterion.options().eta)),
-      common_shift_(static_cast<Scalar>(criterion.options().common_shift)) {
+      common_shift_(static_cast<Scalar>(criterion.options().common_shift)),
+      channels_(criterion.channels()) {
   const expected_error::remainder left = criterion.state(measured);
   const Eigen::Index n = measured.size(), m = measured.both.cols();
   both_.resize(2 * m, n);
@@ -139,8 +144,8 @@ extended_error<Scalar>::extended_error(const expected_error& criterion, const ex
     }
   minus_inverse_ = -left.inverse.template cast<Scalar>();
   squared_errors_ = left.squared_errors.template cast<Scalar>();
+  inverse_unknown_ = left.inverse_unknown.template cast<Scalar>();
   missed_ = left.missed.template cast<Scalar>();
-  unknown_ = left.unknown.template cast<Scalar>();
   own_variances_ = left.own_variances.template cast<Scalar>();
   noise_response_ = left.noise_response.template cast<Scalar>();
   noise_energy_ = static_cast<Scalar>(left.noise_energy);
@@ -176,7 +181,7 @@ auto extended_error<Scalar>::operator()(const Eigen::Ref<const matrix>& y, const
     const auto t = both.col(i).head(m), once = both.col(i).tail(m);
     const Scalar d = eta_ + sample_noise_penalty[i] + y.row(i).dot(t), r = t.dot(once);
     const Scalar grown = own_growth(known, i, sample_noise_penalty[i], d, r);
-    if (missed_.rows() > 0) {
+    if (missed_.size() > 0) {
       found[i] = mean_left_out(&both(0, i), &twice(0, i), d, r, own_energy_ + grown);
     } else {
       const auto change = t.array() * (r / (d * d) * t.array() - Scalar(2) / d * twice.col(i).array());
@@ -193,19 +198,17 @@ auto extended_error<Scalar>::operator()(const Eigen::Ref<const matrix>& y, const
 
 template <class Scalar>
 Scalar extended_error<Scalar>::mean_left_out(const Scalar* t, const Scalar* w, Scalar d, Scalar r, Scalar own) const {
-  const Scalar inverse = Scalar(1) / d, along = r * inverse * inverse;
+  const Eigen::Index m = missed_.cols();
+  std::vector<Scalar> room(static_cast<std::size_t>(2 * channels_));
   Scalar sum = Scalar(0);
-  for (Eigen::Index j = 0; j < missed_.rows(); ++j, t += 3, w += 3) {
-    Scalar x[6], l[6], squares[3];
-    for (int e = 0; e < 6; ++e) {
-      const int a = detail::block_rows[e], b = detail::block_columns[e];
-      x[e] = missed_(j, e) - (t[a] * w[b] + w[a] * t[b]) * inverse + t[a] * t[b] * along;
-      l[e] = unknown_(j, e) - t[a] * t[b] * inverse;
-    }
-    detail::left_out_squares(x, l, squares);
-    for (const Scalar square : squares) sum += std::sqrt(std::max(square + own, Scalar(0)));
+  for (Eigen::Index first = 0; first < m; first += channels_) {
+    const detail::left_out_material<Scalar, Scalar> material{&inverse_unknown_(0, first), &missed_(0, first),
+                                                             room.data()};
+    sum += detail::sum_of_left_out_errors(
+        channels_, material, [&](Eigen::Index c) { return t[first + c]; }, [&](Eigen::Index c) { return w[first + c]; },
+        d, r, own);
   }
-  return sum / static_cast<Scalar>(3 * missed_.rows());
+  return sum / static_cast<Scalar>(m);
 }
 
 /// By how much errors of their own add to each squared error, beyond what they do now.

@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,46 +31,49 @@ namespace detail {
   return scaled;
 }
 
-/// A'B of matrices of three columns each.
-[[nodiscard]] GONIO_INLINE Eigen::Matrix3d dots(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Eigen::Matrix3d found;
-  for (Eigen::Index i = 0; i < 3; ++i)
-    for (Eigen::Index j = 0; j < 3; ++j) found(i, j) = a.col(i).dot(b.col(j));
+/// A'B.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd dots(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd found(a.cols(), b.cols());
+  for (Eigen::Index i = 0; i < a.cols(); ++i)
+    for (Eigen::Index j = 0; j < b.cols(); ++j) found(i, j) = a.col(i).dot(b.col(j));
   return found;
 }
 
 /// The pivot of a step of Gaussian elimination: its row and its column, none of them done yet.
-[[nodiscard]] GONIO_INLINE std::array<Eigen::Index, 2> largest_beyond(Eigen::Index step, const Eigen::Matrix3d& a) {
+[[nodiscard]] GONIO_INLINE std::array<Eigen::Index, 2> largest_beyond(Eigen::Index step, const Eigen::MatrixXd& a) {
   std::array<Eigen::Index, 2> found{step, step};
-  for (Eigen::Index i = step; i < 3; ++i)
-    for (Eigen::Index j = step; j < 3; ++j)
+  for (Eigen::Index i = step; i < a.rows(); ++i)
+    for (Eigen::Index j = step; j < a.cols(); ++j)
       if (std::abs(a(i, j)) > std::abs(a(found[0], found[1]))) found = {i, j};
   return found;
 }
 
 /// X with A X = B by Gaussian elimination with complete pivoting; zero where A is singular to rounding. Golub and Van
 /// Loan, Matrix Computations, 4th ed. 2013, 3.4.8; Eigen's takes a second to compile.
-[[nodiscard]] GONIO_INLINE Eigen::Matrix3d solve_3_by_3(Eigen::Matrix3d a, Eigen::Matrix3d b) {
-  std::array<Eigen::Index, 3> unknown{0, 1, 2};
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd solve_by_elimination(Eigen::MatrixXd a, Eigen::MatrixXd b) {
+  const Eigen::Index size = a.rows();
+  std::vector<Eigen::Index> unknown(static_cast<std::size_t>(size));
+  std::iota(unknown.begin(), unknown.end(), Eigen::Index{0});
   Eigen::Index rank = 0;
   double least = 0.0;
-  for (; rank < 3; ++rank) {
+  for (; rank < size; ++rank) {
     const auto [row, column] = largest_beyond(rank, a);
     if (!(std::abs(a(row, column)) > least)) break;
-    if (rank == 0) least = 3.0 * std::numeric_limits<double>::epsilon() * std::abs(a(row, column));
+    if (rank == 0)
+      least = static_cast<double>(size) * std::numeric_limits<double>::epsilon() * std::abs(a(row, column));
     std::swap(unknown[rank], unknown[column]);
-    for (Eigen::Index i = 0; i < 3; ++i) std::swap(a(i, rank), a(i, column));
-    for (Eigen::Index j = 0; j < 3; ++j) std::swap(a(rank, j), a(row, j));
-    for (Eigen::Index j = 0; j < 3; ++j) std::swap(b(rank, j), b(row, j));
-    for (Eigen::Index i = rank + 1; i < 3; ++i) {
+    for (Eigen::Index i = 0; i < size; ++i) std::swap(a(i, rank), a(i, column));
+    for (Eigen::Index j = 0; j < size; ++j) std::swap(a(rank, j), a(row, j));
+    for (Eigen::Index j = 0; j < b.cols(); ++j) std::swap(b(rank, j), b(row, j));
+    for (Eigen::Index i = rank + 1; i < size; ++i) {
       const double factor = a(i, rank) / a(rank, rank);
-      for (Eigen::Index j = 0; j < 3; ++j) a(i, j) -= factor * a(rank, j);
-      for (Eigen::Index j = 0; j < 3; ++j) b(i, j) -= factor * b(rank, j);
+      for (Eigen::Index j = 0; j < size; ++j) a(i, j) -= factor * a(rank, j);
+      for (Eigen::Index j = 0; j < b.cols(); ++j) b(i, j) -= factor * b(rank, j);
     }
   }
-  Eigen::Matrix3d x = Eigen::Matrix3d::Zero();
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(size, b.cols());
   for (Eigen::Index i = rank - 1; i >= 0; --i)
-    for (Eigen::Index c = 0; c < 3; ++c) {
+    for (Eigen::Index c = 0; c < b.cols(); ++c) {
       double sum = b(i, c);
       for (Eigen::Index j = i + 1; j < rank; ++j) sum -= a(i, j) * x(unknown[j], c);
       x(unknown[i], c) = sum / a(i, i);
@@ -76,10 +81,10 @@ namespace detail {
   return x;
 }
 
-/// sum += A X of a matrix of three columns.
-GONIO_INLINE void add_combined(const Eigen::MatrixXd& a, const Eigen::Matrix3d& x, Eigen::MatrixXd& sum) {
-  for (Eigen::Index j = 0; j < 3; ++j)
-    for (Eigen::Index i = 0; i < 3; ++i) sum.col(j) += x(i, j) * a.col(i);
+/// sum += A X.
+GONIO_INLINE void add_combined(const Eigen::MatrixXd& a, const Eigen::MatrixXd& x, Eigen::MatrixXd& sum) {
+  for (Eigen::Index j = 0; j < x.cols(); ++j)
+    for (Eigen::Index i = 0; i < x.rows(); ++i) sum.col(j) += x(i, j) * a.col(i);
 }
 
 }  // namespace detail
@@ -129,11 +134,11 @@ GONIO_INLINE void leave_one_material_out_error::require_sensible(Eigen::Index lo
 }
 
 GONIO_INLINE void leave_one_material_out_error::initialise(const sums& all, const Eigen::VectorXd& singular_values,
-                                                           const Eigen::MatrixXf& coefficients) {
+                                                           const Eigen::MatrixXf& coefficients, Eigen::Index channels) {
   const Eigen::VectorXd energies = singular_values.cwiseProduct(singular_values);
   decompose(energies, all);
-  for (Eigen::Index row = 0; row < coefficients.rows(); row += 3)
-    materials_.push_back(leave_out(energies, coefficients.middleRows(row, 3).transpose().cast<double>(),
+  for (Eigen::Index row = 0; row < coefficients.rows(); row += channels)
+    materials_.push_back(leave_out(energies, coefficients.middleRows(row, channels).transpose().cast<double>(),
                                    static_cast<double>(coefficients.rows())));
 }
 
@@ -154,24 +159,32 @@ GONIO_INLINE void leave_one_material_out_error::decompose(const Eigen::VectorXd&
 
 GONIO_INLINE leave_one_material_out_error::left_out leave_one_material_out_error::leave_out(
     const Eigen::VectorXd& energies, const Eigen::MatrixXd& own, double observations) const {
-  const double others = observations - 3.0;
-  // R = I + b 1 1', the symmetric root of I + 1 1' / (m - 3).
-  const double b = (std::sqrt(1.0 + 3.0 / others) - 1.0) / 3.0;
-  const Eigen::VectorXd sum = own.col(0) + own.col(1) + own.col(2);
-  Eigen::MatrixXd t(own.rows(), 3), n(own.rows(), 3);
-  for (Eigen::Index c = 0; c < 3; ++c) {
+  const Eigen::Index channels = own.cols();
+  const auto count = static_cast<double>(channels);
+  const double others = observations - count;
+  // R = I + b 1 1', the symmetric root of I + 1 1' / (m - p).
+  const double b = (std::sqrt(1.0 + count / others) - 1.0) / count;
+  Eigen::VectorXd sum = own.col(0);
+  for (Eigen::Index c = 1; c < channels; ++c) sum += own.col(c);
+  Eigen::MatrixXd t(own.rows(), channels), n(own.rows(), channels);
+  for (Eigen::Index c = 0; c < channels; ++c) {
     t.col(c) = own.col(c) + sum / others;
     n.col(c) = own.col(c) + b * sum;
   }
   const Eigen::MatrixXd mt = detail::scaled_rows(energies, t), mn = detail::scaled_rows(energies, n);
-  Eigen::MatrixXd all(own.rows(), 12);
-  all.leftCols(3) = t;
-  all.middleCols(3, 3) = n;
-  all.middleCols(6, 3) = mt;
-  all.rightCols(3) = mn;
+  Eigen::MatrixXd all(own.rows(), 4 * channels);
+  all.leftCols(channels) = t;
+  all.middleCols(channels, channels) = n;
+  all.middleCols(2 * channels, channels) = mt;
+  all.rightCols(channels) = mn;
   const Eigen::MatrixXd seen = product(vectors_.transpose(), all);
-  return {seen.leftCols(3),    seen.middleCols(3, 3), seen.middleCols(6, 3),         seen.rightCols(3),
-          detail::dots(n, mn), detail::dots(n, mt),   detail::dots(t, mt).diagonal()};
+  return {seen.leftCols(channels),
+          seen.middleCols(channels, channels),
+          seen.middleCols(2 * channels, channels),
+          seen.rightCols(channels),
+          detail::dots(n, mn),
+          detail::dots(n, mt),
+          detail::dots(t, mt).diagonal()};
 }
 
 GONIO_INLINE double leave_one_material_out_error::error_at(double eta) const {
@@ -179,37 +192,39 @@ GONIO_INLINE double leave_one_material_out_error::error_at(double eta) const {
   for (Eigen::Index j = 0; j < d.size(); ++j) d[j] = 1.0 / (values_[j] + eta);
   double variance = 0.0;
   for (Eigen::Index j = 0; j < d.size(); ++j) variance += d[j] * noise_energy_.col(j).dot(d);
-  double sum = 0.0;
+  double sum = 0.0, count = 0.0;
   for (const left_out& material : materials_) {
-    const Eigen::Vector3d bias = squared_bias(material, d);
-    for (Eigen::Index c = 0; c < 3; ++c) sum += std::sqrt(std::max(bias[c] + variance, 0.0));
+    const Eigen::VectorXd bias = squared_bias(material, d);
+    for (Eigen::Index c = 0; c < bias.size(); ++c) sum += std::sqrt(std::max(bias[c] + variance, 0.0));
+    count += static_cast<double>(bias.size());
   }
-  return sum / static_cast<double>(3 * materials_.size());
+  return sum / count;
 }
 
-GONIO_INLINE Eigen::Vector3d leave_one_material_out_error::squared_bias(const left_out& material,
+GONIO_INLINE Eigen::VectorXd leave_one_material_out_error::squared_bias(const left_out& material,
                                                                         const Eigen::VectorXd& d) const {
   // Reconstruct with the material in the basis: u = D q.
   const Eigen::VectorXd f = values_.cwiseProduct(d), shift = d.cwiseProduct(shift_);
   const Eigen::MatrixXd fn = detail::scaled_rows(f, material.n);
   Eigen::MatrixXd u = detail::scaled_rows(f, material.t);  // D q first
-  for (Eigen::Index c = 0; c < 3; ++c) u.col(c) += shift;
-  // Leave it out by Woodbury's identity: (D^-1 - N N')^-1 changes D by a 3 x 3 system.
-  const Eigen::Matrix3d within = Eigen::Matrix3d::Identity() - detail::dots(material.n, fn);
-  const Eigen::Matrix3d known = detail::dots(material.n, u);
-  detail::add_combined(fn, detail::solve_3_by_3(within, known), u);
+  const Eigen::Index channels = u.cols();
+  for (Eigen::Index c = 0; c < channels; ++c) u.col(c) += shift;
+  // Leave it out by Woodbury's identity: (D^-1 - N N')^-1 changes D by a system of as many unknowns as channels.
+  const Eigen::MatrixXd within = Eigen::MatrixXd::Identity(channels, channels) - detail::dots(material.n, fn);
+  const Eigen::MatrixXd known = detail::dots(material.n, u);
+  detail::add_combined(fn, detail::solve_by_elimination(within, known), u);
   // Express the reconstruction as x - c = V u - N p, and take the gradient of its distance from t.
-  const Eigen::Matrix3d p = detail::dots(material.n, u);
+  const Eigen::MatrixXd p = detail::dots(material.n, u);
   Eigen::MatrixXd gradient = product(norm_, u);
   detail::add_combined(material.mn, -2.0 * p, gradient);
-  for (Eigen::Index c = 0; c < 3; ++c) gradient.col(c) -= 2.0 * material.mt.col(c);
+  for (Eigen::Index c = 0; c < channels; ++c) gradient.col(c) -= 2.0 * material.mt.col(c);
   // Sum the squared distance of each channel in the norm M.
-  Eigen::Vector3d found = material.energy;
-  for (Eigen::Index c = 0; c < 3; ++c) {
+  Eigen::VectorXd found = material.energy;
+  for (Eigen::Index c = 0; c < channels; ++c) {
     found[c] += u.col(c).dot(gradient.col(c));
-    for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index i = 0; i < channels; ++i) {
       double along = 2.0 * material.nmt(i, c);
-      for (Eigen::Index j = 0; j < 3; ++j) along += material.nmn(i, j) * p(j, c);
+      for (Eigen::Index j = 0; j < channels; ++j) along += material.nmn(i, j) * p(j, c);
       found[c] += p(i, c) * along;
     }
   }

@@ -34,8 +34,11 @@ GONIO_INLINE void take_kind(const checked_file_kind& kind, byte_reader& file, co
   if (magic.size() != kind.magic.size() || std::memcmp(magic.data(), kind.magic.data(), magic.size()) != 0)
     gonio::refuse({name, ": not a gonio ", kind.noun, " (it does not start with '", kind.magic, "')"});
   const auto version = file.take<std::uint32_t>();
-  if (version != kind.version)
-    gonio::refuse({name, ": ", kind.noun, " format version ", version, ", this program reads version ", kind.version});
+  const std::uint32_t oldest = kind.oldest == 0 ? kind.version : kind.oldest;
+  if (version >= oldest && version <= kind.version) return;
+  const std::string readable = oldest == kind.version ? message_of({"version ", oldest})
+                                                      : message_of({"versions ", oldest, " to ", kind.version});
+  gonio::refuse({name, ": ", kind.noun, " format version ", version, ", this program reads ", readable});
 }
 
 /// A zlib stream that takes at least an eighth of the bytes: what deflate shrinks so much that no reader would believe

@@ -17,7 +17,9 @@
 
 namespace gonio::io::detail {
 
-inline constexpr checked_file_kind prior_kind{"gonio-pca", 1, "prior"};
+/// Version 2 may have wavelengths. A prior of colours is written as version 1, which older programs read.
+inline constexpr checked_file_kind prior_kind{"gonio-pca", 2, "prior", 1};
+inline constexpr checked_file_kind colour_prior_kind{"gonio-pca", 1, "prior"};
 inline constexpr checked_file_kind soft_specular_kind{"gonio-split", 1, "soft and specular prior"};
 
 }  // namespace gonio::io::detail
@@ -27,7 +29,7 @@ namespace gonio::io {
 GONIO_INLINE std::vector<std::byte> encode_prior(const log_relative_pca& prior) {
   byte_writer payload;
   put_prior(payload, prior);
-  return encode_checked(detail::prior_kind, payload.bytes());
+  return encode_checked(prior.wavelengths().empty() ? detail::colour_prior_kind : detail::prior_kind, payload.bytes());
 }
 
 GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, const std::string& name) {

@@ -6,6 +6,7 @@
 #include <gonio/core/error.hpp>
 #include <gonio/core/finite.hpp>
 #include <gonio/core/huge_pages.hpp>
+#include <gonio/core/wavelengths.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/prior_payload.hpp>
 #include <gonio/io/quantise.hpp>
@@ -20,12 +21,12 @@
 
 namespace gonio::io::detail {
 
-/// How cells are anchored and reflectance is weighted, in one number: version 1 has had the anchor's 0 and 1 there from
-/// the start, so that older programs refuse weights that they do not know.
+/// How cells are anchored, how reflectance is weighted and whether there are wavelengths, in one number: version 1 has
+/// had the anchor's 0 and 1 there from the start, so that older programs refuse what they do not know.
 [[nodiscard]] GONIO_INLINE std::uint32_t conventions_of(const log_relative_pca& prior) {
   const bool corner = prior.cells().grid().anchor() == cell_anchor::lower_corner;
   const bool larger = prior.metric().weighting() == cosine_weighting::larger;
-  return (corner ? 1u : 0u) + (larger ? 2u : 0u);
+  return (corner ? 1u : 0u) + (larger ? 2u : 0u) + (prior.wavelengths().empty() ? 0u : 4u);
 }
 
 [[nodiscard]] GONIO_INLINE std::vector<float> log_of_reference(const log_relative& metric) {
@@ -37,7 +38,7 @@ namespace gonio::io::detail {
 
 /// What `act` returns; what it throws names the file.
 template <class Act>
-[[nodiscard]] auto naming_prior(const std::string& name, const Act& act) {
+auto naming_prior(const std::string& name, const Act& act) {
   try {
     return act();
   } catch (const error& refusal) {
@@ -45,19 +46,20 @@ template <class Act>
   }
 }
 
-/// The cells of a prior and the weight of its metric.
+/// The cells of a prior, the weight of its metric, and whether its materials are spectra.
 struct prior_domain {
   valid_cells cells;
   cosine_weighting weighting;
+  bool is_spectral;
 };
 
 [[nodiscard]] GONIO_INLINE prior_domain take_domain(byte_reader& in, const std::string& name) {
   const auto extent = [&] { return static_cast<int>(std::min<std::uint32_t>(in.take<std::uint32_t>(), 1u << 30)); };
   const int theta_h = extent(), theta_d = extent(), phi_d = extent();
   const auto conventions = in.take<std::uint32_t>();
-  if (conventions > 3)
+  if (conventions > 7)
     gonio::refuse({name, ": cell anchor and cosine weight are ", conventions,
-                   ", expected 0 (centre) or 1 (lower corner), and 2 more for the larger cosine"});
+                   ", expected 0 (centre) or 1 (lower corner), 2 more for the larger cosine, 4 more for wavelengths"});
   const auto minimum_cosine = in.take<double>();
   if (!(minimum_cosine >= 0.0 && minimum_cosine < 1.0))
     gonio::refuse({name, ": the smallest cosine of a valid cell must be in [0, 1)"});
@@ -77,13 +79,26 @@ struct prior_domain {
   if (valid > most || grid.size() > std::max(2 * most, small_grid))
     gonio::refuse({name, ": the grid has more cells than the file has values"});
   return {naming_prior(name, [&] { return valid_cells(grid, minimum_cosine); }),
-          conventions < 2 ? cosine_weighting::product : cosine_weighting::larger};
+          (conventions & 2u) == 0 ? cosine_weighting::product : cosine_weighting::larger, (conventions & 4u) != 0};
 }
 
 /// The fewest bytes that follow the counts: the share of the variance, a length for each text, all numbers.
-[[nodiscard]] GONIO_INLINE double least_rest(double cells, double components, double materials) {
-  return 8.0 + 4.0 * (1.0 + materials) + components * (8.0 + 12.0 * materials) + 2.0 * (8.0 + 2.0 * cells) +
+[[nodiscard]] GONIO_INLINE double least_rest_of_prior(double cells, double components, double materials,
+                                                      double channels) {
+  return 8.0 + 4.0 * (1.0 + materials) + components * (8.0 + 4.0 * channels * materials) + 2.0 * (8.0 + 2.0 * cells) +
          components * (8.0 + cells);
+}
+
+/// Wavelengths behind their number; none of colours.
+[[nodiscard]] GONIO_INLINE std::vector<double> take_wavelengths(byte_reader& in, bool is_spectral,
+                                                                const std::string& name) {
+  if (!is_spectral) return {};
+  const auto count = in.take<std::uint32_t>();
+  if (count == 0 || count > in.left() / sizeof(double))
+    gonio::refuse({name, ": ", in.left(), " bytes cannot hold ", count, " wavelengths"});
+  std::vector<double> wavelengths = in.take_all<double>(count);
+  naming_prior(name, [&] { require_wavelengths(wavelengths); });
+  return wavelengths;
 }
 
 [[nodiscard]] GONIO_INLINE std::vector<float> dequantise_all(const quantised<std::uint16_t>& column) {
@@ -105,6 +120,10 @@ GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
   out.put(prior.cells().minimum_cosine());
   out.put(static_cast<std::uint32_t>(prior.size()));
   out.put(static_cast<std::uint32_t>(prior.names().size()));
+  if (const std::vector<double>& wavelengths = prior.wavelengths(); !wavelengths.empty()) {
+    out.put(static_cast<std::uint32_t>(wavelengths.size()));
+    out.put_bytes(wavelengths.data(), wavelengths.size() * sizeof(double));
+  }
   out.put(prior.explained_variance());
   out.put_text(prior.source());
   for (const std::string& name : prior.names()) out.put_text(name);
@@ -122,12 +141,15 @@ GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
 
 GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& name) {
   // Read the grid and the counts, and refuse counts that the rest of the file cannot hold.
-  const auto [cells, weighting] = detail::take_domain(in, name);
+  const auto [cells, weighting, is_spectral] = detail::take_domain(in, name);
   const auto components = in.take<std::uint32_t>();
   const auto materials = in.take<std::uint32_t>();
-  if (components == 0 || components > 3 * std::uint64_t{materials})
+  std::vector<double> wavelengths = detail::take_wavelengths(in, is_spectral, name);
+  const std::uint64_t channels = is_spectral ? wavelengths.size() : 3;
+  if (components == 0 || components > channels * materials)
     gonio::refuse({name, ": ", components, " components of ", materials, " materials are impossible"});
-  if (detail::least_rest(static_cast<double>(cells.size()), components, materials) > static_cast<double>(in.left()))
+  if (detail::least_rest_of_prior(static_cast<double>(cells.size()), components, materials,
+                                  static_cast<double>(channels)) > static_cast<double>(in.left()))
     gonio::refuse({name, ": the file is truncated or its counts are wrong: ", in.left(), " bytes cannot hold ",
                    components, " components of ", materials, " materials over ", cells.size(), " cells"});
   // Read what describes the training: variance, source, names, singular values and coefficients.
@@ -137,7 +159,7 @@ GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& nam
   for (std::string& material : names) material = in.take_text();
   const Eigen::Index k = components;
   const auto singular = in.take_all<double>(components);
-  const auto observed = in.take_all<float>(std::size_t{3} * materials * components);
+  const auto observed = in.take_all<float>(channels * materials * components);
 
   // Decode the quantised reference, mean and components.
   std::vector<float> reference = detail::dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
@@ -154,7 +176,7 @@ GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& nam
   // Refuse values that are not finite.
   Eigen::VectorXd singular_values(k);
   std::copy(singular.begin(), singular.end(), singular_values.data());
-  Eigen::MatrixXf coefficients(3 * materials, k);
+  Eigen::MatrixXf coefficients(static_cast<Eigen::Index>(channels * materials), k);
   std::copy(observed.begin(), observed.end(), coefficients.data());
   const std::span<const float> values(functions.data(), functions.size());
   const bool finite = std::isfinite(explained_variance) && all_finite(singular) && all_finite(observed) &&
@@ -164,7 +186,7 @@ GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& nam
   return detail::naming_prior(name, [&] {
     return log_relative_pca({cells, log_relative(cells, std::move(reference), weighting), std::move(names),
                              std::move(singular_values), std::move(functions), std::move(mean), std::move(coefficients),
-                             explained_variance, std::move(source)});
+                             explained_variance, std::move(source), std::move(wavelengths)});
   });
 }
 

@@ -4,6 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/io/rgl_spectra.hpp>
+#include <gonio/io/text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -48,6 +49,17 @@ void for_each_shared_table(Eigen::Index angles, Eigen::Index bands, Eigen::Index
       copy(3 * angle + c, angle * bands + first + c);
 }
 
+GONIO_INLINE void require_in_spectra(const rgl_material& material) {
+  if (!material.spectra) gonio::refuse("the material is in RGB, expected one in spectra");
+}
+
+/// The last of ascending numbers that is not above a value, and which share of the way to the next that value is.
+[[nodiscard]] GONIO_INLINE std::pair<Eigen::Index, double> between(const std::vector<double>& numbers, double value) {
+  const auto next = std::ranges::upper_bound(numbers, value);
+  const Eigen::Index lower = next - numbers.begin() - 1;
+  return {lower, next == numbers.end() ? 0.0 : (value - numbers[lower]) / (*next - numbers[lower])};
+}
+
 /// The material at three of its wavelengths.
 [[nodiscard]] GONIO_INLINE model::adaptive_brdf three_wavelengths_of(const rgl_material& material, Eigen::Index first) {
   model::adaptive_brdf_parts parts = material.material.parts();
@@ -84,9 +96,47 @@ GONIO_INLINE rgl_material tabulate_adaptively(const spectral_table& table, const
   return made;
 }
 
+GONIO_INLINE rgl_spectra at_wavelengths(const rgl_spectra& spectra, std::vector<double> wavelengths) {
+  require_wavelengths(wavelengths);
+  const std::vector<double>& known = spectra.wavelengths;
+  const model::unit_square_tables& all = spectra.values;
+  if (wavelengths.front() < known.front() || wavelengths.back() > known.back())
+    refuse({"a material at wavelengths from ", detail::shortest(known.front()), " to ", detail::shortest(known.back()),
+            " nm is not known from ", detail::shortest(wavelengths.front()), " to ",
+            detail::shortest(wavelengths.back()), " nm"});
+  const Eigen::Index size = all.rows * all.columns, bands = std::ssize(wavelengths), others = std::ssize(known),
+                     angles = all.tables / others;
+  rgl_spectra found{std::move(wavelengths),
+                    {angles * bands, all.rows, all.columns, std::vector<float>(angles * bands * size)}};
+  for (Eigen::Index band = 0; band < bands; ++band) {
+    const auto [lower, share] = detail::between(known, found.wavelengths[band]);
+    const Eigen::Index upper = std::min(lower + 1, others - 1);
+    for (Eigen::Index angle = 0; angle < angles; ++angle) {
+      const float *below = all.row(angle * others + lower, 0), *above = all.row(angle * others + upper, 0);
+      float* const value = found.values.values.data() + (angle * bands + band) * size;
+      for (Eigen::Index i = 0; i < size; ++i)
+        value[i] = static_cast<float>((1.0 - share) * double{below[i]} + share * double{above[i]});
+    }
+  }
+  return found;
+}
+
+GONIO_INLINE spectral_table tabulate_spectra(const rgl_material& material, const valid_cells& cells,
+                                             thread_count threads) {
+  detail::require_in_spectra(material);
+  spectral_table table(cells, material.spectra->wavelengths);
+  for (Eigen::Index first = 0; first < table.bands(); first += 3) {
+    const brdf_table three = tabulate(detail::three_wavelengths_of(material, first), cells, threads);
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
+      for (Eigen::Index band = first; band < std::min(first + 3, table.bands()); ++band)
+        table.values()(cell, band) = three.values()[3 * cell + band - first];
+  }
+  return table;
+}
+
 GONIO_INLINE spectral_samples sample_spectra(const rgl_material& material,
                                              std::span<const sample_directions> directions) {
-  if (!material.spectra) refuse("the material is in RGB, expected one in spectra");
+  detail::require_in_spectra(material);
   const std::vector<double>& wavelengths = material.spectra->wavelengths;
   const Eigen::Index bands = std::ssize(wavelengths);
   spectral_samples samples{

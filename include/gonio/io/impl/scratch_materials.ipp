@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -43,27 +44,45 @@ struct scratch_materials::state {
   std::filesystem::path folder;
   std::uint64_t memory;
   std::vector<std::string> names;
-  std::vector<brdf_table> held;  ///< the last ones, not in the file
+  std::optional<valid_cells> cells;  ///< of the first one
+  std::vector<double> wavelengths;   ///< of the first one
+  std::vector<cell_matrix> held;     ///< the last ones, not in the file
   std::vector<part> parts;
   detail::descriptor file;
   std::uint64_t size = 0;
 
+  /// Columns of the tables that are in memory.
+  [[nodiscard]] Eigen::Index held_columns() const { return held.empty() ? 0 : std::ssize(held) * held.front().cols(); }
+
   /// Copies rows of the tables that are in memory to some columns.
   void gather(block range, cell_rows out) const {
     for (Eigen::Index m = 0; m < std::ssize(held); ++m) {
-      const float* value = held[m].values().data() + 3 * range.begin;
-      for (Eigen::Index row = 0; row < range.size(); ++row, value += 3) std::copy_n(value, 3, &out(row, 3 * m));
+      const Eigen::Index channels = held[m].cols();
+      const float* value = held[m].data() + channels * range.begin;
+      for (Eigen::Index row = 0; row < range.size(); ++row, value += channels)
+        std::copy_n(value, channels, &out(row, channels * m));
     }
+  }
+
+  void append(const std::string& name, const valid_cells& over, std::vector<double> at, cell_matrix table) {
+    if (cells && !(*cells == over)) refuse({"material '", name, "' is over other cells than the first one"});
+    if (cells && at != wavelengths) refuse({"material '", name, "' is at other wavelengths than the first one"});
+    const std::uint64_t bytes = sizeof(float) * static_cast<std::uint64_t>(table.size());
+    if (!held.empty() && bytes * (held.size() + 1) > memory) write_held();
+    cells = over;
+    wavelengths = std::move(at);
+    names.push_back(name);
+    held.push_back(std::move(table));
   }
 
   void write_held() {
     if (!file.is_open()) file = detail::open_scratch(folder);
-    const Eigen::Index cells = held.front().cells().size(), columns = 3 * std::ssize(held);
-    parts.push_back({size, 3 * std::ssize(names) - columns, columns});
+    const Eigen::Index rows_of_all = cells->size(), columns = held_columns();
+    parts.push_back({size, std::ssize(names) * held.front().cols() - columns, columns});
     const Eigen::Index at_once = std::max<Eigen::Index>(1, (Eigen::Index{1} << 18) / columns);
     cell_matrix rows(at_once, columns);
-    for (Eigen::Index begin = 0; begin < cells; begin += at_once) {
-      const block range{begin, std::min(cells, begin + at_once)};
+    for (Eigen::Index begin = 0; begin < rows_of_all; begin += at_once) {
+      const block range{begin, std::min(rows_of_all, begin + at_once)};
       gather(range, rows.topRows(range.size()));
       const auto bytes = std::as_bytes(std::span(rows.data(), static_cast<std::size_t>(range.size() * columns)));
       if (!detail::write_all(file, bytes))
@@ -85,7 +104,7 @@ struct scratch_materials::state {
       for (Eigen::Index row = 0; row < range.size(); ++row)
         std::copy_n(rows.data() + row * each.count, each.count, &out(row, each.first));
     }
-    if (!held.empty()) gather(range, out.rightCols(3 * std::ssize(held)));
+    if (!held.empty()) gather(range, out.rightCols(held_columns()));
   }
 };
 
@@ -95,21 +114,20 @@ GONIO_INLINE scratch_materials::scratch_materials(std::filesystem::path folder, 
   state_->memory = memory;
 }
 
-GONIO_INLINE void scratch_materials::append(const std::string& name, brdf_table table) {
-  state& all = *state_;
-  const std::uint64_t bytes = sizeof(float) * table.values().size();
-  if (!all.held.empty() && !(all.held.front().cells() == table.cells()))
-    refuse({"material '", name, "' is over other cells than the first one"});
-  if (!all.held.empty() && bytes * (all.held.size() + 1) > all.memory) all.write_held();
-  all.names.push_back(name);
-  all.held.push_back(std::move(table));
+GONIO_INLINE void scratch_materials::append(const std::string& name, const brdf_table& table) {
+  const Eigen::Index cells = table.cells().size();
+  state_->append(name, table.cells(), {}, Eigen::Map<const cell_matrix>(table.values().data(), cells, 3));
+}
+
+GONIO_INLINE void scratch_materials::append(const std::string& name, spectral_table table) {
+  state_->append(name, table.cells(), table.wavelengths(), std::move(table.values()));
 }
 
 GONIO_INLINE material_rows scratch_materials::rows() {
   if (state_->names.empty()) refuse("there is no material");
-  const valid_cells cells = state_->held.front().cells();
-  if (state_->file.is_open()) state_->write_held();
-  return {cells, state_->names, [held = state_](block range, cell_rows out) { held->read(range, out); }};
+  if (state_->file.is_open() && !state_->held.empty()) state_->write_held();
+  return {*state_->cells, state_->names, [held = state_](block range, cell_rows out) { held->read(range, out); },
+          state_->wavelengths};
 }
 
 GONIO_INLINE std::uint64_t scratch_materials::file_size() const noexcept { return state_->size; }

@@ -38,13 +38,6 @@ GONIO_INLINE spectral_samples spectral_samples::subset(std::span<const Eigen::In
   return some;
 }
 
-GONIO_INLINE void require_wavelengths(std::span<const double> wavelengths) {
-  if (wavelengths.empty()) refuse("a spectrum needs at least one wavelength");
-  for (Eigen::Index i = 0; i < std::ssize(wavelengths); ++i)
-    if (!(wavelengths[i] > (i == 0 ? 0.0 : wavelengths[i - 1]) && std::isfinite(wavelengths[i])))
-      refuse({"wavelength ", i + 1, " of a spectrum is not above ", i == 0 ? "0" : "the one before"});
-}
-
 GONIO_INLINE void require_usable(const spectral_samples& samples) {
   require_wavelengths(samples.wavelengths);
   const Eigen::Index n = samples.size();
