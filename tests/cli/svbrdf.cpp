@@ -171,13 +171,13 @@ TEST_CASE("svbrdf: on a full disk it says so, and the command given again goes o
   CHECK(!scratch::fs::exists(given.folder / "full.gsv"));
   CHECK(run(given.command("full.gsv")).find("went on behind band 1 of 2") != std::string::npos);
   CHECK(scratch::get(given.folder / "full.gsv") == scratch::get(given.folder / "map.gsv"));
-  // Where images are decoded.
-  const auto image = gonio::uniform_image(70, 1500, gonio::rgb::Constant(0.1));
-  gonio::io::write_hdr(given.folder / "image.hdr", image);
-  scratch::put(given.folder / "hdr.json",
-               "{\"quantity\": \"brdf\", \"images\": [" + given.entry("image.hdr", 0) + "]}");
-  check_refusal(limited(1 << 20, given.command("hdr.gsv", "hdr.json")), {"the decoded", "image.hdr", "File too large"});
-  CHECK(!scratch::fs::exists(given.folder / "hdr.gsv.part"));
+  // Where a mask is decoded.
+  gonio::io::write_png(given.folder / "mask.png", gonio::uniform_image(70, 1500, gonio::rgb::Ones()));
+  scratch::put(given.folder / "masked.json",
+               "{\"quantity\": \"brdf\", \"mask\": \"mask.png\", \"images\": [" + given.entry("image-0.npy", 0) + "]}");
+  check_refusal(limited(65536, given.command("masked.gsv", "masked.json")),
+                {"the decoded", "mask.png", "File too large"});
+  CHECK(!scratch::fs::exists(given.folder / "masked.gsv.part"));
 }
 
 TEST_CASE("svbrdf: quantities are made BRDFs") {
