@@ -3,10 +3,9 @@
 /// all of them is in memory.
 
 #include "cli/image_rows.hpp"
-#include <gonio/core/direction.hpp>
+#include "command_line/image_list.hpp"
 #include <gonio/core/parallel.hpp>
 #include <gonio/io/file.hpp>
-#include <gonio/io/sample_quantity.hpp>
 
 #include <Eigen/Core>
 
@@ -18,22 +17,6 @@
 #include <vector>
 
 namespace cli {
-
-struct listed_image {
-  std::filesystem::path file;
-  gonio::direction_pair at;
-};
-
-/// What a list of images says (JSON; docs/reference/formats.md).
-struct image_list {
-  gonio::io::sample_quantity quantity = gonio::io::sample_quantity::brdf;
-  std::vector<listed_image> images;
-  std::filesystem::path mask;  ///< a PNG, black where texels are not of the sample; none if empty
-  bool skips_invalid = false;  ///< texels that have a value that is not finite in an image are not of the sample
-};
-
-/// Throws gonio::error naming the list and the image of it that is not what it should be.
-[[nodiscard]] image_list read_image_list(const std::filesystem::path& path);
 
 /// Reflectance in sr^-1 of a range of texels: a column for each image, red, green and blue of a texel after another.
 struct texel_values {
