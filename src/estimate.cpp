@@ -6,6 +6,7 @@
 #include <gonio/estimate/impl/conformity.ipp>
 #include <gonio/estimate/impl/fitted_spectra.ipp>
 #include <gonio/estimate/impl/highlight_contrast.ipp>
+#include <gonio/estimate/impl/learn_streamed_soft_specular.ipp>
 #include <gonio/estimate/impl/leave_one_material_out_error.ipp>
 #include <gonio/estimate/impl/located_samples.ipp>
 #include <gonio/estimate/impl/mapped_noise.ipp>

@@ -12,6 +12,7 @@
 #include <gonio/io/impl/exposure_times.ipp>
 #include <gonio/io/impl/file.ipp>
 #include <gonio/io/impl/gzip.ipp>
+#include <gonio/io/impl/hdr_rows.ipp>
 #include <gonio/io/impl/json_reader.ipp>
 #include <gonio/io/impl/mbsdf.ipp>
 #include <gonio/io/impl/merl.ipp>

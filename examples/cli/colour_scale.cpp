@@ -1,7 +1,6 @@
 #include "cli/colour_scale.hpp"
 
 #include "cli/image_text.hpp"
-#include <gonio/render/image.hpp>
 
 #include <algorithm>
 
@@ -15,6 +14,10 @@ std::size_t unit_of(std::size_t columns) noexcept { return std::max<std::size_t>
 }  // namespace
 
 std::size_t rows_of_scale(std::size_t columns) noexcept { return 16 * unit_of(columns); }
+
+std::size_t rows_with_scale(std::size_t rows, std::size_t columns) noexcept {
+  return columns < smallest_with_scale ? rows : rows + 2 * unit_of(columns) + rows_of_scale(columns);
+}
 
 void draw_scale(gonio::image& image, const colour_scale& scale) {
   const std::size_t columns = image.shape(1), unit = unit_of(columns);
@@ -31,15 +34,6 @@ void draw_scale(gonio::image& image, const colour_scale& scale) {
     const std::size_t left = std::min(std::max(middle, width / 2) - width / 2, columns - width);
     draw_text(image, top + 6 * unit, left, text, unit, gonio::rgb::Constant(0.6));
   }
-}
-
-gonio::image with_scale(const gonio::image& image, const colour_scale& scale) {
-  if (image.shape(1) < smallest_with_scale) return image;
-  const std::size_t gap = unit_of(image.shape(1));
-  gonio::image larger = gonio::uniform_image(image.shape(0) + 2 * gap + rows_of_scale(image.shape(1)), image.shape(1));
-  gonio::render::paste(larger, image, 0, 0);
-  draw_scale(larger, scale);
-  return larger;
 }
 
 }  // namespace cli

@@ -22,9 +22,9 @@ struct colour_scale {
 inline constexpr std::size_t smallest_with_scale = 64;
 /// The scale's rows for an image of so many columns.
 [[nodiscard]] std::size_t rows_of_scale(std::size_t columns) noexcept;
+/// The rows of an image of so many with a scale below, or as many as before if it has no room for one.
+[[nodiscard]] std::size_t rows_with_scale(std::size_t rows, std::size_t columns) noexcept;
 /// Draws a scale over the lowest rows of an image.
 void draw_scale(gonio::image& image, const colour_scale& scale);
-/// The image with a scale below, if it has room for one.
-[[nodiscard]] gonio::image with_scale(const gonio::image& image, const colour_scale& scale);
 
 }  // namespace cli

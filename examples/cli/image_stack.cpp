@@ -1,20 +1,14 @@
 #include "cli/image_stack.hpp"
 
-#include "cli/photograph_files.hpp"
-#include "command_line/json.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/core/finite.hpp>
-#include <gonio/core/printable.hpp>
 #include <gonio/io/image.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/text.hpp>
 #include <gonio/table/stored_codes.hpp>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -22,81 +16,6 @@
 #include <span>
 
 namespace cli {
-
-namespace {
-
-// ---- the list ----------------------------------------------------------------------------------
-
-std::string shown(const json& value) { return gonio::printable(value.dump().substr(0, 120)); }
-
-/// The degrees of some keys in radians, or nothing if the image has none of them.
-template <std::size_t Count>
-std::optional<std::array<double, Count>> radians_of(const json& image, const std::array<const char*, Count>& keys,
-                                                    const std::string& name) {
-  std::array<double, Count> found{};
-  if (std::ranges::none_of(keys, [&](const char* key) { return image.contains(key); })) return {};
-  for (std::size_t i = 0; i < Count; ++i) {
-    if (!image.contains(keys[i]) || !image[keys[i]].is_number() || !(std::abs(image[keys[i]].number()) <= 360.0))
-      gonio::refuse({name, ": '", keys[i], "' must be degrees in ", shown(image)});
-    found[i] = gonio::radians(image[keys[i]].number());
-  }
-  return found;
-}
-
-gonio::direction_pair directions_of(const json& image, const std::string& name) {
-  const auto apart = radians_of<4>(image, {"theta_i", "phi_i", "theta_o", "phi_o"}, name);
-  const auto half = radians_of<3>(image, {"theta_h", "theta_d", "phi_d"}, name);
-  if (apart.has_value() == half.has_value())
-    gonio::refuse(
-        {name, ": an image needs theta_i, phi_i, theta_o and phi_o, or theta_h, theta_d and phi_d, in ", shown(image)});
-  const gonio::direction_pair pair = half ? gonio::to_directions({(*half)[0], (*half)[1], (*half)[2]})
-                                          : gonio::direction_pair{gonio::spherical_direction((*apart)[0], (*apart)[1]),
-                                                                  gonio::spherical_direction((*apart)[2], (*apart)[3])};
-  if (!(pair.wi.z() > 1e-6 && pair.wo.z() > 1e-6))
-    gonio::refuse({name, ": a direction is not above the horizon in ", shown(image)});
-  return pair;
-}
-
-/// What a list says of texels that are not of the sample.
-void read_outside(const json& text, const std::filesystem::path& path, image_list& list) {
-  if (text.contains("mask")) {
-    if (!text["mask"].is_string())
-      gonio::refuse({path.string(), ": 'mask' must be the name of a PNG, black where texels are not of the sample"});
-    list.mask = path.parent_path() / text["mask"].text();
-  }
-  if (!text.contains("invalid")) return;
-  if (!text["invalid"].is_string() || (text["invalid"].text() != "skip" && text["invalid"].text() != "refuse"))
-    gonio::refuse({path.string(), ": 'invalid' must be \"refuse\" or \"skip\", not ", shown(text["invalid"])});
-  list.skips_invalid = text["invalid"].text() == "skip";
-}
-
-}  // namespace
-
-image_list read_image_list(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  const auto bytes = gonio::io::read_bytes(path);
-  const json text = json::parse(std::string(gonio::io::detail::as_text(bytes)));
-  if (!text.is_object() || !text.contains("images") || !text["images"].is_array() || text["images"].empty())
-    gonio::refuse({name, ": must be a JSON object whose 'images' is a list with an image at least"});
-  image_list list;
-  if (!text.contains("quantity") || !text["quantity"].is_string())
-    gonio::refuse(
-        {name, ": 'quantity' must say what the numbers are: brdf, brdf-cosine, reflectance-factor or percent"});
-  const auto quantity = gonio::io::quantity_named(text["quantity"].text());
-  if (!quantity)
-    gonio::refuse({name, ": 'quantity' is '", gonio::printable(text["quantity"].text()),
-                   "', expected brdf, brdf-cosine, reflectance-factor or percent"});
-  list.quantity = *quantity;
-  read_outside(text, path, list);
-  for (const json& image : text["images"].elements()) {
-    if (!image.is_object() || !image.contains("image") || !image["image"].is_string())
-      gonio::refuse({name, ": 'image' is missing or no text in ", shown(image)});
-    list.images.push_back({path.parent_path() / image["image"].text(), directions_of(image, name)});
-  }
-  return list;
-}
-
-// ---- the images --------------------------------------------------------------------------------
 
 namespace {
 
@@ -135,75 +54,35 @@ void read_exactly(const gonio::io::detail::descriptor& file, std::uint64_t offse
 image_stack::image_stack(const image_list& list, const std::filesystem::path& folder)
     : skips_invalid_(list.skips_invalid) {
   for (const listed_image& image : list.images) {
-    sources_.push_back(image.file.extension() == ".npy" ? open_npy(image.file) : decode(image.file, folder));
-    sources_.back().factor = static_cast<float>(gonio::io::brdf_factor(list.quantity, image.at.wo));
+    sources_.push_back({image.file.string(), open_image(image.file),
+                        static_cast<float>(gonio::io::brdf_factor(list.quantity, image.at.wo))});
+    const image_rows& opened = *sources_.back().image;
+    if (sources_.size() == 1) {
+      rows_ = opened.rows();
+      columns_ = opened.columns();
+    }
+    require_size(image.file.string(), opened.rows(), opened.columns());
   }
   if (!list.mask.empty()) mask_ = decode_mask(list.mask, folder);
 }
 
-void image_stack::require_size(const std::string& name, Eigen::Index rows, Eigen::Index columns) {
+void image_stack::require_size(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
   if (rows < 1 || columns < 1) gonio::refuse({name, ": has no texel"});
-  if (sources_.empty()) {
-    rows_ = rows;
-    columns_ = columns;
-  }
   if (rows != rows_ || columns != columns_)
     gonio::refuse({name, ": has ", columns, " x ", rows, " pixels, but ", sources_.front().name, " has ", columns_,
                    " x ", rows_});
 }
 
-image_stack::source image_stack::open_npy(const std::filesystem::path& path) {
-  source image{path.string(), gonio::io::detail::open_to_read(path)};
-  const std::uint64_t size = gonio::io::detail::size_of_regular(image.file, path);
-  std::vector<std::byte> start(std::min<std::uint64_t>(size, 1u << 16));
-  read_exactly(image.file, 0, start, image.name);
-  std::span<const std::byte> rest(start);
-  const auto layout = gonio::io::detail::take_npy_header(rest, image.name);
-  if (layout.shape.size() != 3 || layout.shape[2] != 3)
-    gonio::refuse(
-        {image.name, ": has shape ", gonio::io::detail::npy_shape_text(layout.shape), ", expected (rows, columns, 3)"});
-  image.offset = start.size() - rest.size();
-  image.word_size = layout.word_size;
-  if (size - image.offset != std::uint64_t{layout.count} * layout.word_size)
-    gonio::refuse({image.name, ": has ", size - image.offset, " bytes of elements, expected ",
-                   layout.count * layout.word_size, " for its shape"});
-  require_size(image.name, static_cast<Eigen::Index>(layout.shape[0]), static_cast<Eigen::Index>(layout.shape[1]));
-  return image;
-}
-
-image_stack::source image_stack::decode(const std::filesystem::path& path, const std::filesystem::path& folder) {
-  const gonio::image pixels = read_radiance(path);
-  source image{path.string(), unnamed_file(folder)};
-  require_size(image.name, static_cast<Eigen::Index>(pixels.shape(0)), static_cast<Eigen::Index>(pixels.shape(1)));
-  keep_decoded(image.file, std::as_bytes(std::span(pixels.data(), pixels.size())), image.name, folder);
-  return image;
-}
-
-image_stack::source image_stack::decode_mask(const std::filesystem::path& path, const std::filesystem::path& folder) {
+image_stack::decoded_mask image_stack::decode_mask(const std::filesystem::path& path,
+                                                   const std::filesystem::path& folder) const {
   const gonio::stored_codes pixels = gonio::io::read_png_codes(path);
-  source mask{path.string(), unnamed_file(folder)};
+  decoded_mask mask{path.string(), unnamed_file(folder)};
   require_size(mask.name, static_cast<Eigen::Index>(pixels.rows), static_cast<Eigen::Index>(pixels.columns));
   std::vector<std::uint8_t> outside;
   for (auto pixel = pixels.values.begin(); pixel != pixels.values.end(); pixel += 3)
     outside.push_back(std::all_of(pixel, pixel + 3, [](std::uint16_t code) { return code == 0; }) ? 1 : 0);
   keep_decoded(mask.file, std::as_bytes(std::span(outside)), mask.name, folder);
   return mask;
-}
-
-void image_stack::read_into(const source& image, gonio::block rows, Eigen::Ref<Eigen::VectorXf> out) const {
-  const std::uint64_t at = image.offset + static_cast<std::uint64_t>(3 * columns_ * rows.begin) * image.word_size;
-  const std::span<float> numbers(out.data(), static_cast<std::size_t>(out.size()));
-  if (image.word_size == sizeof(float)) {
-    read_exactly(image.file, at, std::as_writable_bytes(numbers), image.name);
-  } else {
-    std::vector<std::byte> bytes(numbers.size() * image.word_size);
-    read_exactly(image.file, at, bytes, image.name);
-    if (image.word_size == sizeof(double))
-      gonio::io::detail::copy_elements<double>(bytes, numbers, image.name);
-    else
-      gonio::io::detail::copy_halves(bytes, numbers);
-  }
-  if (image.factor != 1.0f) out *= image.factor;
 }
 
 std::vector<std::uint8_t> image_stack::masked(gonio::block rows) const {
@@ -228,20 +107,20 @@ void image_stack::mark_invalid(const source& image, const Eigen::Ref<const Eigen
 }
 
 void image_stack::will_read(gonio::block rows) const noexcept {
-#if defined(POSIX_FADV_WILLNEED)
-  for (const source& image : sources_) {
-    const auto row = static_cast<off_t>(image.word_size) * 3 * columns_;
-    static_cast<void>(::posix_fadvise(image.file.get(), static_cast<off_t>(image.offset) + row * rows.begin,
-                                      row * rows.size(), POSIX_FADV_WILLNEED));
-  }
-#endif
+  for (const source& each : sources_) each.image->will_read(rows);
 }
 
 texel_values image_stack::read(gonio::block rows, gonio::thread_count threads) const {
   texel_values all{Eigen::MatrixXf(3 * columns_ * rows.size(), std::ssize(sources_)), {}};
   gonio::for_each_index(
       std::ssize(sources_), 1,
-      [&](Eigen::Index i) { read_into(sources_[static_cast<std::size_t>(i)], rows, all.reflectance.col(i)); }, threads);
+      [&](Eigen::Index i) {
+        const source& from = sources_[static_cast<std::size_t>(i)];
+        auto values = all.reflectance.col(i);
+        from.image->read(rows, {values.data(), static_cast<std::size_t>(values.size())});
+        if (from.factor != 1.0f) values *= from.factor;
+      },
+      threads);
   std::vector<std::uint8_t> outside = masked(rows);
   for (Eigen::Index i = 0; i < std::ssize(sources_); ++i)
     mark_invalid(sources_[static_cast<std::size_t>(i)], all.reflectance.col(i), rows.begin, outside);

@@ -2,36 +2,21 @@
 /// Registered images of a flat sample, one for each pair of directions, read in bands of rows: no more than a band of
 /// all of them is in memory.
 
-#include <gonio/core/direction.hpp>
+#include "cli/image_rows.hpp"
+#include "command_line/image_list.hpp"
 #include <gonio/core/parallel.hpp>
 #include <gonio/io/file.hpp>
-#include <gonio/io/sample_quantity.hpp>
 
 #include <Eigen/Core>
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace cli {
-
-struct listed_image {
-  std::filesystem::path file;
-  gonio::direction_pair at;
-};
-
-/// What a list of images says (JSON; docs/reference/formats.md).
-struct image_list {
-  gonio::io::sample_quantity quantity = gonio::io::sample_quantity::brdf;
-  std::vector<listed_image> images;
-  std::filesystem::path mask;  ///< a PNG, black where texels are not of the sample; none if empty
-  bool skips_invalid = false;  ///< texels that have a value that is not finite in an image are not of the sample
-};
-
-/// Throws gonio::error naming the list and the image of it that is not what it should be.
-[[nodiscard]] image_list read_image_list(const std::filesystem::path& path);
 
 /// Reflectance in sr^-1 of a range of texels: a column for each image, red, green and blue of a texel after another.
 struct texel_values {
@@ -41,9 +26,8 @@ struct texel_values {
 
 class image_stack {
  public:
-  /// Opens all images: .npy is read from its place; .exr and .hdr, of which no part can be read alone, are decoded one
-  /// after the other into a file without a name in `folder`. Throws gonio::error naming the image that cannot be read,
-  /// or has another size than the first. So is a mask, a byte for each texel.
+  /// Opens all images (`open_image`), and decodes a mask, a byte for each texel, into a file without a name in
+  /// `folder`. Throws gonio::error naming the image that cannot be read, or has another size than the first.
   image_stack(const image_list& list, const std::filesystem::path& folder);
 
   [[nodiscard]] Eigen::Index rows() const noexcept { return rows_; }
@@ -58,26 +42,25 @@ class image_stack {
  private:
   struct source {
     std::string name;
+    std::unique_ptr<image_rows> image;
+    float factor = 1.0f;  ///< what makes it sr^-1
+  };
+  struct decoded_mask {
+    std::string name;
     gonio::io::detail::descriptor file;
-    std::uint64_t offset = 0;   ///< of the first number
-    std::size_t word_size = 4;  ///< bytes of a number
-    float factor = 1.0f;        ///< what makes it sr^-1
   };
 
-  [[nodiscard]] source open_npy(const std::filesystem::path& path);
-  [[nodiscard]] source decode(const std::filesystem::path& path, const std::filesystem::path& folder);
-  [[nodiscard]] source decode_mask(const std::filesystem::path& path, const std::filesystem::path& folder);
+  [[nodiscard]] decoded_mask decode_mask(const std::filesystem::path& path, const std::filesystem::path& folder) const;
   /// A byte for each texel, zero if it is of the sample as far as the mask says.
   [[nodiscard]] std::vector<std::uint8_t> masked(gonio::block rows) const;
   /// Marks the texels that have a value that is not finite in an image, or refuses the first.
   void mark_invalid(const source& image, const Eigen::Ref<const Eigen::VectorXf>& values, Eigen::Index first_row,
                     std::vector<std::uint8_t>& outside) const;
-  void require_size(const std::string& name, Eigen::Index rows, Eigen::Index columns);
-  void read_into(const source& image, gonio::block rows, Eigen::Ref<Eigen::VectorXf> out) const;
+  void require_size(const std::string& name, Eigen::Index rows, Eigen::Index columns) const;
 
   Eigen::Index rows_ = 0, columns_ = 0;
   std::vector<source> sources_;
-  std::optional<source> mask_;
+  std::optional<decoded_mask> mask_;
   bool skips_invalid_;
 };
 

@@ -10,7 +10,7 @@
 #include <gonio/basis/add_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/learn_streamed_pca.hpp>
-#include <gonio/estimate/soft_specular_decomposition.hpp>
+#include <gonio/estimate/learn_streamed_soft_specular.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
 #include <gonio/io/text.hpp>
@@ -62,26 +62,14 @@ void print_kept(const gonio::log_relative_pca& learned, const std::string& what)
             << fixed(100.0 * learned.explained_variance(), 2) << " % of the mapped variance\n";
 }
 
-gonio::cosine_weighting weighting_of(const learn_options& options) {
-  return options.cosine_weight == "larger" ? gonio::cosine_weighting::larger : gonio::cosine_weighting::product;
+void print_residual(bool exact, double residual) {
+  if (!exact)
+    std::cout << "found in a random subspace: squared singular values within " << fixed(100.0 * residual, 6)
+              << " % of the variance\n";
 }
 
-/// One prior for the soft and one for the specular materials.
-void learn_split(const learn_options& options) {
-  progress_bar bar;
-  const auto materials = read_materials(options.materials, options.threads, bar.listener());
-  const std::string source = source_of(options.materials, materials.names.size());
-  const auto metric = gonio::log_relative::to_median_of(materials, options.threads).weighted_by(weighting_of(options));
-  const auto cells = options.thin.of(materials.cells);
-  const auto learned =
-      gonio::learn_soft_specular_prior(materials, metric, options.components, {}, options.threads, bar.listener());
-  gonio::io::write_soft_specular_prior(options.output, learned.on(cells).with_source(source));
-  const auto half = [&](const gonio::log_relative_pca& prior, const char* kind) {
-    print_kept(prior, std::to_string(prior.names().size()) + ' ' + kind + " of " + source);
-  };
-  half(learned.soft(), "soft");
-  half(learned.specular(), "specular");
-  std::cout << "a material is specular from a highlight contrast of " << fixed(learned.threshold(), 3) << " on\n";
+gonio::cosine_weighting weighting_of(const learn_options& options) {
+  return options.cosine_weight == "larger" ? gonio::cosine_weighting::larger : gonio::cosine_weighting::product;
 }
 
 /// Materials that are read once into a scratch file beside the prior if they do not fit into a quarter of the memory.
@@ -93,27 +81,41 @@ gonio::material_rows stream(const learn_options& options, const std::optional<go
                           listener, processes);
 }
 
+/// One prior for the soft and one for the specular materials. Processes do not share it.
+void learn_split(const learn_options& options, const gonio::streaming_options& streaming) {
+  progress_bar bar;
+  const auto materials = stream(options, {}, bar.listener(), alone());
+  const std::string source = source_of(options.materials, materials.names.size());
+  const auto learned = gonio::learn_streamed_soft_specular(materials, streaming, {}, bar.listener());
+  const auto prior = learned.prior.on(options.thin.of(materials.cells)).with_source(source);
+  gonio::io::write_soft_specular_prior(options.output, prior);
+  bar.wipe();
+  for (const auto& [half, kind] :
+       {std::pair(&prior.soft(), " soft of "), std::pair(&prior.specular(), " specular of ")})
+    print_kept(*half, std::to_string(half->names().size()) + kind + source);
+  print_residual(learned.exact, learned.residual);
+  std::cout << "a material is specular from a highlight contrast of " << fixed(prior.threshold(), 3) << " on\n";
+}
+
 void learn(const learn_options& options, const team& processes) {
+  gonio::streaming_options streaming{.components = options.components,
+                                     .weighting = weighting_of(options),
+                                     .subspace = {.seed = options.seed},
+                                     .memory = static_cast<std::uint64_t>(options.memory * 0x1p30),
+                                     .threads = options.threads};
   if (options.split) {
-    if (processes.writes()) learn_split(options);
+    if (processes.writes()) learn_split(options, streaming);
     return;
   }
+  streaming.share = processes.groups();
   progress_bar bar;
-  const gonio::streaming_options streaming{.components = options.components,
-                                           .weighting = weighting_of(options),
-                                           .subspace = {.seed = options.seed},
-                                           .memory = static_cast<std::uint64_t>(options.memory * 0x1p30),
-                                           .threads = options.threads,
-                                           .share = processes.groups()};
   const auto finish = [&](const gonio::streamed_pca& learned, const gonio::log_relative_pca& prior,
                           const std::string& source) {
     if (!processes.writes()) return;
     gonio::io::write_prior(options.output, prior.with_source(source));
     bar.wipe();
     print_kept(prior, source);
-    if (!learned.exact)
-      std::cout << "found in a random subspace: squared singular values within " << fixed(100.0 * learned.residual, 6)
-                << " % of the variance\n";
+    print_residual(learned.exact, learned.residual);
   };
   if (!options.add_to.empty()) {
     const auto old = gonio::io::read_prior(options.add_to);
@@ -180,18 +182,15 @@ void add_learn(command& app, const team& processes) {
   command
       .add_option("--memory", options->memory,
                   "GiB of memory to use at most, beside the components: tables that do not fit are read from a scratch "
-                  "file. Not with --split")
+                  "file")
       .check(check::range(1.0, 65536.0))
-      .excludes(split)
       .capture_default_str();
-  command.add_input_folder("--scratch", options->scratch, {}, "Folder of the scratch file (default: that of --output)")
-      .excludes(split);
+  command.add_input_folder("--scratch", options->scratch, {}, "Folder of the scratch file (default: that of --output)");
   command
       .add_option(
           "--seed", options->seed,
           "Seed of the random subspace in which more than 1024 columns are decomposed, three a material or one for "
           "each wavelength (Halko et al. 2011)")
-      .excludes(split)
       .capture_default_str();
   command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();
   add_threads_option(command, options->threads);

@@ -52,8 +52,8 @@ void write_texel_image(const std::filesystem::path& path, const gonio::io::svbrd
                        const std::function<std::vector<gonio::rgb>(const band&, Eigen::Index)>& colours_of,
                        const colour_scale* scale) {
   const gonio::io::svbrdf_header& header = map.header();
-  gonio::image picture =
-      gonio::uniform_image(static_cast<std::size_t>(header.rows), static_cast<std::size_t>(header.columns));
+  const auto rows = static_cast<std::size_t>(header.rows), columns = static_cast<std::size_t>(header.columns);
+  gonio::image picture = gonio::uniform_image(scale == nullptr ? rows : rows_with_scale(rows, columns), columns);
   float* next = picture.data();
   for (Eigen::Index number = 0; number < header.bands(); ++number) {
     const band read = map.read_band(number);
@@ -61,7 +61,8 @@ void write_texel_image(const std::filesystem::path& path, const gonio::io::svbrd
     for (Eigen::Index texel = 0; texel < header.texels_of_band(number); ++texel, next += 3)
       if (read.has_material(texel)) std::ranges::copy(colours[static_cast<std::size_t>(texel)].cast<float>(), next);
   }
-  gonio::io::write_png(path, scale == nullptr ? picture : with_scale(picture, *scale));
+  if (picture.shape(0) > rows) draw_scale(picture, *scale);
+  gonio::io::write_png(path, picture);
 }
 
 /// A part of the map, as an array or as an image of a scale, on which `share_of` a number stands.
@@ -152,16 +153,29 @@ void cluster(const texels_options& options, const gonio::io::svbrdf_map& map, co
 
 // ---- two maps ----------------------------------------------------------------------------------
 
-/// Delta E of each pixel of two images, row by row.
-std::vector<float> differences_of(const gonio::image& one, const gonio::image& other, gonio::thread_count threads) {
-  std::vector<float> found(one.size() / 3);
-  gonio::for_each_index(
-      std::ssize(found), 4096,
-      [&](Eigen::Index i) {
-        const Eigen::Map<const Eigen::Array3f> a(one.data() + 3 * i), b(other.data() + 3 * i);
-        found[static_cast<std::size_t>(i)] = static_cast<float>(gonio::delta_e(a.cast<double>(), b.cast<double>()));
-      },
-      threads);
+/// Delta E of each texel of two maps under some lights, as bright as the first needs it unless an exposure is given.
+std::vector<float> differences_of(const flat_sample& one, const flat_sample& other,
+                                  const std::optional<double>& given_exposure, gonio::thread_count threads) {
+  const gonio::image radiance = one.radiance(threads);
+  const double exposure = given_exposure ? *given_exposure : gonio::render::exposure_of(radiance);
+  const auto shown = [&](const float* pixel) {
+    return gonio::rgb((exposure * Eigen::Map<const Eigen::Array3f>(pixel).cast<double>()).cast<float>().cast<double>());
+  };
+  std::vector<float> found(radiance.size() / 3);
+  const gonio::io::svbrdf_header& header = one.header();
+  for (Eigen::Index first = 0; first < header.rows; first += header.band_rows) {
+    // Rows of this band, which may lie in several bands of the other.
+    const gonio::block rows{first, std::min(first + header.band_rows, header.rows)};
+    const std::vector<float> others = other.radiance(rows, threads);
+    gonio::for_each_index(
+        rows.size() * header.columns, 4096,
+        [&](Eigen::Index i) {
+          const Eigen::Index texel = first * header.columns + i;
+          found[static_cast<std::size_t>(texel)] =
+              static_cast<float>(gonio::delta_e(shown(radiance.data() + 3 * texel), shown(others.data() + 3 * i)));
+        },
+        threads);
+  }
   return found;
 }
 
@@ -172,11 +186,8 @@ void compare(const texels_options& options, const gonio::io::svbrdf_map& map, co
     gonio::refuse({options.other.native(), ": has ", other.header().columns, " x ", other.header().rows,
                    " texels, but ", options.map.native(), " has ", header.columns, " x ", header.rows});
   const auto lighting = lighting_of(options.lights);
-  gonio::image one = flat_sample_radiance(map, prior, lighting.lights(), options.threads);
-  gonio::image two = flat_sample_radiance(other, prior, lighting.lights(), options.threads);
-  const double exposure = options.exposure ? *options.exposure : gonio::render::exposure_of(one);
-  for (gonio::image* each : {&one, &two}) gonio::render::expose(*each, exposure);
-  const std::vector<float> differences = differences_of(one, two, options.threads);
+  const std::vector<float> differences = differences_of(
+      {map, prior, lighting.lights()}, {other, prior, lighting.lights()}, options.exposure, options.threads);
   const auto of_band = [&](Eigen::Index number) {
     return std::span(differences)
         .subspan(static_cast<std::size_t>(number * header.band_rows * header.columns),

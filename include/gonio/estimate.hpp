@@ -16,6 +16,7 @@
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/fitted_spectra.hpp>
 #include <gonio/estimate/highlight_contrast.hpp>
+#include <gonio/estimate/learn_streamed_soft_specular.hpp>
 #include <gonio/estimate/leave_one_material_out_error.hpp>
 #include <gonio/estimate/leave_one_out.hpp>
 #include <gonio/estimate/located_samples.hpp>

@@ -15,6 +15,7 @@
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
+#include <gonio/io/hdr_rows.hpp>
 #include <gonio/io/json_reader.hpp>
 #include <gonio/io/mbsdf.hpp>
 #include <gonio/io/merl.hpp>

@@ -39,6 +39,10 @@ TEST_CASE("two priors are learned, and the samples choose one") {
   CHECK(facts["soft"]["names"] == nlohmann::json{"blue-rubber", "grey-lambertian"});
   CHECK(facts["specular"]["materials"] == 3);
   const auto prior = gonio::io::read_soft_specular_prior(split);
+  // The same bytes with a scratch folder, memory and threads of its own.
+  run("learn --split --thin 9 15 --components 4 --merl " + at("tables") + " -o " + at("again.prior") + " --scratch " +
+      at("tables") + " --memory 1 --threads 1");
+  CHECK(scratch::get(at("again.prior")) == scratch::get(split));
 
   const auto reconstruct = [&](const std::string& material, const std::string& kind, const std::string& options) {
     run("sample " + at("tables/" + material + ".binary") + " --directions " + nielsen_20 + " -o " + at("s.csv"));

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-/// Four images of 70 x 1500 texels, whose bands have 43 rows; a prior of few cells.
+/// Four images of 70 x 375 texels, whose bands have 43 rows; a prior of few cells.
 struct images_folder {
   scratch::folder folder;
   gonio::log_relative_pca prior = learn(synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 12), 6);
@@ -27,7 +27,7 @@ struct images_folder {
     for (std::size_t i = 0; i < angles.size(); ++i) {
       std::mt19937 generator(static_cast<unsigned>(i));
       std::uniform_real_distribution<float> value(0.01f, 0.4f);
-      xt::xtensor<float, 3> image(std::array<std::size_t, 3>{70, 1500, 3});
+      xt::xtensor<float, 3> image(std::array<std::size_t, 3>{70, 375, 3});
       for (float& each : image) each = value(generator);
       const std::string name = "image-" + std::to_string(i) + ".npy";
       gonio::io::write_npy(folder / name, image);

@@ -21,7 +21,7 @@
 
 namespace {
 
-/// Columns up to 300 are of one material, from 1000 on of another, those between of a third; rows from 60 on are not of
+/// Columns up to 75 are of one material, from 250 on of another, those between of a third; rows from 60 on are not of
 /// the sample.
 struct sample_of_three : images_folder {
   explicit sample_of_three(float last = 0.05f) {
@@ -30,7 +30,7 @@ struct sample_of_three : images_folder {
       std::normal_distribution<float> noise(1.0f, 0.02f);
       auto image = images[i];
       for (std::size_t row = 0; row < 70; ++row)
-        for (std::size_t column = 0; column < 1500; ++column)
+        for (std::size_t column = 0; column < 375; ++column)
           for (std::size_t c = 0; c < 3; ++c)
             image(row, column, c) = row >= 60 ? std::nanf("")
                                               : noise(generator) * (of(column) == 1   ? 0.2f
@@ -43,7 +43,7 @@ struct sample_of_three : images_folder {
   }
 
   /// By how many columns each has.
-  static int of(std::size_t column) { return column < 300 ? 3 : column < 1000 ? 1 : 2; }
+  static int of(std::size_t column) { return column < 75 ? 3 : column < 250 ? 1 : 2; }
   [[nodiscard]] std::string file(const std::string& name) const { return (folder / name).string(); }
   [[nodiscard]] std::string texels(const std::string& arguments) const {
     return "texels " + file("map.gsv") + " --prior " + file("small.prior") + " " + arguments;
@@ -54,7 +54,7 @@ struct sample_of_three : images_folder {
 std::string labels_in(const std::string& file) {
   const std::string all = scratch::get(file);
   CHECK(all.find("'|u1'") != std::string::npos);
-  return all.substr(all.size() - 70 * 1500);
+  return all.substr(all.size() - 70 * 375);
 }
 
 }  // namespace
@@ -70,13 +70,13 @@ TEST_CASE("texels: clusters are the materials, the largest first, and texels bes
   const std::string labels = labels_in(given.file("l.npy"));
   int wrong = 0;
   for (std::size_t i = 0; i < labels.size(); ++i)
-    wrong += labels[i] != (i / 1500 >= 60 ? 0 : sample_of_three::of(i % 1500)) ? 1 : 0;
+    wrong += labels[i] != (i / 375 >= 60 ? 0 : sample_of_three::of(i % 375)) ? 1 : 0;
   CHECK(wrong == 0);
   // As an image, and for any number of threads.
   run(given.texels("--clusters 3 --threads 3 --labels " + given.file("l.png")));
   const gonio::image drawn = gonio::io::read_png(given.file("l.png"));
   REQUIRE(drawn.shape(0) == 70);
-  for (const std::size_t column : {7, 700, 1400})
+  for (const std::size_t column : {7, 200, 350})
     CHECK((gonio::pixel(drawn, 5, column) - gonio::render::category_colour(sample_of_three::of(column) - 1))
               .abs()
               .maxCoeff() < 0.01);
@@ -91,8 +91,8 @@ TEST_CASE("texels: clusters are the materials, the largest first, and texels bes
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(6, 3);
   for (const Eigen::Index number : {0, 1})
     for (Eigen::Index row = 0; row < (number == 0 ? 43 : 17); ++row)
-      for (Eigen::Index column = 0; column < 300; ++column)
-        sum += gonio::io::weights_of_texel(map.header(), map.read_band(number), row * 1500 + column) / 18000.0;
+      for (Eigen::Index column = 0; column < 75; ++column)
+        sum += gonio::io::weights_of_texel(map.header(), map.read_band(number), row * 375 + column) / 4500.0;
   for (Eigen::Index c = 0; c < 3; ++c)
     for (Eigen::Index k = 0; k < 6; ++k)
       CHECK(double{means(2, c, k)} == doctest::Approx(sum(k, c)).epsilon(1e-3).scale(0.01));
@@ -110,13 +110,13 @@ TEST_CASE("texels: uncertainty and disagreement as images with a scale, and as a
   const gonio::io::svbrdf_map map(given.folder / "map.gsv");
   const auto band = map.read_band(1);
   const gonio::image drawn = gonio::io::read_png(given.file("u.png"));
-  REQUIRE(drawn.shape(1) == 1500);
+  REQUIRE(drawn.shape(1) == 375);
   REQUIRE(drawn.shape(0) > 70);  // a scale below
-  const gonio::rgb expected = gonio::render::uncertainty_colour(gonio::from_half(band.uncertainty[2 * 1500 + 9]));
+  const gonio::rgb expected = gonio::render::uncertainty_colour(gonio::from_half(band.uncertainty[2 * 375 + 9]));
   CHECK((gonio::pixel(drawn, 45, 9) - expected).abs().maxCoeff() < 0.01);
   CHECK((gonio::pixel(drawn, 62, 9) == 0.0).all());
   const auto disagreement = gonio::io::read_npy<float, 2>(given.file("d.npy"));
-  CHECK(disagreement(45, 9) == gonio::from_half(band.disagreement[2 * 1500 + 9]));
+  CHECK(disagreement(45, 9) == gonio::from_half(band.disagreement[2 * 375 + 9]));
   CHECK(disagreement(62, 9) == 0.0f);
 }
 
@@ -132,21 +132,21 @@ TEST_CASE("texels: Delta E of two maps") {
   CHECK(run(given.texels(compare + given.file("e.npy"))).find("Delta E of the maps") != std::string::npos);
   const auto found = gonio::io::read_npy<float, 2>(given.file("e.npy"));
   CHECK(found(5, 7) == 0.0f);
-  CHECK(found(5, 1400) > 1.0f);
-  CHECK(found(65, 1400) == 0.0f);
+  CHECK(found(5, 350) > 1.0f);
+  CHECK(found(65, 350) == 0.0f);
   run(given.texels(compare + given.file("e.png")));
   const gonio::image drawn = gonio::io::read_png(given.file("e.png"));
-  const gonio::rgb expected = gonio::render::sequential_colour(0.1 * double{found(5, 1400)});
-  CHECK((gonio::pixel(drawn, 5, 1400) - expected).abs().maxCoeff() < 0.01);
+  const gonio::rgb expected = gonio::render::sequential_colour(0.1 * double{found(5, 350)});
+  CHECK((gonio::pixel(drawn, 5, 350) - expected).abs().maxCoeff() < 0.01);
   // Of the images that gonio render draws.
   const auto render = [&](const std::string& map, const std::string& image) {
     run("render " + given.file(map) + " --prior " + given.file("small.prior") + " --light 20,10 --exposure 1 -o " +
         given.file(image));
     return gonio::io::read_png(given.file(image));
   };
-  const double seen = gonio::delta_e(gonio::pixel(render("map.gsv", "a.png"), 5, 1400),
-                                     gonio::pixel(render("other.gsv", "b.png"), 5, 1400));
-  CHECK(double{found(5, 1400)} == doctest::Approx(seen).epsilon(0.1).scale(1));
+  const double seen = gonio::delta_e(gonio::pixel(render("map.gsv", "a.png"), 5, 350),
+                                     gonio::pixel(render("other.gsv", "b.png"), 5, 350));
+  CHECK(double{found(5, 350)} == doctest::Approx(seen).epsilon(0.1).scale(1));
 }
 
 TEST_CASE("texels: what cannot be done is refused") {
@@ -162,7 +162,7 @@ TEST_CASE("texels: what cannot be done is refused") {
                "{\"quantity\": \"brdf\", \"images\": [" + given.entry("small.npy", 0) + "]}");
   run(given.command("small.gsv", "small.json"));
   refuses(given.texels("--compare " + given.file("small.gsv") + " --delta-e " + given.file("e.png")),
-          {"small.gsv: has 2 x 2 texels", "1500 x 70"});
+          {"small.gsv: has 2 x 2 texels", "375 x 70"});
   const std::string small = "texels " + given.file("small.gsv") + " --prior " + given.file("small.prior");
   refuses(small + " --clusters 5", {"--clusters 5", "4 points differ"});
   run(small + " --uncertainty " + given.file("u.png"));  // which has no room for a scale

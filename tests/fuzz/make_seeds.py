@@ -275,6 +275,8 @@ put("obj", "small.obj", "# made up\no thing\nv 0 0 0\nv 1 0 0\nv 1 1 0 1 0.5 0.5
 frames = '{"largest_count": 4095, "window": {"column": 1, "row": 0, "columns": 2, "rows": 2}, "frames": [{"theta_i": 30, "phi_i": 0, "theta_o": 10.5, "phi_o": -180, "seconds": 0.1, "file": "a.png"}, {"theta_i": 30, "phi_i": 0, "theta_o": 10.5, "phi_o": -180, "seconds": 1, "file": "b.png"}]}'
 put("recorded_frames", "manifest.json", frames)
 put("recorded_frames", "one.json", '{"largest_count":1,"frames":[{"theta_i":0,"phi_i":0,"theta_o":0,"phi_o":0,"seconds":1e-3,"file":""}]}')
+put("image_list", "two.json", '{"quantity": "brdf", "mask": "m.png", "invalid": "skip", "images": [{"image": "a.npy", "theta_i": 30, "phi_i": 0, "theta_o": 10.5, "phi_o": -180}, {"image": "b.exr", "theta_h": 30, "theta_d": 20, "phi_d": 45}]}')
+put("image_list", "one.json", '{"quantity":"percent","invalid":"refuse","images":[{"image":"","theta_h":0,"theta_d":0,"phi_d":0}]}')
 put("json", "state.json", '{"key":{"n":5,"set":"a"},"result":[1,-2.5e-3,null,true,false,"\\u00e9\\n",{"x":[]}]}')
 put("json", "twice.json", '{"a":1,"b":{},"a":[18446744073709551615,-9223372036854775808,1.0]}')
 
@@ -310,6 +312,7 @@ words = {
     "ply": ['ply', 'format ascii 1.0', 'format binary_little_endian 1.0', 'format binary_big_endian 1.0', 'element vertex ', 'element face ', 'property list ', 'property ', 'uchar', 'char', 'short', 'ushort', 'int', 'uint', 'float', 'double', 'int8', 'float64', 'vertex_indices', 'vertex_index', 'end_header', 'comment', 'obj_info', '\\x0A', '4294967295', '18446744073709551615', 'nan'],
     "obj": ['v ', 'f ', 'vn ', 'vt ', 'o ', 'g ', 's ', 'usemtl ', '/', '//', '-1', '9223372036854775807', '-9223372036854775808', '\\x0A', '#', 'nan', '1e308'],
     "recorded_frames": ['"largest_count"', '"window"', '"frames"', '"theta_i"', '"phi_i"', '"theta_o"', '"phi_o"', '"seconds"', '"file"', '"column"', '"row"', '"columns"', '"rows"', '{', '}', '[', ']', ':', ',', '65535', '1e308', '\\\\u001b', 'null', '89.9999999999'],
+    "image_list": ['"quantity"', '"brdf"', '"brdf-cosine"', '"reflectance-factor"', '"percent"', '"mask"', '"invalid"', '"skip"', '"refuse"', '"images"', '"image"', '"theta_i"', '"phi_i"', '"theta_o"', '"phi_o"', '"theta_h"', '"theta_d"', '"phi_d"', '{', '}', '[', ']', ':', ',', '1e308', '-360', '89.9999999999', '\\\\u001b', '\\\\u0000', 'null'],
     "json": ['{', '}', '[', ']', ':', ',', '"key"', '"result"', 'null', 'true', 'false', '1e308', '1e400', '-0.0', '18446744073709551616', '\\\\u001b', '\\\\ud83d\\\\ude00', '\\\\ud800', '\\xEF\\xBB\\xBF', '""'],
 }
 for reader, entries in words.items():

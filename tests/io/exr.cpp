@@ -1,11 +1,20 @@
+#include "exr_of_others.hpp"
 #include "scratch.hpp"
 #include <gonio/io/exr.hpp>
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <string>
+#include <vector>
 
 using scratch::check_refused;
 
@@ -24,7 +33,99 @@ std::vector<std::byte> written_exr(const gonio::image& picture) {
   return scratch::bytes_of(scratch::get(here / "a.exr"));
 }
 
+/// All values differ.
+gonio::image counted_image(std::size_t rows, std::size_t columns) {
+  gonio::image picture = gonio::uniform_image(rows, columns);
+  for (std::size_t i = 0; i < picture.size(); ++i) picture.data()[i] = static_cast<float>(i) / 16.0f;
+  return picture;
+}
+
 }  // namespace
+
+TEST_CASE("OpenEXR rows: any rows are those of the whole image, however it is stored") {
+  const scratch::folder here;
+  const gonio::image whole = counted_image(70, 37);
+  gonio::io::write_exr(here / "ours.exr", whole);
+  put_lines(here / "plain.exr", whole, Imf::NO_COMPRESSION);
+  put_lines(here / "wavelets.exr", whole, Imf::PIZ_COMPRESSION);
+  put_lines(here / "upwards.exr", whole, Imf::ZIPS_COMPRESSION, Imf::DECREASING_Y);
+  put_tiles(here / "tiles.exr", whole, 16);
+  for (const char* name : {"ours.exr", "plain.exr", "wavelets.exr", "upwards.exr", "tiles.exr"}) {
+    CAPTURE(name);
+    const gonio::io::exr_rows file(here / name);
+    REQUIRE(file.rows() == 70);
+    REQUIRE(file.columns() == 37);
+    for (const gonio::block rows : {gonio::block{30, 45}, {0, 1}, {69, 70}, {0, 70}, {3, 17}}) {
+      std::vector<float> found(3 * 37 * static_cast<std::size_t>(rows.size()), -1.0f);
+      file.read(rows, found);
+      CHECK(std::equal(found.begin(), found.end(), whole.data() + 3 * 37 * rows.begin));
+    }
+  }
+}
+
+TEST_CASE("OpenEXR rows: not a number is left to the caller; a lone Y is grey") {
+  const scratch::folder here;
+  gonio::image picture = counted_image(20, 3);
+  picture(17, 2, 1) = std::numeric_limits<float>::quiet_NaN();
+  put_lines(here / "a.exr", picture, Imf::ZIP_COMPRESSION);
+  std::vector<float> row(9);
+  gonio::io::exr_rows(here / "a.exr").read({17, 18}, row);
+  CHECK(std::isnan(row[7]));
+  CHECK(row[8] == picture(17, 2, 2));
+  Imf::Header header(1, 2);
+  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+  std::vector<float> grey{0.25f, 0.5f};
+  Imf::FrameBuffer buffer;
+  buffer.insert("Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(grey.data()), 4, 4));
+  {
+    Imf::OutputFile file((here / "grey.exr").c_str(), header, 0);
+    file.setFrameBuffer(buffer);
+    file.writePixels(2);
+  }
+  std::vector<float> pixel(3);
+  gonio::io::exr_rows(here / "grey.exr").read({1, 2}, pixel);
+  CHECK(pixel == std::vector<float>(3, 0.5f));
+}
+
+TEST_CASE("OpenEXR rows: files that are cut, that lie or whose tiles are huge are refused") {
+  const scratch::folder here;
+  const auto refused = [&](const std::string& content, std::initializer_list<std::string> words) {
+    scratch::put(here / "a.exr", content);
+    check_refused([&] { return gonio::io::exr_rows(here / "a.exr"); }, words);
+  };
+  put_lines(here / "lines.exr", counted_image(70, 37), Imf::ZIP_COMPRESSION);
+  put_tiles(here / "tiles.exr", counted_image(70, 37), 16);
+  for (const char* name : {"lines.exr", "tiles.exr"}) {
+    const std::string whole = scratch::get(here / name);
+    for (const std::size_t cut : {std::size_t{1}, std::size_t{100}, whole.size() / 2, whole.size() - 100})
+      refused(whole.substr(0, whole.size() - cut), {"a.exr: cannot be decoded as OpenEXR"});
+    // More lines than are there: blocks are looked for where there are none.
+    std::string lying = whole;
+    const auto window = lying.find("dataWindow");
+    REQUIRE(window != std::string::npos);
+    const std::size_t bottom = window + 10 + 1 + 5 + 1 + 4 + 12;
+    REQUIRE(lying[bottom] == 69);
+    lying[bottom] = 100;
+    refused(lying, {"a.exr: cannot be decoded as OpenEXR"});
+  }
+  put_tiles(here / "huge.exr", counted_image(70, 37), 1024);
+  check_refused([&] { return gonio::io::exr_rows(here / "huge.exr"); }, {"huge.exr: its tiles have 1024 rows", "512"});
+  scratch::check_refuses_non_files([](const auto& path) { return gonio::io::exr_rows(path); });
+}
+
+TEST_CASE("OpenEXR rows: damaged files are read or refused") {
+  const scratch::folder here;
+  put_lines(here / "lines.exr", counted_image(40, 5), Imf::ZIP_COMPRESSION);
+  put_tiles(here / "tiles.exr", counted_image(40, 5), 16);
+  for (const char* name : {"lines.exr", "tiles.exr"})
+    scratch::check_survives_damage(scratch::bytes_of(scratch::get(here / name)), 1000, [&](auto bytes) {
+      scratch::put(here / "a.exr", bytes);
+      const gonio::io::exr_rows file(here / "a.exr");
+      std::vector<float> found(static_cast<std::size_t>(3 * file.columns()));
+      for (Eigen::Index row = 0; row < file.rows(); row += 7) file.read({row, row + 1}, found);
+      return found;
+    });
+}
 
 TEST_CASE("OpenEXR: what was written is read, bit for bit") {
   const gonio::image picture = unusual_image();

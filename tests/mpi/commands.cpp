@@ -58,7 +58,7 @@ void check_refused_by_all(const tool_result& result, std::initializer_list<const
   for (const char* word : words) CHECK(own.find(word) != std::string::npos);
 }
 
-/// Images of 900 x 1000 texels, whose 14 bands have 65 rows, and a small prior.
+/// Images of 900 x 1000 texels, whose 57 bands have 16 rows, and a small prior.
 struct job {
   scratch::folder folder;
 
@@ -143,7 +143,7 @@ TEST_CASE("gonio-mpi svbrdf: the bytes of gonio svbrdf with 1, 2 and 3 ranks") {
   }
   // What an interrupted gonio left, ranks go on with.
   scratch::put(given.folder / "ranks.gsv.part", whole.substr(0, whole.size() / 2));
-  CHECK(run_in(2, given.command("ranks.gsv")).find("went on behind band 6 of 14") != std::string::npos);
+  CHECK(run_in(2, given.command("ranks.gsv")).find("went on behind band 28 of 57") != std::string::npos);
   CHECK(scratch::get(given.folder / "ranks.gsv") == whole);
 }
 
@@ -172,9 +172,9 @@ TEST_CASE("gonio-mpi svbrdf: bad input of any rank is refused in one line") {
   const job given;
   check_refused_by_all(in_ranks(2, "svbrdf nothing.json -o map.gsv"), {"nothing.json", "No such file"});
   check_refused_by_all(in_ranks(2, given.command("map.gsv") + " --et 3"), {"'--et'", "--eta"});
-  // Rank 1 has the bands 1, 3, ...: row 100 is in band 1, which has rows from 65 on.
-  given.spoil(100);
-  check_refused_by_all(in_ranks(2, given.command("map.gsv")), {"rank 1", "image-2.npy", "row 100, column 7"});
+  // Rank 1 has the bands 1, 3, ...: row 20 is in band 1, which has rows from 16 on.
+  given.spoil(20);
+  check_refused_by_all(in_ranks(2, given.command("map.gsv")), {"rank 1", "image-2.npy", "row 20, column 7"});
   CHECK(scratch::fs::exists(given.folder / "map.gsv.part"));
 }
 

@@ -1,3 +1,4 @@
+#include <gonio/core/error.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <doctest/doctest.h>

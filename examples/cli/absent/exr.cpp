@@ -15,6 +15,8 @@ namespace {
 
 gonio::image read_exr(const std::filesystem::path& path) { refuse_exr(path); }
 
+std::unique_ptr<image_rows> open_exr(const std::filesystem::path& path) { refuse_exr(path); }
+
 void write_exr(const std::filesystem::path& path, const gonio::image&) { refuse_exr(path); }
 
 }  // namespace cli

@@ -151,7 +151,7 @@ def print_extrapolated(svbrdf, design, learn, materials):
 
     def map_share(n):
         """Of the map, what other ranks than the first compute: each n-th band is rank 0's."""
-        bands = -(-SIZE // max(1, 65536 // SIZE))
+        bands = -(-SIZE // max(1, 16384 // SIZE))
         return (bands - -(-bands // n)) / bands
 
     def learn_bytes(n):

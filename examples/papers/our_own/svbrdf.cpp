@@ -155,7 +155,7 @@ class svbrdf_experiment {
 
   /// The solving of texels in memory, beside large products of floats.
   void print_product() const {
-    const Eigen::Index band = 65536;
+    const Eigen::Index band = 16384;
     const gonio::io::svbrdf_map map(file("map.gsv"));
     const gonio::texel_decomposition estimator(prior_, locations(), gonio::tikhonov(map.header().eta));
     const Eigen::MatrixXf images = Eigen::MatrixXf::Constant(3 * band, std::ssize(directions_), 0.2f);

@@ -69,6 +69,11 @@ struct streamed_components {
 [[nodiscard]] streamed_pca learn_streamed_pca(material_rows materials, const streaming_options& options = {},
                                               const progress& listener = {});
 
+/// The same relative to a reference that is known, with its weighting instead of that of the options. Throws
+/// gonio::error as well unless the reference is over the materials' cells.
+[[nodiscard]] streamed_pca learn_streamed_pca(material_rows materials, const log_relative& reference,
+                                              const streaming_options& options = {}, const progress& listener = {});
+
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)

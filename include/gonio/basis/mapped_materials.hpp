@@ -11,9 +11,17 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace gonio {
+
+namespace detail {
+
+/// Throws gonio::error naming the first material that is not finite in a row, the values of all at a cell.
+void require_finite(const cell_matrix& rows, Eigen::Index row, Eigen::Index cell, const material_rows& materials);
+
+}  // namespace detail
 
 /// Rows of X - mu, a row for each cell, a column for each channel of each material. The first pass over the cells finds
 /// the reference (the median of all columns, which a block of cells has) and the mean of each; later ones know them.

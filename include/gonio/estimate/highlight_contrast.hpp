@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,8 +33,13 @@ struct contrast_sums {
 
   contrast_sums& operator+=(const contrast_sums& other);
 
+  /// Where the mapped luminances of a cell are added: the sums of its region, whose weight grows by 1. Null: of none.
+  [[nodiscard]] Eigen::ArrayXd* region_of(const half_difference& angles, const highlight_regions& regions);
+
   [[nodiscard]] bool complete() const noexcept { return in_weight > 0.0 && off_weight > 0.0; }
   [[nodiscard]] Eigen::ArrayXd contrasts() const;
+  /// The same of a grid's cells. Throws gonio::error if the regions have none.
+  [[nodiscard]] Eigen::ArrayXd contrasts_of_cells() const;
 
   Eigen::ArrayXd in_peak, off_peak;
   double in_weight = 0.0, off_weight = 0.0;
@@ -49,20 +55,16 @@ template <class Luminance>
       cells.size(), 1024, contrast_sums(materials),
       [&](contrast_sums& sum, block range) {
         for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
-          const half_difference angles = cells.angles(cell);
-          const bool in_peak = angles.theta_h <= regions.in_peak;
-          if (!in_peak && angles.theta_h < regions.off_peak) continue;
-          const location at = own ? locate_cell(cells, cell) : locate(reference.cells(), angles);
+          Eigen::ArrayXd* mapped = sum.region_of(cells.angles(cell), regions);
+          if (mapped == nullptr) continue;
+          const location at = own ? locate_cell(cells, cell) : locate(reference.cells(), cells.angles(cell));
           const double rho_ref = reference.reference(at), weight = reference.cosine_weight(at.cosine);
-          Eigen::ArrayXd& mapped = in_peak ? sum.in_peak : sum.off_peak;
           for (Eigen::Index m = 0; m < materials; ++m)
-            mapped[m] += log_relative::forward(luminance_of(cell, m), rho_ref, weight);
-          (in_peak ? sum.in_weight : sum.off_weight) += 1.0;
+            (*mapped)[m] += log_relative::forward(luminance_of(cell, m), rho_ref, weight);
         }
       },
       threads);
-  if (!sums.complete()) refuse("the grid has no cell in the peak or none out of it: it is too coarse");
-  return sums.contrasts();
+  return sums.contrasts_of_cells();
 }
 
 }  // namespace detail
@@ -101,6 +103,17 @@ template <sample_range Samples>
 /// materials), same bytes for any number of threads.
 [[nodiscard]] Eigen::ArrayXd highlight_contrasts(const log_relative& reference, const material_set& materials,
                                                  const highlight_regions& regions = {}, thread_count threads = {});
+
+/// The numbers of soft and of specular materials, and the contrast between them.
+struct parted_by_contrast {
+  std::vector<Eigen::Index> soft, specular;
+  double threshold = 0.0;
+};
+
+/// By their contrasts, as `split_by_contrast` does. Throws gonio::error if a half would be empty, or a contrast is not
+/// finite.
+[[nodiscard]] parted_by_contrast part_by_contrast(const std::vector<std::string>& names,
+                                                  const Eigen::ArrayXd& contrasts, std::optional<double> threshold);
 
 /// A database in two halves, and the contrast between them.
 struct soft_and_specular {

@@ -2,8 +2,11 @@
 /// What readers believe of the sizes that a file claims, before they ask for memory. A few bytes of deflated zeros can
 /// claim gigabytes; what instruments and this library write shrinks far less. docs/reference/formats.md, "Limits".
 
+#include <gonio/core/error.hpp>
+
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace gonio::io::detail {
 
@@ -36,5 +39,21 @@ inline constexpr pixel_claims png_claims{4'000'000, 16};
 
 /// Decoding takes 24 bytes a pixel.
 inline constexpr pixel_claims hdr_claims{2'700'000, 4};
+
+/// More pixels each way is no image of ours.
+inline constexpr std::size_t image_limit = 16384;
+
+inline void check_image_size(std::size_t rows, std::size_t columns, const std::string& name) {
+  if (rows < 1 || columns < 1 || rows > image_limit || columns > image_limit)
+    gonio::refuse(
+        {name, ": an image of ", columns, " x ", rows, " pixels, expected from 1 to ", image_limit, " each way"});
+}
+
+/// Nobody's image is so large and so empty; decoding it would take gigabytes.
+inline void check_believable_pixels(const pixel_claims& claims, std::size_t rows, std::size_t columns,
+                                    std::size_t bytes, const std::string& name) {
+  if (!claims.are_believable(rows * columns, bytes))
+    gonio::refuse({name, ": an image of ", columns, " x ", rows, " pixels is not believable of ", bytes, " bytes"});
+}
 
 }  // namespace gonio::io::detail

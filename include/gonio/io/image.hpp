@@ -8,6 +8,7 @@
 #include <gonio/core/rgb.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
+#include <gonio/io/hdr_rows.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/table/stored_codes.hpp>
 
@@ -30,15 +31,11 @@ namespace gonio::io {
 
 namespace detail {
 
-inline constexpr std::size_t image_limit = 16384;
-
 struct stb_deleter {
   void operator()(void* pixels) const noexcept { stbi_image_free(pixels); }
 };
 template <class T>
 using stb_pixels = std::unique_ptr<T[], stb_deleter>;
-
-void check_image_size(std::size_t rows, std::size_t columns, const std::string& name);
 
 /// stb counts bytes in int.
 [[nodiscard]] int stb_size(std::span<const std::byte> bytes, const std::string& name);
@@ -76,25 +73,7 @@ struct png_header {
 /// nothing after it, and the pixels expand to exactly the size that the header promises.
 void check_png(std::span<const std::byte> bytes, const std::string& name);
 
-// ---- Radiance HDR: stb fills what is missing with zeros, or waits for it for ever -------------
-
-/// Hands out a file's bytes to stb, one at a time but for the signature and whole pixels, so that it never
-/// holds a byte that it has not used; where they run out, it is given 0xFF, on which its loops end.
-struct byte_source {
-  std::span<const std::byte> left;
-  bool started = false;
-  bool truncated = false;
-
-  static int read(void* user, char* out, int wanted);
-  static void skip(void* user, int count);
-  static int eof(void* user) { return static_cast<byte_source*>(user)->left.empty() ? 1 : 0; }
-};
-
-/// The fewest bytes that the pixels of an HDR image can take: all rows in runs of 127.
-[[nodiscard]] inline std::size_t least_hdr_size(std::size_t rows, std::size_t columns) noexcept {
-  const std::size_t flat = 4 * columns;
-  return rows * (columns < 8 ? flat : std::min(flat, 4 + 8 * ((columns + 126) / 127)));
-}
+// ---- Radiance HDR is read by io/hdr_rows.hpp ----------------------------------------------
 
 /// The colour that RGBE holds for this one: three mantissas of eight bits, rounded, below a common exponent.
 /// stb would cut them off instead.

@@ -42,7 +42,7 @@ struct svbrdf_header {
 /// A number that tells headers apart: the CRC-32 that the file has of its header.
 [[nodiscard]] std::uint32_t checksum_of(const svbrdf_header& header);
 
-/// Rows of a band such that about 65,536 texels are in memory at a time.
+/// Rows of a band such that about 16,384 texels are in memory at a time.
 [[nodiscard]] Eigen::Index rows_of_band(Eigen::Index columns) noexcept;
 
 /// A band's numbers as half floats, as the file has them.

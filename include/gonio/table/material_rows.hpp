@@ -35,6 +35,10 @@ struct material_rows {
 /// Those of a set that is at hand.
 [[nodiscard]] material_rows rows_of(material_set materials);
 
+/// The materials of these numbers, in their order. Reading them reads all. Throws gonio::error if there is none of a
+/// number.
+[[nodiscard]] material_rows subset(const material_rows& materials, const std::vector<Eigen::Index>& chosen);
+
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)

@@ -118,15 +118,11 @@ GONIO_INLINE streamed_components components_of(const row_source& first, const ro
   return found;
 }
 
-}  // namespace gonio::detail
-
-namespace gonio {
-
-GONIO_INLINE streamed_pca learn_streamed_pca(material_rows materials, const streaming_options& options,
-                                             const progress& listener) {
-  const mapped_materials mapped(std::move(materials), options.weighting);
-  detail::streamed_components found = detail::components_of(mapped.first_pass(), mapped.rows(), options, listener);
-  detail::complete_rows(options.share, mapped);
+/// Of mapped materials that are not yet read.
+[[nodiscard]] GONIO_INLINE streamed_pca learn_mapped(const mapped_materials& mapped, const streaming_options& options,
+                                                     const progress& listener) {
+  streamed_components found = components_of(mapped.first_pass(), mapped.rows(), options, listener);
+  complete_rows(options.share, mapped);
   const double variance = mapped.total_variation();
   const auto& [values, vectors, residual] = found.pairs;
   return {log_relative_pca({mapped.materials().cells,
@@ -140,6 +136,20 @@ GONIO_INLINE streamed_pca learn_streamed_pca(material_rows materials, const stre
                             {},
                             mapped.materials().wavelengths}),
           found.exact, residual / variance};
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE streamed_pca learn_streamed_pca(material_rows materials, const streaming_options& options,
+                                             const progress& listener) {
+  return detail::learn_mapped(mapped_materials(std::move(materials), options.weighting), options, listener);
+}
+
+GONIO_INLINE streamed_pca learn_streamed_pca(material_rows materials, const log_relative& reference,
+                                             const streaming_options& options, const progress& listener) {
+  return detail::learn_mapped(mapped_materials(std::move(materials), reference), options, listener);
 }
 
 }  // namespace gonio

@@ -12,23 +12,25 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace gonio {
+
+GONIO_INLINE void detail::require_finite(const cell_matrix& rows, Eigen::Index row, Eigen::Index cell,
+                                         const material_rows& materials) {
+  if (rows.row(row).allFinite()) return;
+  Eigen::Index column = 0;
+  while (std::isfinite(rows(row, column))) ++column;
+  refuse({"material '", materials.names[column / materials.channels()], "' is not finite at cell ", cell});
+}
 
 struct mapped_materials::state {
   material_rows materials;
   log_relative weights;  ///< whose cosine weights are those of the metric
   bool known;            ///< the reference, before the first pass
   std::vector<float> reference, mean, variation;
-
-  void require_finite(const cell_matrix& rows, Eigen::Index row, Eigen::Index cell) const {
-    if (rows.row(row).allFinite()) return;
-    Eigen::Index column = 0;
-    while (std::isfinite(rows(row, column))) ++column;
-    refuse({"material '", materials.names[column / materials.channels()], "' is not finite at cell ", cell});
-  }
 
   /// Maps a row of reflectances in place.
   template <class Row>
@@ -46,7 +48,7 @@ struct mapped_materials::state {
     std::vector<float> values(held.cols());
     for (Eigen::Index i = 0; i < range.size(); ++i) {
       const Eigen::Index cell = range.begin + i;
-      require_finite(held, i, cell);
+      detail::require_finite(held, i, cell, materials);
       if (first && !known) {
         std::copy_n(&held(i, 0), held.cols(), values.begin());
         reference[cell] = std::max(median(values), 0.0f);

@@ -2,6 +2,7 @@
 /// Bodies of estimate/highlight_contrast.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/highlight_contrast.hpp>
 #include <gonio/metric/log_relative.hpp>
@@ -10,7 +11,9 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,7 +27,19 @@ GONIO_INLINE contrast_sums& contrast_sums::operator+=(const contrast_sums& other
   return *this;
 }
 
+GONIO_INLINE Eigen::ArrayXd* contrast_sums::region_of(const half_difference& angles, const highlight_regions& regions) {
+  const bool is_in_peak = angles.theta_h <= regions.in_peak;
+  if (!is_in_peak && angles.theta_h < regions.off_peak) return nullptr;
+  (is_in_peak ? in_weight : off_weight) += 1.0;
+  return is_in_peak ? &in_peak : &off_peak;
+}
+
 GONIO_INLINE Eigen::ArrayXd contrast_sums::contrasts() const { return in_peak / in_weight - off_peak / off_weight; }
+
+GONIO_INLINE Eigen::ArrayXd contrast_sums::contrasts_of_cells() const {
+  if (!complete()) refuse("the grid has no cell in the peak or none out of it: it is too coarse");
+  return contrasts();
+}
 
 }  // namespace gonio::detail
 
@@ -48,23 +63,26 @@ GONIO_INLINE Eigen::ArrayXd highlight_contrasts(const log_relative& reference, c
                                 threads);
 }
 
+GONIO_INLINE parted_by_contrast part_by_contrast(const std::vector<std::string>& names, const Eigen::ArrayXd& contrasts,
+                                                 std::optional<double> threshold) {
+  for (Eigen::Index m = 0; m < contrasts.size(); ++m)
+    if (!std::isfinite(contrasts[m])) refuse({"material '", names[m], "' has no contrast: its table is not finite"});
+  parted_by_contrast parted;
+  parted.threshold = threshold ? *threshold : median(std::vector<double>(contrasts.begin(), contrasts.end()));
+  for (Eigen::Index m = 0; m < contrasts.size(); ++m)
+    (contrasts[m] < parted.threshold ? parted.soft : parted.specular).push_back(m);
+  if (parted.soft.empty() || parted.specular.empty())
+    refuse({"all ", names.size(), " materials are ", (parted.soft.empty() ? "specular" : "soft"), " at a threshold of ",
+            parted.threshold, ": a prior needs some on either side"});
+  return parted;
+}
+
 GONIO_INLINE soft_and_specular split_by_contrast(const material_set& materials, const log_relative& reference,
                                                  std::optional<double> threshold, const highlight_regions& regions,
                                                  thread_count threads) {
-  const Eigen::ArrayXd contrasts = highlight_contrasts(reference, materials, regions, threads);
-  std::vector<Eigen::Index> soft, specular;
-  for (Eigen::Index m = 0; m < std::ssize(materials.names); ++m)
-    if (!std::isfinite(contrasts[m]))
-      refuse({"material '", materials.names[m], "' has no contrast: its table is not finite"});
-  if (!threshold) {
-    threshold = median(std::vector<double>(contrasts.begin(), contrasts.end()));
-  }
-  for (Eigen::Index m = 0; m < std::ssize(materials.names); ++m)
-    (contrasts[m] < *threshold ? soft : specular).push_back(m);
-  if (soft.empty() || specular.empty())
-    refuse({"all ", materials.names.size(), " materials are ", (soft.empty() ? "specular" : "soft"),
-            " at a threshold of ", *threshold, ": a prior needs some on either side"});
-  return {materials.subset(soft), materials.subset(specular), *threshold};
+  const parted_by_contrast parted =
+      part_by_contrast(materials.names, highlight_contrasts(reference, materials, regions, threads), threshold);
+  return {materials.subset(parted.soft), materials.subset(parted.specular), parted.threshold};
 }
 
 }  // namespace gonio

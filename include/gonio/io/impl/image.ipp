@@ -6,6 +6,7 @@
 #include <gonio/io/believable.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
+#include <gonio/io/hdr_rows.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/table/stored_codes.hpp>
@@ -26,19 +27,6 @@
 #include <vector>
 
 namespace gonio::io::detail {
-
-GONIO_INLINE void check_image_size(std::size_t rows, std::size_t columns, const std::string& name) {
-  if (rows < 1 || columns < 1 || rows > image_limit || columns > image_limit)
-    gonio::refuse(
-        {name, ": an image of ", columns, " x ", rows, " pixels, expected from 1 to ", image_limit, " each way"});
-}
-
-/// Nobody's image is so large and so empty; decoding it would take gigabytes.
-GONIO_INLINE void check_believable_pixels(const pixel_claims& claims, std::size_t rows, std::size_t columns,
-                                          std::size_t bytes, const std::string& name) {
-  if (!claims.are_believable(rows * columns, bytes))
-    gonio::refuse({name, ": an image of ", columns, " x ", rows, " pixels is not believable of ", bytes, " bytes"});
-}
 
 GONIO_INLINE int stb_size(std::span<const std::byte> bytes, const std::string& name) {
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -126,29 +114,6 @@ GONIO_INLINE void check_png(std::span<const std::byte> bytes, const std::string&
       gonio::refuse({name, ": ", left.size(), " bytes follow the end of the PNG file"});
   }
   check_png_pixels(pixels, header.raw_size(), name);
-}
-
-GONIO_INLINE int byte_source::read(void* user, char* out, int wanted) {
-  auto& source = *static_cast<byte_source*>(user);
-  // stb fills its buffer of 128 bytes; it asks for less only where it needs all of that.
-  constexpr int whole_buffer = 128;
-  constexpr int signature = 11;
-  const int count = wanted < whole_buffer ? wanted : source.started ? 1 : signature;
-  source.started = true;
-  for (int i = 0; i < count; ++i) {
-    out[i] = source.left.empty() ? '\xFF' : static_cast<char>(source.left.front());
-    if (source.left.empty())
-      source.truncated = true;
-    else
-      source.left = source.left.subspan(1);
-  }
-  return count;
-}
-
-GONIO_INLINE void byte_source::skip(void* user, int count) {
-  auto& source = *static_cast<byte_source*>(user);
-  const std::size_t some = std::min(static_cast<std::size_t>(std::max(count, 0)), source.left.size());
-  source.left = source.left.subspan(some);
 }
 
 GONIO_INLINE std::array<float, 3> round_to_rgbe(const float* pixel) noexcept {
@@ -248,30 +213,9 @@ GONIO_INLINE void write_png(const std::filesystem::path& path, const image& pict
 }
 
 GONIO_INLINE image read_hdr(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  const std::string name = path.string();
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!text.starts_with("#?RADIANCE\n") && !text.starts_with("#?RGBE\n"))
-    gonio::refuse({name, ": is not a Radiance HDR file"});
-  int columns = 0, rows = 0, channels = 0;
-  if (stbi_info_from_memory(detail::stb_bytes(bytes), detail::stb_size(bytes, name), &columns, &rows, &channels) == 0)
-    gonio::refuse(
-        {name,
-         ": the header of the HDR file is truncated or of an unknown kind (expected 32-bit_rle_rgbe, -Y and +X)"});
-  const auto across = static_cast<std::size_t>(std::max(columns, 0)),
-             down = static_cast<std::size_t>(std::max(rows, 0));
-  detail::check_image_size(down, across, name);
-  if (bytes.size() < detail::least_hdr_size(down, across)) gonio::refuse({name, ": the HDR file is truncated"});
-  detail::check_believable_pixels(detail::hdr_claims, down, across, bytes.size(), name);
-
-  detail::byte_source source{bytes};
-  const stbi_io_callbacks callbacks{detail::byte_source::read, detail::byte_source::skip, detail::byte_source::eof};
-  const detail::stb_pixels<float> pixels(stbi_loadf_from_callbacks(&callbacks, &source, &columns, &rows, &channels, 3));
-  if (source.truncated) gonio::refuse({name, ": the HDR file is truncated"});
-  if (!pixels) detail::refuse_by_stb(name);
-  if (!source.left.empty()) gonio::refuse({name, ": ", source.left.size(), " bytes follow the end of the HDR file"});
-  image picture({down, across, std::size_t{3}});
-  std::copy_n(pixels.get(), picture.size(), picture.data());
+  const hdr_rows file(path);
+  image picture({static_cast<std::size_t>(file.rows()), static_cast<std::size_t>(file.columns()), std::size_t{3}});
+  file.read({0, file.rows()}, {picture.data(), picture.size()});
   return picture;
 }
 

@@ -190,7 +190,7 @@ GONIO_INLINE std::uint32_t checksum_of(const svbrdf_header& header) {
 }
 
 GONIO_INLINE Eigen::Index rows_of_band(Eigen::Index columns) noexcept {
-  return std::max<Eigen::Index>(1, 65536 / std::max<Eigen::Index>(columns, 1));
+  return std::max<Eigen::Index>(1, 16384 / std::max<Eigen::Index>(columns, 1));
 }
 
 GONIO_INLINE svbrdf_band as_halves(const texel_estimates& found, thread_count threads) {

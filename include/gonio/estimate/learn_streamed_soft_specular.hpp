@@ -1,0 +1,40 @@
+#pragma once
+/// The soft and the specular prior of materials that do not fit into memory: what learn_soft_specular_prior finds, from
+/// passes over blocks of cells. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), section 8.
+
+#include <gonio/basis/learn_streamed_pca.hpp>
+#include <gonio/basis/soft_specular_prior.hpp>
+#include <gonio/core/progress.hpp>
+#include <gonio/table/material_rows.hpp>
+
+#include <optional>
+
+namespace gonio {
+
+/// Two priors, and how they were found.
+struct streamed_soft_specular {
+  soft_specular_prior prior;
+  bool exact = true;      ///< else at least one in a random subspace
+  double residual = 0.0;  ///< the larger one of both, as `streamed_pca` has it
+};
+
+/// Principal components of either half of the materials, relative to the median of all: parted by the contrast of their
+/// highlights, at the median of these without a threshold. One pass over the cells for medians and contrasts, then
+/// those of learn_streamed_pca for each half, which read the cells of all materials. O(cells m^2) for m columns, or
+/// O(cells m components). The same bytes for any number of threads. `options.share` is not used. Throws gonio::error as
+/// learn_soft_specular_prior does, and what reading throws.
+///
+/// ```cpp
+/// const auto learned = gonio::learn_streamed_soft_specular(gonio::rows_of(materials), {.components = 60});
+/// gonio::io::write_soft_specular_prior("split.prior", learned.prior);
+/// ```
+[[nodiscard]] streamed_soft_specular learn_streamed_soft_specular(const material_rows& materials,
+                                                                  const streaming_options& options = {},
+                                                                  std::optional<double> threshold = {},
+                                                                  const progress& listener = {});
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/learn_streamed_soft_specular.ipp>
+#endif
