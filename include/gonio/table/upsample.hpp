@@ -74,9 +74,9 @@ struct grid_runs {
 };
 
 /// The rows of a grid's valid cells.
-class cell_rows {
+class valid_rows {
  public:
-  explicit cell_rows(valid_cells cells);
+  explicit valid_rows(valid_cells cells);
 
   /// With a count of zero where no cell of the row is valid.
   [[nodiscard]] cell_row row(Eigen::Index theta_h, Eigen::Index theta_d) const;
@@ -200,7 +200,7 @@ void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&&
   const Eigen::Index phi_d_count = target.extents().phi_d;
   const cell_fields<Fields> dense = detail::extended_fields<Fields, Mean>(from, read, threads);
   const detail::grid_runs runs(source, target);
-  const detail::cell_rows rows(to);
+  const detail::valid_rows rows(to);
 
   for_each_index(
       target.extents().theta_h, 1,

@@ -49,7 +49,7 @@ GONIO_INLINE grid_runs::grid_runs(const grid& source, const grid& target) {
   phi_d = axis_runs(along);
 }
 
-GONIO_INLINE cell_rows::cell_rows(valid_cells cells) : cells_(std::move(cells)) {
+GONIO_INLINE valid_rows::valid_rows(valid_cells cells) : cells_(std::move(cells)) {
   const grid& over = cells_.grid();
   const auto made = [](double value) { return angle{value, std::cos(value), std::sin(value)}; };
   for (int h = 0; h < over.extents().theta_h; ++h) theta_h_.push_back(made(over.theta_h(h)));
@@ -57,7 +57,7 @@ GONIO_INLINE cell_rows::cell_rows(valid_cells cells) : cells_(std::move(cells)) 
   for (int k = 0; k < over.extents().phi_d; ++k) cos_phi_d_.push_back(std::cos(over.phi_d(k)));
 }
 
-GONIO_INLINE cell_row cell_rows::row(Eigen::Index theta_h, Eigen::Index theta_d) const {
+GONIO_INLINE cell_row valid_rows::row(Eigen::Index theta_h, Eigen::Index theta_d) const {
   const Eigen::Index row = number(theta_h, theta_d), first = cells_.row_begin(row);
   const Eigen::Index count = cells_.row_begin(row + 1) - first;
   const angle &h = theta_h_[theta_h], &d = theta_d_[theta_d];
