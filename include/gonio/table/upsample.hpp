@@ -191,7 +191,7 @@ class phi_d_line {
 
 /// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order; `values` is a
 /// Fields x count array of what the mean gives of the fields there. `read(cell, out)` writes the fields of a cell of
-/// the source; a geometric mean is of fields that are held within 43 of zero, and rounded by at most 2e-6 of its value.
+/// the source. Of a geometric mean they are held within 43 of zero, and its relative error is below 4e-7 (5 + |field|).
 /// Costs O(target cells x Fields).
 template <int Fields, weighted_mean Mean, class Read, class Use>
 void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&& use, thread_count threads = {}) {
