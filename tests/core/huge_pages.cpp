@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <new>
@@ -33,4 +34,11 @@ TEST_CASE("huge pages: more than there is memory throws, as other allocators do"
   gonio::huge_page_allocator<float> allocator;
   CHECK_THROWS_AS(static_cast<void>(allocator.allocate(std::numeric_limits<std::size_t>::max() / 2)), std::bad_alloc);
   CHECK_THROWS_AS(static_cast<void>(allocator.allocate(std::size_t{1} << 59)), std::bad_alloc);
+}
+
+TEST_CASE("huge pages: advice leaves memory as it is, of any size and beginning") {
+  std::vector<char> memory(5'000'000, 'a');
+  for (const std::size_t begin : {0, 1, 4096})
+    for (const std::size_t size : {0, 100, 3'000'000, 4'900'000}) gonio::advise_huge_pages(memory.data() + begin, size);
+  CHECK(std::count(memory.begin(), memory.end(), 'a') == std::ssize(memory));
 }
