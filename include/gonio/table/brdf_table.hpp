@@ -22,7 +22,7 @@ class brdf_table {
   explicit brdf_table(valid_cells cells) : cells_(std::move(cells)), values_(3 * cells_.size(), 0.0f) {}
 
   /// Copies values of shape (cells, 3). Throws gonio::error if their number is not 3 per cell.
-  brdf_table(valid_cells cells, std::span<const float> values);
+  brdf_table(valid_cells cells, const std::vector<float>& values);
 
   /// A table without values, for whoever sets them all.
   [[nodiscard]] static brdf_table uninitialised(valid_cells cells) {

@@ -9,10 +9,11 @@
 
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace gonio {
 
-GONIO_INLINE brdf_table::brdf_table(valid_cells cells, std::span<const float> values)
+GONIO_INLINE brdf_table::brdf_table(valid_cells cells, const std::vector<float>& values)
     : cells_(std::move(cells)), values_(values.begin(), values.end()) {
   if (std::ssize(values_) != 3 * cells_.size())
     refuse({"a table over ", cells_.size(), " cells needs 3 values a cell, got ", values_.size()});
