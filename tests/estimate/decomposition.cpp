@@ -138,6 +138,22 @@ TEST_CASE("tabulating agrees with evaluating, on the basis' cells and on others,
   }
 }
 
+TEST_CASE("values that are too large for a progression are as large as they are, and infinite beyond floats") {
+  const valid_cells fine(gonio::grid({18, 27, 36}));
+  double largest = 0.0;
+  for (const double weight : {1.0, -1.0, 100.0, -100.0, 1e30, -1e30}) {
+    const gonio::fitted_brdf fit(prior(), Eigen::MatrixXd(Eigen::MatrixXd::Constant(prior().size(), 3, weight)));
+    const auto table = fit.tabulate(fine), simple = fit.tabulate_cells(fine);
+    for (Eigen::Index i = 0; i < std::ssize(table.values()); ++i) {
+      const double found = table.values()[i], expected = simple.values()[i];
+      largest = std::max(largest, expected);
+      if (std::isfinite(expected)) REQUIRE(std::abs(found - expected) <= 1e-4 * (1.0 + expected));
+      if (!std::isfinite(expected)) REQUIRE(!std::isfinite(found));
+    }
+  }
+  CHECK(largest > 1e19);
+}
+
 TEST_CASE("archetypes: the least-squares fit of a constant is the weighted mean") {
   const archetype::constant_basis functions{cells(), 0.5};
   sample_set samples{{{0.1, 0.2, 0.3}, rgb(1, 2, 3), 1.0}, {{0.4, 0.5, 0.6}, rgb(5, 6, 3), 3.0}};

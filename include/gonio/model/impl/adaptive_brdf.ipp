@@ -92,11 +92,11 @@ struct neighbouring_angles {
   return std::sqrt(polar_angle * (2.0 / std::numbers::pi));
 }
 
-/// The azimuth of `w` relative to that of `reference`, or, where that has none, to the x axis; radians.
+/// The azimuth of `w` relative to that of `reference`, radians; the normal has that of the x axis.
 [[nodiscard]] inline double relative_azimuth(const direction& w, const direction& reference) noexcept {
-  const double x = reference.x(), y = reference.y();
-  if (x == 0.0 && y == 0.0) return std::atan2(w.y(), w.x());
-  return std::atan2(x * w.y() - y * w.x(), x * w.x() + y * w.y());
+  const auto x_of = [](const direction& v) { return v.x() == 0.0 && v.y() == 0.0 ? 1.0 : v.x(); };
+  const double x = x_of(reference), w_x = x_of(w);
+  return std::atan2(x * w.y() - reference.y() * w_x, x * w_x + reference.y() * w.y());
 }
 
 /// The trapezoids of a table, in units of its patches.
