@@ -182,13 +182,6 @@ std::uint32_t checksum_of(const gonio::material_rows& materials) {
   return gonio::io::detail::checksum(std::as_bytes(std::span(rows.data(), static_cast<std::size_t>(rows.size()))));
 }
 
-void append(gonio::io::scratch_materials& scratch, const std::string& name, const gonio::valid_cells& cells,
-            const std::vector<double>& wavelengths, std::vector<float> values) {
-  if (wavelengths.empty()) return scratch.append(name, gonio::brdf_table(cells, std::move(values)));
-  const Eigen::Map<const gonio::cell_matrix> spectra(values.data(), cells.size(), std::ssize(wavelengths));
-  scratch.append(name, gonio::spectral_table(cells, wavelengths, spectra));
-}
-
 /// A folder of MERL tables alone, over their own cells.
 gonio::material_rows stream_folder(const material_source& source, gonio::io::scratch_materials& scratch,
                                    const gonio::progress& listener, const team& processes) {
@@ -246,17 +239,18 @@ gonio::material_rows stream_materials(const material_source& source, const std::
   for (const double wavelength : wavelengths) names.push_back(gonio::io::detail::shortest(wavelength));
   agree_on_names(processes, names);
   const gonio::valid_cells over = cells ? *cells : gonio::valid_cells();
-  const auto channels = static_cast<std::size_t>(wavelengths.empty() ? 3 : wavelengths.size());
+  const Eigen::Index channels = gonio::channels_at<gonio::valid_cells>(wavelengths);
   for (std::size_t begin = 0; begin < all.size(); begin += processes.size()) {
     const std::size_t own = begin + processes.number();
     gonio::report(listener, "reading " + all[begin].name, static_cast<double>(begin) / static_cast<double>(all.size()));
-    std::vector<float> values(channels * static_cast<std::size_t>(over.size()));
+    std::vector<float> values(static_cast<std::size_t>(channels * over.size()));
     processes.together([&] {
       if (own < all.size()) values = all[own].tabulate(over);
     });
     std::vector<std::vector<float>> each = processes.exchange_rows(std::move(values), over.size());
     for (std::size_t i = 0; i < each.size() && begin + i < all.size(); ++i)
-      append(scratch, all[begin + i].name, over, wavelengths, std::move(each[i]));
+      scratch.append(all[begin + i].name, over, wavelengths,
+                     Eigen::Map<const gonio::cell_matrix>(each[i].data(), over.size(), channels));
   }
   return scratch.rows();
 }

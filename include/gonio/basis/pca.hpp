@@ -75,9 +75,7 @@ class pca {
   [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return parts_->wavelengths; }
   /// The channels of each material, which are as many rows of `coefficients`, one after the other: its wavelengths, or
   /// red, green and blue (or as many as the domain says).
-  [[nodiscard]] Eigen::Index channels() const noexcept {
-    return parts_->wavelengths.empty() ? channels_over<Places> : std::ssize(parts_->wavelengths);
-  }
+  [[nodiscard]] Eigen::Index channels() const noexcept { return channels_at<Places>(parts_->wavelengths); }
   [[nodiscard]] const Eigen::MatrixXf& coefficients() const noexcept { return parts_->coefficients; }
   [[nodiscard]] double explained_variance() const noexcept { return parts_->explained_variance; }
   [[nodiscard]] const std::string& source() const noexcept { return parts_->source; }

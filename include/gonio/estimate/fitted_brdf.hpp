@@ -13,13 +13,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <concepts>
 #include <optional>
 #include <type_traits>
 #include <utility>
 
-#if defined(GONIO_COMPILED)
+#if defined(GONIO_COMPILED)  // fits by measured materials are compiled there
 #include <gonio/basis/measured.hpp>
 #endif
 
@@ -224,11 +223,8 @@ const {
   const metric_type& metric = basis_.metric();
   constexpr int fields_count = 3 + metric_type::companions;
   const mapped_fields channels = mapped_field(threads);
-  // Values that a progression cannot hold are computed one by one, and may be infinite.
-  std::atomic<bool> out_of_range = false;
   const auto read = [&](Eigen::Index cell, float* out) {
     std::copy_n(&channels(0, cell), 3, out);
-    if (std::max({out[0], out[1], out[2]}) > detail::largest_logarithm) out_of_range.store(true);
     if constexpr (metric_type::companions > 0) std::ranges::copy(metric.companion(cell), out + 3);
   };
   brdf_table table = brdf_table::uninitialised(cells);
@@ -238,7 +234,6 @@ const {
         metric.inverse_row(row, values, table.values().subspan(3 * row.first, 3 * row.count));
       },
       threads);
-  if (metric_type::mean == weighted_mean::geometric && out_of_range.load()) return tabulate_cells(cells, threads);
   return table;
 }
 

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace gonio::io {
 
@@ -23,6 +24,8 @@ class scratch_materials {
   /// cannot hold it.
   void append(const std::string& name, const brdf_table& table);
   void append(const std::string& name, spectral_table table);
+  /// The same of a row of values for each cell, at some wavelengths or, without any, in colours.
+  void append(const std::string& name, const valid_cells& cells, std::vector<double> wavelengths, cell_matrix values);
 
   /// All that were appended. Shares the tables and the file with this object, which must not be appended to afterwards.
   /// Throws gonio::error if there is none; reading does if the file cannot be read.

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 
 #include <concepts>
+#include <iterator>
+#include <vector>
 
 namespace gonio {
 
@@ -42,5 +44,11 @@ inline constexpr int channels_over = 3;
 template <domain Places>
 requires requires { Places::channels; }
 inline constexpr int channels_over<Places> = Places::channels;
+
+/// The channels of what was observed at some wavelengths, or, without any, in colours.
+template <domain Places>
+[[nodiscard]] Eigen::Index channels_at(const std::vector<double>& wavelengths) noexcept {
+  return wavelengths.empty() ? channels_over<Places> : std::ssize(wavelengths);
+}
 
 }  // namespace gonio

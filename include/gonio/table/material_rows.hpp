@@ -26,9 +26,7 @@ struct material_rows {
   std::vector<double> wavelengths = {};  ///< of the channels of each, nanometres, ascending; none: red, green and blue
 
   /// The channels of each material: its wavelengths, or three.
-  [[nodiscard]] Eigen::Index channels() const noexcept {
-    return wavelengths.empty() ? channels_over<valid_cells> : std::ssize(wavelengths);
-  }
+  [[nodiscard]] Eigen::Index channels() const noexcept { return channels_at<valid_cells>(wavelengths); }
   [[nodiscard]] Eigen::Index columns() const noexcept { return channels() * std::ssize(names); }
 };
 

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -62,12 +63,12 @@ struct axis_run {
   float step = 0.0f;                     ///< and how much this grows from node to node
 };
 
-/// The runs of an axis' nodes, of which `intervals` says where on the other axis they are.
-[[nodiscard]] std::vector<axis_run> axis_runs(std::span<const axis_interval> intervals);
+/// The runs, of at most `longest` nodes, of an axis' nodes, of which `intervals` says where on the other axis they are.
+[[nodiscard]] std::vector<axis_run> axis_runs(std::span<const axis_interval> intervals, Eigen::Index longest);
 
 /// The runs of one grid's axes on those of another.
 struct grid_runs {
-  grid_runs(const grid& source, const grid& target);
+  grid_runs(const grid& source, const grid& target, Eigen::Index longest = axis_run::longest);
 
   std::vector<axis_interval> theta_h;  ///< not equally far apart in angle, and few
   std::vector<axis_run> theta_d, phi_d;
@@ -104,22 +105,26 @@ class valid_rows {
 /// from one value to the next is in the range of floats, too.
 inline constexpr float largest_logarithm = 43.0f;
 
-/// The fields at all cells of a grid, so that blending needs no case for the horizon.
-template <int Fields, weighted_mean Mean, class Read>
-[[nodiscard]] cell_fields<Fields> extended_fields(const valid_cells& from, Read&& read, thread_count threads) {
-  const Eigen::Index size = from.grid().size();
-  cell_fields<Fields> dense(Fields, size);
-  for_each_index(
-      size, 16384,
-      [&](Eigen::Index linear) {
-        float* fields = dense.data() + Fields * linear;
-        read(from.representative(linear), fields);
-        if constexpr (Mean == weighted_mean::geometric)
-          for (int f = 0; f < Fields; ++f) fields[f] = std::clamp(fields[f], -largest_logarithm, largest_logarithm);
-      },
-      threads);
-  return dense;
-}
+/// Fields at all cells of a grid, so that blending needs no case for the horizon.
+template <int Fields>
+struct extended_fields {
+  cell_fields<Fields> values;
+  std::atomic<bool> fit_progressions = true;  ///< none is beyond `largest_logarithm`
+
+  template <class Read>
+  extended_fields(const valid_cells& from, const Read& read, thread_count threads)
+      : values(Fields, from.grid().size()) {
+    for_each_index(
+        values.cols(), 16384,
+        [&](Eigen::Index linear) {
+          float* fields = values.data() + Fields * linear;
+          read(from.representative(linear), fields);
+          for (int f = 0; f < Fields; ++f)
+            if (!(std::abs(fields[f]) <= largest_logarithm)) fit_progressions = false;
+        },
+        threads);
+  }
+};
 
 /// The source's rows around a theta_h, blended, at the first theta_d of a run; and how much they grow to the next.
 template <int Fields>
@@ -191,15 +196,16 @@ class phi_d_line {
 
 /// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order; `values` is a
 /// Fields x count array of what the mean gives of the fields there. `read(cell, out)` writes the fields of a cell of
-/// the source. Of a geometric mean they are held within 43 of zero, and its relative error is below 4e-7 (5 + |field|).
-/// Costs O(target cells x Fields).
+/// the source. The relative error of a geometric mean is below 4e-7 (5 + |field|); if a field is beyond 43, it costs an
+/// exponential a value. O(target cells x Fields).
 template <int Fields, weighted_mean Mean, class Read, class Use>
 void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&& use, thread_count threads = {}) {
   const grid& source = from.grid();
   const grid& target = to.grid();
   const Eigen::Index phi_d_count = target.extents().phi_d;
-  const cell_fields<Fields> dense = detail::extended_fields<Fields, Mean>(from, read, threads);
-  const detail::grid_runs runs(source, target);
+  const detail::extended_fields<Fields> dense(from, read, threads);
+  const bool exponentials_alone = Mean == weighted_mean::geometric && !dense.fit_progressions;
+  const detail::grid_runs runs(source, target, exponentials_alone ? 1 : detail::axis_run::longest);
   const detail::valid_rows rows(to);
 
   for_each_index(
@@ -211,7 +217,7 @@ void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&&
         for (const detail::axis_run& run : runs.theta_d) {
           const block along_theta_d{run.first, run.first + run.count};
           if (rows.none(h, along_theta_d)) continue;
-          detail::blend_rows<Fields>(source, dense, runs.theta_h[h], run, first, step);
+          detail::blend_rows<Fields>(source, dense.values, runs.theta_h[h], run, first, step);
           along_phi_d.interpolate(first, line.data());
           if (run.count > 1) along_phi_d.interpolate(step, growth.data());
           for (Eigen::Index d = along_theta_d.begin; d < along_theta_d.end; ++d) {

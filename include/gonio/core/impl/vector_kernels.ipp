@@ -32,8 +32,10 @@ GONIO_INLINE std::array<float, 3> dot_each(const float* a, const float* columns,
     sum_c += these * Eigen::Map<const eight>(c + i);
     sum_d += these * Eigen::Map<const eight>(d + i);
   }
-  four half_b = sum_b.head<4>() + sum_b.tail<4>(), half_c = sum_c.head<4>() + sum_c.tail<4>(),
-       half_d = sum_d.head<4>() + sum_d.tail<4>();
+  const auto halves_of = [](const eight& sum) -> four {
+    return Eigen::Map<const four>(sum.data()) + Eigen::Map<const four>(sum.data() + 4);
+  };
+  four half_b = halves_of(sum_b), half_c = halves_of(sum_c), half_d = halves_of(sum_d);
   if (i + 4 <= rows) {
     const four these = Eigen::Map<const four>(a + i);
     half_b += these * Eigen::Map<const four>(b + i);

@@ -127,7 +127,7 @@ GONIO_INLINE void error_sweep::operator()(const tiles& candidates, Eigen::Index 
     const lanes grown = own_growth(of, sample_noise_penalties[number]);
     if (missed_.size() == 0)
       errors[number] = mean(of, grown);
-    else if (const lanes own = own_energy_ + grown; channels_ == 3)
+    else if (const lanes own = own_energy_ + grown; channels_ == 3)  // a known number is unrolled into registers
       errors[number] = mean_left_out(std::integral_constant<Eigen::Index, 3>(), of, own);
     else
       errors[number] = mean_left_out(channels_, of, own);

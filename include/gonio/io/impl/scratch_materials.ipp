@@ -65,6 +65,9 @@ struct scratch_materials::state {
   }
 
   void append(const std::string& name, const valid_cells& over, std::vector<double> at, cell_matrix table) {
+    if (table.rows() != over.size() || table.cols() != channels_at<valid_cells>(at))
+      refuse({"material '", name, "' has ", table.rows(), " x ", table.cols(), " values, expected ", over.size(), " x ",
+              channels_at<valid_cells>(at)});
     if (cells && !(*cells == over)) refuse({"material '", name, "' is over other cells than the first one"});
     if (cells && at != wavelengths) refuse({"material '", name, "' is at other wavelengths than the first one"});
     const std::uint64_t bytes = sizeof(float) * static_cast<std::uint64_t>(table.size());
@@ -121,6 +124,11 @@ GONIO_INLINE void scratch_materials::append(const std::string& name, const brdf_
 
 GONIO_INLINE void scratch_materials::append(const std::string& name, spectral_table table) {
   state_->append(name, table.cells(), table.wavelengths(), std::move(table.values()));
+}
+
+GONIO_INLINE void scratch_materials::append(const std::string& name, const valid_cells& cells,
+                                            std::vector<double> wavelengths, cell_matrix values) {
+  state_->append(name, cells, std::move(wavelengths), std::move(values));
 }
 
 GONIO_INLINE material_rows scratch_materials::rows() {

@@ -14,14 +14,14 @@
 
 namespace gonio::detail {
 
-GONIO_INLINE std::vector<axis_run> axis_runs(std::span<const axis_interval> intervals) {
+GONIO_INLINE std::vector<axis_run> axis_runs(std::span<const axis_interval> intervals, Eigen::Index longest) {
   // Nodes are snapped to within 1e-9: see `split_coordinate`.
   constexpr double rounding = 1e-8;
   std::vector<axis_run> runs;
   double step = 0.0;
   for (std::size_t k = 0; k < intervals.size(); ++k) {
     const axis_interval& here = intervals[k];
-    if (k > 0 && runs.back().count < axis_run::longest && here.node == intervals[k - 1].node) {
+    if (k > 0 && runs.back().count < longest && here.node == intervals[k - 1].node) {
       const double grown = here.weight[1] - intervals[k - 1].weight[1];
       if (runs.back().count == 1) step = grown;
       if (grown <= axis_run::largest_step + rounding && std::abs(grown - step) <= rounding) {
@@ -35,18 +35,18 @@ GONIO_INLINE std::vector<axis_run> axis_runs(std::span<const axis_interval> inte
   return runs;
 }
 
-GONIO_INLINE grid_runs::grid_runs(const grid& source, const grid& target) {
+GONIO_INLINE grid_runs::grid_runs(const grid& source, const grid& target, Eigen::Index longest) {
   const grid_extents from = source.extents(), to = target.extents();
   std::vector<axis_interval> along;
   for (int h = 0; h < to.theta_h; ++h)
     theta_h.push_back(clamped_interval(source.theta_h_coordinate(target.theta_h(h)), from.theta_h));
   for (int d = 0; d < to.theta_d; ++d)
     along.push_back(clamped_interval(source.theta_d_coordinate(target.theta_d(d)), from.theta_d));
-  theta_d = axis_runs(along);
+  theta_d = axis_runs(along, longest);
   along.clear();
   for (int k = 0; k < to.phi_d; ++k)
     along.push_back(periodic_interval(source.phi_d_coordinate(target.phi_d(k)), from.phi_d));
-  phi_d = axis_runs(along);
+  phi_d = axis_runs(along, longest);
 }
 
 GONIO_INLINE valid_rows::valid_rows(valid_cells cells) : cells_(std::move(cells)) {
