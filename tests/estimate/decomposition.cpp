@@ -139,6 +139,8 @@ TEST_CASE("tabulating agrees with evaluating, on the basis' cells and on others,
 }
 
 TEST_CASE("values that are too large for a progression are as large as they are, and infinite beyond floats") {
+  // `upsample` is infinite where the field is beyond 88, which a reference of zero divides by this epsilon.
+  const double representable = gonio::log_relative::epsilon * std::exp(88.0);
   const valid_cells fine(gonio::grid({18, 27, 36}));
   double largest = 0.0;
   for (const double weight : {1.0, -1.0, 100.0, -100.0, 1e30, -1e30}) {
@@ -146,12 +148,12 @@ TEST_CASE("values that are too large for a progression are as large as they are,
     const auto table = fit.tabulate(fine), simple = fit.tabulate_cells(fine);
     for (Eigen::Index i = 0; i < std::ssize(table.values()); ++i) {
       const double found = table.values()[i], expected = simple.values()[i];
+      if (std::isinf(found) && expected >= representable) continue;
       largest = std::max(largest, expected);
-      if (std::isfinite(expected)) REQUIRE(std::abs(found - expected) <= 1e-4 * (1.0 + expected));
-      if (!std::isfinite(expected)) REQUIRE(!std::isfinite(found));
+      REQUIRE(std::abs(found - expected) <= 1e-4 * (1.0 + expected));
     }
   }
-  CHECK(largest > 1e19);
+  CHECK(largest > 1e30);
 }
 
 TEST_CASE("archetypes: the least-squares fit of a constant is the weighted mean") {

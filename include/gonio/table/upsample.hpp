@@ -196,8 +196,8 @@ class phi_d_line {
 
 /// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order; `values` is a
 /// Fields x count array of what the mean gives of the fields there. `read(cell, out)` writes the fields of a cell of
-/// the source. The relative error of a geometric mean is below 4e-7 (5 + |field|); if a field is beyond 43, it costs an
-/// exponential a value. O(target cells x Fields).
+/// the source. The relative error of a geometric mean is below 4e-7 (5 + |field|), and it is infinite where the field
+/// is beyond 88; if a field is beyond 43, it costs an exponential a value. O(target cells x Fields).
 template <int Fields, weighted_mean Mean, class Read, class Use>
 void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&& use, thread_count threads = {}) {
   const grid& source = from.grid();
