@@ -1,12 +1,13 @@
 /// Learning from tables that are streamed, and adding to a prior.
 
 #include "../io/scratch.hpp"
+#include "../io/synthetic_spectra.hpp"
 #include "../json.hpp"
 #include "../synthetic_materials.hpp"
 #include "tool.hpp"
 #include <gonio/io/merl.hpp>
 #include <gonio/io/prior.hpp>
-#include <gonio/io/rgl_spectra.hpp>
+#include <gonio/io/rgl.hpp>
 #include <gonio/model/lambert.hpp>
 
 #include <doctest/doctest.h>
@@ -92,28 +93,10 @@ TEST_CASE("gonio learn --add-to: materials join a prior without the tables of th
           {"no.prior"});
 }
 
-namespace {
-
-/// A folder of some materials at wavelengths from 400 nm on, every 100.
-void write_spectra(const std::filesystem::path& folder, Eigen::Index first, Eigen::Index end, Eigen::Index bands) {
-  std::filesystem::create_directory(folder);
-  const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({18, 12, 18})), 12);
-  std::vector<double> wavelengths;
-  for (Eigen::Index band = 0; band < bands; ++band) wavelengths.push_back(400.0 + 100.0 * static_cast<double>(band));
-  for (Eigen::Index m = first; m < end; ++m) {
-    gonio::spectral_table table(set.cells, wavelengths);
-    for (Eigen::Index band = 0; band < bands; ++band) table.values().col(band) = set.values.col(3 * m + band % 3);
-    const std::string name = "paint-" + std::to_string(m);
-    gonio::io::write_rgl(folder / (name + ".bsdf"), gonio::io::tabulate_adaptively(table, name));
-  }
-}
-
-}  // namespace
-
 TEST_CASE("gonio learn --spectra: a column for each wavelength, which the prior and its users know") {
   const scratch::folder folder;
   const auto at = [&](const std::string& name) { return (folder / name).string(); };
-  write_spectra(folder / "paints", 0, 3, 4);
+  write_synthetic_spectra(folder / "paints", 0, 3, 4);
   const std::string learn = "learn --spectra --rgl " + at("paints") + " --thin 30 60 --components 8 ";
   const std::string told = run(learn + "-o " + at("one.prior") + " --threads 1");
   CHECK(told.find("3 materials of paints, at 4 wavelengths from 400 to 700 nm") != std::string::npos);
@@ -133,7 +116,7 @@ TEST_CASE("gonio learn --spectra: a column for each wavelength, which the prior 
   CHECK(run("info --weights-of paint-1 " + at("one.prior")).find("600nm") != std::string::npos);
   run("design --prior " + at("one.prior") + " --count 2 -o " + at("two.csv"));
 
-  write_spectra(folder / "more", 3, 4, 4);
+  write_synthetic_spectra(folder / "more", 3, 4, 4);
   run("learn --spectra --rgl " + at("more") + " --add-to " + at("one.prior") + " --components 8 -o " +
       at("four.prior"));
   CHECK(gonio::io::read_prior(at("four.prior")).coefficients().rows() == 16);
@@ -145,8 +128,8 @@ TEST_CASE("gonio learn --spectra: a column for each wavelength, which the prior 
 TEST_CASE("gonio learn --spectra refuses what are no spectra, or spectra of other wavelengths") {
   const scratch::folder folder;
   const auto at = [&](const std::string& name) { return (folder / name).string(); };
-  write_spectra(folder / "paints", 0, 1, 4);
-  write_spectra(folder / "others", 1, 2, 3);
+  write_synthetic_spectra(folder / "paints", 0, 1, 4);
+  write_synthetic_spectra(folder / "others", 1, 2, 3);
   const std::string learn = "learn --rgl " + at("paints") + " -o " + at("x.prior");
   refuses(learn + " --wavelengths 400:100:700", {"--wavelengths", "--spectra"});
   refuses(learn + " --spectra --split", {"--split"});

@@ -49,12 +49,12 @@ void check_place_free(const Metric& metric) {
     CHECK(double{out[i]} == doctest::Approx(one).epsilon(1e-6));
   }
 
-  // The same bytes wherever a number stands: vectors of eight begin at multiples of 32 bytes.
-  std::vector<float> numbers(40);
+  // The same bytes wherever a number stands: vectors of sixteen begin at multiples of 64 bytes.
+  std::vector<float> numbers(60);
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 0.07f * static_cast<float>(i);
   std::vector<float> all = numbers;
   metric.unmap_all(all);
-  for (std::size_t first = 0; first < 9; ++first) {
+  for (std::size_t first = 0; first < 17; ++first) {
     std::vector<float> some = numbers;
     metric.unmap_all(std::span(some).subspan(first, 20));
     for (std::size_t i = first; i < first + 20; ++i) CHECK(some[i] == all[i]);

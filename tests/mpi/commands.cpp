@@ -1,6 +1,7 @@
 /// gonio-mpi under mpirun, as a user runs it: the bytes of gonio, ranks that die, ranks that disagree.
 
 #include "../io/scratch.hpp"
+#include "../io/synthetic_spectra.hpp"
 #include "../run_program.hpp"
 #include "../synthetic_materials.hpp"
 #include <gonio/io/npy.hpp>
@@ -270,6 +271,21 @@ TEST_CASE("gonio-mpi learn: the prior of gonio learn, bad files are refused") {
   }
   scratch::put(folder / "tables/blue-rubber.binary", "no table");
   check_refused_by_all(in_ranks(2, "learn" + both + " -o " + file("none.prior")), {"blue-rubber.binary"});
+  CHECK(!scratch::fs::exists(folder / "none.prior"));
+}
+
+TEST_CASE("gonio-mpi learn: spectra, too, whose wavelengths must be alike in all ranks' folders") {
+  const scratch::folder folder;
+  const auto file = [&](const char* name) { return '\'' + (folder / name).string() + '\''; };
+  write_synthetic_spectra(folder / "paints", 0, 2, 4);
+  write_synthetic_spectra(folder / "more", 2, 4, 4);
+  write_synthetic_spectra(folder / "others", 4, 5, 3);
+  const std::string learn = "learn --spectra --thin 30 60 --components 6 --rgl " + file("paints") + ' ';
+  const std::string said = run_alone(learn + file("more") + " -o " + file("alone.prior"));
+  CHECK(run_in(2, learn + file("more") + " -o " + file("ranks.prior")) == said);
+  CHECK(scratch::get(folder / "ranks.prior") == scratch::get(folder / "alone.prior"));
+  check_refused_by_all(in_ranks(2, learn + file("others") + " -o " + file("none.prior")),
+                       {"paint-4.bsdf", "other wavelengths"});
   CHECK(!scratch::fs::exists(folder / "none.prior"));
 }
 

@@ -35,6 +35,29 @@ class PriorTest(unittest.TestCase):
         with self.assertRaisesRegex(gonio.Error, "the prior has no material 'cheese'"):
             self.prior.weights_of("cheese")
 
+    @unittest.skipUnless(TOOL, "the tool is not beside the module")
+    def test_wavelengths_are_the_channels(self):
+        self.assertEqual(self.prior.wavelengths.shape, (0,))
+        with tempfile.TemporaryDirectory() as folder:
+            paints = pathlib.Path(folder) / "paints"
+            paints.mkdir()
+            for name, reflectance in (("dark", 0.05), ("light", 0.4)):
+                samples = paints / (name + ".csv")
+                rows = (f"{t},{t},90,{reflectance},{reflectance / 2},{reflectance / 3}\n" for t in range(5, 60, 10))
+                samples.write_text("# quantity: brdf\ntheta_h,theta_d,phi_d,450nm,550nm,650nm\n" + "".join(rows))
+                self.run_tool("reconstruct", "--spectra", "--samples", samples, "--prior", PRIOR, "-o",
+                              samples.with_suffix(".bsdf"))
+            spectral = pathlib.Path(folder) / "spectral.prior"
+            self.run_tool("learn", "--spectra", "--rgl", paints, "--thin", "30", "60", "--components", "2", "-o",
+                          spectral)
+            prior = gonio.read_prior(spectral)
+        np.testing.assert_array_equal(prior.wavelengths, [450, 550, 650])
+        self.assertEqual(prior.weights_of("dark").shape, (2, 3))
+
+    @staticmethod
+    def run_tool(*arguments):
+        subprocess.run([TOOL, *map(str, arguments)], check=True, capture_output=True)
+
     def test_a_file_keeps_it(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "my.prior"

@@ -41,8 +41,8 @@ struct scaled_log : gonio::place_free_metric<scaled_log> {
   [[nodiscard]] double unmap(double y) const noexcept { return std::copysign(std::expm1(std::abs(y)), y) / scale; }
   void unmap_all(std::span<float> values) const {
     const float unit = 1.0f / static_cast<float>(scale);
-    gonio::map_by_eights(values.data(), std::ssize(values),
-                         [&](auto& these) { these = unit * (these.max(0.0f).exp() - 1.0f); });
+    gonio::map_by_sixteens(values.data(), std::ssize(values),
+                           [&](auto& these) { these = unit * (these.max(0.0f).exp() - 1.0f); });
   }
 };
 

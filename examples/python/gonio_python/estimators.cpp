@@ -46,6 +46,15 @@ void add_prior(py::module_& m) {
   prior.def("__len__", &gonio::log_relative_pca::size, "The number of components.");
   prior.def_property_readonly("names", &gonio::log_relative_pca::names, "The materials that it was learned from.");
   prior.def_property_readonly("source", &gonio::log_relative_pca::source, "What it was learned from, for people.");
+  prior.def_property_readonly(
+      "wavelengths",
+      [](const py::object& self) {
+        const auto& wavelengths = self.cast<gonio::log_relative_pca&>().wavelengths();
+        return read_only(wavelengths.data(), {static_cast<py::ssize_t>(wavelengths.size())}, {sizeof(double)}, self);
+      },
+      "What the materials' channels are, in nanometres, ascending: shape (channels,); empty if they are red, green "
+      "and\n"
+      "blue.");
   prior.def_property_readonly("explained_variance", &gonio::log_relative_pca::explained_variance,
                               "Share of the materials' variance that the components keep.");
   prior.def_property_readonly(
@@ -67,7 +76,7 @@ void add_prior(py::module_& m) {
       },
       "Largest first: shape (k,).");
   prior.def("weights_of", &weights_of_material, py::arg("name"),
-            "The weights that expand to one of the materials: shape (k, 3).");
+            "The weights that expand to one of the materials: shape (k, channels).");
   m.def(
       "read_prior",
       [](const std::optional<std::filesystem::path>& path) {

@@ -32,20 +32,20 @@ void multiply(const float* a, float* product, Eigen::Index count);
 /// Replaces each number by its exponential, within 2 units of the last place, and the same wherever a number stands.
 void exponentiate(float* numbers, Eigen::Index count);
 
-/// Calls `map` for eight numbers at a time, an array that it replaces by their images; behind the last ones there are
+/// Calls `map` for sixteen numbers at a time, an array that it replaces by their images; behind the last ones there are
 /// zeros. Eigen rounds functions otherwise where a number stands alone before or after whole vector registers, which
 /// depends on where the memory begins.
 template <class Map>
-void map_by_eights(float* numbers, Eigen::Index count, Map&& map) {
-  using eight = Eigen::Array<float, 8, 1>;
-  const Eigen::Index whole = count / 8 * 8;
-  for (Eigen::Index i = 0; i < whole; i += 8) {
-    eight these = Eigen::Map<const eight>(numbers + i);
+void map_by_sixteens(float* numbers, Eigen::Index count, Map&& map) {
+  using sixteen = Eigen::Array<float, 16, 1>;
+  const Eigen::Index whole = count / 16 * 16;
+  for (Eigen::Index i = 0; i < whole; i += 16) {
+    sixteen these = Eigen::Map<const sixteen>(numbers + i);
     map(these);
-    Eigen::Map<eight>{numbers + i} = these;
+    Eigen::Map<sixteen>{numbers + i} = these;
   }
   if (whole == count) return;
-  eight rest = eight::Zero();
+  sixteen rest = sixteen::Zero();
   std::copy_n(numbers + whole, count - whole, rest.data());
   map(rest);
   std::copy_n(rest.data(), count - whole, numbers + whole);

@@ -2,7 +2,6 @@
 /// The least-squares problems that fitting measurements by a basis amounts to.
 /// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 9; Noell, Koehler and Stricker 2014, Eq. 7.
 
-#include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/solver.hpp>
@@ -12,6 +11,10 @@
 #include <span>
 #include <utility>
 #include <vector>
+
+#if defined(GONIO_COMPILED)  // fits by measured materials are compiled there
+#include <gonio/basis/measured.hpp>
+#endif
 
 namespace gonio {
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -51,13 +52,13 @@ class sampled_functions {
     using sum_type = detail::product_sum<double>;
     const float least = least_weight(weights);
     const auto add_rows = [&](sum_type& sum, block range) {
-      auto out = sum.rows(range.size());
       Eigen::Index count = 0;
       for (Eigen::Index i = range.begin; i < range.end; ++i) {
+        prefetch_row_after(channel, i);
         if (!counts(weights[i], values[i], least)) continue;
         const double root = std::sqrt(static_cast<double>(weights[i]));
-        out.row(count).head(unknowns_) = root * row(channel, i).template cast<double>();
-        out(count++, unknowns_) = root * values[i];
+        sum.put(count, std::span<const float>(rows_[channel][i], unknowns_), root);
+        sum(count++, unknowns_) = root * values[i];
       }
       sum.add(count);
     };
@@ -77,6 +78,7 @@ class sampled_functions {
         [&](Eigen::MatrixXd& sum, block range) {
           for (Eigen::Index i = range.begin; i < range.end; ++i)
             for (Eigen::Index c = 0; c < 3; ++c) {
+              prefetch_row_after(c, i);
               const float weight = weights(c, i), value = values(c, i);
               if (!counts(weight, value, least[c])) continue;
               const double factor = static_cast<double>(weight) * value;
@@ -94,6 +96,7 @@ class sampled_functions {
         size(), 1024,
         [&](Eigen::Index i) {
           for (Eigen::Index c = 0; c < 3; ++c) {
+            prefetch_row_after(c, i);
             values(c, i) = row(c, i).dot(weights.col(c));
           }
         },
@@ -113,6 +116,13 @@ class sampled_functions {
 
   [[nodiscard]] auto row(Eigen::Index channel, Eigen::Index place) const noexcept {
     return Eigen::Map<const Eigen::RowVectorXf>(rows_[channel][place], unknowns_);
+  }
+
+  /// Asks for the row of a location that comes soon: of locations apart the processor cannot guess where that is.
+  void prefetch_row_after(Eigen::Index channel, Eigen::Index place) const noexcept {
+    const Eigen::Index next = place + 4;
+    if (next >= size()) return;
+    for (Eigen::Index k = 0; k < unknowns_; k += 16) __builtin_prefetch(rows_[channel][next] + k);
   }
 
   void interpolate_between_cells(const std::vector<location>& locations) {

@@ -5,7 +5,6 @@
 #include <gonio/metric/place_free.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -24,16 +23,16 @@ struct log : place_free_metric<log> {
     constexpr float border = 0.5f;
     float exp_at_border = border;
     exponentiate(&exp_at_border, 1);  // rounded as all others
-    map_by_eights(values.data(), std::ssize(values), [&](auto& these) {
-      std::array<float, 8> series;
-      for (int i = 0; i < 8; ++i) {
+    map_by_sixteens(values.data(), std::ssize(values), [&](auto& these) {
+      auto series = these;
+      for (int i = 0; i < these.size(); ++i) {
         const float y = std::clamp(these[i], 0.0f, border);
         const float high = 1.0f / 24 + y * (1.0f / 120 + y * (1.0f / 720 + y * (1.0f / 5040)));
         series[i] = y * (1.0f + y * (1.0f / 2 + y * (1.0f / 6 + y * high)));
         these[i] = std::max(these[i], border);
       }
       these = these.exp();
-      for (int i = 0; i < 8; ++i) these[i] = series[i] + (these[i] - exp_at_border);
+      these = series + (these - exp_at_border);
     });
   }
 };

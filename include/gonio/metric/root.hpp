@@ -38,9 +38,9 @@ class root : public place_free_metric<root> {
   void unmap_all(std::span<float> values) const {
     const auto p = static_cast<float>(p_);
     if (p_ == 2.0)
-      map_by_eights(values.data(), std::ssize(values), [](auto& these) { these *= these.abs(); });
+      map_by_sixteens(values.data(), std::ssize(values), [](auto& these) { these *= these.abs(); });
     else
-      map_by_eights(values.data(), std::ssize(values), [&](auto& these) { these = these.max(0.0f).pow(p); });
+      map_by_sixteens(values.data(), std::ssize(values), [&](auto& these) { these = these.max(0.0f).pow(p); });
   }
 
  private:

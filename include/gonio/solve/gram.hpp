@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <concepts>
+#include <span>
 
 namespace gonio {
 
@@ -22,13 +23,15 @@ template <class Products = double, class Derived>
 requires(std::same_as<typename Derived::Scalar, float>&& bool(Derived::IsRowMajor)) [[nodiscard]] Eigen::MatrixXd
     gram(const Eigen::MatrixBase<Derived>& rows, thread_count threads = {}) {
   using sum_type = detail::product_sum<Products>;
-  const sum_type zero(rows.cols());
+  using float_rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Ref<const float_rows, 0, Eigen::OuterStride<>> all = rows.derived();
+  const sum_type zero(all.cols());
   return sum_over_blocks(
-             rows.rows(), sum_type::block_rows, zero,
+             all.rows(), sum_type::block_rows, zero,
              [&](sum_type& sum, block range) {
-               const Eigen::Index begin = range.begin, count = range.size();
-               sum.rows(count) = rows.middleRows(begin, count).template cast<Products>();
-               sum.add(count);
+               for (Eigen::Index i = range.begin; i < range.end; ++i)
+                 sum.put(i - range.begin, std::span<const float>(all.data() + i * all.outerStride(), all.cols()));
+               sum.add(range.size());
              },
              threads)
       .symmetric();

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 namespace gonio {
@@ -16,47 +17,51 @@ namespace gonio {
 namespace detail {
 
 /// Sums A'A over blocks of the rows of A: products and their sums within a block are `Scalar`, blocks are added in
-/// double. On a row-major block A'A is a sum of outer products of contiguous pieces: a tile of the result stays in
-/// registers while it reads, row by row, the pieces of its rows and of its columns, which are copied next to each
-/// other.
+/// double. A'A is a sum of outer products, of which a tile stays in registers while it reads a block row by row. A
+/// block is held in strips of as many columns as a line of the cache has numbers, each with its rows one after the
+/// other: a tile reads one strip, and a part of another, from end to end.
 template <class Scalar>
 class product_sum {
  public:
   static constexpr Eigen::Index block_rows = 128;
-  /// Two vector registers by six columns: twelve sums in flight, which hide the latency of a fused multiply-add.
-  static constexpr Eigen::Index tile_rows = 2 * std::max(EIGEN_MAX_ALIGN_BYTES, 16) / Eigen::Index{sizeof(Scalar)};
-  static constexpr Eigen::Index tile_columns = 6;
+  static constexpr Eigen::Index strip_columns = 64 / Eigen::Index{sizeof(Scalar)};
+  /// As many as make eight vector registers of sums, which hide the latency of a multiply-add.
+  static constexpr Eigen::Index tile_columns = std::max(EIGEN_MAX_ALIGN_BYTES, 16) / 8;
 
   /// Takes at most `rows` rows at a time.
-  explicit product_sum(Eigen::Index columns, Eigen::Index rows = block_rows) : columns_(columns) {
-    const Eigen::Index length = whole_tiles(columns, tile_rows), reach = whole_tiles(columns, tile_columns);
-    buffer_.resize(rows, std::max(length, reach));
-    panel_.resize(rows, std::min(panel_columns, reach));
-    left_.resize(rows, tile_rows);
-    sum_.resize(length, reach);
-    std::fill_n(buffer_.data(), buffer_.size(), Scalar(0));
+  explicit product_sum(Eigen::Index columns, Eigen::Index rows = block_rows)
+      : columns_(columns), strips_((columns + strip_columns - 1) / strip_columns), strip_size_(rows * strip_columns) {
+    block_.resize(strips_ * strip_size_);
+    sum_.resize(strips_ * strip_columns, strips_ * strip_columns);
+    std::fill_n(block_.data(), block_.size(), Scalar(0));
     std::fill_n(sum_.data(), sum_.size(), 0.0);
   }
 
-  /// Where the next `count` rows, at most block_rows, belong.
-  [[nodiscard]] auto rows(Eigen::Index count) { return buffer_.topLeftCorner(count, columns_); }
+  /// A number of the block.
+  [[nodiscard]] Scalar& operator()(Eigen::Index row, Eigen::Index column) {
+    return block_[column / strip_columns * strip_size_ + row * strip_columns + column % strip_columns];
+  }
 
-  /// One of them, contiguous.
-  [[nodiscard]] Scalar* row(Eigen::Index number) { return buffer_.data() + number * buffer_.cols(); }
-  /// From one to the next.
-  [[nodiscard]] Eigen::Index stride() const { return buffer_.cols(); }
+  /// Puts numbers times a factor into a row of the block, from its first column on.
+  template <class Number>
+  void put(Eigen::Index row, std::span<const Number> numbers, Scalar factor = 1) {
+    const Number* from = numbers.data();
+    const Eigen::Index count = std::ssize(numbers), whole = count / strip_columns * strip_columns;
+    Scalar* strip = block_.data() + row * strip_columns;
+    for (Eigen::Index column = 0; column < whole; column += strip_columns, strip += strip_size_)
+      for (Eigen::Index c = 0; c < strip_columns; ++c) strip[c] = factor * static_cast<Scalar>(from[column + c]);
+    for (Eigen::Index c = 0; c < count - whole; ++c) strip[c] = factor * static_cast<Scalar>(from[whole + c]);
+  }
 
-  /// Adds the products of the first `count` rows of the buffer.
-  void add(Eigen::Index count) {
-    // In panels of columns, which are copied so that a tile reads what lies together.
-    for (Eigen::Index first = 0; first < columns_; first += panel_columns) {
-      pack(count, first, std::min(panel_columns, sum_.cols() - first), panel_);
-      for (Eigen::Index i = first / tile_rows * tile_rows; i < columns_; i += tile_rows) {
-        pack(count, i, tile_rows, left_);
-        const Eigen::Index end = std::min({first + panel_columns, i + tile_rows, columns_});
-        for (Eigen::Index j = first; j < end; j += tile_columns) add_tile(count, i, j, panel_.data() + (j - first));
-      }
-    }
+  /// Adds the products of the first `rows` rows of the block.
+  void add(Eigen::Index rows) {
+    // So few strips at once that they stay in the cache while each of those below passes.
+    constexpr Eigen::Index together = 14;
+    for (Eigen::Index first = 0; first < strips_; first += together)
+      for (Eigen::Index left = first; left < strips_; ++left)
+        for (Eigen::Index right = first; right < std::min(first + together, left + 1); ++right)
+          for (Eigen::Index c = 0; c < strip_columns && right * strip_columns + c < columns_; c += tile_columns)
+            add_tile(rows, left, right * strip_columns + c, std::make_index_sequence<tile_columns>());
   }
 
   product_sum& operator+=(const product_sum& other) {
@@ -78,42 +83,27 @@ class product_sum {
   }
 
  private:
-  static constexpr Eigen::Index panel_columns = 18 * tile_columns;
-  using piece = Eigen::Array<Scalar, tile_rows, 1>;
+  using piece = Eigen::Array<Scalar, strip_columns, 1>;
 
-  using row_major = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-  [[nodiscard]] static Eigen::Index whole_tiles(Eigen::Index count, Eigen::Index tile) {
-    return (count + tile - 1) / tile * tile;
-  }
-
-  /// Copies some columns of the buffer's first `count` rows.
-  void pack(Eigen::Index count, Eigen::Index first, Eigen::Index columns, row_major& to) const {
-    for (Eigen::Index r = 0; r < count; ++r)
-      std::copy_n(buffer_.data() + r * buffer_.cols() + first, columns, to.data() + r * to.cols());
-  }
-
-  void add_tile(Eigen::Index count, Eigen::Index i, Eigen::Index j, const Scalar* right) {
-    add_tile(count, &sum_(i, j), right, std::make_index_sequence<tile_columns>());
-  }
-
-  /// A pack instead of loops over the columns: without unrolling, the products would live in memory.
+  /// The products of a strip with some columns of another. A pack instead of loops over the columns: without unrolling,
+  /// the products would live in memory.
   template <std::size_t... Column>
-  void add_tile(Eigen::Index count, double* sum, const Scalar* right, std::index_sequence<Column...> /*columns*/) {
-    const Scalar* left = left_.data();
+  void add_tile(Eigen::Index rows, Eigen::Index strip, Eigen::Index column,
+                std::index_sequence<Column...> /*columns*/) {
+    const Scalar *left = block_.data() + strip * strip_size_, *right = &(*this)(0, column);
     std::array<piece, tile_columns> products{((void)Column, piece(piece::Zero()))...};
-    for (Eigen::Index r = 0; r < count; ++r, left += tile_rows, right += panel_.cols()) {
-      const piece rows = Eigen::Map<const piece>(left);
-      ((products[Column] += rows * right[Column]), ...);
+    for (Eigen::Index r = 0; r < rows; ++r, left += strip_columns, right += strip_columns) {
+      const piece row = Eigen::Map<const piece, Eigen::AlignedMax>(left);
+      ((products[Column] += row * right[Column]), ...);
     }
-    const auto add_column = [&](const piece& column, double* to) {
-      for (Eigen::Index r = 0; r < tile_rows; ++r) to[r] += double{column[r]};
+    const auto add_column = [&](const piece& product, double* to) {
+      for (Eigen::Index i = 0; i < strip_columns; ++i) to[i] += double{product[i]};
     };
-    (add_column(products[Column], sum + Column * sum_.rows()), ...);
+    (add_column(products[Column], &sum_(strip * strip_columns, column + Column)), ...);
   }
 
-  Eigen::Index columns_;
-  row_major buffer_, panel_, left_;
+  Eigen::Index columns_, strips_, strip_size_;
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> block_;
   Eigen::MatrixXd sum_;
 };
 

@@ -136,13 +136,16 @@ void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis
   const std::array nearer{row(0, run.around[0]), row(0, run.around[1])},
       farther{row(1, run.around[0]), row(1, run.around[1])};
   const auto weight = static_cast<float>(h.weight[1]);
-  const auto blended = [&](Eigen::Index d, std::size_t i) {
-    return nearer[d][i] + weight * (farther[d][i] - nearer[d][i]);
+  using fields_of_cell = Eigen::Array<float, Fields, 1>;
+  const auto at = [](const float* fields) -> fields_of_cell { return Eigen::Map<const fields_of_cell>(fields); };
+  const auto blended = [&](Eigen::Index d, std::size_t i) -> fields_of_cell {
+    const fields_of_cell near = at(nearer[d] + i);
+    return near + weight * (at(farther[d] + i) - near);
   };
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const float start = blended(0, i), growth = blended(1, i) - start;
-    first[i] = start + run.share * growth;
-    step[i] = run.step * growth;
+  for (std::size_t i = 0; i < first.size(); i += Fields) {
+    const fields_of_cell start = blended(0, i), growth = blended(1, i) - start;
+    Eigen::Map<fields_of_cell>{&first[i]} = start + run.share * growth;
+    Eigen::Map<fields_of_cell>{&step[i]} = run.step * growth;
   }
 }
 
@@ -155,7 +158,6 @@ class phi_d_line {
 
   void interpolate(std::span<const float> line, float* out) {
     begin_runs(line);
-    using fields_of_cell = Eigen::Array<float, Fields, 1>;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       const axis_run& run = runs_[r];
       fields_of_cell value = Eigen::Map<const fields_of_cell>(&first_[Fields * r]);
@@ -171,16 +173,15 @@ class phi_d_line {
   }
 
  private:
+  using fields_of_cell = Eigen::Array<float, Fields, 1>;
+
   void begin_runs(std::span<const float> line) {
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       const axis_run& run = runs_[r];
-      const float *before = &line[Fields * run.around[0]], *after = &line[Fields * run.around[1]];
-      float *first = &first_[Fields * r], *step = &step_[Fields * r];
-      for (int f = 0; f < Fields; ++f) {
-        const float growth = after[f] - before[f];
-        first[f] = before[f] + run.share * growth;
-        step[f] = run.step * growth;
-      }
+      const fields_of_cell before = Eigen::Map<const fields_of_cell>(&line[Fields * run.around[0]]);
+      const fields_of_cell growth = Eigen::Map<const fields_of_cell>(&line[Fields * run.around[1]]) - before;
+      Eigen::Map<fields_of_cell>{&first_[Fields * r]} = before + run.share * growth;
+      Eigen::Map<fields_of_cell>{&step_[Fields * r]} = run.step * growth;
     }
     if constexpr (Mean == weighted_mean::geometric) {
       exponentiate(first_.data(), std::ssize(first_));

@@ -79,7 +79,7 @@ GONIO_INLINE void multiply(const float* a, float* product, Eigen::Index count) {
 }
 
 GONIO_INLINE void exponentiate(float* numbers, Eigen::Index count) {
-  map_by_eights(numbers, count, [](auto& these) { these = these.exp(); });
+  map_by_sixteens(numbers, count, [](auto& these) { these = these.exp(); });
 }
 
 GONIO_INLINE Eigen::MatrixXf to_float(const Eigen::MatrixXd& numbers) {

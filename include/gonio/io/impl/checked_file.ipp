@@ -24,12 +24,12 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE std::uint32_t checksum(std::span<const std::byte> bytes) {
+[[gnu::cold]] GONIO_INLINE std::uint32_t checksum(std::span<const std::byte> bytes) {
   return static_cast<std::uint32_t>(
       crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));  // NOLINT: zlib's byte type
 }
 
-GONIO_INLINE void take_kind(const checked_file_kind& kind, byte_reader& file, const std::string& name) {
+[[gnu::cold]] GONIO_INLINE void take_kind(const checked_file_kind& kind, byte_reader& file, const std::string& name) {
   const auto magic = file.take_bytes(std::min(kind.magic.size(), file.left()));
   if (magic.size() != kind.magic.size() || std::memcmp(magic.data(), kind.magic.data(), magic.size()) != 0)
     gonio::refuse({name, ": not a gonio ", kind.noun, " (it does not start with '", kind.magic, "')"});
@@ -43,7 +43,7 @@ GONIO_INLINE void take_kind(const checked_file_kind& kind, byte_reader& file, co
 
 /// A zlib stream that takes at least an eighth of the bytes: what deflate shrinks so much that no reader would believe
 /// it is written like this.
-[[nodiscard]] GONIO_INLINE std::vector<std::byte> huffman_code(std::span<const std::byte> bytes) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::vector<std::byte> huffman_code(std::span<const std::byte> bytes) {
   z_stream stream{};
   if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, MAX_WBITS, 8, Z_HUFFMAN_ONLY) != Z_OK)
     throw std::bad_alloc();
@@ -69,7 +69,8 @@ GONIO_INLINE void take_kind(const checked_file_kind& kind, byte_reader& file, co
 
 namespace gonio::io {
 
-GONIO_INLINE std::vector<std::byte> encode_checked(const checked_file_kind& kind, std::span<const std::byte> payload) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> encode_checked(const checked_file_kind& kind,
+                                                                 std::span<const std::byte> payload) {
   byte_writer file;
   file.put_bytes(kind.magic.data(), kind.magic.size());
   file.put(kind.version);
@@ -82,8 +83,9 @@ GONIO_INLINE std::vector<std::byte> encode_checked(const checked_file_kind& kind
   return file.take();
 }
 
-GONIO_INLINE std::vector<std::byte> decode_checked(const checked_file_kind& kind, std::span<const std::byte> bytes,
-                                                   const std::string& name) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> decode_checked(const checked_file_kind& kind,
+                                                                 std::span<const std::byte> bytes,
+                                                                 const std::string& name) {
   byte_reader file(bytes, name);
   detail::take_kind(kind, file, name);
   const auto size = file.take<std::uint64_t>();
@@ -97,7 +99,7 @@ GONIO_INLINE std::vector<std::byte> decode_checked(const checked_file_kind& kind
   return payload;
 }
 
-GONIO_INLINE bool is_of_kind(const checked_file_kind& kind, const std::filesystem::path& path) {
+[[gnu::cold]] GONIO_INLINE bool is_of_kind(const checked_file_kind& kind, const std::filesystem::path& path) {
   // Opening a pipe would wait for somebody who writes to it.
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed)) return false;

@@ -21,16 +21,16 @@
 
 namespace gonio::io::detail {
 
-[[nodiscard]] GONIO_INLINE uInt at_most_a_gigabyte(std::size_t size) noexcept {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE uInt at_most_a_gigabyte(std::size_t size) noexcept {
   return static_cast<uInt>(std::min<std::size_t>(size, 1u << 30));
 }
 
-GONIO_INLINE inflater::inflater(std::span<const std::byte> bytes, deflate_format format, std::string name)
+[[gnu::cold]] GONIO_INLINE inflater::inflater(std::span<const std::byte> bytes, deflate_format format, std::string name)
     : left_(bytes), name_(std::move(name)) {
   if (inflateInit2(&stream_, static_cast<int>(format)) != Z_OK) throw std::bad_alloc();
 }
 
-GONIO_INLINE std::size_t inflater::read(std::span<std::byte> out) {
+[[gnu::cold]] GONIO_INLINE std::size_t inflater::read(std::span<std::byte> out) {
   std::size_t size = 0;
   while (size < out.size() && !ended_) {
     const uInt offered = at_most_a_gigabyte(left_.size());
@@ -51,22 +51,23 @@ GONIO_INLINE std::size_t inflater::read(std::span<std::byte> out) {
   return size;
 }
 
-GONIO_INLINE void inflater::restart() {
+[[gnu::cold]] GONIO_INLINE void inflater::restart() {
   inflateReset(&stream_);
   ended_ = false;
 }
 
-GONIO_INLINE void inflater::refuse(std::initializer_list<message_part> what) const {
+[[gnu::cold]] GONIO_INLINE void inflater::refuse(std::initializer_list<message_part> what) const {
   gonio::refuse({name_, ": ", message_of(what)});
 }
 
-GONIO_INLINE void inflater::fail(int status) const {
+[[gnu::cold]] GONIO_INLINE void inflater::fail(int status) const {
   if (status == Z_MEM_ERROR) throw std::bad_alloc();
   if (status == Z_BUF_ERROR) refuse({"the compressed data is truncated"});
   refuse({"the compressed data is corrupt (", stream_.msg ? stream_.msg : zError(status), ")"});
 }
 
-GONIO_INLINE std::size_t expand(inflater& stream, std::vector<std::byte>& result, std::size_t size, std::size_t limit) {
+[[gnu::cold]] GONIO_INLINE std::size_t expand(inflater& stream, std::vector<std::byte>& result, std::size_t size,
+                                              std::size_t limit) {
   while (true) {
     size += stream.read(std::span(result).subspan(size));
     if (stream.ended() || result.size() == limit) return size;
@@ -78,7 +79,7 @@ GONIO_INLINE std::size_t expand(inflater& stream, std::vector<std::byte>& result
   }
 }
 
-GONIO_INLINE std::vector<std::byte> first_buffer(std::size_t claimed, std::size_t compressed) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> first_buffer(std::size_t claimed, std::size_t compressed) {
   constexpr std::size_t ordinary = 64;
   return std::vector<std::byte>(std::min(claimed, ordinary * compressed));
 }
@@ -87,8 +88,8 @@ GONIO_INLINE std::vector<std::byte> first_buffer(std::size_t claimed, std::size_
 
 namespace gonio::io {
 
-GONIO_INLINE std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t maximum_size,
-                                           const std::string& name) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t maximum_size,
+                                                         const std::string& name) {
   detail::inflater stream(bytes, detail::deflate_format::gzip, name);
   if (!is_gzip(bytes)) stream.refuse({"is not gzip data"});
   // One byte more than allowed shows that there is more, and lets an exact fit reach its checksum.
@@ -109,8 +110,8 @@ GONIO_INLINE std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std
   return result;
 }
 
-GONIO_INLINE std::vector<std::byte> gunzip_prefix(std::span<const std::byte> bytes, std::size_t count,
-                                                  const std::string& name) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> gunzip_prefix(std::span<const std::byte> bytes, std::size_t count,
+                                                                const std::string& name) {
   detail::inflater stream(bytes, detail::deflate_format::gzip, name);
   if (!is_gzip(bytes)) stream.refuse({"is not gzip data"});
   std::vector<std::byte> result(count);
@@ -118,7 +119,7 @@ GONIO_INLINE std::vector<std::byte> gunzip_prefix(std::span<const std::byte> byt
   return result;
 }
 
-GONIO_INLINE std::vector<std::byte> compress_bytes(std::span<const std::byte> bytes, int level) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> compress_bytes(std::span<const std::byte> bytes, int level) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::vector<std::byte> result(size);
   const int status = compress2(reinterpret_cast<Bytef*>(result.data()), &size,
@@ -128,8 +129,8 @@ GONIO_INLINE std::vector<std::byte> compress_bytes(std::span<const std::byte> by
   return result;
 }
 
-GONIO_INLINE std::vector<std::byte> decompress_bytes(std::span<const std::byte> bytes, std::size_t expected_size,
-                                                     const std::string& name) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> decompress_bytes(std::span<const std::byte> bytes,
+                                                                   std::size_t expected_size, const std::string& name) {
   detail::inflater stream(bytes, detail::deflate_format::zlib, name);
   if (expected_size / detail::deflate_limit > bytes.size())
     stream.refuse({"the compressed data is truncated: its ", bytes.size(), " bytes cannot hold the expected ",

@@ -26,13 +26,13 @@ inline constexpr checked_file_kind soft_specular_kind{"gonio-split", 1, "soft an
 
 namespace gonio::io {
 
-GONIO_INLINE std::vector<std::byte> encode_prior(const log_relative_pca& prior) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> encode_prior(const log_relative_pca& prior) {
   byte_writer payload;
   put_prior(payload, prior);
   return encode_checked(prior.wavelengths().empty() ? detail::colour_prior_kind : detail::prior_kind, payload.bytes());
 }
 
-GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, const std::string& name) {
+[[gnu::cold]] GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, const std::string& name) {
   if (detail::as_text(bytes).starts_with(detail::soft_specular_kind.magic))
     gonio::refuse({name, ": a soft and a specular prior, where one prior of all materials is expected"});
   const auto payload = decode_checked(detail::prior_kind, bytes, name);
@@ -40,13 +40,15 @@ GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, con
   return take_prior(in, name);
 }
 
-GONIO_INLINE bool is_prior(const std::filesystem::path& path) { return is_of_kind(detail::prior_kind, path); }
+[[gnu::cold]] GONIO_INLINE bool is_prior(const std::filesystem::path& path) {
+  return is_of_kind(detail::prior_kind, path);
+}
 
-GONIO_INLINE void write_prior(const std::filesystem::path& path, const log_relative_pca& prior) {
+[[gnu::cold]] GONIO_INLINE void write_prior(const std::filesystem::path& path, const log_relative_pca& prior) {
   write_atomically(path, encode_prior(prior));
 }
 
-GONIO_INLINE log_relative_pca read_prior(const std::filesystem::path& path) {
+[[gnu::cold]] GONIO_INLINE log_relative_pca read_prior(const std::filesystem::path& path) {
   return decode_prior(read_bytes(path), path.string());
 }
 

@@ -23,7 +23,7 @@ namespace gonio::io::detail {
 
 /// How cells are anchored, how reflectance is weighted and whether there are wavelengths, in one number: version 1 has
 /// had the anchor's 0 and 1 there from the start, so that older programs refuse what they do not know.
-[[nodiscard]] GONIO_INLINE std::uint32_t conventions_of(const log_relative_pca& prior) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::uint32_t conventions_of(const log_relative_pca& prior) {
   const bool corner = prior.cells().grid().anchor() == cell_anchor::lower_corner;
   const bool larger = prior.metric().weighting() == cosine_weighting::larger;
   return (corner ? 1u : 0u) + (larger ? 2u : 0u) + (prior.wavelengths().empty() ? 0u : 4u);
@@ -83,15 +83,15 @@ struct prior_domain {
 }
 
 /// The fewest bytes that follow the counts: the share of the variance, a length for each text, all numbers.
-[[nodiscard]] GONIO_INLINE double least_rest_of_prior(double cells, double components, double materials,
-                                                      double channels) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE double least_rest_of_prior(double cells, double components, double materials,
+                                                                    double channels) {
   return 8.0 + 4.0 * (1.0 + materials) + components * (8.0 + 4.0 * channels * materials) + 2.0 * (8.0 + 2.0 * cells) +
          components * (8.0 + cells);
 }
 
 /// Wavelengths behind their number; none of colours.
-[[nodiscard]] GONIO_INLINE std::vector<double> take_wavelengths(byte_reader& in, bool is_spectral,
-                                                                const std::string& name) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::vector<double> take_wavelengths(byte_reader& in, bool is_spectral,
+                                                                              const std::string& name) {
   if (!is_spectral) return {};
   const auto count = in.take<std::uint32_t>();
   if (count == 0 || count > in.left() / sizeof(double))

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 namespace gonio {
@@ -22,7 +23,7 @@ GONIO_INLINE Eigen::MatrixXd product_with_transpose(const matrix_view& a) {
   for (Eigen::Index begin = 0; begin < a.cols(); begin += sum_type::block_rows) {
     const Eigen::Index count = std::min(a.cols() - begin, sum_type::block_rows);
     for (Eigen::Index i = 0; i < count; ++i)
-      std::copy_n(a.data() + (begin + i) * a.outerStride(), a.rows(), sum.row(i));
+      sum.put(i, std::span<const double>(a.data() + (begin + i) * a.outerStride(), a.rows()));
     sum.add(count);
   }
   return sum.symmetric();
@@ -40,7 +41,8 @@ GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a), positive_defi
     // Take what they explain from the rest: A22 - L21 L21'.
     if (end == k) break;
     detail::product_sum<double> explained(k - end, end - begin);
-    for (Eigen::Index j = begin; j < end; ++j) std::copy_n(&lower_(end, j), k - end, explained.row(j - begin));
+    for (Eigen::Index j = begin; j < end; ++j)
+      explained.put(j - begin, std::span<const double>(&lower_(end, j), k - end));
     explained.add(end - begin);
     explained.subtract_lower_from(&lower_(end, end), k);
   }
@@ -76,7 +78,7 @@ namespace detail {
 template <std::size_t... Column>
 inline void subtract_known(const double* lower, const double* found, Eigen::Index known, double* tile, Eigen::Index k,
                            std::index_sequence<Column...> /*columns*/) {
-  using piece = Eigen::Array<double, product_sum<double>::tile_rows, 1>;
+  using piece = Eigen::Array<double, product_sum<double>::strip_columns, 1>;
   std::array<piece, sizeof...(Column)> sums{((void)Column, piece(piece::Zero()))...};
   for (Eigen::Index j = 0; j < known; ++j) {
     const piece rows = Eigen::Map<const piece>(lower + j * k);
@@ -90,7 +92,7 @@ inline void subtract_known(const double* lower, const double* found, Eigen::Inde
 GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
   // Solve for some unknowns of all columns, then take them from the other equations.
   using sum_type = detail::product_sum<double>;
-  constexpr Eigen::Index panel = 32, rows = sum_type::tile_rows, columns = sum_type::tile_columns;
+  constexpr Eigen::Index panel = 32, rows = sum_type::strip_columns, columns = sum_type::tile_columns;
   const Eigen::Index k = lower_.rows();
   Eigen::MatrixXd x = b;
   for (Eigen::Index begin = 0; begin < k; begin += panel) {

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace gonio {
@@ -20,28 +21,19 @@ GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::Matr
   // Sum (A b)'W(A b) over blocks of rows, right-hand sides as further columns.
   const Eigen::Index k = rows.columns, r = right_hand_side.cols();
   using sum_type = detail::product_sum<double>;
-  const sum_type zero(k + r);
+  const auto add_rows = [&](sum_type& sum, block range) {
+    row_matrix read(range.size(), k);
+    rows.read(range, read);
+    for (Eigen::Index row = 0; row < range.size(); ++row) {  // each times the root of its weight
+      const double root = std::sqrt(weights[range.begin + row]);
+      sum.put(row, std::span<const double>(read.data() + row * k, k), root);
+      for (Eigen::Index column = 0; column < r; ++column)
+        sum(row, k + column) = root * right_hand_side(range.begin + row, column);
+    }
+    sum.add(range.size());
+  };
   const Eigen::MatrixXd all =
-      sum_over_blocks(
-          rows.rows, sum_type::block_rows, zero,
-          [&](sum_type& sum, block range) {
-            const Eigen::Index begin = range.begin, count = range.size();
-            const Eigen::OuterStride<> stride(sum.stride());
-            // Read the rows, and append their right-hand sides.
-            rows.read(range, Eigen::Map<row_matrix, 0, Eigen::OuterStride<>>(sum.row(0), count, k, stride));
-            for (Eigen::Index row = 0; row < count; ++row) {
-              double* equation = sum.row(row);
-              for (Eigen::Index column = 0; column < r; ++column)
-                equation[k + column] = right_hand_side(begin + row, column);
-              // Multiply by the root of the weight.
-              const double weight = weights[begin + row];
-              if (weight == 1.0) continue;
-              for (Eigen::Index column = 0; column < k + r; ++column) equation[column] *= std::sqrt(weight);
-            }
-            sum.add(count);
-          },
-          threads)
-          .symmetric();
+      sum_over_blocks(rows.rows, sum_type::block_rows, sum_type(k + r), add_rows, threads).symmetric();
 
   // Split the sum into A'WA, A'Wb and b'Wb (Noell et al. 2014, Eq. 10).
   Eigen::MatrixXd gram(k, k), rhs(k, r);

@@ -118,8 +118,10 @@ GONIO_INLINE Eigen::MatrixXd gram(const row_source& rows, block groups, thread_c
   return sum_over_groups(groups, threads, [&](Eigen::Index group) {
     detail::product_sum<double> sum(rows.columns);
     detail::for_each_block_of(group, rows.rows, [&](block range) {
-      rows.read(range, Eigen::Map<row_matrix, 0, Eigen::OuterStride<>>(sum.row(0), range.size(), rows.columns,
-                                                                       Eigen::OuterStride<>(sum.stride())));
+      row_matrix read(range.size(), rows.columns);
+      rows.read(range, read);
+      for (Eigen::Index row = 0; row < read.rows(); ++row)
+        sum.put(row, std::span<const double>(read.data() + row * read.cols(), read.cols()));
       sum.add(range.size());
     });
     return sum.symmetric();
