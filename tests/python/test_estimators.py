@@ -45,8 +45,7 @@ class PriorTest(unittest.TestCase):
                 samples = paints / (name + ".csv")
                 rows = (f"{t},{t},90,{reflectance},{reflectance / 2},{reflectance / 3}\n" for t in range(5, 60, 10))
                 samples.write_text("# quantity: brdf\ntheta_h,theta_d,phi_d,450nm,550nm,650nm\n" + "".join(rows))
-                self.run_tool("reconstruct", "--spectra", "--samples", samples, "--prior", PRIOR, "-o",
-                              samples.with_suffix(".bsdf"))
+                self.run_tool("reconstruct", "--spectra", samples, "--prior", PRIOR, "-o", samples.with_suffix(".bsdf"))
             spectral = pathlib.Path(folder) / "spectral.prior"
             self.run_tool("learn", "--spectra", "--rgl", paints, "--thin", "30", "60", "--components", "2", "-o",
                           spectral)
