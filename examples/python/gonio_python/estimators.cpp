@@ -52,9 +52,7 @@ void add_prior(py::module_& m) {
         const auto& wavelengths = self.cast<gonio::log_relative_pca&>().wavelengths();
         return read_only(wavelengths.data(), {static_cast<py::ssize_t>(wavelengths.size())}, {sizeof(double)}, self);
       },
-      "What the materials' channels are, in nanometres, ascending: shape (channels,); empty if they are red, green "
-      "and\n"
-      "blue.");
+      "The materials' channels in nanometres, ascending: shape (channels,). Colours have none.");
   prior.def_property_readonly("explained_variance", &gonio::log_relative_pca::explained_variance,
                               "Share of the materials' variance that the components keep.");
   prior.def_property_readonly(

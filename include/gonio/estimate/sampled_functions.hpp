@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -57,7 +56,7 @@ class sampled_functions {
         prefetch_row_after(channel, i);
         if (!counts(weights[i], values[i], least)) continue;
         const double root = std::sqrt(static_cast<double>(weights[i]));
-        sum.put(count, std::span<const float>(rows_[channel][i], unknowns_), root);
+        sum.put(count, rows_[channel][i], unknowns_, root);
         sum(count++, unknowns_) = root * values[i];
       }
       sum.add(count);

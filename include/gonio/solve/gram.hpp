@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 
 #include <concepts>
-#include <span>
 
 namespace gonio {
 
@@ -30,7 +29,7 @@ requires(std::same_as<typename Derived::Scalar, float>&& bool(Derived::IsRowMajo
              all.rows(), sum_type::block_rows, zero,
              [&](sum_type& sum, block range) {
                for (Eigen::Index i = range.begin; i < range.end; ++i)
-                 sum.put(i - range.begin, std::span<const float>(all.data() + i * all.outerStride(), all.cols()));
+                 sum.put(i - range.begin, all.data() + i * all.outerStride(), all.cols());
                sum.add(range.size());
              },
              threads)

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
 #include <utility>
 
 namespace gonio {
@@ -44,13 +43,12 @@ class product_sum {
 
   /// Puts numbers times a factor into a row of the block, from its first column on.
   template <class Number>
-  void put(Eigen::Index row, std::span<const Number> numbers, Scalar factor = 1) {
-    const Number* from = numbers.data();
-    const Eigen::Index count = std::ssize(numbers), whole = count / strip_columns * strip_columns;
+  void put(Eigen::Index row, const Number* numbers, Eigen::Index count, Scalar factor = 1) {
+    const Eigen::Index whole = count / strip_columns * strip_columns;
     Scalar* strip = block_.data() + row * strip_columns;
     for (Eigen::Index column = 0; column < whole; column += strip_columns, strip += strip_size_)
-      for (Eigen::Index c = 0; c < strip_columns; ++c) strip[c] = factor * static_cast<Scalar>(from[column + c]);
-    for (Eigen::Index c = 0; c < count - whole; ++c) strip[c] = factor * static_cast<Scalar>(from[whole + c]);
+      for (Eigen::Index c = 0; c < strip_columns; ++c) strip[c] = factor * static_cast<Scalar>(numbers[column + c]);
+    for (Eigen::Index c = 0; c < count - whole; ++c) strip[c] = factor * static_cast<Scalar>(numbers[whole + c]);
   }
 
   /// Adds the products of the first `rows` rows of the block.

@@ -126,6 +126,10 @@ struct extended_fields {
   }
 };
 
+/// The fields of one cell.
+template <int Fields>
+using fields_of_cell = Eigen::Array<float, Fields, 1>;
+
 /// The source's rows around a theta_h, blended, at the first theta_d of a run; and how much they grow to the next.
 template <int Fields>
 void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis_interval& h, const axis_run& run,
@@ -136,16 +140,17 @@ void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis
   const std::array nearer{row(0, run.around[0]), row(0, run.around[1])},
       farther{row(1, run.around[0]), row(1, run.around[1])};
   const auto weight = static_cast<float>(h.weight[1]);
-  using fields_of_cell = Eigen::Array<float, Fields, 1>;
-  const auto at = [](const float* fields) -> fields_of_cell { return Eigen::Map<const fields_of_cell>(fields); };
-  const auto blended = [&](Eigen::Index d, std::size_t i) -> fields_of_cell {
-    const fields_of_cell near = at(nearer[d] + i);
+  const auto at = [](const float* fields) -> fields_of_cell<Fields> {
+    return Eigen::Map<const fields_of_cell<Fields>>(fields);
+  };
+  const auto blended = [&](Eigen::Index d, std::size_t i) -> fields_of_cell<Fields> {
+    const fields_of_cell<Fields> near = at(nearer[d] + i);
     return near + weight * (at(farther[d] + i) - near);
   };
   for (std::size_t i = 0; i < first.size(); i += Fields) {
-    const fields_of_cell start = blended(0, i), growth = blended(1, i) - start;
-    Eigen::Map<fields_of_cell>{&first[i]} = start + run.share * growth;
-    Eigen::Map<fields_of_cell>{&step[i]} = run.step * growth;
+    const fields_of_cell<Fields> start = blended(0, i), growth = blended(1, i) - start;
+    Eigen::Map<fields_of_cell<Fields>>{&first[i]} = start + run.share * growth;
+    Eigen::Map<fields_of_cell<Fields>>{&step[i]} = run.step * growth;
   }
 }
 
@@ -160,10 +165,10 @@ class phi_d_line {
     begin_runs(line);
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       const axis_run& run = runs_[r];
-      fields_of_cell value = Eigen::Map<const fields_of_cell>(&first_[Fields * r]);
-      const fields_of_cell step = Eigen::Map<const fields_of_cell>(&step_[Fields * r]);
+      fields_of_cell<Fields> value = Eigen::Map<const fields_of_cell<Fields>>(&first_[Fields * r]);
+      const fields_of_cell<Fields> step = Eigen::Map<const fields_of_cell<Fields>>(&step_[Fields * r]);
       for (Eigen::Index k = run.first; k < run.first + run.count; ++k) {
-        Eigen::Map<fields_of_cell>{out + Fields* k} = value;
+        Eigen::Map<fields_of_cell<Fields>>{out + Fields* k} = value;
         if constexpr (Mean == weighted_mean::geometric)
           value *= step;
         else
@@ -173,15 +178,14 @@ class phi_d_line {
   }
 
  private:
-  using fields_of_cell = Eigen::Array<float, Fields, 1>;
-
   void begin_runs(std::span<const float> line) {
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       const axis_run& run = runs_[r];
-      const fields_of_cell before = Eigen::Map<const fields_of_cell>(&line[Fields * run.around[0]]);
-      const fields_of_cell growth = Eigen::Map<const fields_of_cell>(&line[Fields * run.around[1]]) - before;
-      Eigen::Map<fields_of_cell>{&first_[Fields * r]} = before + run.share * growth;
-      Eigen::Map<fields_of_cell>{&step_[Fields * r]} = run.step * growth;
+      const fields_of_cell<Fields> before = Eigen::Map<const fields_of_cell<Fields>>(&line[Fields * run.around[0]]);
+      const fields_of_cell<Fields> growth =
+          Eigen::Map<const fields_of_cell<Fields>>(&line[Fields * run.around[1]]) - before;
+      Eigen::Map<fields_of_cell<Fields>>{&first_[Fields * r]} = before + run.share * growth;
+      Eigen::Map<fields_of_cell<Fields>>{&step_[Fields * r]} = run.step * growth;
     }
     if constexpr (Mean == weighted_mean::geometric) {
       exponentiate(first_.data(), std::ssize(first_));

@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <utility>
 
 namespace gonio {
@@ -22,8 +21,7 @@ GONIO_INLINE Eigen::MatrixXd product_with_transpose(const matrix_view& a) {
   sum_type sum(a.rows(), std::min(a.cols(), sum_type::block_rows));
   for (Eigen::Index begin = 0; begin < a.cols(); begin += sum_type::block_rows) {
     const Eigen::Index count = std::min(a.cols() - begin, sum_type::block_rows);
-    for (Eigen::Index i = 0; i < count; ++i)
-      sum.put(i, std::span<const double>(a.data() + (begin + i) * a.outerStride(), a.rows()));
+    for (Eigen::Index i = 0; i < count; ++i) sum.put(i, a.data() + (begin + i) * a.outerStride(), a.rows());
     sum.add(count);
   }
   return sum.symmetric();
@@ -41,8 +39,7 @@ GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a), positive_defi
     // Take what they explain from the rest: A22 - L21 L21'.
     if (end == k) break;
     detail::product_sum<double> explained(k - end, end - begin);
-    for (Eigen::Index j = begin; j < end; ++j)
-      explained.put(j - begin, std::span<const double>(&lower_(end, j), k - end));
+    for (Eigen::Index j = begin; j < end; ++j) explained.put(j - begin, &lower_(end, j), k - end);
     explained.add(end - begin);
     explained.subtract_lower_from(&lower_(end, end), k);
   }

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace gonio {
@@ -26,7 +25,7 @@ GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::Matr
     rows.read(range, read);
     for (Eigen::Index row = 0; row < range.size(); ++row) {  // each times the root of its weight
       const double root = std::sqrt(weights[range.begin + row]);
-      sum.put(row, std::span<const double>(read.data() + row * k, k), root);
+      sum.put(row, read.data() + row * k, k, root);
       for (Eigen::Index column = 0; column < r; ++column)
         sum(row, k + column) = root * right_hand_side(range.begin + row, column);
     }

@@ -120,8 +120,7 @@ GONIO_INLINE Eigen::MatrixXd gram(const row_source& rows, block groups, thread_c
     detail::for_each_block_of(group, rows.rows, [&](block range) {
       row_matrix read(range.size(), rows.columns);
       rows.read(range, read);
-      for (Eigen::Index row = 0; row < read.rows(); ++row)
-        sum.put(row, std::span<const double>(read.data() + row * read.cols(), read.cols()));
+      for (Eigen::Index row = 0; row < read.rows(); ++row) sum.put(row, read.data() + row * read.cols(), read.cols());
       sum.add(range.size());
     });
     return sum.symmetric();
