@@ -5,10 +5,10 @@
 #include "command_line/prior_option.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include "radiance_image.hpp"
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/sphere_delta_e.hpp>
-#include <gonio/io/image.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/render/environment_map.hpp>
@@ -30,7 +30,7 @@ struct compare_options {
 /// The mean difference that is seen under an environment, at the truth's own exposure, over the truth's cells.
 double delta_e_under(const std::filesystem::path& environment, const gonio::brdf_table& estimate,
                      const gonio::brdf_table& truth, gonio::thread_count threads) {
-  const gonio::render::environment_map map(gonio::io::read_hdr(environment));
+  const gonio::render::environment_map map(read_radiance(environment));
   const gonio::sphere_delta_e delta_e(truth.cells(), gonio::render::environment_lighting(90, 72, map), 36,
                                       gonio::sphere_delta_e::middle_grey, threads);
   if (estimate.cells() == truth.cells()) return delta_e.difference(estimate, truth, threads);
@@ -75,7 +75,7 @@ void add_compare(command& app) {
   command.add_input("truth", options->truth, "True table (.binary or .binary.gz)").required();
   add_prior_option(command, options->prior);
   command.add_input("--environment", options->environment,
-                    "Latitude-longitude image of a natural light to judge under, too (.hdr)");
+                    "Latitude-longitude image of a natural light to judge under, too (.hdr, .npy or .exr)");
   command.add_flag("--json", options->print_json, "Print the errors as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] { compare_tables(*options); });

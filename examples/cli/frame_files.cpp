@@ -2,6 +2,7 @@
 
 #include "cli/exif_files.hpp"
 #include "cli/tiff_files.hpp"
+#include "command_line/file_start.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/image.hpp>
@@ -15,7 +16,10 @@ namespace cli {
 
 namespace {
 
-bool is_tiff(const std::filesystem::path& file) { return file.extension() == ".tif" || file.extension() == ".tiff"; }
+bool is_tiff(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
+  return extension == ".tif" || extension == ".tiff";
+}
 
 /// What the camera wrote of the exposure: into the file itself, or into a JPEG file of the same name beside it.
 std::optional<double> seconds_of_camera(const std::filesystem::path& file) {
@@ -51,7 +55,7 @@ double seconds_of(const gonio::io::named_file& file, const std::filesystem::path
 
 gonio::stored_codes codes_of(const std::filesystem::path& file) {
   if (is_tiff(file)) return read_tiff(file);
-  return file.extension() == ".png" ? gonio::io::read_png_codes(file) : gonio::io::read_pnm(file);
+  return lower_extension(file) == ".png" ? gonio::io::read_png_codes(file) : gonio::io::read_pnm(file);
 }
 
 void require_like_first(const gonio::stored_codes& codes, const std::filesystem::path& file,

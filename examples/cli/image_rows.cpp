@@ -1,6 +1,7 @@
 #include "cli/image_rows.hpp"
 
 #include "cli/exr_files.hpp"
+#include "cli/radiance_image.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/hdr_rows.hpp>
@@ -81,8 +82,9 @@ class npy_rows : public image_rows {
 }  // namespace
 
 std::unique_ptr<image_rows> open_image(const std::filesystem::path& path) {
-  if (path.extension() == ".npy") return std::make_unique<npy_rows>(path);
-  if (path.extension() == ".exr") return open_exr(path);
+  const std::string format = radiance_format(path);
+  if (format == ".npy") return std::make_unique<npy_rows>(path);
+  if (format == ".exr") return open_exr(path);
   return std::make_unique<image_rows_of<gonio::io::hdr_rows>>(path);
 }
 

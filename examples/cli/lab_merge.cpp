@@ -3,6 +3,7 @@
 
 #include "cli/exr_files.hpp"
 #include "cli/frame_files.hpp"
+#include "cli/radiance_image.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/threads_option.hpp"
 #include "command_line/warning.hpp"
@@ -68,8 +69,7 @@ void write_frames(const std::filesystem::path& folder, std::span<const gonio::ca
 }
 
 void run(const photograph_command& options) {
-  const gonio::image scene =
-      options.scene.extension() == ".exr" ? read_exr(options.scene) : gonio::io::read_hdr(options.scene);
+  const gonio::image scene = read_radiance(options.scene);
   const lab::photograph_settings settings = settings_of(options.camera);
   write_frames(options.output / "light", lab::photograph_bracket(scene, options.times, settings, options.seed));
   if (options.camera == "linear" && options.dark_frames > 0) {
@@ -169,7 +169,7 @@ void run(merge_command options) {
 void add_lab_photograph(command& lab) {
   auto command = lab.add_subcommand("photograph", "Photograph a scene at several exposure times, and in the dark");
   const auto options = std::make_shared<photograph_command>();
-  command.add_input("scene", options->scene, "Radiance of the scene; 1 / pi is white under a lamp (.hdr or .exr)")
+  command.add_input("scene", options->scene, "Radiance of the scene; 1 / pi is white under a lamp (.hdr, .npy or .exr)")
       .required();
   command.add_option("--times", options->times, "Seconds of exposure")
       .check(check::range(1e-6, 1000.0))

@@ -4,6 +4,7 @@
 #include "command_line/threads_option.hpp"
 #include "lab.hpp"
 #include "lab/mirror_sphere_lab.hpp"
+#include "radiance_image.hpp"
 #include <gonio/capture/mirror_sphere.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/render/environment_map.hpp>
@@ -32,7 +33,7 @@ gonio::capture::mirror_sphere sphere_of(const probe_command& options) {
 }
 
 void photograph(const probe_command& options) {
-  const gonio::render::environment_map around(gonio::io::read_hdr(options.input));
+  const gonio::render::environment_map around(read_radiance(options.input));
   const auto radiance = [&](const gonio::direction& towards) { return around(towards); };
   gonio::io::write_hdr(options.output, lab::photograph(sphere_of(options), radiance, options.pixels));
 }
@@ -84,7 +85,7 @@ double relative_error(const gonio::image& map, const gonio::render::environment_
 
 void unwrap(const probe_command& options) {
   const gonio::capture::mirror_sphere sphere = sphere_of(options);
-  const gonio::image probe = gonio::io::read_hdr(options.input);
+  const gonio::image probe = read_radiance(options.input);
   const auto map = [&] {
     try {
       return gonio::capture::unwrap(probe, sphere, options.unwrapping, options.threads);
@@ -96,7 +97,7 @@ void unwrap(const probe_command& options) {
   if (!options.image.empty()) gonio::io::write_png(options.image, image_of(probe, map, options.input));
   if (options.truth.empty()) return;
   const gonio::render::environment_map truth(
-      averaged(gonio::io::read_hdr(options.truth), options.unwrapping.rows, options.truth));
+      averaged(read_radiance(options.truth), options.unwrapping.rows, options.truth));
   std::cout << "mean relative error " << fixed(100.0 * relative_error(map, truth, sphere.largest_polar_angle()), 2)
             << " % outside the 10 degrees around what the sphere hides\n";
 }
@@ -112,7 +113,8 @@ void add_distance_option(command& to, double& distance) {
 void add_lab_probe(command& lab) {
   auto command = lab.add_subcommand("probe", "Photograph a mirror sphere in an environment");
   const auto options = std::make_shared<probe_command>();
-  command.add_input("environment", options->input, "Light all around, latitude-longitude (.hdr)").required();
+  command.add_input("environment", options->input, "Light all around, latitude-longitude (.hdr, .npy or .exr)")
+      .required();
   add_distance_option(command, options->distance);
   command.add_option("--size", options->pixels, "Pixels of the image each way")
       .check(check::range(8, 8192))
@@ -125,14 +127,16 @@ void add_lab_probe(command& lab) {
 void add_lab_unwrap(command& lab) {
   auto command = lab.add_subcommand("unwrap", "Turn an image of a mirror sphere into the light all around");
   const auto options = std::make_shared<probe_command>();
-  command.add_input("image", options->input, "Square image that the sphere fills, of linear radiance (.hdr)")
+  command
+      .add_input("image", options->input, "Square image that the sphere fills, of linear radiance (.hdr, .npy or .exr)")
       .required();
   add_distance_option(command, options->distance);
   command.add_option("--rows", options->unwrapping.rows, "Of the map, which is twice as wide")
       .check(check::range(1, 8192))
       .capture_default_str();
   command.add_option("--reflectance", options->unwrapping.reflectance, "Of the mirror").capture_default_str();
-  command.add_input("--truth", options->truth, "The environment that was photographed, to compare with (.hdr)");
+  command.add_input("--truth", options->truth,
+                    "The environment that was photographed, to compare with (.hdr, .npy or .exr)");
   command.add_output("--image", options->image, {".png"}, "The image beside the map, to look at (.png)");
   add_threads_option(command, options->threads);
   command.add_output("-o,--output", options->output, {".hdr"}, "Map to write, latitude-longitude (.hdr)").required();

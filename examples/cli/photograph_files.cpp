@@ -1,9 +1,5 @@
 #include "cli/photograph_files.hpp"
 
-#include "cli/exr_files.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/npy.hpp>
-
 namespace cli {
 
 void add_photograph_options(command& to, photograph_files& files, const std::string& name,
@@ -14,15 +10,6 @@ void add_photograph_options(command& to, photograph_files& files, const std::str
                "same camera, so that vignetting and the lamp's falloff cancel");
   to.add_input("--calibration", files.calibration,
                "Camera and lens distortion as OpenCV writes them (.yml or .xml), instead of those in the set-ups");
-}
-
-gonio::image read_radiance(const std::filesystem::path& path) {
-  if (path.extension() == ".exr") return read_exr(path);
-  if (path.extension() != ".npy") return gonio::io::read_hdr(path);
-  gonio::image picture = gonio::io::read_npy<float, 3>(path);
-  if (picture.shape(2) != 3)
-    gonio::refuse({path.string(), ": has ", picture.shape(2), " numbers for each pixel, expected 3"});
-  return picture;
 }
 
 std::optional<gonio::capture::white_reference> read_white(const photograph_files& files, std::size_t i,

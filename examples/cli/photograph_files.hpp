@@ -1,6 +1,7 @@
 #pragma once
 /// Photographs with their set-ups and white images: the options that `gonio sphere` and `gonio near-field` share.
 
+#include "cli/radiance_image.hpp"
 #include "command_line/command.hpp"
 #include <gonio/capture/known_surface.hpp>
 #include <gonio/capture/surface_light.hpp>
@@ -46,9 +47,6 @@ struct taken_photograph {
     }
   }
 };
-
-/// An image of linear radiance: .hdr, .npy or .exr. Throws gonio::error naming the file.
-[[nodiscard]] gonio::image read_radiance(const std::filesystem::path& path);
 
 /// The white image of photograph number `i`, by what its set-up says.
 [[nodiscard]] std::optional<gonio::capture::white_reference> read_white(

@@ -12,6 +12,7 @@
 #include "flat_sample.hpp"
 #include "images.hpp"
 #include "lights.hpp"
+#include "radiance_image.hpp"
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/svbrdf_map.hpp>
 #include <gonio/render/false_colour.hpp>
@@ -49,10 +50,6 @@ struct render_options {
 };
 
 bool is_exr(const std::filesystem::path& path) { return lower_extension(path) == ".exr"; }
-
-gonio::image read_environment(const std::filesystem::path& path) {
-  return is_exr(path) ? read_exr(path) : gonio::io::read_hdr(path);
-}
 
 /// The colours of Delta E from 0 to 20, over the lowest rows, where a sphere is narrow.
 colour_scale delta_e_scale() {
@@ -133,8 +130,7 @@ void render(const render_options& options) {
   if (options.compares) require_comparable(options);
   const gonio::render::directional_lighting lamps = lighting_of(options.lights);
   std::optional<gonio::render::environment_sampler> light;
-  if (!options.environment.empty())
-    light.emplace(gonio::render::environment_map(read_environment(options.environment)));
+  if (!options.environment.empty()) light.emplace(gonio::render::environment_map(read_radiance(options.environment)));
   progress_bar bar;
   const auto image_of = [&](const gonio::brdf_table& table) {
     if (options.slices) return slice_image(table, options.image, options.threads);
@@ -182,7 +178,7 @@ void add_render(command& app) {
   auto slices = command.add_flag("--slices", options->slices,
                                  "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
   auto environment = command.add_input("--environment", options->environment,
-                                       "Light from all around: a latitude-longitude image (.hdr or .exr)");
+                                       "Light from all around: a latitude-longitude image (.hdr, .npy or .exr)");
   environment.excludes(slices);
   add_light_option(command, options->lights).excludes(environment).excludes(slices);
   command

@@ -1,5 +1,7 @@
 #include "file_start.hpp"
 
+#include <gonio/io/text.hpp>
+
 #include <fstream>
 
 namespace cli {
@@ -15,10 +17,7 @@ std::string file_start(const std::filesystem::path& path) {
 }
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
+  return gonio::io::detail::lower_case(path.extension().string());
 }
 
 }  // namespace cli

@@ -12,12 +12,24 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace cli {
 
 namespace {
 
 std::string shown(const json& value) { return gonio::printable(value.dump().substr(0, 120)); }
+
+/// Refuses what stands in a list beside what it may say: a misspelt entry would be lost without a word.
+template <std::size_t Count>
+void require_known(const json& object, const std::array<std::string_view, Count>& known, const std::string& name) {
+  for (const auto& [key, value] : object.items()) {
+    if (std::ranges::find(known, key) != known.end()) continue;
+    std::string names;
+    for (const std::string_view one : known) names += (names.empty() ? "" : ", ") + std::string(one);
+    gonio::refuse({name, ": '", gonio::printable(key), "' is unknown in ", shown(object), ", expected one of ", names});
+  }
+}
 
 /// The degrees of some keys in radians, or nothing if the image has none of them.
 template <std::size_t Count>
@@ -68,6 +80,7 @@ image_list read_image_list(const std::filesystem::path& path) {
   const json text = json::parse(std::string(gonio::io::detail::as_text(bytes)));
   if (!text.is_object() || !text.contains("images") || !text["images"].is_array() || text["images"].empty())
     gonio::refuse({name, ": must be a JSON object whose 'images' is a list with an image at least"});
+  require_known<4>(text, {"quantity", "mask", "invalid", "images"}, name);
   image_list list;
   if (!text.contains("quantity") || !text["quantity"].is_string())
     gonio::refuse(
@@ -81,6 +94,7 @@ image_list read_image_list(const std::filesystem::path& path) {
   for (const json& image : text["images"].elements()) {
     if (!image.is_object() || !image.contains("image") || !image["image"].is_string())
       gonio::refuse({name, ": 'image' is missing or no text in ", shown(image)});
+    require_known<8>(image, {"image", "theta_i", "phi_i", "theta_o", "phi_o", "theta_h", "theta_d", "phi_d"}, name);
     list.images.push_back({path.parent_path() / image["image"].text(), directions_of(image, name)});
   }
   return list;

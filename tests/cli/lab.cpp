@@ -6,6 +6,7 @@
 #include <gonio/capture/trajectory.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/merl.hpp>
+#include <gonio/io/npy.hpp>
 #include <gonio/io/reference_reflectance.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
@@ -317,6 +318,9 @@ TEST_CASE("lab: a light probe is photographed and unwrapped") {
   const gonio::image map = gonio::io::read_hdr(folder / "map.hdr");
   CHECK(map.shape(0) == 16u);
   CHECK(map.shape(1) == 32u);
+  gonio::io::write_npy(folder / "probe.NPY", gonio::io::read_hdr(folder / "probe.hdr"));  // as gonio lab merge writes it
+  run("lab unwrap " + at("probe.NPY") + " --distance 5 --rows 16 -o " + at("again.hdr"));
+  CHECK(scratch::get(folder / "again.hdr") == scratch::get(folder / "map.hdr"));
   refuses("lab unwrap " + at("sky.hdr") + " -o " + at("map.hdr"),
           "sky.hdr: an image of a mirror sphere must be square");
   refuses("lab unwrap " + at("probe.hdr") + " --rows 5 --truth " + at("sky.hdr") + " -o " + at("map.hdr"),

@@ -102,9 +102,9 @@ TEST_CASE("lab merge: TIFF frames are merged by the exposure times of their EXIF
   put("one.tif", tiff_bytes::of(frame));
   frame.samples.assign(12, 4000);
   frame.exposure = {};
-  put("two.tiff", tiff_bytes::of(frame));
+  put("two.TIFF", tiff_bytes::of(frame));
   const std::string merge = here.path().string() + " --gamma 1 -o " + (here / "out.npy").string();
-  merge_refuses(merge, "two.tiff: has no exposure time");
+  merge_refuses(merge, "two.TIFF: has no exposure time");
   put("two.jpg", tiff_bytes::jpeg_of({{4, 100}}));  // what the camera wrote beside it
   run_merge("merge " + merge);
   const auto radiance = gonio::io::read_npy<float, 3>(here / "out.npy");
@@ -114,7 +114,7 @@ TEST_CASE("lab merge: TIFF frames are merged by the exposure times of their EXIF
   merge_refuses(merge, "two.jpg: an exposure time of 0 s");
   frame.bits = 1;
   frame.exposure = {1, 25};
-  put("two.tiff", tiff_bytes::of(frame));
+  put("two.TIFF", tiff_bytes::of(frame));
   merge_refuses(merge, "has 1 bits a sample");
 }
 #endif

@@ -257,7 +257,8 @@ TEST_CASE("bad images and set-ups get exit code 2, one line, and no file") {
   refused(shots.shot("first") + shots.at("second.hdr"), {"second.hdr needs its set-up"});
   refused(shots.at("first.hdr") + " /no/such.txt", {"/no/such.txt"});
   refused("/no/such.hdr " + shots.at("first.txt"), {"/no/such.hdr"});
-  refused(shots.at("first.txt") + " " + shots.at("first.txt"), {"first.txt", "Radiance HDR"});
+  refused(shots.at("first.txt") + " " + shots.at("first.txt"),
+          {"first.txt", "no image of linear light", ".hdr, .npy or .exr"});
   refused(with_setup(first + "lamps 3\n"), {"bad.txt, line 9", "lamps"});
   refused(with_setup(camera + "light 0 0 1\n"), {"bad.txt", "'region' or 'window' is missing"});
   refused(with_setup("size 40 48" + first.substr(10)), {"first.hdr", "bad.txt", "48 x 40", "40 x 48"});

@@ -128,6 +128,15 @@ TEST_CASE("svbrdf: images that do not fit, that are missing or hold no numbers, 
   refuses(command, {"list.json", "above the horizon"});
   list("{\"quantity\": \"brdf\", \"images\": [{\"image\": \"image-0.npy\", \"theta_i\": 30}]}");
   refuses(command, {"list.json", "'phi_i'"});
+  list("{\"quantity\": \"brdf\", \"masks\": \"m.png\", \"images\": [" + given.entry("image-0.npy", 0) + "]}");
+  refuses(command, {"list.json", "'masks' is unknown", "expected one of quantity, mask, invalid, images"});
+  list(
+      "{\"quantity\": \"brdf\", \"images\": [{\"image\": \"image-0.npy\", \"theta_h\": 30, \"theta_d\": 0, "
+      "\"phi_d\": 0, \"exposure\": 2}]}");
+  refuses(command, {"list.json", "'exposure' is unknown", "image-0.npy"});
+  gonio::io::write_png(given.folder / "photograph.png", gonio::uniform_image(70, 375, gonio::rgb::Ones()));
+  list("{\"quantity\": \"brdf\", \"images\": [" + given.entry("photograph.png", 0) + "]}");
+  refuses(command, {"photograph.png: is no image of linear light", ".hdr, .npy or .exr"});
   CHECK(!scratch::fs::exists(given.folder / "other.gsv"));
   CHECK(!scratch::fs::exists(given.folder / "other.gsv.part"));
 }

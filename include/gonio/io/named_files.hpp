@@ -1,5 +1,5 @@
 #pragma once
-/// The files of a folder that have one of some extensions, by their names without it.
+/// The files of a folder that have one of some extensions, in small letters or capitals, by their names without it.
 
 #include <filesystem>
 #include <span>
@@ -14,8 +14,9 @@ struct named_file {
   std::filesystem::path path;
 };
 
-/// Sorted by name; the rest of the folder is ignored. Throws gonio::error if the folder cannot be read, or if two files
-/// give the same name, of which there may be one only: `what` is what errors call such a file.
+/// Extensions are given with the dot, in small letters. Sorted by name; the rest of the folder is ignored. Throws
+/// gonio::error if the folder cannot be read, or if two files give the same name, of which there may be one only:
+/// `what` is what errors call such a file.
 [[nodiscard]] std::vector<named_file> list_named_files(const std::filesystem::path& folder,
                                                        std::span<const std::string_view> extensions,
                                                        std::string_view what);

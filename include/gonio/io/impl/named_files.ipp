@@ -4,6 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/io/named_files.hpp>
+#include <gonio/io/text.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -18,8 +19,9 @@ GONIO_INLINE std::vector<named_file> list_named_files(const std::filesystem::pat
   std::vector<named_file> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
     const std::string file = entry.path().filename().string();
+    const std::string lower = detail::lower_case(file);
     for (const std::string_view ending : extensions)
-      if (file.ends_with(ending) && file.size() > ending.size())
+      if (lower.ends_with(ending) && file.size() > ending.size())
         files.push_back({file.substr(0, file.size() - ending.size()), entry.path()});
   }
   if (failure) gonio::refuse({folder.string(), ": cannot be read as a folder: ", failure.message()});

@@ -27,10 +27,7 @@ namespace gonio::io::detail {
 enum class mesh_format { ply, obj };
 
 [[nodiscard]] GONIO_INLINE mesh_format mesh_format_of(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  std::string lower = extension;
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = path.extension().string(), lower = lower_case(extension);
   if (lower == ".ply") return mesh_format::ply;
   if (lower == ".obj") return mesh_format::obj;
   refuse_file(path, "a mesh has the extension .ply or .obj, not " + quoted(std::string_view(extension)));

@@ -1,0 +1,30 @@
+#include "cli/radiance_image.hpp"
+
+#include "cli/exr_files.hpp"
+#include "command_line/file_start.hpp"
+#include <gonio/core/error.hpp>
+#include <gonio/io/image.hpp>
+#include <gonio/io/npy.hpp>
+
+namespace cli {
+
+std::string radiance_format(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".npy" || extension == ".exr" || extension == ".hdr") return extension;
+  const std::string start = file_start(path);
+  if (start.empty() || start.starts_with("#?")) return ".hdr";  // whose reader says why there is nothing to read
+  gonio::refuse(
+      {path.string(), ": is no image of linear light, .hdr, .npy or .exr (gonio lab merge makes one of photographs)"});
+}
+
+gonio::image read_radiance(const std::filesystem::path& path) {
+  const std::string format = radiance_format(path);
+  if (format == ".exr") return read_exr(path);
+  if (format == ".hdr") return gonio::io::read_hdr(path);
+  gonio::image picture = gonio::io::read_npy<float, 3>(path);
+  if (picture.shape(2) != 3)
+    gonio::refuse({path.string(), ": has ", picture.shape(2), " numbers for each pixel, expected 3"});
+  return picture;
+}
+
+}  // namespace cli

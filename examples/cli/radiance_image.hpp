@@ -1,0 +1,18 @@
+#pragma once
+/// Images of linear light, as all commands read them: .hdr, .npy or .exr.
+
+#include <gonio/table/image.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace cli {
+
+/// How a file is to be read: as ".npy", ".exr" or ".hdr", which is what begins as Radiance's files do, whatever its
+/// name. Throws gonio::error naming the file if it is none of them, as photographs that a camera wrote.
+[[nodiscard]] std::string radiance_format(const std::filesystem::path& path);
+
+/// Reads one. Throws gonio::error naming the file.
+[[nodiscard]] gonio::image read_radiance(const std::filesystem::path& path);
+
+}  // namespace cli
