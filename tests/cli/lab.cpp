@@ -318,7 +318,8 @@ TEST_CASE("lab: a light probe is photographed and unwrapped") {
   const gonio::image map = gonio::io::read_hdr(folder / "map.hdr");
   CHECK(map.shape(0) == 16u);
   CHECK(map.shape(1) == 32u);
-  gonio::io::write_npy(folder / "probe.NPY", gonio::io::read_hdr(folder / "probe.hdr"));  // as gonio lab merge writes it
+  gonio::io::write_npy(folder / "probe.NPY",
+                       gonio::io::read_hdr(folder / "probe.hdr"));  // as gonio lab merge writes it
   run("lab unwrap " + at("probe.NPY") + " --distance 5 --rows 16 -o " + at("again.hdr"));
   CHECK(scratch::get(folder / "again.hdr") == scratch::get(folder / "map.hdr"));
   refuses("lab unwrap " + at("sky.hdr") + " -o " + at("map.hdr"),
