@@ -71,7 +71,6 @@ void require_like_first(const gonio::stored_codes& codes, const std::filesystem:
 std::vector<gonio::capture::exposed_frame> read_frames(const std::filesystem::path& folder,
                                                        const std::filesystem::path& times) {
   const auto files = gonio::io::list_named_files(folder, frame_extensions, "photograph");
-  if (files.empty()) gonio::refuse({folder.string(), ": has no photograph (.png, .tif, .tiff, .ppm or .pgm)"});
   const auto table = times.empty() ? gonio::io::exposure_times{} : gonio::io::read_exposure_times(times);
   std::vector<gonio::capture::exposed_frame> frames;
   for (const gonio::io::named_file& file : files) {

@@ -300,6 +300,13 @@ std::vector<std::string> subcommand_names(const CLI::App& known) {
   return names;
 }
 
+/// The program and the subcommands that were called, as in `gonio lab scan`.
+std::string called_path(const CLI::App& all) {
+  std::string path = all.get_name();
+  for (const CLI::App* called : all.get_subcommands()) path += " " + called_path(*called);
+  return path;
+}
+
 /// The first word that is no subcommand or option where it stands, as a sentence with the nearest one that is; nothing
 /// if all words are known.
 std::string unknown_word(const CLI::App& all, int argc, char** argv) {
@@ -355,7 +362,7 @@ int program::run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const std::string unknown = unknown_word(*all_, argc, argv);
     if (!unknown.empty()) return complain(unknown, bad_input);
-    return complain(std::string(error.what()) + " (" + name_ + " --help shows the usage)", bad_input);
+    return complain(std::string(error.what()) + " (" + called_path(*all_) + " --help shows the usage)", bad_input);
   } catch (const gonio::error& error) {
     return complain(error.what(), bad_input);
   } catch (const std::bad_alloc&) {

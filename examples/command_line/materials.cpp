@@ -113,6 +113,8 @@ std::vector<named_table> spectra_of(const material_source& source, const std::ve
   return all;
 }
 
+[[noreturn]] void refuse_all_excluded() { gonio::refuse("--exclude leaves no material of the sources"); }
+
 /// The wavelengths that are asked for, or those of the first material; none of colours.
 std::vector<double> wavelengths_of(const material_source& source) {
   if (!source.as_spectra) return {};
@@ -123,7 +125,7 @@ std::vector<double> wavelengths_of(const material_source& source) {
     for (const auto& [name, path] : gonio::io::list_rgl_directory(folder))
       if (std::ranges::find(source.exclude, name) == source.exclude.end())
         return read_spectral_material(path).spectra->wavelengths;
-  gonio::refuse("the sources hold no material");
+  refuse_all_excluded();
 }
 
 void exclude(std::vector<named_table>& all, const std::vector<std::string>& names) {
@@ -144,7 +146,7 @@ std::vector<named_table> chosen_tables(const material_source& source, const std:
   std::vector<named_table> all =
       wavelengths.empty() ? tables_of(source, threads) : spectra_of(source, wavelengths, threads);
   exclude(all, source.exclude);
-  if (all.empty()) gonio::refuse("the sources hold no material");
+  if (all.empty()) refuse_all_excluded();
   require_different(all);
   return all;
 }

@@ -78,7 +78,10 @@ TEST_CASE("bad samples") {
   refuses(linear + " --solver lasso --lambda 2", {"lambda", "2"});
   refuses(linear + " --solver tsvd --variance 0", {"variance"});
   refuses(linear + " --networks a.npy --merl b", {"a.npy", "No such file"});
-  refuses(linear + " --rgl " + folder.path().string(), {"hold no material"});
+  refuses(linear + " --merl " + folder.path().string(), {folder.path().c_str(), "holds no MERL table"});
+  refuses("reconstruct", {"samples", "gonio reconstruct --help"});
+  refuses(linear + " --rgl " + folder.path().string(),
+          {folder.path().c_str(), "holds no material of the RGL database (.bsdf)"});
   refuses(reconstruct + " --prior " + path.string(), {"not a gonio prior"});
   refuses("reconstruct " + folder.path().string() + " -o x.binary", {folder.path().c_str()});
   refuses("reconstruct /no/such.csv -o x.binary", {"/no/such.csv"});

@@ -129,7 +129,7 @@ TEST_CASE("lab merge: bad input is refused") {
   const auto refuses = [&](const std::filesystem::path& frames, const std::string& options, const std::string& words) {
     merge_refuses(frames.string() + options + to, words);
   };
-  refuses(folder("empty"), "", "has no photograph");
+  refuses(folder("empty"), "", "holds no photograph (.png or .tif or .tiff or .ppm or .pgm)");
   put_frame(folder("nameless") / "frame.ppm", 7);
   refuses(here / "nameless", "", "frame.ppm: has no exposure time");
   put_frame(folder("ambiguous") / "frame_2_250s.ppm", 7);

@@ -22,7 +22,6 @@ std::vector<std::string> names_in(const scratch::folder& here) {
 
 TEST_CASE("named files: sorted by name, in small letters or capitals, the rest of the folder is ignored") {
   const scratch::folder here;
-  CHECK(names_in(here).empty());
   for (const char* name : {"steel.binary", "Brass.BINARY", "a.b.Binary.gz", "notes.txt", ".binary", "binary"})
     scratch::put(here / name, std::string("x"));
   CHECK(names_in(here) == std::vector<std::string>{"Brass", "a.b", "steel"});
@@ -30,11 +29,15 @@ TEST_CASE("named files: sorted by name, in small letters or capitals, the rest o
   CHECK(files.front().path == here / "Brass.BINARY");
 }
 
-TEST_CASE("named files: two of one name, and what is no folder, are refused") {
+TEST_CASE("named files: a folder without any, two of one name, and what is no folder are refused") {
   const scratch::folder here;
+  scratch::put(here / "notes.txt", std::string("x"));
+  scratch::check_refused([&] { return names_in(here); },
+                         {here.path().string(), "holds no table (.binary or .binary.gz)"});
   scratch::put(here / "steel.binary", std::string("x"));
   scratch::put(here / "steel.BINARY.gz", std::string("x"));
-  scratch::check_refused([&] { return names_in(here); }, {here.path().string(), "two tables are named 'steel'"});
+  scratch::check_refused([&] { return names_in(here); },
+                         {here.path().string(), "two files are named 'steel' but for their extension"});
   scratch::check_refused([&] { return gonio::io::list_named_files(here / "absent", extensions, "table"); },
                          {"absent", "cannot be read as a folder"});
 }

@@ -203,7 +203,6 @@ class experiment {
     json rows = json::array();
     if (given_.tables.empty()) return rows;
     const auto files = gonio::io::list_merl_directory(given_.tables);
-    if (files.empty()) gonio::refuse(given_.tables.string() + ": holds no table (*.binary or *.binary.gz)");
     for (const auto& [name, path] : files) {
       std::optional<gonio::brdf_table> truth;
       each_set(name, turn_++, rows, [&](const std::string& set, std::size_t count) -> json {

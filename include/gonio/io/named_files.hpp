@@ -14,9 +14,9 @@ struct named_file {
   std::filesystem::path path;
 };
 
-/// Extensions are given with the dot, in small letters. Sorted by name; the rest of the folder is ignored. Throws
-/// gonio::error if the folder cannot be read, or if two files give the same name, of which there may be one only:
-/// `what` is what errors call such a file.
+/// At least one, sorted by name; the rest of the folder is ignored. Extensions are given with the dot, in small
+/// letters. Throws gonio::error if the folder cannot be read or holds no such file, which may be another folder than is
+/// meant, or if two files give the same name: `what` is what errors call such a file.
 [[nodiscard]] std::vector<named_file> list_named_files(const std::filesystem::path& folder,
                                                        std::span<const std::string_view> extensions,
                                                        std::string_view what);

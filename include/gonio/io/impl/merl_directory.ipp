@@ -17,7 +17,7 @@ namespace gonio::io {
 
 GONIO_INLINE std::vector<named_file> list_merl_directory(const std::filesystem::path& folder) {
   static constexpr std::array<std::string_view, 2> extensions{".binary", ".binary.gz"};
-  return list_named_files(folder, extensions, "table");
+  return list_named_files(folder, extensions, "MERL table");
 }
 
 GONIO_INLINE void for_each_table(
@@ -28,7 +28,7 @@ GONIO_INLINE void for_each_table(
   for (const std::string& name : excluded)
     if (std::erase_if(files, [&](const named_file& file) { return file.name == name; }) == 0)
       gonio::refuse({folder.string(), ": there is no table named '", name, "' to exclude"});
-  if (files.empty()) gonio::refuse({folder.string(), ": holds no table (*.binary or *.binary.gz)"});
+  if (files.empty()) gonio::refuse({folder.string(), ": all of its tables are excluded"});
 
   std::optional<valid_cells> cells;
   for (std::size_t m = 0; m < files.size(); ++m) {

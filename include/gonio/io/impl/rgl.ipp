@@ -301,7 +301,7 @@ GONIO_INLINE rgl_material parse_rgl(std::span<const std::byte> bytes, const std:
 
 GONIO_INLINE std::vector<named_file> list_rgl_directory(const std::filesystem::path& folder) {
   static constexpr std::array<std::string_view, 1> extensions{".bsdf"};
-  return list_named_files(folder, extensions, "material");
+  return list_named_files(folder, extensions, "material of the RGL database");
 }
 
 }  // namespace gonio::io
