@@ -79,11 +79,14 @@ void write_part(const std::filesystem::path& path, const gonio::io::svbrdf_map& 
   write_texel_image(path, map, colours_of, &scale);
 }
 
-/// From 2 % to 100 %, equal steps for equal factors.
+/// Over all directions, mirror-like peaks among them, texels are known far worse than in most directions: 1, a factor
+/// of e, is usual where there are 20 images.
+double place_of_uncertainty(double uncertainty) { return gonio::render::place_by_factors(uncertainty, 0.1, 5.0); }
+
 colour_scale scale_of_uncertainty() {
-  const auto at = gonio::render::place_of_uncertainty;
+  const auto at = place_of_uncertainty;
   return {gonio::render::sequential_colour,
-          {{0.0, "2 %"}, {at(0.05), "5"}, {at(0.1), "10"}, {at(0.2), "20"}, {at(0.5), "50"}, {1.0, "100"}}};
+          {{0.0, "0.1"}, {at(0.2), "0.2"}, {at(0.5), "0.5"}, {at(1.0), "1"}, {at(2.0), "2"}, {1.0, "5"}}};
 }
 
 // ---- clusters ----------------------------------------------------------------------------------
@@ -215,7 +218,7 @@ void run(const texels_options& options) {
   if (options.uncertainty.empty() && options.disagreement.empty() && options.clusters == 0 && options.other.empty())
     gonio::refuse("texels needs something to write: --uncertainty, --disagreement, --clusters or --compare");
   const colour_scale of_uncertainty = scale_of_uncertainty();
-  write_part(options.uncertainty, map, &band::uncertainty, of_uncertainty, gonio::render::place_of_uncertainty);
+  write_part(options.uncertainty, map, &band::uncertainty, of_uncertainty, place_of_uncertainty);
   const colour_scale of_disagreement{gonio::render::sequential_colour,
                                      {{0.0, "0"}, {0.25, "1"}, {0.5, "2"}, {0.75, "3"}, {1.0, "4+"}}};
   write_part(options.disagreement, map, &band::disagreement, of_disagreement,
@@ -233,9 +236,10 @@ void add_texels(command& app) {
   const auto options = std::make_shared<texels_options>();
   command.add_input("map", options->map, "Map of gonio svbrdf (.gsv)").required();
   add_prior_option(command, options->prior);
-  command.add_output("--uncertainty", options->uncertainty, {".png", ".npy"},
-                     "Image or array to write of how well each texel is known, over all directions: light to 2 %, dark "
-                     "from 100 % on");
+  command.add_output(
+      "--uncertainty", options->uncertainty, {".png", ".npy"},
+      "Image or array to write of how well each texel is known, over all directions: 0.1 is to 10 %, 1 to "
+      "a factor of 2.7 in 68 of 100 cases; light to 0.1, dark from 5 on");
   command.add_output("--disagreement", options->disagreement, {".png", ".npy"},
                      "Image or array to write of how far each texel's images contradict each other: light 0, dark from "
                      "4 on; 1 is as expected");

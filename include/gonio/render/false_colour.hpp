@@ -59,14 +59,15 @@ struct false_colour_range {
           (1.0 - above) * low[2] + above * high[2]};
 }
 
-/// Where on a scale from 2 % to 100 % with equal steps for equal factors a relative uncertainty stands: 0 up to 2 %.
-[[nodiscard]] inline double place_of_uncertainty(double uncertainty) noexcept {
-  return std::log(std::max(uncertainty, 0.02) / 0.02) / std::log(50.0);
+/// Where a value stands on a scale with equal steps for equal factors: 0 up to `lowest`, which is positive, 1 at
+/// `highest`, more above.
+[[nodiscard]] inline double place_by_factors(double value, double lowest, double highest) noexcept {
+  return std::log(std::max(value, lowest) / lowest) / std::log(highest / lowest);
 }
 
 /// The linear colour of a relative uncertainty: light up to 2 %, dark from 100 % on.
 [[nodiscard]] inline rgb uncertainty_colour(double uncertainty) noexcept {
-  return sequential_colour(place_of_uncertainty(uncertainty));
+  return sequential_colour(place_by_factors(uncertainty, 0.02, 1.0));
 }
 
 /// So many categories have colours.
