@@ -79,8 +79,8 @@ void write_part(const std::filesystem::path& path, const gonio::io::svbrdf_map& 
   write_texel_image(path, map, colours_of, &scale);
 }
 
-/// Over all directions, mirror-like peaks among them, texels are known far worse than in most directions: 1, a factor
-/// of e, is usual where there are 20 images.
+/// Root mean square over all directions, and of materials that a prior explains badly: 1, a factor of e, is usual where
+/// there are 20 images.
 double place_of_uncertainty(double uncertainty) { return gonio::render::place_by_factors(uncertainty, 0.1, 5.0); }
 
 colour_scale scale_of_uncertainty() {
