@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,8 +22,7 @@ namespace {
 std::string shown(const json& value) { return gonio::printable(value.dump().substr(0, 120)); }
 
 /// Refuses what stands in a list beside what it may say: a misspelt entry would be lost without a word.
-template <std::size_t Count>
-void require_known(const json& object, const std::array<std::string_view, Count>& known, const std::string& name) {
+void require_known(const json& object, std::initializer_list<std::string_view> known, const std::string& name) {
   for (const auto& [key, value] : object.items()) {
     if (std::ranges::find(known, key) != known.end()) continue;
     std::string names;
@@ -80,7 +80,7 @@ image_list read_image_list(const std::filesystem::path& path) {
   const json text = json::parse(std::string(gonio::io::detail::as_text(bytes)));
   if (!text.is_object() || !text.contains("images") || !text["images"].is_array() || text["images"].empty())
     gonio::refuse({name, ": must be a JSON object whose 'images' is a list with an image at least"});
-  require_known<4>(text, {"quantity", "mask", "invalid", "images"}, name);
+  require_known(text, {"quantity", "mask", "invalid", "images"}, name);
   image_list list;
   if (!text.contains("quantity") || !text["quantity"].is_string())
     gonio::refuse(
@@ -94,7 +94,7 @@ image_list read_image_list(const std::filesystem::path& path) {
   for (const json& image : text["images"].elements()) {
     if (!image.is_object() || !image.contains("image") || !image["image"].is_string())
       gonio::refuse({name, ": 'image' is missing or no text in ", shown(image)});
-    require_known<8>(image, {"image", "theta_i", "phi_i", "theta_o", "phi_o", "theta_h", "theta_d", "phi_d"}, name);
+    require_known(image, {"image", "theta_i", "phi_i", "theta_o", "phi_o", "theta_h", "theta_d", "phi_d"}, name);
     list.images.push_back({path.parent_path() / image["image"].text(), directions_of(image, name)});
   }
   return list;
