@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -282,14 +283,23 @@ void clean_up_on_signals() {
 /// Where a file may grow no further (ulimit -f), writing fails, which is said in a sentence, as on a full disk.
 void go_on_at_size_limits() { ::signal(SIGXFSZ, SIG_IGN); }
 
-/// The long options of a subcommand, those of its groups, too.
-std::vector<std::string> long_options(const CLI::App& known) {
-  std::vector<std::string> names;
-  for (const CLI::Option* each : known.get_options())
-    for (const std::string& name : each->get_lnames()) names.push_back("--" + name);
+/// The options of a subcommand, those of its groups, too: --output, and -o.
+struct option_names {
+  std::vector<std::string> with_words, with_letters;
+};
+
+void add_options(const CLI::App& known, option_names& names) {
+  for (const CLI::Option* each : known.get_options()) {
+    for (const std::string& name : each->get_lnames()) names.with_words.push_back("--" + name);
+    for (const std::string& name : each->get_snames()) names.with_letters.push_back("-" + name);
+  }
   for (const CLI::App* group : known.get_subcommands(nullptr))
-    if (group->get_name().empty())
-      for (std::string& name : long_options(*group)) names.push_back(std::move(name));
+    if (group->get_name().empty()) add_options(*group, names);
+}
+
+option_names options_of(const CLI::App& known) {
+  option_names names;
+  add_options(known, names);
   return names;
 }
 
@@ -321,8 +331,11 @@ std::string unknown_word(const CLI::App& all, int argc, char** argv) {
     const std::string word = argv[i], name = word.substr(0, word.find('='));
     if (word == "--") return "";
     if (name.starts_with("--")) {
-      const std::vector<std::string> known = long_options(*at);
+      const std::vector<std::string> known = options_of(*at).with_words;
       if (std::ranges::find(known, name) == known.end()) return sentence(name, "option", known);
+    } else if (word.size() == 2 && word.front() == '-' && std::isalpha(static_cast<unsigned char>(word.back())) != 0) {
+      const std::vector<std::string> known = options_of(*at).with_letters;
+      if (std::ranges::find(known, word) == known.end()) return sentence(word, "option", {});
     } else if (const auto known = subcommand_names(*at); !known.empty() && !word.starts_with('-')) {
       if (std::ranges::find(known, word) == known.end()) return sentence(word, "subcommand", known);
       at = at->get_subcommand(word);

@@ -25,6 +25,7 @@ TEST_CASE("wrong command lines") {
   refuses("design -n 2 --geomtry point", {"'--geomtry' is no option of gonio design: did you mean --geometry?"});
   refuses("design -n 2 --frobnicate=3",
           {"'--frobnicate' is no option of gonio design (gonio design --help lists them)"});
+  refuses("plan d.csv -o plan.csv", {"'-o' is no option of gonio plan (gonio plan --help lists them)"});
   refuses("sample", {"table"});
   refuses("expand -o x.binary", {"--networks", "--formula"});
   refuses("expand --name no-such-stone -o x.binary", {"no-such-stone", "materials.prior"});
