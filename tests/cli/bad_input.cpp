@@ -79,7 +79,8 @@ TEST_CASE("bad samples") {
   refuses(linear + " --solver lasso --lambda 2", {"lambda", "2"});
   refuses(linear + " --solver tsvd --variance 0", {"variance"});
   refuses(linear + " --networks a.npy --merl b", {"a.npy", "No such file"});
-  refuses(linear + " --merl " + folder.path().string(), {folder.path().c_str(), "holds no MERL table"});
+  std::filesystem::create_directory(folder / "empty");
+  refuses(linear + " --merl " + (folder / "empty").string(), {"empty: holds no MERL table"});
   refuses("reconstruct", {"samples", "gonio reconstruct --help"});
   refuses(linear + " --rgl " + folder.path().string(),
           {folder.path().c_str(), "holds no material of the RGL database (.bsdf)"});
