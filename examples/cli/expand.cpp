@@ -2,6 +2,7 @@
 
 #include "command_line/chosen_networks.hpp"
 #include "command_line/file_kinds.hpp"
+#include "command_line/file_start.hpp"
 #include "command_line/measurement_files.hpp"
 #include "command_line/prior_material.hpp"
 #include "command_line/prior_option.hpp"
@@ -82,7 +83,7 @@ void require_finite(const expand_options& options, std::span<const float> values
 
 /// Spectra where the format holds them, else their colours.
 void write_spectra(const expand_options& options, const gonio::spectral_table& table) {
-  if (options.output.extension() != ".bsdf" || table.bands() == 1)
+  if (lower_extension(options.output) != ".bsdf" || table.bands() == 1)
     return write_table(options.output, table.colours(gonio::illuminant::d65, options.threads));
   const std::string name = options.name.empty() ? options.output.stem().string() : options.name;
   write_file(options.output, gonio::io::tabulate_adaptively(table, name, options.threads));

@@ -1,5 +1,6 @@
 /// gonio fit: an analytic model of measurements.
 
+#include "command_line/file_start.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
 #include "command_line/measurement_files.hpp"
@@ -48,7 +49,10 @@ struct fit_command_options {
   model_choice choice;
 };
 
-bool is_table(const std::filesystem::path& path) { return path.extension() == ".binary" || path.extension() == ".gz"; }
+bool is_table(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".binary" || extension == ".gz";
+}
 
 void print(const gonio::model::model_fit& fit, std::size_t measurements) {
   std::cout << measurements << " measurements, loss " << fit.loss << " after " << fit.evaluations << " evaluations"

@@ -1,7 +1,6 @@
 /// gonio lab photograph, gonio lab merge: a scene as photographs of several exposure times, and these as one radiance
 /// image.
 
-#include "cli/exr_files.hpp"
 #include "cli/frame_files.hpp"
 #include "cli/radiance_image.hpp"
 #include "command_line/fixed.hpp"
@@ -100,15 +99,6 @@ gonio::image mask_of(const gonio::capture::merged_frames& merged) {
   return mask;
 }
 
-void write_float_image(const std::filesystem::path& path, const gonio::image& values) {
-  if (path.extension() == ".npy")
-    gonio::io::write_npy(path, values);
-  else if (path.extension() == ".exr")
-    write_exr(path, values);
-  else
-    gonio::io::write_hdr(path, values);
-}
-
 void report(const gonio::capture::merged_frames& merged, const gonio::capture::dark_signal& dark) {
   const std::size_t columns = merged.radiance.shape(1);
   std::cout << merged.states.size() / 3 << " pixels: " << merged.count(value_state::usable) << " usable, "
@@ -158,8 +148,8 @@ void run(merge_command options) {
     }
   }();
   // Write what came out.
-  write_float_image(options.output, merged.radiance);
-  if (!options.deviation.empty()) write_float_image(options.deviation, merged.deviation);
+  write_radiance(options.output, merged.radiance);
+  if (!options.deviation.empty()) write_radiance(options.deviation, merged.deviation);
   if (!options.mask.empty()) gonio::io::write_png(options.mask, mask_of(merged));
   report(merged, dark);
 }

@@ -35,7 +35,7 @@ gonio::capture::mirror_sphere sphere_of(const probe_command& options) {
 void photograph(const probe_command& options) {
   const gonio::render::environment_map around(read_radiance(options.input));
   const auto radiance = [&](const gonio::direction& towards) { return around(towards); };
-  gonio::io::write_hdr(options.output, lab::photograph(sphere_of(options), radiance, options.pixels));
+  write_radiance(options.output, lab::photograph(sphere_of(options), radiance, options.pixels));
 }
 
 /// An image of fewer rows, each pixel the mean of those that it stands for.
@@ -93,7 +93,7 @@ void unwrap(const probe_command& options) {
       gonio::refuse(options.input.string() + ": " + refusal.what());
     }
   }();
-  gonio::io::write_hdr(options.output, map);
+  write_radiance(options.output, map);
   if (!options.image.empty()) gonio::io::write_png(options.image, image_of(probe, map, options.input));
   if (options.truth.empty()) return;
   const gonio::render::environment_map truth(
@@ -119,7 +119,9 @@ void add_lab_probe(command& lab) {
   command.add_option("--size", options->pixels, "Pixels of the image each way")
       .check(check::range(8, 8192))
       .capture_default_str();
-  command.add_output("-o,--output", options->output, {".hdr"}, "Image to write, filled by the sphere (.hdr)")
+  command
+      .add_output("-o,--output", options->output, {".hdr", ".npy", ".exr"},
+                  "Image to write, filled by the sphere (.hdr, .npy or .exr)")
       .required();
   command.callback([options] { photograph(*options); });
 }
@@ -139,7 +141,10 @@ void add_lab_unwrap(command& lab) {
                     "The environment that was photographed, to compare with (.hdr, .npy or .exr)");
   command.add_output("--image", options->image, {".png"}, "The image beside the map, to look at (.png)");
   add_threads_option(command, options->threads);
-  command.add_output("-o,--output", options->output, {".hdr"}, "Map to write, latitude-longitude (.hdr)").required();
+  command
+      .add_output("-o,--output", options->output, {".hdr", ".npy", ".exr"},
+                  "Map to write, latitude-longitude (.hdr, .npy or .exr)")
+      .required();
   command.callback([options] { unwrap(*options); });
 }
 

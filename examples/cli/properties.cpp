@@ -1,5 +1,6 @@
 /// gonio properties: does a measurement keep what a physical BRDF keeps?
 
+#include "command_line/file_start.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
 #include "command_line/measurement_files.hpp"
@@ -139,7 +140,7 @@ json properties_of_samples(const properties_options& options) {
 json properties_of_file(const properties_options& options) {
   if (holds_measurements(options.file)) return properties_of_samples(options);
   require_unused(options.reading, options.file);
-  if (options.file.extension() == ".bsdf") return properties_of_rgl(options.file, options.threads);
+  if (lower_extension(options.file) == ".bsdf") return properties_of_rgl(options.file, options.threads);
   return properties_of_merl(options.file);
 }
 

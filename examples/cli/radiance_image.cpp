@@ -27,4 +27,11 @@ gonio::image read_radiance(const std::filesystem::path& path) {
   return picture;
 }
 
+void write_radiance(const std::filesystem::path& path, const gonio::image& picture) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".npy") return gonio::io::write_npy(path, picture);
+  if (extension == ".exr") return write_exr(path, picture);
+  gonio::io::write_hdr(path, picture);
+}
+
 }  // namespace cli

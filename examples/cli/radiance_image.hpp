@@ -1,5 +1,5 @@
 #pragma once
-/// Images of linear light, as all commands read them: .hdr, .npy or .exr.
+/// Images of linear light, as all commands read and write them: .hdr, .npy or .exr.
 
 #include <gonio/table/image.hpp>
 
@@ -14,5 +14,8 @@ namespace cli {
 
 /// Reads one. Throws gonio::error naming the file.
 [[nodiscard]] gonio::image read_radiance(const std::filesystem::path& path);
+
+/// Writes one as its extension says, of any other an .hdr.
+void write_radiance(const std::filesystem::path& path, const gonio::image& picture);
 
 }  // namespace cli

@@ -1,6 +1,7 @@
 /// gonio reconstruct: samples in, a table over all directions out.
 
 #include "command_line/file_kinds.hpp"
+#include "command_line/file_start.hpp"
 #include "command_line/json.hpp"
 #include "command_line/materials.hpp"
 #include "command_line/measurement_files.hpp"
@@ -66,7 +67,7 @@ void write_sphere(const reconstruct_options& options, const gonio::brdf_table& t
 
 /// Spectra where the format holds them, else the table.
 void write_result(const reconstruct_options& options, const reconstruction& result) {
-  if (options.output.extension() != ".bsdf" || !result.spectra) return write_table(options.output, result.table);
+  if (lower_extension(options.output) != ".bsdf" || !result.spectra) return write_table(options.output, result.table);
   const std::string name = options.output.stem().string();
   write_file(options.output, gonio::io::tabulate_adaptively(*result.spectra, name, options.threads));
 }
@@ -79,7 +80,7 @@ void reconstruct_and_write(reconstruct_options options, const image_options& how
     measured = as_colours(spectra, options.reading.light.value_or(gonio::illuminant::d65));
     options.provenance = measured.provenance;
     tell_doubts(options.samples, measured);
-    if (options.output.extension() == ".bsdf" && spectra.samples.bands() == 1)
+    if (lower_extension(options.output) == ".bsdf" && spectra.samples.bands() == 1)
       gonio::refuse({options.output.native(), ": spectra need two wavelengths or more: leave out --spectra"});
     found = reconstruct(options, spectra.samples);
   } else {

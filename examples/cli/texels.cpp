@@ -79,8 +79,8 @@ void write_part(const std::filesystem::path& path, const gonio::io::svbrdf_map& 
   write_texel_image(path, map, colours_of, &scale);
 }
 
-/// Root mean square over all directions, and of materials that a prior explains badly: 1, a factor of e, is usual where
-/// there are 20 images.
+/// Up to 5, because texels are known less well than most of their directions, by a factor of e where there are 20
+/// images: it is the root mean square over all of them.
 double place_of_uncertainty(double uncertainty) { return gonio::render::place_by_factors(uncertainty, 0.1, 5.0); }
 
 colour_scale scale_of_uncertainty() {

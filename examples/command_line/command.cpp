@@ -32,10 +32,23 @@ enum class word_number : int {};
 
 // ---- checks --------------------------------------------------------------------------------------------------------
 
+namespace {
+
+/// A check with a sentence of its own: CLI11 prints the largest double, in 309 digits, as the end of the range.
+CLI::Validator saying(const CLI::Validator& known, const std::string& complaint) {
+  return CLI::Validator(
+      [known, complaint](std::string& text) { return known(text).empty() ? "" : text + " " + complaint; },
+      known.get_description());
+}
+
+constexpr const char* not_of_zero_or_more = "is not a number of at least 0";
+
+}  // namespace
+
 check::check(const CLI::Validator& known) : known_(std::make_shared<const CLI::Validator>(known)) {}
 
-check check::positive_number() { return check(CLI::PositiveNumber); }
-check check::non_negative_number() { return check(CLI::NonNegativeNumber); }
+check check::positive_number() { return check(saying(CLI::PositiveNumber, "is not a positive number")); }
+check check::non_negative_number() { return check(saying(CLI::NonNegativeNumber, not_of_zero_or_more)); }
 check check::range(double lowest, double highest) { return check(CLI::Range(lowest, highest)); }
 check check::range(int lowest, int highest) { return check(CLI::Range(lowest, highest)); }
 check check::range(unsigned lowest, unsigned highest) { return check(CLI::Range(lowest, highest)); }
@@ -108,7 +121,7 @@ namespace {
 
 /// An integer that must not be negative, with the name that the help has for those.
 CLI::Option& counting(CLI::Option& added) {
-  return *added.type_name("UINT")->check(CLI::Validator(CLI::NonNegativeNumber).description(""));
+  return *added.type_name("UINT")->check(saying(CLI::NonNegativeNumber, not_of_zero_or_more).description(""));
 }
 
 }  // namespace
@@ -284,22 +297,15 @@ void clean_up_on_signals() {
 void go_on_at_size_limits() { ::signal(SIGXFSZ, SIG_IGN); }
 
 /// The options of a subcommand, those of its groups, too: --output, and -o.
-struct option_names {
-  std::vector<std::string> with_words, with_letters;
-};
-
-void add_options(const CLI::App& known, option_names& names) {
+std::vector<std::string> option_names(const CLI::App& known) {
+  std::vector<std::string> names;
   for (const CLI::Option* each : known.get_options()) {
-    for (const std::string& name : each->get_lnames()) names.with_words.push_back("--" + name);
-    for (const std::string& name : each->get_snames()) names.with_letters.push_back("-" + name);
+    for (const std::string& name : each->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : each->get_snames()) names.push_back("-" + name);
   }
   for (const CLI::App* group : known.get_subcommands(nullptr))
-    if (group->get_name().empty()) add_options(*group, names);
-}
-
-option_names options_of(const CLI::App& known) {
-  option_names names;
-  add_options(known, names);
+    if (group->get_name().empty())
+      for (std::string& name : option_names(*group)) names.push_back(std::move(name));
   return names;
 }
 
@@ -310,19 +316,29 @@ std::vector<std::string> subcommand_names(const CLI::App& known) {
   return names;
 }
 
-/// The program and the subcommands that were called, as in `gonio lab scan`.
-std::string called_path(const CLI::App& all) {
-  std::string path = all.get_name();
-  for (const CLI::App* called : all.get_subcommands()) path += " " + called_path(*called);
-  return path;
+/// The program, or a subcommand of it, as in `gonio lab scan`.
+std::string path_of(const CLI::App& at) {
+  return at.get_parent() == nullptr ? at.get_name() : path_of(*at.get_parent()) + " " + at.get_name();
+}
+
+/// The subcommand that was called, however deep.
+const CLI::App& called(const CLI::App& all) {
+  const std::vector<CLI::App*> below = all.get_subcommands();
+  return below.empty() ? all : called(*below.front());
+}
+
+/// --output, or a letter as in -o; -1 is a number.
+bool is_option(const std::string& word) {
+  return word.starts_with("--") ||
+         (word.size() == 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0);
 }
 
 /// The first word that is no subcommand or option where it stands, as a sentence with the nearest one that is; nothing
 /// if all words are known.
 std::string unknown_word(const CLI::App& all, int argc, char** argv) {
   const CLI::App* at = &all;
-  std::string path = all.get_name();
   const auto sentence = [&](const std::string& word, const char* kind, const std::vector<std::string>& known) {
+    const std::string path = path_of(*at);
     const auto meant = gonio::nearest_word(word, known);
     return "'" + word + "' is no " + kind + " of " + path +
            (meant ? ": did you mean " + *meant + "?" : " (" + path + " --help lists them)");
@@ -330,16 +346,12 @@ std::string unknown_word(const CLI::App& all, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i], name = word.substr(0, word.find('='));
     if (word == "--") return "";
-    if (name.starts_with("--")) {
-      const std::vector<std::string> known = options_of(*at).with_words;
+    if (is_option(name)) {
+      const std::vector<std::string> known = option_names(*at);
       if (std::ranges::find(known, name) == known.end()) return sentence(name, "option", known);
-    } else if (word.size() == 2 && word.front() == '-' && std::isalpha(static_cast<unsigned char>(word.back())) != 0) {
-      const std::vector<std::string> known = options_of(*at).with_letters;
-      if (std::ranges::find(known, word) == known.end()) return sentence(word, "option", {});
     } else if (const auto known = subcommand_names(*at); !known.empty() && !word.starts_with('-')) {
       if (std::ranges::find(known, word) == known.end()) return sentence(word, "subcommand", known);
       at = at->get_subcommand(word);
-      path += " " + word;
     }
   }
   return "";
@@ -375,7 +387,7 @@ int program::run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const std::string unknown = unknown_word(*all_, argc, argv);
     if (!unknown.empty()) return complain(unknown, bad_input);
-    return complain(std::string(error.what()) + " (" + called_path(*all_) + " --help shows the usage)", bad_input);
+    return complain(std::string(error.what()) + " (" + path_of(called(*all_)) + " --help shows the usage)", bad_input);
   } catch (const gonio::error& error) {
     return complain(error.what(), bad_input);
   } catch (const std::bad_alloc&) {

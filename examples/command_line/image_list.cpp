@@ -24,10 +24,9 @@ std::string shown(const json& value) { return gonio::printable(value.dump().subs
 /// Refuses what stands in a list beside what it may say: a misspelt entry would be lost without a word.
 void require_known(const json& object, std::initializer_list<std::string_view> known, const std::string& name) {
   for (const auto& [key, value] : object.items()) {
-    if (std::ranges::find(known, key) != known.end()) continue;
-    std::string names;
-    for (const std::string_view one : known) names += (names.empty() ? "" : ", ") + std::string(one);
-    gonio::refuse({name, ": '", gonio::printable(key), "' is unknown in ", shown(object), ", expected one of ", names});
+    if (std::ranges::find(known, key) == known.end())
+      gonio::refuse({name, ": '", gonio::printable(key), "' is unknown in ", shown(object), ", expected one of ",
+                     gonio::io::detail::listed({known.begin(), known.size()}, ", ")});
   }
 }
 

@@ -22,10 +22,12 @@ TEST_CASE("wrong command lines") {
   refuses("reconstruckt x", {"'reconstruckt' is no subcommand of gonio: did you mean reconstruct?"});
   refuses("frobnicate x", {"'frobnicate' is no subcommand of gonio (gonio --help lists them)"});
   refuses("lab paln x", {"'paln' is no subcommand of gonio lab: did you mean plan?"});
+  refuses("design -n -3", {"--count: -3 is not a number of at least 0 (gonio design --help"});
   refuses("design -n 2 --geomtry point", {"'--geomtry' is no option of gonio design: did you mean --geometry?"});
   refuses("design -n 2 --frobnicate=3",
           {"'--frobnicate' is no option of gonio design (gonio design --help lists them)"});
   refuses("plan d.csv -o plan.csv", {"'-o' is no option of gonio plan (gonio plan --help lists them)"});
+  refuses("lab scan -q", {"'-q' is no option of gonio lab scan (gonio lab scan --help lists them)"});
   refuses("sample", {"table"});
   refuses("expand -o x.binary", {"--networks", "--formula"});
   refuses("expand --name no-such-stone -o x.binary", {"no-such-stone", "materials.prior"});

@@ -318,10 +318,13 @@ TEST_CASE("lab: a light probe is photographed and unwrapped") {
   const gonio::image map = gonio::io::read_hdr(folder / "map.hdr");
   CHECK(map.shape(0) == 16u);
   CHECK(map.shape(1) == 32u);
-  gonio::io::write_npy(folder / "probe.NPY",
-                       gonio::io::read_hdr(folder / "probe.hdr"));  // as gonio lab merge writes it
+  // An array, as gonio lab merge writes one.
+  gonio::io::write_npy(folder / "probe.NPY", gonio::io::read_hdr(folder / "probe.hdr"));
   run("lab unwrap " + at("probe.NPY") + " --distance 5 --rows 16 -o " + at("again.hdr"));
   CHECK(scratch::get(folder / "again.hdr") == scratch::get(folder / "map.hdr"));
+  run("lab unwrap " + at("probe.NPY") + " --distance 5 --rows 16 -o " + at("map.NPY"));
+  const auto array = gonio::io::read_npy<float, 3>(folder / "map.NPY");
+  CHECK(std::abs(array(8, 16, 2) - map(8, 16, 2)) <= 0.01f * map(8, 16, 2));  // an .hdr has 8 bits
   refuses("lab unwrap " + at("sky.hdr") + " -o " + at("map.hdr"),
           "sky.hdr: an image of a mirror sphere must be square");
   refuses("lab unwrap " + at("probe.hdr") + " --rows 5 --truth " + at("sky.hdr") + " -o " + at("map.hdr"),

@@ -7,6 +7,7 @@
 #include <gonio/design/published_directions.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
 #include <gonio/io/capture_constraint.hpp>
+#include <gonio/io/text.hpp>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -31,9 +32,8 @@ struct found_design {
 
 void require_one_of(const std::string& given, const char* name, std::initializer_list<std::string_view> words) {
   if (std::ranges::count(words, std::string_view(given)) > 0) return;
-  std::string all;
-  for (const std::string_view word : words) all += (all.empty() ? "" : ", ") + std::string(word);
-  gonio::refuse({name, " is '", given, "': expected one of ", all});
+  gonio::refuse(
+      {name, " is '", given, "': expected one of ", gonio::io::detail::listed({words.begin(), words.size()}, ", ")});
 }
 
 std::vector<gonio::direction_pair> pairs_of(const py::object& directions, const char* name) {

@@ -36,6 +36,9 @@ inline constexpr std::string_view blanks = " \t\r";
 /// The text with A to Z as small letters, whatever the locale.
 [[nodiscard]] std::string lower_case(std::string_view text);
 
+/// The words with `between` them: "red, green", ".exr or .hdr".
+[[nodiscard]] std::string listed(std::span<const std::string_view> words, std::string_view between);
+
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text) noexcept;
 
 /// The fields of a line between its commas, or another separator, trimmed; what `fields` held before is dropped.

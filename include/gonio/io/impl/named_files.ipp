@@ -25,11 +25,8 @@ GONIO_INLINE std::vector<named_file> list_named_files(const std::filesystem::pat
         files.push_back({file.substr(0, file.size() - ending.size()), entry.path()});
   }
   if (failure) gonio::refuse({folder.string(), ": cannot be read as a folder: ", failure.message()});
-  if (files.empty()) {
-    std::string endings;
-    for (const std::string_view ending : extensions) endings += (endings.empty() ? "" : " or ") + std::string(ending);
-    gonio::refuse({folder.string(), ": holds no ", what, " (", endings, ")"});
-  }
+  if (files.empty())
+    gonio::refuse({folder.string(), ": holds no ", what, " (", detail::listed(extensions, " or "), ")"});
   std::ranges::sort(files, {}, &named_file::name);
   const auto twice = std::ranges::adjacent_find(files, {}, &named_file::name);
   if (twice != files.end())

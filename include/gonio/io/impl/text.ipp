@@ -40,6 +40,12 @@ GONIO_INLINE std::string_view trimmed(std::string_view text) noexcept {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
+[[gnu::cold]] GONIO_INLINE std::string listed(std::span<const std::string_view> words, std::string_view between) {
+  std::string all;
+  for (const std::string_view word : words) all += message_of({all.empty() ? "" : between, word});
+  return all;
+}
+
 GONIO_INLINE std::string lower_case(std::string_view text) {
   std::string small(text);
   for (char& c : small)

@@ -29,8 +29,7 @@ GONIO_INLINE std::string_view word_reader::take(std::string_view what) {
 }
 
 GONIO_INLINE std::size_t word_reader::take_one_of(std::initializer_list<std::string_view> words) {
-  std::string expected;
-  for (const std::string_view word : words) expected += message_of({expected.empty() ? "" : " or ", word});
+  const std::string expected = listed({words.begin(), words.size()}, " or ");
   const std::string_view word = take(expected);
   const auto* const found = std::ranges::find(words, word);
   if (found == words.end()) place_.refuse({quoted(word), ", expected ", expected});
