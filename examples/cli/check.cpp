@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include <gonio/estimate/conformity.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +21,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace cli {
 
@@ -38,23 +40,59 @@ struct check_options {
 /// The samples of a file that count: where each is in the file, and where it is on the prior's cells; and what the file
 /// says of them.
 struct measured_surface {
-  gonio::sample_set counting;
+  std::vector<gonio::sample_directions> counting;
   std::vector<Eigen::Index> numbers;  ///< from 1
+  std::vector<double> wavelengths;    ///< of the channels, nanometres; none of colours
   gonio::located_samples located;
   json facts;
 
-  measured_surface(const std::filesystem::path& path, const measurement_options& reading,
-                   const gonio::log_relative_pca& prior, gonio::thread_count threads) {
-    const gonio::io::sample_file file = read_measurement_file(path, reading);
-    const gonio::sample_set& all = file.samples;
+  measured_surface(const std::filesystem::path& path, const check_options& given, bool by_wavelengths,
+                   const gonio::log_relative_pca& prior) {
+    if (by_wavelengths) {
+      const gonio::io::spectral_sample_file file = read_spectra_file(path, given.reading);
+      const gonio::spectral_samples& all = file.samples;
+      wavelengths = all.wavelengths;
+      located = gonio::locate_samples(prior.cells(), all, given.threads);
+      keep(all.in_three_channels());
+      facts = facts_of({{}, file.quantity, {}, file.provenance});
+      return;
+    }
+    const gonio::io::sample_file file = read_measurement_file(path, given.reading);
+    located = gonio::locate_samples(prior.cells(), file.samples, given.threads);
+    keep(file.samples);
     facts = facts_of(file);
+  }
+
+ private:
+  void keep(const gonio::sample_set& all) {
     for (const Eigen::Index i : gonio::counting_positions(all)) {
-      counting.push_back(all[i]);
+      counting.push_back(all[i].directions);
       numbers.push_back(i + 1);
     }
-    located = gonio::locate_samples(prior.cells(), all, threads);
   }
 };
+
+/// Part and reference, by their wavelengths if both have them.
+std::pair<measured_surface, measured_surface> read_both(const check_options& given,
+                                                        const gonio::log_relative_pca& prior) {
+  const bool by_wavelengths =
+      names_wavelengths(given.part, given.reading) && names_wavelengths(given.reference, given.reading);
+  std::pair<measured_surface, measured_surface> both{{given.part, given, by_wavelengths, prior},
+                                                     {given.reference, given, by_wavelengths, prior}};
+  if (both.first.wavelengths != both.second.wavelengths)
+    gonio::refuse({given.part.native(), ": its wavelengths are not those of ", given.reference.native(),
+                   ", which check compares one by one"});
+  return both;
+}
+
+/// What the channels of an answer are called. Wavelengths that all have the same values are one channel.
+std::vector<std::string> channel_names(const gonio::conformity& found, const measured_surface& part) {
+  if (found.shift.size() == 1) return {"value"};
+  if (part.wavelengths.empty()) return {"red", "green", "blue"};
+  std::vector<std::string> names;
+  for (const double wavelength : part.wavelengths) names.push_back(gonio::io::detail::shortest(wavelength) + " nm");
+  return names;
+}
 
 /// What was asked, what came out of it, and all that is told of it.
 struct check_result {
@@ -107,12 +145,12 @@ std::string percent(double mapped) { return (mapped >= 0.0 ? "+" : "") + fixed(1
 
 /// "sample 6 (theta_i 30.0, theta_o 41.2 degrees): measured 0.210, the reference says 0.140 +- 0.020 (red, p =
 /// 0.0003)", of the channel that differs most.
-std::string told(const gonio::compared_direction& each, const measured_surface& part) {
+std::string told(const gonio::compared_direction& each, const measured_surface& part,
+                 const std::vector<std::string>& names) {
   Eigen::Index channel = 0;
   (void)(each.difference / each.deviation).abs().maxCoeff(&channel);
-  const auto [wi, wo] = part.counting[each.number].directions.pair();
+  const auto [wi, wo] = part.counting[each.number].pair();
   const double off = each.expected[channel] * std::expm1(each.deviation[channel]);
-  constexpr std::array names{"red", "green", "blue"};
   return "sample " + std::to_string(part.numbers[each.number]) + " (theta_i " +
          fixed(gonio::degrees(std::acos(std::min(wi.z(), 1.0))), 1) + ", theta_o " +
          fixed(gonio::degrees(std::acos(std::min(wo.z(), 1.0))), 1) + " degrees): measured " +
@@ -136,19 +174,35 @@ void print_limits(const check_result& result, const measured_surface& part, cons
               << fixed(result.options.part.degrees_of_freedom, 0) << " degrees of freedom\n";
 }
 
+/// "red +0.1 %, green +0.3 %, blue -0.2 %"; of many wavelengths the one that is shifted most.
+std::string shifts(const gonio::conformity& found, const std::vector<std::string>& names) {
+  constexpr std::size_t most_listed = 6;
+  const auto told = [&](Eigen::Index channel) { return names[channel] + ' ' + percent(found.shift[channel]); };
+  if (names.size() > most_listed) {
+    Eigen::Index most = 0;
+    (void)found.shift.abs().maxCoeff(&most);
+    return "most at " + told(most);
+  }
+  std::string all;
+  for (Eigen::Index channel = 0; channel < found.shift.size(); ++channel)
+    all += (all.empty() ? "" : ", ") + told(channel);
+  return all;
+}
+
 void print(const check_options& given, const check_result& result, const measured_surface& part,
            const measured_surface& reference) {
   const gonio::conformity& found = result.conformity;
   std::cout << (result.conforms ? "no difference found" : "differs") << " (p = " << probability(found.p_value)
             << "; false alarms " << probability(100.0 * given.false_alarms) << " %";
   if (given.tolerance > 0.0) std::cout << ", tolerance " << probability(100.0 * given.tolerance) << " %";
-  std::cout << ")\nin all directions: red " << percent(found.shift[0]) << ", green " << percent(found.shift[1])
-            << ", blue " << percent(found.shift[2]) << " (p = " << probability(found.shift_p_value) << ")\n";
-  std::cout << (result.conforms ? "most " : "differs most ") << "at " << told(found.directions[found.worst()], part)
-            << '\n';
+  const std::vector<std::string> names = channel_names(found, part);
+  std::cout << ")\nin all directions: " << shifts(found, names) << " (p = " << probability(found.shift_p_value)
+            << ")\n";
+  std::cout << (result.conforms ? "most " : "differs most ") << "at "
+            << told(found.directions[found.worst()], part, names) << '\n';
   for (Eigen::Index i = 0; i < std::ssize(found.directions); ++i)
     if (i != found.worst() && found.directions[i].adjusted_p_value < given.false_alarms)
-      std::cout << "differs at " << told(found.directions[i], part) << '\n';
+      std::cout << "differs at " << told(found.directions[i], part, names) << '\n';
   print_limits(result, part, reference);
   const gonio::familiarity& known = result.familiarity;
   std::cout << "known materials explain the part " << (known.p_value < 0.01 ? "badly" : "well")
@@ -157,16 +211,23 @@ void print(const check_options& given, const check_result& result, const measure
             << fixed(100.0 * known.discrepancy, 0) << " %, errors " << fixed(100.0 * known.errors, 0) << " %)\n";
 }
 
+/// A number for each channel.
+json listed(const Eigen::ArrayXd& channels) {
+  json all = json::array();
+  for (const double value : channels) all.push_back(value);
+  return all;
+}
+
 json directions_as_json(const gonio::conformity& found, const measured_surface& part) {
   json all = json::array();
   for (const gonio::compared_direction& each : found.directions) {
     json told{{"sample", part.numbers[each.number]}};
-    told.update(angles_as_json(part.counting[each.number].directions));
+    told.update(angles_as_json(part.counting[each.number]));
     told.update({{"reference_samples", each.measured},
-                 {"measured", per_channel(each.value)},
-                 {"reference", per_channel(each.expected)},
-                 {"mapped_difference", per_channel(each.difference)},
-                 {"mapped_deviation", per_channel(each.deviation)},
+                 {"measured", listed(each.value)},
+                 {"reference", listed(each.expected)},
+                 {"mapped_difference", listed(each.difference)},
+                 {"mapped_deviation", listed(each.deviation)},
                  {"p_value", each.p_value},
                  {"adjusted_p_value", each.adjusted_p_value}});
     all.push_back(std::move(told));
@@ -184,7 +245,8 @@ json as_json(const check_options& given, const check_result& result, const measu
            {"tolerance", given.tolerance},
            {"noise", noise.relative},
            {"reference_noise", result.options.reference.relative},
-           {"shift", per_channel(found.shift.unaryExpr([](double mapped) { return std::expm1(mapped); }))},
+           {"channels", channel_names(found, part)},
+           {"shift", listed(found.shift.unaryExpr([](double mapped) { return std::expm1(mapped); }))},
            {"shift_p_value", found.shift_p_value},
            {"total_p_value", found.total_p_value},
            {"worst_p_value", found.worst_p_value},
@@ -226,8 +288,7 @@ void write_report(const check_options& given, const json& check) {
 /// Says whether the part conforms.
 bool check_files(const check_options& given) {
   const gonio::log_relative_pca prior = gonio::io::read_prior(given.prior);
-  const measured_surface part(given.part, given.reading, prior, given.threads),
-      reference(given.reference, given.reading, prior, given.threads);
+  const auto [part, reference] = read_both(given, prior);
   const check_result result = check_part(given, part, reference, prior);
   const json told = as_json(given, result, part, reference);
   if (given.report.is_given()) write_report(given, told);

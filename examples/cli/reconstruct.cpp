@@ -75,9 +75,16 @@ void write_result(const reconstruct_options& options, const reconstruction& resu
 void reconstruct_and_write(reconstruct_options options, const image_options& how) {
   gonio::io::sample_file measured;
   std::optional<reconstruction> found;
+  // Wavelengths stay what they are where the output can hold them.
+  if (!options.fits_spectra && lower_extension(options.output) == ".bsdf" && takes_spectra(options.method))
+    options.fits_spectra = names_wavelengths(options.samples, options.reading);
   if (options.fits_spectra) {
     const gonio::io::spectral_sample_file spectra = read_spectra_file(options.samples, options.reading);
-    measured = as_colours(spectra, options.reading.light.value_or(gonio::illuminant::d65));
+    measured = {spectra.samples.in_three_channels(options.reading.light.value_or(gonio::illuminant::d65)),
+                spectra.quantity,
+                {},
+                spectra.provenance};
+    if (spectra.samples.bands() == 1) measured.wavelength = spectra.samples.wavelengths.front();
     options.provenance = measured.provenance;
     tell_doubts(options.samples, measured);
     if (lower_extension(options.output) == ".bsdf" && spectra.samples.bands() == 1)
@@ -137,7 +144,7 @@ void add_spectra_options(command& to, reconstruct_options& options) {
   to.add_flag(
       "--spectra", options.fits_spectra,
       "Fit each wavelength of spectral samples (.csv with columns like 400nm, or formats of instruments) as a grey "
-      "material; .bsdf has the spectra then, other formats their colours");
+      "material: the default where -o is a .bsdf, which has the spectra then; other formats have their colours");
   to.add_choice(
       "--illuminant", [&options](int light) { options.reading.light = static_cast<gonio::illuminant>(light); },
       {{"D65", static_cast<int>(gonio::illuminant::d65)}, {"A", static_cast<int>(gonio::illuminant::a)}},

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -37,7 +38,7 @@ gonio::io::sample_file read_csv(const std::filesystem::path& path, const gonio::
   const std::string_view text = gonio::io::detail::as_text(bytes);
   if (!gonio::io::names_wavelengths(text, path.native(), reading))
     return gonio::io::parse_sample_file(text, path.native(), reading);
-  return as_colours(gonio::io::parse_spectral_sample_file(text, path.native(), reading), gonio::illuminant::d65);
+  return as_colours(path, gonio::io::parse_spectral_sample_file(text, path.native(), reading), gonio::illuminant::d65);
 }
 
 }  // namespace
@@ -74,7 +75,7 @@ void require_unused(const measurement_options& options, const std::filesystem::p
 gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, const measurement_options& options) {
   gonio::io::sample_file file;
   if (options.light) {
-    file = as_colours(read_spectra_file(path, options), *options.light);
+    file = as_colours(path, read_spectra_file(path, options), *options.light);
   } else if (const measurement_kind* kind = measurement_kind_of(path)) {
     require_unused(options, path);  // such a file says what its values are
     file.samples = kind->read(path);
@@ -100,7 +101,21 @@ gonio::io::spectral_sample_file read_spectra_file(const std::filesystem::path& p
   return {kind->read_spectra(path), {}, {}};
 }
 
-gonio::io::sample_file as_colours(const gonio::io::spectral_sample_file& file, gonio::illuminant light) {
+bool names_wavelengths(const std::filesystem::path& path, const measurement_options& options) {
+  if (options.light) return false;
+  if (const measurement_kind* kind = measurement_kind_of(path))
+    return kind->read_spectra != nullptr && kind->read_spectra(path).bands() > 1;
+  const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
+  return gonio::io::names_wavelengths(gonio::io::detail::as_text(bytes), path.native(), reading_of(options));
+}
+
+gonio::io::sample_file as_colours(const std::filesystem::path& path, const gonio::io::spectral_sample_file& file,
+                                  gonio::illuminant light) {
+  const std::vector<double>& wavelengths = file.samples.wavelengths;
+  if (wavelengths.size() > 1 && std::ranges::none_of(wavelengths, gonio::is_visible))
+    gonio::refuse({path.native(), ": its wavelengths, ", std::lround(wavelengths.front()), " to ",
+                   std::lround(wavelengths.back()),
+                   " nm, are invisible and have no colour: gonio check and gonio reconstruct -o FILE.bsdf take them"});
   std::optional<double> wavelength;
   if (file.samples.bands() == 1) wavelength = file.samples.wavelengths.front();
   return {file.samples.colours(light), file.quantity, wavelength, file.provenance};

@@ -48,10 +48,14 @@ void require_unused(const measurement_options& options, const std::filesystem::p
                                                                 const measurement_options& options = {});
 
 /// Spectra as colours, and what their file says of them.
-[[nodiscard]] gonio::io::sample_file as_colours(const gonio::io::spectral_sample_file& file, gonio::illuminant light);
+[[nodiscard]] gonio::io::sample_file as_colours(const std::filesystem::path& path,
+                                                const gonio::io::spectral_sample_file& file, gonio::illuminant light);
 
 /// Warns of numbers that look like something else than they are read as (`doubts_of`).
 void tell_doubts(const std::filesystem::path& path, const gonio::io::sample_file& file);
+
+/// Does a file have several wavelengths, and no illuminant make colours of them?
+[[nodiscard]] bool names_wavelengths(const std::filesystem::path& path, const measurement_options& options = {});
 
 /// The same without what the file says of them.
 [[nodiscard]] gonio::sample_set read_measurements(const std::filesystem::path& path,

@@ -110,7 +110,7 @@ reconstruction reconstruct(const reconstruct_options& options, const gonio::samp
 }
 
 reconstruction reconstruct(const reconstruct_options& options, const gonio::spectral_samples& spectra) {
-  const gonio::sample_set colours = spectra.colours(options.reading.light.value_or(gonio::illuminant::d65));
+  const gonio::sample_set colours = spectra.in_three_channels(options.reading.light.value_or(gonio::illuminant::d65));
   return with_warnings(reconstruct_each_wavelength(options, spectra, colours), options, colours);
 }
 

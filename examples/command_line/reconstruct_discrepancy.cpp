@@ -138,7 +138,7 @@ reconstruction reconstruct_spectra_with_discrepancy(const reconstruct_options& o
                                                     const gonio::log_relative_pca& prior,
                                                     const gonio::spectral_samples& spectra) {
   const gonio::illuminant light = options.reading.light.value_or(gonio::illuminant::d65);
-  const Eigen::Index count = std::ssize(gonio::counting_positions(spectra.colours(light)));
+  const Eigen::Index count = std::ssize(gonio::counting_positions(spectra.in_three_channels(light)));
   const auto paint = estimator_of(options, prior, count).fit(spectra, light);
   reconstruction result = described_spectra(paint.tabulate(gonio::valid_cells()), options);
   describe_residuals(paint.fit().report(), paint.kept(), result);

@@ -1,6 +1,7 @@
 #pragma once
 /// The methods of `gonio reconstruct`, one function each, and what they have in common.
 
+#include "file_start.hpp"
 #include "json.hpp"
 #include "materials.hpp"
 #include "measurement_files.hpp"
@@ -50,6 +51,11 @@ struct reconstruct_options {
   bool print_json = false;
   gonio::thread_count threads;
 
+  /// Is nothing written that shows colours?
+  [[nodiscard]] bool holds_spectra_alone() const {
+    return (output.empty() || lower_extension(output) == ".bsdf") && image.empty() && uncertainty_image.empty() &&
+           !report.is_given();
+  }
   [[nodiscard]] bool tells_residuals() const { return keeps_residuals || report.is_given(); }
   [[nodiscard]] bool wants_uncertainty() const {
     return keeps_uncertainty || !uncertainty.empty() || !uncertainty_image.empty() || report.is_given();
@@ -145,6 +151,9 @@ inline const gonio::tikhonov radial_solver{1e-6};
 /// The mean of the samples nearest to each direction.
 [[nodiscard]] reconstruction reconstruct_by_neighbours(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
+
+/// Can a method fit each wavelength?
+[[nodiscard]] inline bool takes_spectra(const std::string& method) { return method != "correction"; }
 
 /// Each wavelength as a grey material. Throws gonio::error for --method correction, which weighs samples by all three
 /// channels of their colours.

@@ -89,8 +89,14 @@ reconstruction by_threes(const reconstruct_options& options, const gonio::spectr
 reconstruction described_spectra(gonio::spectral_table spectra, const reconstruct_options& options) {
   using gonio::io::detail::shortest;
   const gonio::illuminant light = options.reading.light.value_or(gonio::illuminant::d65);
-  reconstruction result{spectra.colours(light, options.threads)};
   const std::vector<double>& wavelengths = spectra.wavelengths();
+  const bool has_colours = wavelengths.size() == 1 || std::ranges::any_of(wavelengths, gonio::is_visible);
+  if (!has_colours && !options.holds_spectra_alone())
+    gonio::refuse(
+        "none of the wavelengths is visible, so that there is no colour to write or to draw: give -o FILE.bsdf "
+        "alone, which holds the wavelengths");
+  reconstruction result{has_colours ? spectra.colours(light, options.threads)
+                                    : gonio::brdf_table(gonio::valid_cells(gonio::grid({1, 1, 1})))};
   result.details = {{"wavelengths_nm", wavelengths}};
   const bool is_one = wavelengths.size() == 1;
   if (!is_one) result.details["illuminant"] = light == gonio::illuminant::a ? "A" : "D65";

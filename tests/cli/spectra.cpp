@@ -90,6 +90,45 @@ TEST_CASE("without --spectra, spectra are their colours wherever samples are rea
   CHECK(facts["samples"] == 18);
 }
 
+TEST_CASE("a .bsdf has the wavelengths of a file that names them, with --spectra and without") {
+  const measured_files files;
+  run("reconstruct " + files.at("spectra.csv") + " -o " + files.at("default.bsdf"));
+  run("reconstruct " + files.at("spectra.csv") + " --spectra -o " + files.at("asked.bsdf"));
+  REQUIRE(gonio::io::read_rgl(files.at("default.bsdf")).spectra);
+  run("reconstruct " + files.at("spectra.csv") + " --illuminant A -o " + files.at("lamplit.bsdf"));
+  CHECK(!gonio::io::read_rgl(files.at("lamplit.bsdf")).spectra);  // colours were asked for
+}
+
+TEST_CASE("wavelengths that nobody sees are fitted and checked as such, and never made grey") {
+  const measured_files files;
+  const auto near_infrared = measured_paint({905, 1064, 1550});
+  gonio::io::write_spectral_samples(files.at("nir.csv"), near_infrared);
+  const auto told = parse_json(run("reconstruct " + files.at("nir.csv") + " --json -o " + files.at("nir.bsdf")));
+  CHECK(told["wavelengths_nm"].size() == 3);
+  for (const char* command :
+       {"reconstruct NIR -o OUT.binary", "reconstruct NIR --spectra -o OUT.binary",
+        "reconstruct NIR --spectra -o OUT.bsdf --image OUT.png", "fit NIR --model ggx", "properties NIR",
+        "design --given NIR -n 1 -o OUT.csv", "report NIR --noise 0.02 -o OUT.html", "convert NIR OUT.csv"}) {
+    std::string line = command;
+    line.replace(line.find("NIR"), 3, files.at("nir.csv"));
+    for (std::size_t out = line.find("OUT"); out != std::string::npos; out = line.find("OUT"))
+      line.replace(out, 3, files.at("written"));
+    CAPTURE(line);
+    refuses(line, {"visible"});
+  }
+
+  auto part = near_infrared;
+  const std::string checked = "check " + files.at("part.csv") + " --reference " + files.at("nir.csv") + " --noise 0.02";
+  gonio::io::write_spectral_samples(files.at("part.csv"), part);
+  CHECK(run(checked).find("no difference found") != std::string::npos);
+  part.values.col(2) *= 3.0f;
+  gonio::io::write_spectral_samples(files.at("part.csv"), part);
+  const auto [exit_code, differs] = gonio_tool(checked);
+  CHECK(exit_code == 1);
+  CHECK(differs.find("905 nm +0.0 %, 1064 nm +0.0 %, 1550 nm +200.0 %") != std::string::npos);
+  CHECK(differs.find("(1550 nm, p = ") != std::string::npos);
+}
+
 TEST_CASE("interpolated spectra are those of three wavelengths at a time, which are the method's own colours") {
   const measured_files files;
   gonio::io::write_samples(files.at("three.csv"), [] {

@@ -321,3 +321,59 @@ TEST_CASE("a noiseless reference predicts, even if it is repeated in a direction
   CHECK(by({77, 77}).directions[0].deviation[0] == doctest::Approx(by({77}).directions[0].deviation[0]).epsilon(0.3));
   CHECK(by({77, 77}).conforms());
 }
+
+TEST_CASE("channels are data: one reading is one channel, and each of many wavelengths counts") {
+  const auto cells = some_cells(12, 4);
+  auto part = noisy(checked_material(), cells, 0.02, 1), reference = noisy(checked_material(), cells, 0.02, 2);
+  // Three copies of a reading are one channel.
+  for (gonio::located_samples* samples : {&part, &reference})
+    samples->values = samples->values.col(0).replicate(1, 3).eval();
+  const auto thrice = gonio::check_conformity(conformity_estimator(), part, reference, noise_of(0.02));
+  part.values = part.values.leftCols(1).eval();
+  reference.values = reference.values.leftCols(1).eval();
+  const auto once = gonio::check_conformity(conformity_estimator(), part, reference, noise_of(0.02));
+  CHECK(once.shift.size() == 1);
+  CHECK(thrice.p_value == once.p_value);
+  CHECK(thrice.directions[3].difference.size() == 1);
+
+  // Of five wavelengths the last is tripled.
+  part.values = part.values.replicate(1, 5).eval();
+  reference.values = reference.values.replicate(1, 5).eval();
+  part.values.col(4) *= 3.0;
+  const auto tripled = gonio::check_conformity(conformity_estimator(), part, reference, noise_of(0.02));
+  CHECK(tripled.p_value < 1e-9);
+  CHECK(tripled.shift.size() == 5);
+  CHECK(std::expm1(tripled.shift[4]) == doctest::Approx(2.0).epsilon(0.1));
+  CHECK(std::abs(tripled.shift[0]) < 0.05);
+  CHECK(tripled.directions[0].expected[4] == doctest::Approx(reference.values(0, 4)).epsilon(0.1));
+  scratch::check_refused(
+      [&] {
+        auto other = reference;
+        other.values = reference.values.leftCols(4).eval();
+        return gonio::check_conformity(conformity_estimator(), part, other, noise_of(0.02));
+      },
+      {"5 channels", "not of 4"});
+}
+
+TEST_CASE("parts of one channel are refused as seldom as was promised") {
+  // 400 pairs, 5 % promised: within three deviations of the binomial distribution.
+  for (const Eigen::Index channels : {1, 3, 5}) {
+    CAPTURE(channels);
+    int refused = 0;
+    for (unsigned pair = 0; pair < 400; ++pair) {
+      auto part = noisy(checked_material(), {77, 300, 411, 90, 123}, 0.0, 0), reference = part;
+      std::mt19937 random(pair);
+      std::normal_distribution<double> normal;
+      for (gonio::located_samples* samples : {&part, &reference}) {
+        Eigen::MatrixXd values = samples->values.col(0).replicate(1, channels);
+        for (Eigen::Index i = 0; i < values.rows(); ++i)
+          for (Eigen::Index c = 0; c < channels; ++c) values(i, c) *= 1.0 + 0.02 * normal(random);
+        samples->values = channels == 1 ? Eigen::MatrixXd(values.replicate(1, 3)) : values;  // as a file is read
+      }
+      refused +=
+          gonio::check_conformity(conformity_estimator(), part, reference, noise_of(0.02)).conforms(0.05) ? 0 : 1;
+    }
+    CHECK(refused <= 33);
+    CHECK(refused >= 4);
+  }
+}

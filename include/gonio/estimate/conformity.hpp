@@ -38,12 +38,13 @@ struct conformity_options {
 
 /// What the reference says of one measurement of the part.
 struct compared_direction {
-  Eigen::Index number = 0;        ///< its position among the part's located samples
-  Eigen::Index measured = 0;      ///< so many samples of the reference have the same direction; 0: it is predicted
-  rgb value;                      ///< of the part, sr^-1
-  rgb expected;                   ///< of the reference, sr^-1
-  rgb difference;                 ///< of the mapped values: relative where the metric is a logarithm
-  rgb deviation;                  ///< the standard deviation of `difference` if part and reference are alike
+  Eigen::Index number = 0;    ///< its position among the part's located samples
+  Eigen::Index measured = 0;  ///< so many samples of the reference have the same direction; 0: it is predicted
+  // For each channel:
+  Eigen::ArrayXd value;           ///< of the part, sr^-1
+  Eigen::ArrayXd expected;        ///< of the reference, sr^-1
+  Eigen::ArrayXd difference;      ///< of the mapped values: relative where the metric is a logarithm
+  Eigen::ArrayXd deviation;       ///< the standard deviation of `difference` if part and reference are alike
   double p_value = 1.0;           ///< of this direction alone
   double adjusted_p_value = 1.0;  ///< the same by Holm (1979), for all directions at once
 };
@@ -53,10 +54,10 @@ struct compared_direction {
 /// sure.
 struct conformity {
   double p_value = 1.0;        ///< as a whole: three times the least of the next three (Bonferroni), at most 1
-  double shift_p_value = 1.0;  ///< of one shift of each channel, the same in all directions, 3 degrees of freedom
-  double total_p_value = 1.0;  ///< of all differences, three degrees of freedom for each direction
+  double shift_p_value = 1.0;  ///< of one shift of each channel, the same in all directions, a degree of freedom each
+  double total_p_value = 1.0;  ///< of all differences, a degree of freedom for each channel of each direction
   double worst_p_value = 1.0;  ///< of the worst direction, times their number
-  rgb shift = rgb::Zero();     ///< of the mapped values; its best linear unbiased estimate
+  Eigen::ArrayXd shift;        ///< of the mapped values of each channel; its best linear unbiased estimate
   std::vector<compared_direction> directions;  ///< of the part, in its order
 
   /// Is there no evidence of a difference, with so many false alarms among parts that are alike?
@@ -77,11 +78,11 @@ namespace detail {
 struct conformity_samples {
   Eigen::Index parts = 0;
   std::vector<half_difference> angles;
-  Eigen::MatrixXd mapped;      ///< less the prior's mean, N x 3
+  Eigen::MatrixXd mapped;      ///< less the prior's mean, N x channels
   Eigen::MatrixXd covariance;  ///< of the mapped reflectance by the model, for one channel, N x N
   double independent = 0.0;    ///< of its diagonal: what is independent in each direction
-  Eigen::MatrixXd noise;       ///< variances of the measurements, N x 3
-  Eigen::MatrixXd tolerance;   ///< of the part's mapped values, parts x 3
+  Eigen::MatrixXd noise;       ///< variances of the measurements, N x channels
+  Eigen::MatrixXd tolerance;   ///< of the part's mapped values, parts x channels
 };
 
 /// Without `value` and `expected` of the directions.
@@ -94,7 +95,11 @@ struct conformity_samples {
 
 void require_possible(const conformity_options& options);
 
+/// Of all channels; of one if the channels are the same, as those of one reading are that stands for three.
 [[nodiscard]] located_samples both_of(const located_samples& part, const located_samples& reference);
+
+/// How many of some columns count: one if they are all the same.
+[[nodiscard]] Eigen::Index distinct_channels(const Eigen::MatrixXd& values);
 
 /// The positions of measurements in the same direction as a place.
 [[nodiscard]] std::vector<Eigen::Index> same_directions(const std::vector<location>& locations,
@@ -118,8 +123,9 @@ template <error_metric Metric>
 
 }  // namespace detail
 
-/// Compares n samples of a part with r of a reference. The estimator's prior and model say what of one direction is
-/// known from others; where all directions are shared they do not matter. Its noise is not used.
+/// Compares n samples of a part with r of a reference, in any number of channels c: colours, wavelengths, one value.
+/// The estimator's prior and model say what of one direction is known from others; where all directions are shared they
+/// do not matter. Its noise is not used. Channels that are the same in all samples are one.
 ///
 /// If part and reference reflect alike (within the tolerance) and have the stated noise, `conforms(a)` is false with a
 /// probability of at most a where all directions are shared. Where they are predicted, that was found of the mean of
@@ -127,8 +133,9 @@ template <error_metric Metric>
 /// a lamp that drifts, is not counted: a tolerance allows for it. With a tolerance each statistic is the least that any
 /// allowed difference leaves. Negative values count as zero; where noise makes them, only dark noise explains them.
 ///
-/// O((n + r)^2 k + r^3 + n^3). Throws gonio::error for impossible options, for a part without noise, and beyond 500
-/// samples of the part or 2,000 of both.
+/// O((n + r)^2 k + r^3 + (n c)^3). Throws gonio::error for impossible options, for a part without noise, for other
+/// channels of the part than of the reference, and for more than 500 samples of the part, 2,000 of both, or 3,000
+/// values of the part.
 ///
 /// ```cpp
 /// const gonio::reconstruction estimator{prior};
@@ -153,13 +160,13 @@ template <error_metric Metric>
                                      .mapped = process.values(),
                                      .covariance = process.covariance(),
                                      .independent = model.error_variance,
-                                     .noise = Eigen::MatrixXd(both.size(), 3),
-                                     .tolerance = Eigen::MatrixXd(part.size(), 3)};
+                                     .noise = Eigen::MatrixXd(both.size(), both.values.cols()),
+                                     .tolerance = Eigen::MatrixXd(part.size(), both.values.cols())};
   for (Eigen::Index i = 0; i < both.size(); ++i) {
     const location& at = both.locations[i];
     const bool is_part = i < part.size();
     const double weight = is_part ? part.weights.row(i).mean() : reference.weights.row(i - part.size()).mean();
-    for (Eigen::Index c = 0; c < 3; ++c) {
+    for (Eigen::Index c = 0; c < both.values.cols(); ++c) {
       const double deviation =
           detail::mapped_deviation(metric, both.values(i, c), at, is_part ? options.part : options.reference);
       samples.noise(i, c) = deviation * deviation / weight;
@@ -171,8 +178,9 @@ template <error_metric Metric>
   // Say it in sr^-1.
   for (compared_direction& each : found.directions) {
     const location& at = part.locations[each.number];
-    each.value = part.values.row(each.number).head<3>().transpose().array();
-    for (Eigen::Index c = 0; c < 3; ++c)
+    each.value = both.values.row(each.number).transpose().array();
+    each.expected = each.value;
+    for (Eigen::Index c = 0; c < each.value.size(); ++c)
       each.expected[c] = std::max(metric.inverse(metric.forward(each.value[c], at) - each.difference[c], at), 0.0);
   }
   return found;
@@ -187,13 +195,14 @@ template <error_metric Metric>
   constexpr Eigen::Index most_samples = 5000;
   if (samples.size() > most_samples)
     refuse({"noise is told by repeats of at most ", most_samples, " samples, not of ", samples.size()});
+  const Eigen::Index channels = detail::distinct_channels(samples.values);
   double squares = 0.0, freedom = 0.0;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
     const auto same = detail::same_directions(samples.locations, samples.locations[i].angles, options.same_direction);
     // Each direction once, by its first sample.
     if (same.front() != i || same.size() < 2) continue;
     const location& at = samples.locations[i];
-    for (Eigen::Index c = 0; c < 3; ++c) {
+    for (Eigen::Index c = 0; c < channels; ++c) {
       double mean = 0.0, value = 0.0;
       for (const Eigen::Index j : same) {
         mean += metric.forward(samples.values(j, c), at) / static_cast<double>(same.size());

@@ -31,16 +31,29 @@ GONIO_INLINE void require_possible(const conformity_options& options) {
     refuse({"directions are the same within 0 to 0.1 radians, not ", options.same_direction});
 }
 
+GONIO_INLINE Eigen::Index distinct_channels(const Eigen::MatrixXd& values) {
+  for (Eigen::Index c = 1; c < values.cols(); ++c)
+    if (values.col(c) != values.col(0)) return values.cols();
+  return std::min<Eigen::Index>(values.cols(), 1);
+}
+
 GONIO_INLINE located_samples both_of(const located_samples& part, const located_samples& reference) {
-  constexpr Eigen::Index most_of_part = 500, most = 2000;
+  constexpr Eigen::Index most_of_part = 500, most = 2000, most_values = 3000;
   const Eigen::Index n = part.size(), all = n + reference.size();
   if (n == 0 || n == all) refuse("a part and a reference have at least one sample each");
   if (n > most_of_part) refuse({"a part is compared in at most ", most_of_part, " directions, not ", n});
   if (all > most) refuse({"part and reference have at most ", most, " samples together, not ", all});
-  located_samples both{part.locations, Eigen::MatrixXd(all, 3), Eigen::MatrixXd::Ones(all, 1)};
+  if (part.values.cols() != reference.values.cols())
+    refuse(
+        {"a part of ", part.values.cols(), " channels needs a reference of as many, not of ", reference.values.cols()});
+  located_samples both{part.locations, Eigen::MatrixXd(all, part.values.cols()), Eigen::MatrixXd::Ones(all, 1)};
   both.locations.insert(both.locations.end(), reference.locations.begin(), reference.locations.end());
-  both.values.topRows(n) = part.values.leftCols(3);
-  both.values.bottomRows(all - n) = reference.values.leftCols(3);
+  both.values.topRows(n) = part.values;
+  both.values.bottomRows(all - n) = reference.values;
+  both.values.conservativeResize(Eigen::NoChange, distinct_channels(both.values));
+  if (n * both.values.cols() > most_values)
+    refuse(
+        {"a part has at most ", most_values, " values, not ", n, " directions of ", both.values.cols(), " channels"});
   return both;
 }
 
@@ -64,15 +77,15 @@ GONIO_INLINE std::vector<Eigen::Index> same_directions(const std::vector<locatio
 struct difference_operator {
   Eigen::MatrixXd rows;
   std::vector<Eigen::Index> shared;
-  Eigen::Matrix3d channels = Eigen::Matrix3d::Identity();  ///< covariance of the model's channels
+  Eigen::MatrixXd channels;  ///< covariance of the model's channels
   bool predicts = false;
 };
 
 /// How the channels of the reference vary together, relative to what the model expects of one of them. Ten measurements
 /// are what is known before, as in `sample_process`, of channels that are correlated as those of most materials.
-[[nodiscard]] inline Eigen::Matrix3d channel_covariance(const Eigen::MatrixXd& whitened) {
+[[nodiscard]] inline Eigen::MatrixXd channel_covariance(const Eigen::MatrixXd& whitened) {
   constexpr double before = sample_process::known_before, correlation = 0.9;
-  Eigen::Matrix3d known = Eigen::Matrix3d::Constant(correlation);
+  Eigen::MatrixXd known = Eigen::MatrixXd::Constant(whitened.cols(), whitened.cols(), correlation);
   known.diagonal().setOnes();
   return (before * known + product(whitened.transpose(), whitened)) / (before + static_cast<double>(whitened.rows()));
 }
@@ -80,7 +93,9 @@ struct difference_operator {
 /// Differences from the mean of the reference's measurements in the same direction, or from its prediction.
 [[nodiscard]] inline difference_operator differences(const conformity_samples& samples, double limit) {
   const Eigen::Index n = samples.parts, all = samples.mapped.rows(), r = all - n;
-  difference_operator found{Eigen::MatrixXd::Zero(n, all), std::vector<Eigen::Index>(n)};
+  const Eigen::Index channels = samples.mapped.cols();
+  difference_operator found{Eigen::MatrixXd::Zero(n, all), std::vector<Eigen::Index>(n),
+                            Eigen::MatrixXd::Identity(channels, channels)};
   for (Eigen::Index i = 0; i < n; ++i) {
     found.rows(i, i) = 1.0;
     for (Eigen::Index j = n; j < all; ++j)
@@ -107,19 +122,19 @@ struct difference_operator {
   return found;
 }
 
-/// The covariance of all differences, channels of a direction adjacent: 3 n x 3 n.
+/// The covariance of all differences, channels of a direction adjacent: n c x n c.
 [[nodiscard]] inline Eigen::MatrixXd covariance_of(const difference_operator& by, const conformity_samples& samples) {
-  const Eigen::Index n = samples.parts;
+  const Eigen::Index n = samples.parts, channels = samples.mapped.cols();
   const Eigen::MatrixXd model = by.predicts ? product(product(by.rows, samples.covariance), by.rows.transpose())
                                             : Eigen::MatrixXd(Eigen::MatrixXd::Zero(n, n));
-  Eigen::MatrixXd all(3 * n, 3 * n);
-  for (Eigen::Index c = 0; c < 3; ++c) {
+  Eigen::MatrixXd all(channels * n, channels * n);
+  for (Eigen::Index c = 0; c < channels; ++c) {
     const Eigen::MatrixXd scaled = by.rows * samples.noise.col(c).asDiagonal();
     const Eigen::MatrixXd noise = product(scaled, by.rows.transpose());
-    for (Eigen::Index d = 0; d < 3; ++d)
+    for (Eigen::Index d = 0; d < channels; ++d)
       for (Eigen::Index j = 0; j < n; ++j)
         for (Eigen::Index i = 0; i < n; ++i)
-          all(3 * i + c, 3 * j + d) = by.channels(c, d) * model(i, j) + (c == d ? noise(i, j) : 0.0);
+          all(channels * i + c, channels * j + d) = by.channels(c, d) * model(i, j) + (c == d ? noise(i, j) : 0.0);
   }
   return all;
 }
@@ -166,8 +181,9 @@ inline void adjust(std::vector<compared_direction>& directions) {
   return factors.solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
 }
 
-/// Differences, channels of a direction adjacent: 3 n; their covariance and what is tolerated.
+/// Differences, channels of a direction adjacent: n c; their covariance and what is tolerated.
 struct stacked_differences {
+  Eigen::Index channels;  ///< c
   Eigen::VectorXd residuals;
   Eigen::MatrixXd covariance;
   Eigen::VectorXd tolerance;
@@ -175,8 +191,8 @@ struct stacked_differences {
   [[nodiscard]] stacked_differences subset(const std::vector<Eigen::Index>& directions) const {
     std::vector<Eigen::Index> rows;
     for (const Eigen::Index i : directions)
-      for (Eigen::Index c = 0; c < 3; ++c) rows.push_back(3 * i + c);
-    return {residuals(rows), covariance(rows, rows), tolerance(rows)};
+      for (Eigen::Index c = 0; c < channels; ++c) rows.push_back(channels * i + c);
+    return {channels, residuals(rows), covariance(rows, rows), tolerance(rows)};
   }
 };
 
@@ -205,27 +221,28 @@ inline void test_together(const stacked_differences& all, const freedoms& known,
   const Eigen::MatrixXd precision = precision_of(all.covariance);
   found.total_p_value = tail_of(least_within(precision, all.residuals, all.tolerance),
                                 static_cast<double>(all.residuals.size()), known.total);
-  const Eigen::MatrixXd alike = Eigen::Matrix3d::Identity().replicate(all.residuals.size() / 3, 1);
+  const Eigen::MatrixXd alike =
+      Eigen::MatrixXd::Identity(all.channels, all.channels).replicate(all.residuals.size() / all.channels, 1);
   const Eigen::MatrixXd weights = product(precision, alike);
   const Eigen::MatrixXd shift_covariance = precision_of(product(alike.transpose(), weights));
   const Eigen::MatrixXd shift_by = product(shift_covariance, weights.transpose());
   found.shift = (shift_by * all.residuals).array();
-  found.shift_p_value =
-      tail_of(least_within(product(weights, shift_by), all.residuals, all.tolerance), 3.0, known.shift);
+  found.shift_p_value = tail_of(least_within(product(weights, shift_by), all.residuals, all.tolerance),
+                                static_cast<double>(all.channels), known.shift);
 }
 
 /// Each direction alone, and the worst of them.
 inline void test_apart(const stacked_differences& all, const std::vector<Eigen::Index>& shared, const freedoms& known,
                        conformity& found) {
   for (Eigen::Index i = 0; i < std::ssize(shared); ++i) {
-    const auto [residuals, covariance, tolerance] = all.subset({i});
+    const auto [channels, residuals, covariance, tolerance] = all.subset({i});
     compared_direction each{.number = i,
                             .measured = shared[i],
-                            .value = rgb::Zero(),
-                            .expected = rgb::Zero(),
+                            .value = {},
+                            .expected = {},
                             .difference = residuals.array(),
                             .deviation = covariance.diagonal().array().sqrt()};
-    each.p_value = tail_of(least_within(precision_of(covariance), residuals, tolerance), 3.0,
+    each.p_value = tail_of(least_within(precision_of(covariance), residuals, tolerance), static_cast<double>(channels),
                            shared[i] > 0 ? known.measured : known.direction);
     found.directions.push_back(each);
   }
@@ -235,7 +252,7 @@ inline void test_apart(const stacked_differences& all, const std::vector<Eigen::
 
 GONIO_INLINE conformity compare_samples(conformity_samples samples, const conformity_options& options) {
   // What is independent in each direction is the same wherever that direction is measured again.
-  const Eigen::Index n = samples.parts, all = samples.mapped.rows();
+  const Eigen::Index n = samples.parts, all = samples.mapped.rows(), channels = samples.mapped.cols();
   for (Eigen::Index i = 0; i < all; ++i)
     for (Eigen::Index j = 0; j < all; ++j)
       if (i != j && is_same(samples.angles[i], samples.angles[j], options.same_direction))
@@ -244,10 +261,11 @@ GONIO_INLINE conformity compare_samples(conformity_samples samples, const confor
   // Take the differences.
   const difference_operator by = differences(samples, options.same_direction);
   const Eigen::MatrixXd residuals = product(by.rows, samples.mapped);
-  stacked_differences stacked{Eigen::VectorXd(3 * n), covariance_of(by, samples), Eigen::VectorXd(3 * n)};
+  stacked_differences stacked{channels, Eigen::VectorXd(channels * n), covariance_of(by, samples),
+                              Eigen::VectorXd(channels * n)};
   for (Eigen::Index i = 0; i < n; ++i) {
-    stacked.residuals.segment<3>(3 * i) = residuals.row(i).transpose();
-    stacked.tolerance.segment<3>(3 * i) = samples.tolerance.row(i).transpose();
+    stacked.residuals.segment(channels * i, channels) = residuals.row(i).transpose();
+    stacked.tolerance.segment(channels * i, channels) = samples.tolerance.row(i).transpose();
   }
 
   // Test those together whose differences are noise alone, or all if there is none.

@@ -80,7 +80,12 @@ GONIO_INLINE rgl_material tabulate_adaptively(const spectral_table& table, const
                                               thread_count threads) {
   const Eigen::Index bands = table.bands();
   if (bands < 2) refuse("a spectral material needs at least two wavelengths, not one: write a table in RGB");
-  rgl_material made{model::tabulate_adaptively(table.colours(illuminant::d65, threads), {}, threads), description, {}};
+  // Where and how finely to tabulate is told by the colours, or by three wavelengths where nobody sees one.
+  const bool has_colours = std::ranges::any_of(table.wavelengths(), is_visible);
+  rgl_material made{has_colours ? model::tabulate_adaptively(table.colours(illuminant::d65, threads), {}, threads)
+                                : model::tabulate_adaptively(detail::three_wavelengths(table, 0), {}, threads),
+                    description,
+                    {}};
   const model::unit_square_tables& colours = made.material.parts().reflectance;
   const Eigen::Index size = colours.rows * colours.columns, angles = colours.tables / 3;
   rgl_spectra spectra{table.wavelengths(),
