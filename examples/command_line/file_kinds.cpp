@@ -110,7 +110,7 @@ bool ends_as(const fs::path& path, const file_kind& kind) {
 }
 
 bool begins_as(bytes content, const file_kind& kind) {
-  return !kind.magic.empty() && io::detail::as_text(content).starts_with(kind.magic);
+  return !kind.magic.empty() && io::as_text(content).starts_with(kind.magic);
 }
 
 /// "MERL table (.binary, .gz), ..." of those that are written, or of all.

@@ -22,7 +22,7 @@ namespace {
 /// Appends the entries of "theta_o=Winkel,g=Y".
 void add_columns(const std::string& list, std::vector<gonio::io::column_name>& columns) {
   std::vector<std::string_view> entries;
-  gonio::io::detail::split_fields(list, entries);
+  gonio::io::split_fields(list, entries);
   for (const std::string_view entry : entries) {
     const std::size_t equals = entry.find('=');
     if (equals == std::string_view::npos || equals == 0 || equals + 1 == entry.size())
@@ -34,7 +34,7 @@ void add_columns(const std::string& list, std::vector<gonio::io::column_name>& c
 /// Spectra become colours under D65.
 gonio::io::sample_file read_csv(const std::filesystem::path& path, const gonio::io::sample_reading& reading) {
   const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
-  const std::string_view text = gonio::io::detail::as_text(bytes);
+  const std::string_view text = gonio::io::as_text(bytes);
   if (!gonio::io::names_wavelengths(text, path.native(), reading))
     return gonio::io::parse_sample_file(text, path.native(), reading);
   return as_colours(gonio::io::parse_spectral_sample_file(text, path.native(), reading), gonio::illuminant::d65);

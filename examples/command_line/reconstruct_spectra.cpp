@@ -87,7 +87,7 @@ reconstruction by_threes(const reconstruct_options& options, const gonio::spectr
 }  // namespace
 
 reconstruction described_spectra(gonio::spectral_table spectra, const reconstruct_options& options) {
-  using gonio::io::detail::shortest;
+  using gonio::io::shortest;
   const gonio::illuminant light = options.reading.light.value_or(gonio::illuminant::d65);
   reconstruction result{spectra.colours(light, options.threads)};
   const std::vector<double>& wavelengths = spectra.wavelengths();

@@ -28,7 +28,7 @@ class recorded_frames {
   explicit recorded_frames(const std::filesystem::path& manifest)
       : folder_(manifest.parent_path()), name_(manifest.string()) {
     const auto bytes = gonio::io::read_bytes(manifest);
-    const auto text = cli::json::parse(std::string(gonio::io::detail::as_text(bytes)));
+    const auto text = cli::json::parse(std::string(gonio::io::as_text(bytes)));
     if (!text.is_object())
       gonio::refuse({name_, ": is not a JSON object, of at most ", cli::json::most_values,
                      " values and nested at most ", cli::json::deepest, " deep"});

@@ -3,8 +3,8 @@
 
 #include <rapidcheck.h>
 
+using gonio::io::text_place;
 using gonio::io::detail::json_reader;
-using gonio::io::detail::text_place;
 using scratch::check_refused;
 
 namespace {

@@ -169,6 +169,6 @@ TEST_CASE("files are read, and what is no file or damaged is refused") {
   CHECK(gonio::io::read_near_field_setup(here / "first.txt").block == 4);
   scratch::check_refuses_non_files([](const auto& path) { return gonio::io::read_near_field_setup(path); });
   scratch::check_survives_damage(scratch::bytes_of(complete), 2000, [](std::span<const std::byte> bytes) {
-    return parse_near_field_setup(gonio::io::detail::as_text(bytes), "damaged.txt");
+    return parse_near_field_setup(gonio::io::as_text(bytes), "damaged.txt");
   });
 }

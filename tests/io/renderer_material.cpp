@@ -71,10 +71,10 @@ TEST_CASE("the same of Mitsuba: the sum of both lobes") {
         "    <string name=\"distribution\" value=\"beckmann\"/>\n"
         "    <float name=\"alpha\" value=\"0.25\"/>\n"
         "    <spectrum name=\"eta\" value=\"" +
-            gonio::io::detail::shortest(interface.index) +
+            gonio::io::shortest(interface.index) +
             "\"/>\n"
             "    <spectrum name=\"k\" value=\"" +
-            gonio::io::detail::shortest(interface.extinction) +
+            gonio::io::shortest(interface.extinction) +
             "\"/>\n"
             "    <spectrum type=\"srgb\" name=\"specular_reflectance\">\n"
             "      <rgb name=\"color\" value=\"4, 2, 1\"/>\n"

@@ -2,9 +2,9 @@
 
 #include <doctest/doctest.h>
 
+using gonio::io::text_place;
 using gonio::io::detail::parse_rule;
 using gonio::io::detail::require_numbers;
-using gonio::io::detail::text_place;
 
 namespace {
 

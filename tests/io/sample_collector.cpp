@@ -86,7 +86,7 @@ TEST_CASE("invisible spectra are spectra, and no colours; colours are no spectra
 }
 
 TEST_CASE("what no float holds is refused") {
-  const gonio::io::detail::text_place place{"large.table", 7};
+  const gonio::io::text_place place{"large.table", 7};
   gonio::io::detail::require_float_range(-3e38, place);
   check_refused(
       [&] {

@@ -47,7 +47,7 @@ TEST_CASE("a white diffuser is 1 / pi in every quantity") {
 
 TEST_CASE("every quantity becomes a BRDF, as option, comment, column, name, unit and percent sign") {
   const double f = 0.2, cosine = std::cos(radians(60)), pi = std::numbers::pi;
-  const auto number = [](double value) { return gonio::io::detail::shortest(value); };
+  const auto number = [](double value) { return gonio::io::shortest(value); };
   const auto read = [](const std::string& text, std::optional<sample_quantity> quantity = {}) {
     const auto file = gonio::io::parse_sample_file(text, "x", {.columns = {}, .quantity = quantity, .note = {}});
     CHECK((file.samples[0].value == file.samples[0].value[0]).all());

@@ -50,8 +50,7 @@ TEST_CASE("all three ways to give directions agree") {
   const gonio::direction wo = gonio::spherical_direction(radians(50), radians(200));
   const gonio::half_difference expected = gonio::to_half_difference(wi, wo);
   const auto vector_text = [](const gonio::direction& w) {
-    return gonio::io::detail::shortest(w.x()) + "," + gonio::io::detail::shortest(w.y()) + "," +
-           gonio::io::detail::shortest(w.z());
+    return gonio::io::shortest(w.x()) + "," + gonio::io::shortest(w.y()) + "," + gonio::io::shortest(w.z());
   };
   for (const std::string& text :
        {std::string("theta_i,phi_i,theta_o,phi_o,r,g,b\n30,40,50,200,1,1,1\n"),

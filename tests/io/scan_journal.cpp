@@ -43,7 +43,7 @@ bool same(const reading& a, const reading& b) {
 
 std::string text_of(const std::filesystem::path& path) {
   const auto bytes = io::read_bytes(path);
-  return std::string(io::detail::as_text(bytes));
+  return std::string(io::as_text(bytes));
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {

@@ -1,7 +1,7 @@
 #include "scratch.hpp"
 #include <gonio/io/words.hpp>
 
-using gonio::io::detail::text_place;
+using gonio::io::text_place;
 using gonio::io::detail::word_reader;
 using scratch::check_refused;
 

@@ -42,7 +42,7 @@ struct method_name {
   const std::string head = text.substr(0, dash), tail = dash == std::string::npos ? "" : text.substr(dash + 1);
   if (head == "gamma") {
     double gamma = 0.0;
-    if (!gonio::io::detail::read_number(tail, gamma) && gamma >= 0.0) return method_name{head, "log", gamma};
+    if (!gonio::io::read_number(tail, gamma) && gamma >= 0.0) return method_name{head, "log", gamma};
   }
   if (has_metric(head) && (tail == "lin" || tail == "root" || tail == "log")) return method_name{head, tail};
   return std::nullopt;

@@ -35,7 +35,7 @@ class cornell_parser {
   void split(std::string_view line);
 
   [[nodiscard]] double number(std::size_t field) const {
-    return parse_number(fields_[field], place_, [&] { return "field " + std::to_string(field + 1); });
+    return read_number(fields_[field], place_, [&] { return "field " + std::to_string(field + 1); });
   }
 
   void read_count();

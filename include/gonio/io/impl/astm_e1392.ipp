@@ -72,7 +72,7 @@ GONIO_INLINE sample_collector astm_parser::samples() && {
 GONIO_INLINE void astm_parser::read_keyword(std::string_view line) {
   const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
   const std::string_view keyword = line.substr(0, end), value = trimmed(line.substr(end));
-  if (keyword == "NUM_POINTS") points_ = parse_number(value, place_, [] { return "NUM_POINTS"; });
+  if (keyword == "NUM_POINTS") points_ = read_number(value, place_, [] { return "NUM_POINTS"; });
   if (keyword == "VARS") read_variables(value);
 }
 
@@ -81,7 +81,7 @@ GONIO_INLINE void astm_parser::read_variables(std::string_view names) {
   split_fields(names, all);
   for (std::size_t angle = 0; angle < angle_names.size(); ++angle) {
     if (std::ranges::count(all, angle_names[angle]) != 1)
-      place_.refuse({"VARS: expected one column ", angle_names[angle], " in ", quoted(names)});
+      place_.refuse({"VARS: expected one column ", angle_names[angle], " in ", in_quotes(names)});
     angles_[angle] = std::ranges::find(all, angle_names[angle]) - all.begin();
   }
   for (std::size_t column = 0; column < all.size(); ++column) {
@@ -107,7 +107,7 @@ GONIO_INLINE colour_channels astm_parser::channels_of(const std::vector<std::str
         name.ends_with("nm") && read_number(name.substr(0, name.size() - 2), wavelength) == nullptr;
     if (!is_wavelength && names.size() == 1 && !name.empty()) return colour_channels::grey();
     if (!is_wavelength)
-      place_.refuse({"VARS: ", quoted(name), ", expected one value, or R,G,B, or X,Y,Z, or wavelengths like 400nm"});
+      place_.refuse({"VARS: ", in_quotes(name), ", expected one value, or R,G,B, or X,Y,Z, or wavelengths like 400nm"});
     wavelengths.push_back(wavelength);
   }
   try {
@@ -118,7 +118,7 @@ GONIO_INLINE colour_channels astm_parser::channels_of(const std::vector<std::str
 }
 
 GONIO_INLINE double astm_parser::number(std::size_t column) const {
-  return parse_number(fields_[column], place_, [&] { return "column " + quoted(std::string_view(names_[column])); });
+  return read_number(fields_[column], place_, [&] { return "column " + in_quotes(std::string_view(names_[column])); });
 }
 
 GONIO_INLINE direction astm_parser::read_direction(std::size_t angle) const {
@@ -157,9 +157,9 @@ GONIO_INLINE void astm_parser::read_row(std::string_view line) {
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_astm_e1392(std::string_view text) {
-  text = detail::without_byte_order_mark(text).substr(0, 4096);
-  detail::text_place place;
-  for (std::string_view line; detail::next_line(text, place, line);)
+  text = without_byte_order_mark(text).substr(0, 4096);
+  text_place place;
+  for (std::string_view line; next_line(text, place, line);)
     if ((line.starts_with("VARS ") || line.starts_with("VARS\t")) && line.find("theta_i") != std::string_view::npos)
       return true;
   return false;
@@ -171,7 +171,7 @@ GONIO_INLINE sample_set parse_astm_e1392(std::string_view text, const std::strin
 
 GONIO_INLINE sample_set read_astm_e1392(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_astm_e1392(detail::as_text(bytes), path.string());
+  return parse_astm_e1392(as_text(bytes), path.string());
 }
 
 GONIO_INLINE spectral_samples parse_astm_e1392_spectra(std::string_view text, const std::string& name) {
@@ -180,7 +180,7 @@ GONIO_INLINE spectral_samples parse_astm_e1392_spectra(std::string_view text, co
 
 GONIO_INLINE spectral_samples read_astm_e1392_spectra(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_astm_e1392_spectra(detail::as_text(bytes), path.string());
+  return parse_astm_e1392_spectra(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

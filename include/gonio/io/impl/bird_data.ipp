@@ -89,7 +89,7 @@ GONIO_INLINE void bird_parser::read_entry(const std::string& key) {
                                                     "BRDF",    "uBRDF", "wavelength_i", "wavelength_r"};
   if (std::ranges::find(numeric, key) != numeric.end()) {
     if (!data_.variables.try_emplace(key, read_variable(key)).second)
-      json_.refuse({quoted(std::string_view(key)), " appears twice"});
+      json_.refuse({in_quotes(std::string_view(key)), " appears twice"});
   } else if (key == "polarization_i") {
     data_.illumination = read_polarisation(key);
   } else if (key == "polarization_r") {
@@ -156,7 +156,7 @@ GONIO_INLINE std::array<double, 3> bird_parser::read_state(const std::string& ke
     if (state == "s") return {1.0, 0.0, 0.0};
     if (state == "p") return {-1.0, 0.0, 0.0};
     if (state != "u")
-      json_.refuse({key, ": ", quoted(std::string_view(state)), ", expected s, p, u or a Stokes vector"});
+      json_.refuse({key, ": ", in_quotes(std::string_view(state)), ", expected s, p, u or a Stokes vector"});
     return {};
   }
   std::array<double, 4> stokes{};
@@ -184,7 +184,8 @@ GONIO_INLINE void bird_parser::require_constant(const std::string& key) {
       const std::string_view value = json_.skip();
       if (!first) first = value;
       if (*first != value)
-        json_.refuse({"adhoc_variables: ", quoted(std::string_view(key)), " changes; expected a file for each value"});
+        json_.refuse(
+            {"adhoc_variables: ", in_quotes(std::string_view(key)), " changes; expected a file for each value"});
     }
   }
 }

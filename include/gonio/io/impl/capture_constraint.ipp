@@ -53,7 +53,8 @@ GONIO_INLINE void apply_rule(const text_rule& rule, design::capture_constraint& 
     require_numbers(rule, {0, 1}, place);
     constraint.plane_tolerance = rule.numbers.empty() ? default_tolerance : parse_tolerance(rule.numbers[0], place);
   } else {
-    place.refuse(quoted(rule.name) + " is no rule: expected light, viewer, separation, light_step, forbid or in_plane");
+    place.refuse(in_quotes(rule.name) +
+                 " is no rule: expected light, viewer, separation, light_step, forbid or in_plane");
   }
 }
 
@@ -63,16 +64,15 @@ namespace gonio::io {
 
 GONIO_INLINE design::capture_constraint parse_capture_constraint(std::string_view text, const std::string& name) {
   design::capture_constraint constraint;
-  detail::text_place place{name};
-  detail::for_each_line(text, place, [&](std::string_view line) {
-    detail::apply_rule(detail::parse_rule(line, place), constraint, place);
-  });
+  text_place place{name};
+  for_each_line(text, place,
+                [&](std::string_view line) { detail::apply_rule(detail::parse_rule(line, place), constraint, place); });
   return constraint;
 }
 
 GONIO_INLINE design::capture_constraint read_capture_constraint(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  return parse_capture_constraint(detail::as_text(bytes), path.string());
+  return parse_capture_constraint(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -46,7 +46,7 @@ GONIO_INLINE void cornell_parser::split(std::string_view line) {
 GONIO_INLINE void cornell_parser::read_count() {
   const double given = number(0);
   if (fields_.size() != 1 || !(given >= 2.0 && given <= 1e4 && given == std::floor(given)))
-    place_.refuse("expected the number of wavelengths, at least 2, not " + quoted(fields_[0]));
+    place_.refuse("expected the number of wavelengths, at least 2, not " + in_quotes(fields_[0]));
   count_ = static_cast<std::size_t>(given);
 }
 
@@ -109,12 +109,12 @@ GONIO_INLINE spectral_samples parse_cornell_spectra(std::string_view text, const
 
 GONIO_INLINE spectral_samples read_cornell_spectra(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_cornell_spectra(detail::as_text(bytes), path.string());
+  return parse_cornell_spectra(as_text(bytes), path.string());
 }
 
 GONIO_INLINE sample_set read_cornell(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_cornell(detail::as_text(bytes), path.string());
+  return parse_cornell(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -92,16 +92,6 @@ namespace gonio::io::detail {
   }
 }
 
-GONIO_INLINE const char* split_fields(std::string_view line, const csv_dialect& dialect,
-                                      std::vector<std::string_view>& fields) {
-  if (line.find('"') != std::string_view::npos) return split_quoted(line, dialect.separator, fields);
-  if (dialect.separator == ' ')
-    split_at_blanks(line, fields);
-  else
-    split_fields(line, fields, dialect.separator);
-  return nullptr;
-}
-
 /// Numbers of files with decimal commas, and of those that have shown no decimal mark yet.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE const char* read_marked_number(std::string_view field, csv_dialect& dialect,
                                                                         double& value) {
@@ -125,11 +115,24 @@ GONIO_INLINE const char* split_fields(std::string_view line, const csv_dialect& 
   return wrong;
 }
 
-GONIO_INLINE const char* read_number(std::string_view field, csv_dialect& dialect, double& value) {
-  if (dialect.decimal_mark != '.') return read_marked_number(field, dialect, value);
-  const char* wrong = read_number(field, value);
-  const bool has_comma = wrong != nullptr && field.find(',') != std::string_view::npos;
-  return has_comma ? read_marked_number(field, dialect, value) : wrong;
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE const char* csv_dialect::split(std::string_view line, std::vector<std::string_view>& fields) const {
+  if (line.find('"') != std::string_view::npos) return detail::split_quoted(line, separator, fields);
+  if (separator == ' ')
+    detail::split_at_blanks(line, fields);
+  else
+    split_fields(line, fields, separator);
+  return nullptr;
 }
 
-}  // namespace gonio::io::detail
+GONIO_INLINE const char* csv_dialect::read_number(std::string_view field, double& value) {
+  if (decimal_mark != '.') return detail::read_marked_number(field, *this, value);
+  const char* wrong = io::read_number(field, value);
+  const bool has_comma = wrong != nullptr && field.find(',') != std::string_view::npos;
+  return has_comma ? detail::read_marked_number(field, *this, value) : wrong;
+}
+
+}  // namespace gonio::io

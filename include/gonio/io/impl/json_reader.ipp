@@ -32,7 +32,7 @@ GONIO_INLINE char json_reader::peek() {
 }
 
 GONIO_INLINE void json_reader::expect(char c) {
-  if (peek() != c) refuse({quoted(text_.substr(at_, 1)), " where JSON has ", quoted(std::string_view(&c, 1))});
+  if (peek() != c) refuse({in_quotes(text_.substr(at_, 1)), " where JSON has ", in_quotes(std::string_view(&c, 1))});
   ++at_;
 }
 
@@ -72,8 +72,8 @@ GONIO_INLINE double json_reader::take_number(std::string_view what) {
   const std::string_view literal = take_literal();
   double number = 0.0;
   const bool begins_well = !literal.empty() && (literal[0] == '-' || (literal[0] >= '0' && literal[0] <= '9'));
-  if (!begins_well) refuse({what, ": ", quoted(literal), " is not a number"});
-  if (const char* wrong = read_number(literal, number)) refuse({what, ": ", quoted(literal), wrong});
+  if (!begins_well) refuse({what, ": ", in_quotes(literal), " is not a number"});
+  if (const char* wrong = read_number(literal, number)) refuse({what, ": ", in_quotes(literal), wrong});
   return number;
 }
 
@@ -99,7 +99,7 @@ GONIO_INLINE unsigned json_reader::take_code() {
   unsigned code = 0;
   const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
   if (digits.size() != 4 || failed != std::errc() || end != digits.data() + 4)
-    refuse({quoted(digits), " after \\u, expected four hexadecimal digits"});
+    refuse({in_quotes(digits), " after \\u, expected four hexadecimal digits"});
   at_ += 4;
   return code;
 }
@@ -111,7 +111,7 @@ GONIO_INLINE void json_reader::append_escaped(std::string& string) {
     string += meanings[known];
     return;
   }
-  if (name != 'u') refuse({quoted(std::string_view(&name, 1)), " after a backslash"});
+  if (name != 'u') refuse({in_quotes(std::string_view(&name, 1)), " after a backslash"});
   const unsigned code = take_code();
   const auto put = [&](unsigned byte) { string += static_cast<char>(byte); };
   if (code < 0x80u) {
@@ -142,7 +142,7 @@ GONIO_INLINE std::string_view json_reader::skip(std::size_t depth) {
     static_cast<void>(take_string("a value"));
   } else if (first == 't' || first == 'f' || first == 'n') {
     const std::string_view literal = take_literal();
-    if (literal != "true" && literal != "false" && literal != "null") refuse({quoted(literal), " is no JSON value"});
+    if (literal != "true" && literal != "false" && literal != "null") refuse({in_quotes(literal), " is no JSON value"});
   } else {
     static_cast<void>(take_number("a value"));
   }
@@ -151,7 +151,7 @@ GONIO_INLINE std::string_view json_reader::skip(std::size_t depth) {
 
 GONIO_INLINE void json_reader::finish() {
   skip_blanks();
-  if (at_ < text_.size()) refuse({quoted(text_.substr(at_, 1)), " follows the JSON value"});
+  if (at_ < text_.size()) refuse({in_quotes(text_.substr(at_, 1)), " follows the JSON value"});
 }
 
 }  // namespace gonio::io::detail

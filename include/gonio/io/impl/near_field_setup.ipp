@@ -54,7 +54,7 @@ GONIO_INLINE capture::near_field_setup parse_near_field_setup(std::string_view t
 GONIO_INLINE capture::near_field_setup read_near_field_setup(const std::filesystem::path& path,
                                                              const std::optional<camera_calibration>& calibration) {
   const auto bytes = read_bytes(path);
-  return parse_near_field_setup(detail::as_text(bytes), path.string(), calibration);
+  return parse_near_field_setup(as_text(bytes), path.string(), calibration);
 }
 
 }  // namespace gonio::io

@@ -267,7 +267,7 @@ GONIO_INLINE void write_openmaterial(const std::filesystem::path& path, const st
 }
 
 GONIO_INLINE bool looks_like_openmaterial(std::string_view text) {
-  text = detail::without_byte_order_mark(text);
+  text = without_byte_order_mark(text);
   const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   if (!text.substr(first).starts_with('{')) return false;
   const auto has = [&](std::string_view key) { return text.find(key) != std::string_view::npos; };
@@ -275,23 +275,23 @@ GONIO_INLINE bool looks_like_openmaterial(std::string_view text) {
 }
 
 GONIO_INLINE sample_set parse_openmaterial(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
+  text_place place{name, 0};
   return detail::openmaterial_parser(text, place).read().take(name);
 }
 
 GONIO_INLINE sample_set read_openmaterial(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_openmaterial(detail::as_text(bytes), path.string());
+  return parse_openmaterial(as_text(bytes), path.string());
 }
 
 GONIO_INLINE spectral_samples parse_openmaterial_spectra(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
+  text_place place{name, 0};
   return detail::openmaterial_parser(text, place).read().take_spectra(name);
 }
 
 GONIO_INLINE spectral_samples read_openmaterial_spectra(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_openmaterial_spectra(detail::as_text(bytes), path.string());
+  return parse_openmaterial_spectra(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

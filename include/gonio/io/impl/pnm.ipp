@@ -55,7 +55,7 @@ GONIO_INLINE void copy_pnm_counts(std::span<const std::byte> bytes, std::size_t 
 namespace gonio::io {
 
 GONIO_INLINE stored_codes parse_pnm(std::span<const std::byte> bytes, const std::string& name) {
-  std::string_view text = detail::as_text(bytes);
+  std::string_view text = as_text(bytes);
   if (!text.starts_with("P6") && !text.starts_with("P5"))
     gonio::refuse({name, ": is no PPM or PGM file of bytes (P6 or P5)"});
   const std::size_t channels = text[1] == '6' ? 3 : 1;

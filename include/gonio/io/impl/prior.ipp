@@ -33,7 +33,7 @@ namespace gonio::io {
 }
 
 [[gnu::cold]] GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, const std::string& name) {
-  if (detail::as_text(bytes).starts_with(detail::soft_specular_kind.magic))
+  if (as_text(bytes).starts_with(detail::soft_specular_kind.magic))
     gonio::refuse({name, ": a soft and a specular prior, where one prior of all materials is expected"});
   const auto payload = decode_checked(detail::prior_kind, bytes, name);
   byte_reader in(payload, name);

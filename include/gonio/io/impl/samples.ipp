@@ -151,7 +151,7 @@ namespace gonio::io {
 GONIO_INLINE sample_file parse_sample_file(std::string_view text, const std::string& name,
                                            const sample_reading& reading) {
   sample_file file;
-  detail::row_reader rows(text, name, true, reading);
+  detail::sample_rows rows(text, name, true, reading);
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
     if (rows.header().wavelengths().size() > 1)
@@ -173,7 +173,7 @@ GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& 
 [[gnu::cold]] GONIO_INLINE sample_file read_sample_file(const std::filesystem::path& path,
                                                         const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  return parse_sample_file(detail::as_text(bytes), path.native(), reading);
+  return parse_sample_file(as_text(bytes), path.native(), reading);
 }
 
 GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sample_reading& reading) {
@@ -183,7 +183,7 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
 [[gnu::cold]] GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem::path& path,
                                                                         const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  detail::row_reader rows(detail::as_text(bytes), path.native(), false, reading);
+  detail::sample_rows rows(as_text(bytes), path.native(), false, reading);
   std::vector<half_difference> all;
   while (rows.next()) all.push_back(detail::row_directions(rows.row()).angles());
   return all;
@@ -192,7 +192,7 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
 [[gnu::cold]] GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
                                                                             const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  detail::row_reader rows(detail::as_text(bytes), path.native(), false, reading);
+  detail::sample_rows rows(as_text(bytes), path.native(), false, reading);
   std::vector<direction_pair> all;
   while (rows.next()) all.push_back(detail::row_directions(rows.row()).pair());
   return all;
@@ -200,7 +200,7 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
 
 [[gnu::cold]] GONIO_INLINE void write_direction_pairs(const std::filesystem::path& path,
                                                       std::span<const direction_pair> pairs) {
-  const auto rounded = [](double angle) { return detail::shortest(std::round(degrees(angle) * 1e9) / 1e9 + 0.0); };
+  const auto rounded = [](double angle) { return shortest(std::round(degrees(angle) * 1e9) / 1e9 + 0.0); };
   std::string text = "theta_i,phi_i,theta_o,phi_o\n";
   for (const auto& [wi, wo] : pairs)
     text += message_of({rounded(gonio::polar_angle(wi)), ",", rounded(gonio::azimuth(wi)), ",",

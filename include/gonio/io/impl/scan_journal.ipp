@@ -58,7 +58,7 @@ GONIO_INLINE std::string format_scan_header(const scan_subject& subject, std::sp
                                             std::uint16_t largest_count) {
   for (const std::string& text : {subject.sample, subject.setup})
     if (text.empty() || trimmed(text) != text || has_control_characters(text))
-      gonio::refuse({"what a scan measures is told in one line of text, not in ", detail::quoted(text)});
+      gonio::refuse({"what a scan measures is told in one line of text, not in ", in_quotes(text)});
   std::string pose_lines;
   for (const direction_pair& pose : poses) pose_lines += format_pose(pose);
   return "# gonio scan: what lies in the machine, how it is measured, with which seed; the poses' number and "
@@ -135,12 +135,12 @@ GONIO_INLINE bool apply_subject_line(std::string_view line, const text_place& pl
   std::uint64_t number = 0;
   const auto [end, failed] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   const std::string_view text = trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
-  if (failed != std::errc()) place.refuse({quoted(name), " takes a whole number first"});
+  if (failed != std::errc()) place.refuse({in_quotes(name), " takes a whole number first"});
   if (text.empty() != (name == "seed"))
-    place.refuse({quoted(name), name == "seed" ? " takes no text" : " needs a text"});
-  if (has_control_characters(text)) place.refuse({quoted(name), " has characters that are no text"});
+    place.refuse({in_quotes(name), name == "seed" ? " takes no text" : " needs a text"});
+  if (has_control_characters(text)) place.refuse({in_quotes(name), " has characters that are no text"});
   bool& has = name == "sample" ? before.has_sample : name == "setup" ? before.has_setup : before.has_seed;
-  if (has) place.refuse({quoted(name), " is told a second time"});
+  if (has) place.refuse({in_quotes(name), " is told a second time"});
   has = true;
   if (name == "seed") {
     before.subject.seed = number;
@@ -186,7 +186,7 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
     scan.readings[pose] = parse_reading(numbers, scan.largest_count, place);
     before.has_reading = true;
   } else {
-    place.refuse(quoted(rule.name) +
+    place.refuse(in_quotes(rule.name) +
                  " is unknown, expected sample, setup, seed, largest_count, plan, pose, added_pose or reading");
   }
 }
@@ -225,17 +225,17 @@ GONIO_INLINE std::uint32_t checksum_of_file(const std::filesystem::path& path) {
 
 GONIO_INLINE recorded_scan parse_scan(std::string_view text, const std::string& name) {
   recorded_scan scan;
-  detail::text_place place{name};
+  text_place place{name};
   detail::scan_lines before;
-  detail::for_each_line(detail::whole_lines(text), place,
-                        [&](std::string_view line) { detail::apply_scan_line(line, place, scan, before); });
+  for_each_line(detail::whole_lines(text), place,
+                [&](std::string_view line) { detail::apply_scan_line(line, place, scan, before); });
   detail::finish_scan(scan, before, name);
   return scan;
 }
 
 GONIO_INLINE recorded_scan read_scan(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  return parse_scan(detail::as_text(bytes), path.string());
+  return parse_scan(as_text(bytes), path.string());
 }
 
 GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const scan_subject& subject,
@@ -245,12 +245,12 @@ GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const
   const std::string header = detail::format_scan_header(subject, poses, largest_count);
   open();
   auto bytes = read_bytes(path);
-  if (bytes.size() < header.size() && header.starts_with(detail::as_text(bytes))) {
+  if (bytes.size() < header.size() && header.starts_with(as_text(bytes))) {
     // A new file, or one whose process was killed before it had written all of the same head.
     write(std::string_view(header).substr(bytes.size()));
     bytes = read_bytes(path);
   }
-  const std::string_view text = detail::as_text(bytes);
+  const std::string_view text = as_text(bytes);
   scan_ = parse_scan(text, path.string());
   require_same(subject, poses, largest_count);
   // The next line must not be joined to what a killed process left of its last.

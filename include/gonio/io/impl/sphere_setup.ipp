@@ -61,7 +61,7 @@ GONIO_INLINE sphere_setup parse_sphere_setup(std::string_view text, const std::s
 GONIO_INLINE sphere_setup read_sphere_setup(const std::filesystem::path& path,
                                             const std::optional<camera_calibration>& calibration) {
   const auto bytes = read_bytes(path);
-  return parse_sphere_setup(detail::as_text(bytes), path.string(), calibration);
+  return parse_sphere_setup(as_text(bytes), path.string(), calibration);
 }
 
 }  // namespace gonio::io

@@ -37,7 +37,7 @@ GONIO_INLINE void ssdd_parser::read_header() {
   static_cast<void>(words_.take_one_of({"VERSION"}));
   const std::string_view version = words_.take_rest_of_line();
   if (!version.starts_with("0."))
-    words_.place().refuse({"SSDD of version ", quoted(version), ", expected one that begins with 0."});
+    words_.place().refuse({"SSDD of version ", in_quotes(version), ", expected one that begins with 0."});
   while (words_.peek() != "DATA_TYPE") {
     static_cast<void>(words_.take_one_of({"SOFTWARE", "API", "DATE", "DATA_TYPE"}));
     static_cast<void>(words_.take_rest_of_line());
@@ -74,7 +74,7 @@ GONIO_INLINE void ssdd_parser::read_entry(block_header& block, std::string_view 
     for (const double offset : words_.take_line(key, -90.0, 90.0))
       if (offset != 0.0) words_.place().refuse("PARAM4_LIST: offsets from the specular direction are not read");
   } else {
-    words_.place().refuse({quoted(key), " is no entry of an SSDD file"});
+    words_.place().refuse({in_quotes(key), " is no entry of an SSDD file"});
   }
 }
 
@@ -180,30 +180,30 @@ GONIO_INLINE sample_collector ssdd_parser::samples(const block_header& block,
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_ssdd(std::string_view text) {
-  detail::text_place place;
+  text_place place;
   detail::word_reader words(text, place);
   return words.take_if("VERSION") && words.take_rest_of_line().starts_with("0.") &&
          text.find("DATA_TYPE") != std::string_view::npos;
 }
 
 GONIO_INLINE sample_set parse_ssdd(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
+  text_place place{name, 0};
   return detail::ssdd_parser(text, place).read().take(name);
 }
 
 GONIO_INLINE sample_set read_ssdd(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_ssdd(detail::as_text(bytes), path.string());
+  return parse_ssdd(as_text(bytes), path.string());
 }
 
 GONIO_INLINE spectral_samples parse_ssdd_spectra(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
+  text_place place{name, 0};
   return detail::ssdd_parser(text, place).read().take_spectra(name);
 }
 
 GONIO_INLINE spectral_samples read_ssdd_spectra(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_ssdd_spectra(detail::as_text(bytes), path.string());
+  return parse_ssdd_spectra(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -32,7 +32,7 @@ GONIO_INLINE std::size_t word_reader::take_one_of(std::initializer_list<std::str
   const std::string expected = listed({words.begin(), words.size()}, " or ");
   const std::string_view word = take(expected);
   const auto* const found = std::ranges::find(words, word);
-  if (found == words.end()) place_.refuse({quoted(word), ", expected ", expected});
+  if (found == words.end()) place_.refuse({in_quotes(word), ", expected ", expected});
   return found - words.begin();
 }
 
@@ -44,14 +44,14 @@ GONIO_INLINE bool word_reader::take_if(std::string_view word) {
 
 GONIO_INLINE double word_reader::take_number(std::string_view what) {
   const std::string_view word = take(what);
-  return parse_number(word, place_, [&] { return std::string(what); });
+  return read_number(word, place_, [&] { return std::string(what); });
 }
 
 GONIO_INLINE double word_reader::ranged(std::string_view word, std::string_view what, double lowest,
                                         double highest) const {
-  const double number = parse_number(word, place_, [&] { return std::string(what); });
+  const double number = read_number(word, place_, [&] { return std::string(what); });
   if (!(number >= lowest && number <= highest))
-    place_.refuse({what, ": ", quoted(word), ", expected from ", shortest(lowest), " to ", shortest(highest)});
+    place_.refuse({what, ": ", in_quotes(word), ", expected from ", shortest(lowest), " to ", shortest(highest)});
   return number;
 }
 

@@ -45,7 +45,7 @@ GONIO_INLINE sample_set zemax_bsdf_parser::read() {
     planes.push_back(read_plane());
   }
   if (const std::string_view more = words_.peek(); !more.empty())
-    words_.place().refuse({quoted(more), " follows the data, expected the end of the file"});
+    words_.place().refuse({in_quotes(more), " follows the data, expected the end of the file"});
   return samples(planes);
 }
 
@@ -69,7 +69,7 @@ GONIO_INLINE void zemax_bsdf_parser::read_header() {
     else if (key == "ScatterRadial")
       radials_ = words_.take_list("ScatterRadial", 0.0, 180.0);
     else
-      words_.place().refuse({quoted(key), " is no keyword of a Zemax BSDF file"});
+      words_.place().refuse({in_quotes(key), " is no keyword of a Zemax BSDF file"});
   }
   require_lists();
 }
@@ -130,19 +130,19 @@ GONIO_INLINE sample_set zemax_bsdf_parser::samples(const std::vector<plane>& pla
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_zemax_bsdf(std::string_view text) {
-  detail::text_place place;
+  text_place place;
   const std::string_view first = detail::word_reader(text, place).peek();
   return first == "Source" || first == "Symmetry" || first == "SpectralContent" || first == "ScatterType";
 }
 
 GONIO_INLINE sample_set parse_zemax_bsdf(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
+  text_place place{name, 0};
   return detail::zemax_bsdf_parser(text, place).read();
 }
 
 GONIO_INLINE sample_set read_zemax_bsdf(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_zemax_bsdf(detail::as_text(bytes), path.string());
+  return parse_zemax_bsdf(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -30,7 +30,7 @@ enum class mesh_format { ply, obj };
   const std::string extension = path.extension().string(), lower = lower_case(extension);
   if (lower == ".ply") return mesh_format::ply;
   if (lower == ".obj") return mesh_format::obj;
-  refuse_file(path, "a mesh has the extension .ply or .obj, not " + quoted(std::string_view(extension)));
+  refuse_file(path, "a mesh has the extension .ply or .obj, not " + in_quotes(std::string_view(extension)));
 }
 
 /// What is asked of a mesh that is read or written; whether it is a surface, `mesh_topology` checks.
@@ -95,7 +95,7 @@ GONIO_INLINE shape::triangle_mesh read_mesh(const std::filesystem::path& path) {
   const detail::mesh_format format = detail::mesh_format_of(path);
   const std::vector<std::byte> bytes = read_bytes(path);
   if (bytes.empty()) detail::refuse_file(path, "is empty, expected a mesh");
-  const std::string_view text = detail::as_text(bytes);
+  const std::string_view text = as_text(bytes);
   const std::string name = path.string();
   const detail::mesh_parts parts =
       format == detail::mesh_format::ply ? detail::parse_ply(text, {name}) : detail::parse_obj(text, name);

@@ -61,12 +61,12 @@ GONIO_INLINE void obj_parser::add(std::string_view line) {
   if (keyword == "v") return add_vertex(line);
   if (keyword == "f") return add_face(line);
   if (std::ranges::find(ignored, keyword) == ignored.end())
-    place_.refuse(quoted(keyword) + " is not known of an OBJ file of polygons");
+    place_.refuse(in_quotes(keyword) + " is not known of an OBJ file of polygons");
 }
 
 GONIO_INLINE void obj_parser::add_vertex(std::string_view line) {
   for (int axis = 0; axis < 3; ++axis)
-    parts_.coordinates.push_back(parse_number(take_word(line), place_, [] { return std::string("a coordinate"); }));
+    parts_.coordinates.push_back(read_number(take_word(line), place_, [] { return std::string("a coordinate"); }));
 }
 
 GONIO_INLINE void obj_parser::add_face(std::string_view line) {
@@ -81,7 +81,7 @@ GONIO_INLINE int obj_parser::vertex_of(std::string_view corner) {
   const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (failed != std::errc() || end != digits.data() + digits.size() ||
       corner.find_first_not_of("-0123456789/") != std::string_view::npos)
-    place_.refuse(quoted(corner) + ", expected a vertex of a face as v, v/vt, v//vn or v/vt/vn");
+    place_.refuse(in_quotes(corner) + ", expected a vertex of a face as v, v/vt, v//vn or v/vt/vn");
   const auto vertices = static_cast<long long>(parts_.vertices());
   if (number == 0 || number < -vertices) refuse_vertex(digits);
   if (number < 0) return static_cast<int>(vertices + number);

@@ -145,14 +145,14 @@ class ply_text_rows {
     if (!next_line()) refuse("the file is truncated or its counts are wrong");
   }
   [[nodiscard]] double take(const ply_type&) {
-    return parse_number(take_field(), place_, [] { return std::string("a value"); });
+    return read_number(take_field(), place_, [] { return std::string("a value"); });
   }
   void skip(const ply_type&, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) static_cast<void>(take_field());
   }
   void end_row() const;
   void end() {
-    if (next_line()) refuse(quoted(row_) + " follows what the header counts");
+    if (next_line()) refuse(in_quotes(row_) + " follows what the header counts");
   }
   [[noreturn]] void refuse(const std::string& what) const { place_.refuse(what); }
 
@@ -169,7 +169,7 @@ template <class Rows>
 [[nodiscard]] std::size_t take_ply_count(const ply_property& list, Rows& rows) {
   const double count = rows.take(*list.count);
   if (!(count >= 0.0 && count <= double{std::numeric_limits<std::uint32_t>::max()} && count == std::floor(count)))
-    rows.refuse("a list " + quoted(list.name) + " has " + shortest(count) + " values");
+    rows.refuse("a list " + in_quotes(list.name) + " has " + shortest(count) + " values");
   return static_cast<std::size_t>(count);
 }
 
@@ -234,7 +234,7 @@ GONIO_INLINE void ply_header_parser::add(std::string_view line) {
   if (keyword == "format") return set_encoding(trimmed(line));
   if (keyword == "element") return add_element(line);
   if (keyword == "property") return add_property(line);
-  place_.refuse(quoted(whole) + ", expected format, comment, element, property or end_header");
+  place_.refuse(in_quotes(whole) + ", expected format, comment, element, property or end_header");
 }
 
 GONIO_INLINE void ply_header_parser::set_encoding(std::string_view format) {
@@ -243,7 +243,7 @@ GONIO_INLINE void ply_header_parser::set_encoding(std::string_view format) {
   if (format == "binary_little_endian 1.0") header_.encoding = ply_encoding::little_endian;
   if (format == "binary_big_endian 1.0") header_.encoding = ply_encoding::big_endian;
   if (!header_.encoding)
-    place_.refuse("format " + quoted(format) + ", expected ascii, binary_little_endian or binary_big_endian 1.0");
+    place_.refuse("format " + in_quotes(format) + ", expected ascii, binary_little_endian or binary_big_endian 1.0");
 }
 
 GONIO_INLINE void ply_header_parser::add_element(std::string_view line) {
@@ -252,9 +252,9 @@ GONIO_INLINE void ply_header_parser::add_element(std::string_view line) {
   std::size_t count = 0;
   const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
   if (failed != std::errc() || end != digits.data() + digits.size())
-    place_.refuse("element " + quoted(name) + ": " + quoted(digits) + ", expected a count");
+    place_.refuse("element " + in_quotes(name) + ": " + in_quotes(digits) + ", expected a count");
   if (std::ranges::find(header_.elements, name, &ply_element::name) != header_.elements.end())
-    place_.refuse("element " + quoted(name) + " is given twice");
+    place_.refuse("element " + in_quotes(name) + " is given twice");
   header_.elements.push_back({name, count, {}});
   if (name != "vertex") return;
   if (std::cmp_greater(count, mesh_vertex_limit))
@@ -275,16 +275,16 @@ GONIO_INLINE void ply_header_parser::add_property(std::string_view line) {
   property.role = role_of(element, property);
   const bool must_be_whole = property.role == ply_role::corners;
   if ((count && !count->whole) || (must_be_whole && !property.value.whole))
-    place_.refuse("property " + quoted(property.name) + ": a count or vertex number must have a type of integers");
+    place_.refuse("property " + in_quotes(property.name) + ": a count or vertex number must have a type of integers");
   if (property.role != ply_role::ignored && element.has(property.role))
-    place_.refuse("property " + quoted(property.name) + " is given twice");
+    place_.refuse("property " + in_quotes(property.name) + " is given twice");
   element.properties.push_back(property);
 }
 
 GONIO_INLINE ply_type ply_header_parser::type_named(std::string_view name) const {
   const auto type = std::ranges::find_if(
       ply_types, [&](const ply_type& known) { return known.name == name || known.newer_name == name; });
-  if (type == ply_types.end()) place_.refuse(quoted(name) + " is no type that PLY has");
+  if (type == ply_types.end()) place_.refuse(in_quotes(name) + " is no type that PLY has");
   return *type;
 }
 
@@ -298,7 +298,7 @@ GONIO_INLINE ply_role ply_header_parser::role_of(const ply_element& element, con
 
 GONIO_INLINE void ply_header_parser::check(const ply_element& element) const {
   if (element.properties.empty() && element.count > 0)
-    place_.refuse("element " + quoted(element.name) + " has no properties");
+    place_.refuse("element " + in_quotes(element.name) + " has no properties");
   if (element.name == "vertex" && !(element.has(ply_role::x) && element.has(ply_role::y) && element.has(ply_role::z)))
     place_.refuse("element 'vertex' lacks a property x, y or z");
   if (element.name == "face" && !element.has(ply_role::corners))
@@ -309,7 +309,7 @@ GONIO_INLINE void ply_binary_rows::refuse(const std::string& what) const { gonio
 
 GONIO_INLINE void ply_text_rows::end_row() const {
   if (const std::string_view more = trimmed(row_); !more.empty())
-    refuse(quoted(more) + " follows the values that the header names");
+    refuse(in_quotes(more) + " follows the values that the header names");
 }
 
 GONIO_INLINE bool ply_text_rows::next_line() {

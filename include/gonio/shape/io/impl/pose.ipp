@@ -68,7 +68,7 @@ namespace gonio::io {
 
 GONIO_INLINE shape::similarity_transform read_pose(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  const std::string_view text = detail::as_text(bytes);
+  const std::string_view text = as_text(bytes);
   const std::string name = path.native();
   const detail::pose_matrix matrix =
       detail::has_names(text) ? detail::parse_parts(text, name) : detail::parse_matrix(text, name);
@@ -81,9 +81,8 @@ GONIO_INLINE shape::similarity_transform read_pose(const std::filesystem::path& 
 GONIO_INLINE void write_pose(const std::filesystem::path& path, const shape::similarity_transform& pose) {
   std::string text;
   for (Eigen::Index row = 0; row < 3; ++row) {
-    for (Eigen::Index column = 0; column < 3; ++column)
-      text += detail::shortest(pose.scale * pose.rotation(row, column)) + ' ';
-    text += detail::shortest(pose.translation[row]) + '\n';
+    for (Eigen::Index column = 0; column < 3; ++column) text += shortest(pose.scale * pose.rotation(row, column)) + ' ';
+    text += shortest(pose.translation[row]) + '\n';
   }
   text += "0 0 0 1\n";
   write_atomically(path, std::as_bytes(std::span(text)));
