@@ -20,7 +20,6 @@
 #include <gonio/io/prior.hpp>
 #include <gonio/io/reference_reflectance.hpp>
 #include <gonio/io/rgl.hpp>
-#include <gonio/io/sample_rows.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
@@ -180,7 +179,7 @@ json describe_mbsdf(const path_type& path) {
 json describe_array(const path_type& path) {
   const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
   std::span<const std::byte> left = bytes;
-  const gonio::io::detail::npy_layout layout = gonio::io::detail::take_npy_header(left, path.string());
+  const gonio::io::npy_layout layout = gonio::io::read_npy_header(left, path.string());
   if (layout.shape.size() == 2 && layout.shape[1] == 675) {
     const auto networks = gonio::io::read_networks(path);
     return {{"kind", "networks"}, {"materials", networks.names.size()}, {"names", networks.names}};
@@ -239,13 +238,6 @@ bool is_list_of_numbers(const file_look& file) {
   return false;
 }
 
-/// Has its first line, in whatever dialect, directions alone?
-bool has_directions_only(const file_look& file, const gonio::io::sample_reading& reading) {
-  gonio::io::detail::sample_rows rows(file.start, file.path.native(), false, reading);
-  static_cast<void>(rows.next());
-  return rows.row().values.count == 0;
-}
-
 json describe_directions(const path_type& path, const gonio::io::sample_reading& reading) {
   const std::vector<gonio::direction_pair> pairs = gonio::io::read_direction_pairs(path, reading);
   json facts{{"kind", "directions"}};
@@ -278,7 +270,8 @@ json describe_csv(const path_type& path, const measurement_options& reading) {
     return {{"kind", "reflectance of a white reference"}};
   }
   const gonio::io::sample_reading how = reading_of(reading);
-  return has_directions_only(file, how) ? describe_directions(path, how) : describe_samples(path, reading);
+  return gonio::io::has_directions_alone(file.start, path.native(), how) ? describe_directions(path, how)
+                                                                         : describe_samples(path, reading);
 }
 
 json describe_constraint(const path_type& path) {

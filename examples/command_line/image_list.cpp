@@ -76,7 +76,7 @@ void read_outside(const json& text, const std::filesystem::path& path, image_lis
 image_list read_image_list(const std::filesystem::path& path) {
   const std::string name = path.string();
   const auto bytes = gonio::io::read_bytes(path);
-  const json text = json::parse(std::string(gonio::io::as_text(bytes)));
+  const json text = json::read(std::string(gonio::io::as_text(bytes)));
   if (!text.is_object() || !text.contains("images") || !text["images"].is_array() || text["images"].empty())
     gonio::refuse({name, ": must be a JSON object whose 'images' is a list with an image at least"});
   require_known(text, {"quantity", "mask", "invalid", "images"}, name);

@@ -181,7 +181,7 @@ std::uint32_t checksum_of(const gonio::material_rows& materials) {
   gonio::cell_matrix rows(most, materials.columns());
   for (Eigen::Index i = 0; i < most; ++i)
     materials.read({i * cells / most, i * cells / most + 1}, rows.middleRows(i, 1));
-  return gonio::io::detail::checksum(std::as_bytes(std::span(rows.data(), static_cast<std::size_t>(rows.size()))));
+  return gonio::io::checksum(std::as_bytes(std::span(rows.data(), static_cast<std::size_t>(rows.size()))));
 }
 
 /// A folder of MERL tables alone, over their own cells.

@@ -36,8 +36,8 @@ gonio::io::sample_file read_csv(const std::filesystem::path& path, const gonio::
   const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
   const std::string_view text = gonio::io::as_text(bytes);
   if (!gonio::io::names_wavelengths(text, path.native(), reading))
-    return gonio::io::parse_sample_file(text, path.native(), reading);
-  return as_colours(gonio::io::parse_spectral_sample_file(text, path.native(), reading), gonio::illuminant::d65);
+    return gonio::io::read_sample_file(text, path.native(), reading);
+  return as_colours(gonio::io::read_spectral_sample_file(text, path.native(), reading), gonio::illuminant::d65);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace papers {
 namespace {
 
 /// A word of the shell that means itself.
-std::string in_quotes(const std::string& word) {
+std::string quoted(const std::string& word) {
   std::string all = "'";
   for (const char letter : word) all += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
   return all + "'";
@@ -25,7 +25,7 @@ std::string in_quotes(const std::string& word) {
 
 void run(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : words) line += in_quotes(word) + ' ';
+  for (const std::string& word : words) line += quoted(word) + ' ';
   std::FILE* pipe = ::popen(line.c_str(), "r");
   if (pipe == nullptr) gonio::refuse("cannot run '" + words[0] + "'");
   std::array<char, 4096> buffer{};

@@ -27,7 +27,7 @@ class slow_gantry : public lab::gantry {
   }
 
  private:
-  gonio::io::detail::descriptor log_;
+  gonio::io::descriptor log_;
 };
 
 void scan_into(const std::filesystem::path& journal_path, const std::filesystem::path& log,

@@ -213,7 +213,7 @@ GONIO_INLINE sample_collector bird_samples::make() {
 
 [[nodiscard]] GONIO_INLINE sample_collector collect_bird(std::string_view text, const std::string& name) {
   text_place place{name, 0};
-  const bird_data data = bird_parser(text, place).read();
+  const bird_data data = bird_reader(text, place).read();
   return bird_samples(data, place).make();
 }
 
@@ -229,22 +229,22 @@ GONIO_INLINE bool looks_like_bird(std::string_view text) {
   return has("\"metadata\"") || has("\"data\"");
 }
 
-GONIO_INLINE sample_set parse_bird(std::string_view text, const std::string& name) {
-  return detail::collect_bird(text, name).take(name);
+GONIO_INLINE sample_set read_bird(std::string_view text, const std::string& name) {
+  return detail::collect_bird(text, name).samples(name);
 }
 
 GONIO_INLINE sample_set read_bird(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_bird(as_text(bytes), path.string());
+  return read_bird(as_text(bytes), path.string());
 }
 
-GONIO_INLINE spectral_samples parse_bird_spectra(std::string_view text, const std::string& name) {
-  return detail::collect_bird(text, name).take_spectra(name);
+GONIO_INLINE spectral_samples read_bird_spectra(std::string_view text, const std::string& name) {
+  return detail::collect_bird(text, name).spectra(name);
 }
 
 GONIO_INLINE spectral_samples read_bird_spectra(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_bird_spectra(as_text(bytes), path.string());
+  return read_bird_spectra(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -170,14 +170,14 @@ GONIO_INLINE lens_distortion calibrated_distortion(const storage_text& text) {
 
 namespace gonio::io {
 
-GONIO_INLINE camera_calibration parse_camera_calibration(std::string_view text, const std::string& name) {
+GONIO_INLINE camera_calibration read_camera_calibration(std::string_view text, const std::string& name) {
   const detail::storage_text entries(text, name);
   return {detail::calibrated_intrinsics(entries), detail::calibrated_distortion(entries)};
 }
 
 GONIO_INLINE camera_calibration read_camera_calibration(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  return parse_camera_calibration(as_text(bytes), path.string());
+  return read_camera_calibration(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -64,7 +64,7 @@ namespace gonio::io::detail {
 
 /// Takes a field that begins with a double quote off the front of a line, with both its quotes. False if there is no
 /// second one.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE bool take_quoted(std::string_view& line, std::string_view& field) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE bool read_quoted(std::string_view& line, std::string_view& field) {
   std::size_t end = line.find('"', 1);
   while (end != std::string_view::npos && line.substr(end + 1).starts_with('"')) end = line.find('"', end + 2);
   if (end == std::string_view::npos) return false;
@@ -83,7 +83,7 @@ namespace gonio::io::detail {
     line.remove_prefix(std::min(line.find_first_not_of(separator == '\t' ? " " : blanks), line.size()));
     std::string_view field;
     const bool has_quotes = line.starts_with('"');
-    if (has_quotes && !take_quoted(line, field)) return "a double quote is not closed on its line";
+    if (has_quotes && !read_quoted(line, field)) return "a double quote is not closed on its line";
     const std::string_view rest = line.substr(0, line.find_first_of(ends));
     if (has_quotes && !trimmed(rest).empty()) return "a field goes on behind its closing double quote";
     fields.push_back(has_quotes ? field : trimmed(rest));

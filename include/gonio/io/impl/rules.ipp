@@ -13,7 +13,7 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE text_rule parse_rule(std::string_view line, const text_place& place) {
+GONIO_INLINE text_rule read_rule(std::string_view line, const text_place& place) {
   line = trimmed(line.substr(0, line.find('#')));
   text_rule rule;
   while (!line.empty()) {

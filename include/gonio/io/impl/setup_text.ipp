@@ -28,7 +28,7 @@ namespace gonio::io::detail {
 GONIO_INLINE setup_text::setup_text(std::string_view text, const std::string& name, std::span<const setup_entry> known)
     : name_(name), known_(known) {
   text_place place{name};
-  for_each_line(text, place, [&](std::string_view line) { add(parse_rule(line, place), place); });
+  for_each_line(text, place, [&](std::string_view line) { add(read_rule(line, place), place); });
 }
 
 GONIO_INLINE std::size_t setup_text::count(std::string_view name, std::size_t which, std::size_t smallest) const {

@@ -51,8 +51,8 @@ namespace gonio::io {
   return rows.next() && rows.header().wavelengths().size() > 1;
 }
 
-GONIO_INLINE spectral_sample_file parse_spectral_sample_file(std::string_view text, const std::string& name,
-                                                             const sample_reading& reading) {
+GONIO_INLINE spectral_sample_file read_spectral_sample_file(std::string_view text, const std::string& name,
+                                                            const sample_reading& reading) {
   spectral_sample_file file;
   std::vector<float> values;
   detail::sample_rows rows(text, name, true, reading);
@@ -74,11 +74,11 @@ GONIO_INLINE spectral_sample_file parse_spectral_sample_file(std::string_view te
 [[gnu::cold]] GONIO_INLINE spectral_sample_file read_spectral_sample_file(const std::filesystem::path& path,
                                                                           const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  return parse_spectral_sample_file(as_text(bytes), path.native(), reading);
+  return read_spectral_sample_file(as_text(bytes), path.native(), reading);
 }
 
-[[gnu::cold]] GONIO_INLINE std::string format_spectral_samples(const spectral_samples& samples,
-                                                               const sample_provenance& provenance) {
+[[gnu::cold]] GONIO_INLINE std::string write_spectral_samples(const spectral_samples& samples,
+                                                              const sample_provenance& provenance) {
   std::string text = message_of({comment_lines(provenance), "# quantity: brdf\ntheta_h,theta_d,phi_d,"});
   for (const double wavelength : samples.wavelengths) text += message_of({shortest(wavelength), "nm,"});
   text += "weight\n";
@@ -100,7 +100,7 @@ GONIO_INLINE spectral_sample_file parse_spectral_sample_file(std::string_view te
   } catch (const error& unusable) {
     gonio::refuse({path.native(), ": ", unusable.what()});
   }
-  detail::write_text(path, format_spectral_samples(samples, provenance));
+  detail::write_text(path, write_spectral_samples(samples, provenance));
 }
 
 }  // namespace gonio::io
