@@ -6,6 +6,7 @@
 #include <gonio/estimate/impl/conformity.ipp>
 #include <gonio/estimate/impl/fitted_spectra.ipp>
 #include <gonio/estimate/impl/highlight_contrast.ipp>
+#include <gonio/estimate/impl/inliers.ipp>
 #include <gonio/estimate/impl/learn_streamed_soft_specular.ipp>
 #include <gonio/estimate/impl/leave_one_material_out_error.ipp>
 #include <gonio/estimate/impl/located_samples.ipp>
@@ -14,9 +15,9 @@
 #include <gonio/estimate/impl/out_of_gamut.ipp>
 #include <gonio/estimate/impl/outlier_mixture.ipp>
 #include <gonio/estimate/impl/outlier_weights.ipp>
-#include <gonio/estimate/impl/outlying_samples.ipp>
 #include <gonio/estimate/impl/pull_push.ipp>
-#include <gonio/estimate/impl/robust_decomposition.ipp>
+#include <gonio/estimate/impl/reconstructed.ipp>
+#include <gonio/estimate/impl/sample_process.ipp>
 #include <gonio/estimate/impl/sample_regions.ipp>
 #include <gonio/estimate/impl/scattered_options.ipp>
 #include <gonio/estimate/impl/soft_specular_decomposition.ipp>

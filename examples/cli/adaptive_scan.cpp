@@ -34,7 +34,7 @@ adaptive_choice::adaptive_choice(const adaptive_options& options, const calibrat
     : options_(options),
       calibration_(calibration_of(calibration, readings_of(reference), reference.largest_count)),
       reference_(reference_readings_of(reference)),
-      chooser_(gonio::discrepancy_decomposition{gonio::io::read_prior(options.prior), {.noise = expected_noise}}) {}
+      chooser_(gonio::reconstruction{gonio::io::read_prior(options.prior), {.noise = expected_noise}}) {}
 
 gonio::sample_set adaptive_choice::samples_of(const gonio::io::recorded_scan& scan) const {
   gonio::sample_set samples;

@@ -48,7 +48,7 @@ struct measured_surface {
     const gonio::io::sample_file file = read_measurement_file(path, reading);
     const gonio::sample_set& all = file.samples;
     facts = facts_of(file);
-    for (const Eigen::Index i : counting_samples(all)) {
+    for (const Eigen::Index i : gonio::counting_positions(all)) {
       counting.push_back(all[i]);
       numbers.push_back(i + 1);
     }
@@ -88,9 +88,9 @@ gonio::conformity_options options_of(const check_options& given, const gonio::lo
 check_result check_part(const check_options& given, const measured_surface& part, const measured_surface& reference,
                         const gonio::log_relative_pca& prior) {
   check_result result{options_of(given, prior.metric(), part, reference), {}, {}};
-  const gonio::discrepancy_decomposition estimator{prior, {.noise = result.options.part.relative}, given.threads};
+  const gonio::reconstruction estimator{prior, {.noise = result.options.part.relative}, given.threads};
   result.conformity = gonio::check_conformity(estimator, part.located, reference.located, result.options);
-  result.familiarity = gonio::familiarity_of(estimator, part.located);
+  result.familiarity = estimator.process_of(part.located).familiarity();
   result.conforms = result.conformity.conforms(given.false_alarms);
   return result;
 }

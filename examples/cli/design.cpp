@@ -61,7 +61,8 @@ void write_report(const design_command& command, const std::vector<gonio::direct
     told["number"] = directions.size() + 1;
     directions.push_back(std::move(told));
   }
-  for (const Eigen::Index i : counting_samples(samples)) given.push_back(angles_as_json(samples[i].directions));
+  for (const Eigen::Index i : gonio::counting_positions(samples))
+    given.push_back(angles_as_json(samples[i].directions));
   json data{{"kind", "design"},
             {"name", command.output.stem().string()},
             {"design", {{"sentence", sentence}, {"directions", directions}}},
@@ -83,7 +84,7 @@ void run_given(const design_command& command) {
   require_given_alone(command);
   const gonio::io::sample_file measured = read_measurement_file(command.given, command.reading);
   const gonio::sample_set& samples = measured.samples;
-  const gonio::discrepancy_decomposition estimator{
+  const gonio::reconstruction estimator{
       gonio::io::read_prior(command.prior), {.noise = command.design.noise}, command.design.threads};
   const gonio::measurement_chooser chooser{estimator, command.design.near_field.constraint,
                                            gonio::design::default_candidates(), command.design.threads};

@@ -87,11 +87,11 @@ double in_plane_angle(const gonio::direction_pair& pair) {
 
 /// Which samples of the file are shown: if they are many, some at random and the worst of those that were left out.
 std::vector<Eigen::Index> shown_samples(const reported_fit& fit) {
-  const std::vector<Eigen::Index> numbers = counting_samples(fit.measured.samples);
+  const std::vector<Eigen::Index> numbers = gonio::counting_positions(fit.measured.samples);
   if (std::ssize(numbers) <= most_residuals) return numbers;
   std::set<Eigen::Index> some;
   for (const Eigen::Index i : gonio::random_choice(std::ssize(numbers), most_residuals, 0)) some.insert(numbers[i]);
-  const auto& worst = fit.found.left_out;
+  const auto& worst = fit.found.rejected;
   some.insert(worst.begin(), worst.begin() + std::min(std::ssize(worst), most_residuals / 4));
   return {some.begin(), some.end()};
 }
@@ -99,7 +99,7 @@ std::vector<Eigen::Index> shown_samples(const reported_fit& fit) {
 /// The numbers of those that the others contradict, from 1: left out, or kept beside so few.
 std::set<Eigen::Index> disagreeing(const reconstruction& found) {
   std::set<Eigen::Index> numbers;
-  for (const Eigen::Index i : found.left_out) numbers.insert(i + 1);
+  for (const Eigen::Index i : found.rejected) numbers.insert(i + 1);
   if (found.details.contains("disagreeing"))
     for (const json& each : found.details["disagreeing"].elements())
       numbers.insert(std::lround(each["sample"].number()));
@@ -118,14 +118,14 @@ json told_sample(Eigen::Index number, const gonio::sample& sample, const known_f
 }
 
 json samples_of(const reported_fit& fit, const known_fit& known) {
-  std::map<Eigen::Index, const checked_sample*> checked;
-  for (const checked_sample& each : fit.found.checked) checked[each.number] = &each;
+  std::map<Eigen::Index, const gonio::sample_residual*> checked;
+  for (const gonio::sample_residual& each : fit.found.residuals) checked[each.number] = &each;
   const std::set<Eigen::Index> off = disagreeing(fit.found);
   json all = json::array();
   for (const Eigen::Index i : shown_samples(fit)) {
     json told = told_sample(i + 1, fit.measured.samples[i], known);
     if (const auto found = checked.find(i); found != checked.end()) {
-      told["others"] = five_digits(found->second->others);
+      told["others"] = five_digits(found->second->predicted);
       told["deviation"] = five_digits(found->second->relative_deviation);
       told["disagreement"] = five_digits(found->second->disagreement);
     }
@@ -242,7 +242,7 @@ json albedo_of(const known_fit& known) {
 /// Numbers of the samples that were left out, or count less than half, the worst first: a dozen.
 json worst_of(const reconstruction& found) {
   json numbers = json::array();
-  for (const Eigen::Index i : found.left_out)
+  for (const Eigen::Index i : found.rejected)
     if (numbers.size() < 12) numbers.push_back(i + 1);
   return numbers;
 }
@@ -259,7 +259,7 @@ json record_of_fit(const reported_fit& fit) {
   const gonio::log_relative_pca prior = gonio::io::read_prior(options.materials.prior);
   return record_of(
       {{"Samples", options.samples.string() + ": " + std::to_string(measured.samples.size()) + ", of which " +
-                       std::to_string(counting_samples(measured.samples).size()) + " count"},
+                       std::to_string(gonio::counting_positions(measured.samples).size()) + " count"},
        {"Quantity", std::string(measured.quantity ? name_of(*measured.quantity) : "brdf") +
                         (measured.wavelength ? ", at " + fixed(*measured.wavelength, 1) + " nm" : "")},
        {"Instrument", measured.provenance.instrument},
@@ -294,7 +294,7 @@ json model_report_data(const reported_model& model) {
   const auto seen = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
     return model.value(wi, wo);
   };
-  const std::vector<Eigen::Index> counting = counting_samples(model.samples);
+  const std::vector<Eigen::Index> counting = gonio::counting_positions(model.samples);
   json samples = json::array();
   for (const Eigen::Index i : gonio::random_choice(std::ssize(counting), most_residuals, 0)) {
     json told = told_sample(counting[i] + 1, model.samples[counting[i]], known);
@@ -316,7 +316,7 @@ json report_data(const reported_fit& fit) {
   const known_fit known(fit.found);
   json data{{"kind", "reconstruct"},
             {"name", fit.options.samples.stem().string()},
-            {"count", counting_samples(fit.measured.samples).size()},
+            {"count", gonio::counting_positions(fit.measured.samples).size()},
             {"sphere", sphere_url(fit.found.table, fit.options.threads)},
             {"viewer", viewer_of(fit)},
             {"details", fit.found.details},

@@ -121,13 +121,6 @@ json facts_of(const gonio::io::sample_file& file) {
   return facts;
 }
 
-std::vector<Eigen::Index> counting_samples(const gonio::sample_set& samples) {
-  std::vector<Eigen::Index> numbers;
-  for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
-    if (samples[i].weight.counts()) numbers.push_back(i);
-  return numbers;
-}
-
 void write_table(const std::filesystem::path& path, const gonio::brdf_table& table) { write_file(path, table); }
 
 }  // namespace cli

@@ -61,9 +61,6 @@ void tell_doubts(const std::filesystem::path& path, const gonio::io::sample_file
 /// that it states.
 [[nodiscard]] json facts_of(const gonio::io::sample_file& file);
 
-/// Which samples of a file count, by their positions.
-[[nodiscard]] std::vector<Eigen::Index> counting_samples(const gonio::sample_set& samples);
-
 /// Writes a table in the format that the name asks for: see `written_kind`.
 void write_table(const std::filesystem::path& path, const gonio::brdf_table& table);
 

@@ -40,7 +40,8 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
 reconstruction with_warnings(reconstruction result, const reconstruct_options& options,
                              const gonio::sample_set& samples) {
   std::ranges::move(warnings_of(samples, options.noise.value_or(0.0)), std::back_inserter(result.warnings));
-  if (std::string sentence = warning_of(options.method, std::ssize(counting_samples(samples))); !sentence.empty())
+  if (std::string sentence = warning_of(options.method, std::ssize(gonio::counting_positions(samples)));
+      !sentence.empty())
     result.warnings.push_back(std::move(sentence));
   require_finite(result.table, samples, options);
   return result;

@@ -8,7 +8,7 @@
 #include "progress_bar.hpp"
 #include "reconstruct_methods.hpp"
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/robust_decomposition.hpp>
+#include <gonio/estimate/inliers.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/prior.hpp>
@@ -122,7 +122,7 @@ reconstruction correct(const gonio::measured<gonio::any_metric>& materials, cons
 
 reconstruction reconstruct_by_corrections(const reconstruct_options& options, const gonio::sample_set& samples) {
   static_cast<void>(gamma_of(options));  // refused before the work
-  const Eigen::Index counting = std::ssize(counting_samples(samples));
+  const Eigen::Index counting = std::ssize(gonio::counting_positions(samples));
   if (counting < fewest_corrected_samples && !options.has_own_options) {
     reconstruction result =
         reconstruct_with_discrepancy(options, gonio::io::read_prior(options.materials.prior), samples);

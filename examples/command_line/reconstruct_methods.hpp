@@ -11,6 +11,7 @@
 #include <gonio/basis/rbf.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/estimate/corrected_brdf.hpp>
+#include <gonio/estimate/reconstructed.hpp>
 #include <gonio/estimate/scattered_options.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/metric/any_metric.hpp>
@@ -58,24 +59,15 @@ struct reconstruct_options {
 /// What all others say of each sample is told of so many.
 inline constexpr Eigen::Index most_residuals = 1000;
 
-/// A sample, and what all others and the prior say of it.
-struct checked_sample {
-  Eigen::Index number = 0;          ///< its position in the file
-  gonio::rgb measured, others;      ///< sr^-1
-  double relative_deviation = 0.0;  ///< of measurement and prediction together
-  double disagreement = 0.0;        ///< mean square over the channels, in deviations; about 1 is expected
-  bool left_out = false;            ///< the fit does without it
-};
-
 /// A fit on its way to the user.
 struct reconstruction {
   gonio::brdf_table table;
-  json details = json::object();                   ///< what --json prints beside the number of samples
-  std::string sentence{};                          ///< the same for people
-  std::vector<std::string> warnings{};             ///< sentences, for people: on standard error
-  std::optional<gonio::brdf_table> uncertainty{};  ///< relative, if it is asked for
-  std::vector<checked_sample> checked{};           ///< the samples that count, if it is asked for
-  std::vector<Eigen::Index> left_out{};            ///< positions in the file, the worst first: of pca
+  json details = json::object();                    ///< what --json prints beside the number of samples
+  std::string sentence{};                           ///< the same for people
+  std::vector<std::string> warnings{};              ///< sentences, for people: on standard error
+  std::optional<gonio::brdf_table> uncertainty{};   ///< relative, if it is asked for
+  std::vector<gonio::sample_residual> residuals{};  ///< of the samples that count, if it is asked for
+  std::vector<Eigen::Index> rejected{};             ///< positions in the file, the worst first: of pca
   std::vector<gonio::correction_round> history{};
   std::optional<gonio::image> iteration_figure{};
   std::optional<gonio::spectral_table> spectra{};  ///< if each wavelength is fitted; `table` is its colours
@@ -103,11 +95,10 @@ struct component_choice {
                                                           const gonio::log_relative_pca& prior,
                                                           const gonio::sample_set& samples);
 
-/// The same for each wavelength. Which samples disagree is judged by their colours, as in `samples`.
+/// The same for each wavelength. Which samples disagree is judged by their colours.
 [[nodiscard]] reconstruction reconstruct_spectra_with_discrepancy(const reconstruct_options& options,
                                                                   const gonio::log_relative_pca& prior,
-                                                                  const gonio::spectral_samples& spectra,
-                                                                  const gonio::sample_set& samples);
+                                                                  const gonio::spectral_samples& spectra);
 
 /// The components of soft or of specular materials, whichever the samples choose (Nielsen et al. 2015, section 8).
 [[nodiscard]] reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options,

@@ -35,7 +35,7 @@ reconstruction fit(const Estimator& estimator, const gonio::spectral_samples& sp
 reconstruction by_components(const reconstruct_options& options, const gonio::spectral_samples& spectra,
                              const gonio::sample_set& colours) {
   const auto [prior, solver, has_discrepancy, is_penalised] = choose_components(options);
-  if (has_discrepancy) return reconstruct_spectra_with_discrepancy(options, prior, spectra, colours);
+  if (has_discrepancy) return reconstruct_spectra_with_discrepancy(options, prior, spectra);
   if (options.angular_error != 0.0)
     gonio::refuse("--misplaced fits colours: leave out --spectra, or state no misplacement");
   if (!is_penalised) return fit(gonio::decomposition{prior, solver, options.threads}, spectra, options);

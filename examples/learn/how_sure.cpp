@@ -1,8 +1,6 @@
 /// 20 measurements, one of them wrong: which one, what the paint is in other directions, and how sure that is.
 
-#include <gonio/estimate/discrepancy_decomposition.hpp>
-#include <gonio/estimate/outlying_samples.hpp>
-#include <gonio/estimate/posterior.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/samples.hpp>
 
@@ -13,27 +11,22 @@ int main() {
   gonio::sample_set samples = gonio::io::read_samples("measurements.csv");
   samples[5].value *= 8.0;
 
-  // Values are good to 2 %. Name the samples that all others contradict, and leave them out.
-  const gonio::discrepancy_decomposition estimator{prior, {.noise = 0.02}};
-  const gonio::located_samples located = gonio::locate_samples(prior.cells(), samples);
-  const gonio::sorted_samples sorted = gonio::reject_outlying(estimator, located);
-  for (const gonio::outlying_sample& out : sorted.left_out)
+  // Values are good to 2 %. Samples that all others contradict are rejected.
+  const auto paint = gonio::reconstruction{prior, {.noise = 0.02}}.fit(samples);
+  for (const gonio::outlying_sample& out : paint.contradicted())
     std::printf("sample %td is wrong with %.1f %%: measured %.3f, the others say %.3f\n", out.number + 1,
                 100.0 * out.probability, out.measured.y(), out.predicted.y());
 
-  // Fit the rest, and ask how sure the fit is.
-  const gonio::located_samples kept = located.subset(sorted.kept);
-  const auto paint = estimator.fit_located(kept);
-  const gonio::posterior known(estimator, kept);
+  // Ask how sure the rest is.
   const auto show = [&](const char* name, double theta_h, double theta_d) {
     const auto [wi, wo] =
         gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(90.0)});
-    const auto [low, high] = known.interval(paint, wi, wo, gonio::confidence_level::ninety_five_percent);
+    const auto [low, high] = paint.interval(wi, wo, gonio::confidence_level::ninety_five_percent);
     std::printf("%-22s %.3f sr^-1 (green), with 95 %% from %.3f to %.3f\n", name, paint(wi, wo).y(), low.y(), high.y());
   };
   show("in the highlight:", 1.0, 30.0);
   show("on its flank:", 12.0, 30.0);
   show("far from it:", 40.0, 20.0);
   show("grazing:", 20.0, 80.0);
-  std::printf("the highlight is known to a factor of %.2f\n", gonio::highlight_factor(known, prior.cells()));
+  std::printf("the highlight is known to a factor of %.2f\n", paint.certainty().highlight_factor);
 }

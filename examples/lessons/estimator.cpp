@@ -5,7 +5,7 @@
 #include <gonio/basis/component_variance.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/screened_samples.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/prior_payload.hpp>
@@ -182,14 +182,12 @@ PAGE_CALLS(fit_scan) void fit_scan(bool rejects) {
     samples.push_back({in_plane(theta_o), gonio::rgb(value[0], value[1], value[2])});
     value += 3;
   }
-  const gonio::discrepancy_decomposition estimator{*prior, {.noise = scan_noise}};
-  const auto located = gonio::locate_samples(prior->cells(), samples);
-  const auto screened = rejects ? gonio::screen(estimator, located) : gonio::screened_samples{located};
-  const auto fit = estimator.fit_located(screened.kept);
+  const gonio::reconstruction estimator{*prior, {.noise = scan_noise}};
+  const auto fit = (rejects ? estimator : estimator.keeping_all()).fit(samples);
   const auto difference = gonio::compare(fit.tabulate(truth.cells()), truth, prior->metric(), appearance);
   buffer.assign(2 + samples.size(), 0.0);
   buffer[0] = difference.delta_e_env;
   buffer[1] = difference.mapped_rms.mean();
-  for (const gonio::outlying_sample& out : screened.contradicted) buffer[2 + out.number] = out.probability;
+  for (const gonio::outlying_sample& out : fit.contradicted()) buffer[2 + out.number] = out.probability;
   leave_curve(fit);
 }

@@ -8,9 +8,9 @@ samples = gonio.read_samples("measurements.csv")
 samples.values[5] *= 20  # the memory of the samples: sample 5 is wrong now
 
 prior = gonio.read_prior()  # the one that ships with the package
-paint = gonio.DiscrepancyDecomposition(prior, noise=0.02).fit(samples)
-print("left out:", paint.left_out)
-for wrong in paint.disagreeing:
+paint = gonio.Estimator(prior, noise=0.02).fit(samples)
+print("rejected:", paint.rejected)
+for wrong in paint.contradicted:
     print(wrong)
 
 # Light from 30 degrees, and viewers on the other side.

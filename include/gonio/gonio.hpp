@@ -2,8 +2,7 @@
 /// What README's first program needs: samples and a prior in, a complete BRDF out. `gonio/<module>.hpp` has all of a
 /// module; a header costs what it names.
 
-#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/samples.hpp>
-#include <gonio/solve/tikhonov.hpp>

@@ -69,11 +69,12 @@ TEST_CASE("weights of unit variance make a discrepancy of the covariance that wa
   for (const half_difference& a : centres) {
     const auto row = row_of(functions, a);
     CHECK(product_of(row, there) == doctest::Approx(2.5 * covariance(a, elsewhere)).epsilon(1e-5));
-    CHECK(functions.unexplained(row) < 1e-5);
+    CHECK(std::abs(product_of(row, row) - 2.5) < 1e-5);
     for (const half_difference& b : centres)
       CHECK(std::abs(product_of(row, row_of(functions, b)) - 2.5 * covariance(a, b)) < 1e-5);
   }
-  CHECK(functions.unexplained(row_of(functions, {1.5, 0.0, 0.0})) > 2.4);
+  const auto far = row_of(functions, {1.5, 0.0, 0.0});
+  CHECK(product_of(far, far) < 0.1);
 }
 
 TEST_CASE("phi_d counts modulo 180 degrees, and not at all where theta_d is zero") {
@@ -89,7 +90,7 @@ TEST_CASE("phi_d counts modulo 180 degrees, and not at all where theta_d is zero
 
 TEST_CASE("a combination at all cells is that of the rows") {
   const gonio::valid_cells& cells = small_cells();
-  const gonio::discrepancy functions{cells, gonio::log{}, some_centres(20), 0.7};
+  const gonio::discrepancy functions{cells, gonio::log{}, discrepancy_functions(some_centres(20), 0.7)};
   const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(20, 3);
   const auto field = functions.combination(weights);
   REQUIRE(field.cols() == cells.size());
@@ -102,6 +103,35 @@ TEST_CASE("a combination at all cells is that of the rows") {
   CHECK(largest < 1e-5);
   const auto single = functions.combination(weights, gonio::thread_count(1));
   CHECK((field == single).all());
+}
+
+TEST_CASE("covariances span the same functions as those of unit variance") {
+  const auto centres = some_centres(20);
+  const discrepancy_functions whitened(centres, 0.7), covariances = discrepancy_functions::covariances(centres);
+  const half_difference elsewhere{0.31, 0.62, 0.93};
+  const auto row = row_of(covariances, elsewhere);
+  for (Eigen::Index i = 0; i < 20; ++i) CHECK(row[i] == doctest::Approx(covariance(centres[i], elsewhere)));
+
+  const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(20, 3), same = whitened.covariance_weights(weights);
+  const auto values = [&](const discrepancy_functions& functions, const Eigen::MatrixXd& by) {
+    const auto here = row_of(functions, elsewhere);
+    return Eigen::RowVector3d(Eigen::Map<const Eigen::RowVectorXd>(here.data(), 20) * by);
+  };
+  CHECK((values(whitened, weights) - values(covariances, same)).norm() < 1e-9);
+  const gonio::valid_cells& cells = small_cells();
+  CHECK((whitened.combination(weights, cells) - covariances.combination(same, cells)).abs().maxCoeff() < 1e-5);
+  CHECK((covariances.covariance_weights(weights) - weights).norm() == 0.0);
+}
+
+TEST_CASE("covariances of one place, of pairs and of all are the same numbers") {
+  const auto some = some_centres(7), others = some_centres(5, 21);
+  const Eigen::MatrixXd between = gonio::discrepancy_covariance(some, others, {});
+  REQUIRE(between.rows() == 7);
+  REQUIRE(between.cols() == 5);
+  for (Eigen::Index i = 0; i < 7; ++i)
+    for (Eigen::Index j = 0; j < 5; ++j) CHECK(between(i, j) == doctest::Approx(covariance(some[i], others[j])));
+  CHECK((gonio::discrepancy_covariance(some, others[3]) - between.col(3)).norm() < 1e-12);
+  CHECK((gonio::discrepancy_covariance(some) - gonio::discrepancy_covariance(some, some, {})).norm() < 1e-12);
 }
 
 TEST_CASE("centres that coincide do no harm") {

@@ -15,7 +15,7 @@ const gonio::log_relative_pca& components() {
 
 gonio::discrepancy<gonio::log_relative> smooth(const gonio::valid_cells& cells) {
   const std::vector<gonio::half_difference> centres{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, {0.2, 0.9, 2.0}};
-  return {cells, components().metric(), centres, 0.5};
+  return {cells, components().metric(), gonio::discrepancy_functions(centres, 0.5)};
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "../synthetic_materials.hpp"
 #include <gonio/design/sequential_design.hpp>
-#include <gonio/estimate/posterior.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 
 #include <doctest/doctest.h>
@@ -10,7 +9,7 @@
 
 namespace {
 
-using estimator_type = gonio::discrepancy_decomposition<gonio::log_relative>;
+using estimator_type = gonio::reconstruction<gonio::log_relative>;
 
 const gonio::design::sequential_design<gonio::log_relative>& sequence() {
   static const gonio::design::sequential_design candidates(
@@ -21,6 +20,10 @@ const gonio::design::sequential_design<gonio::log_relative>& sequence() {
 gonio::located_samples some_samples(const std::vector<Eigen::Index>& cells) {
   static const auto table = synthetic_materials(small_cells(), 1, 99).table(0);
   return gonio::locate_samples(small_cells(), gonio::sample_table(table, cells));
+}
+
+gonio::sample_process process_of_some(const std::vector<Eigen::Index>& cells) {
+  return sequence().estimator().process_of(some_samples(cells));
 }
 
 gonio::design::sensitivity random_sensitivity(Eigen::Index points) {
@@ -35,23 +38,24 @@ gonio::design::sensitivity random_sensitivity(Eigen::Index points) {
 
 }  // namespace
 
-TEST_CASE("the posterior over candidates is the estimator's fit, and its deviations those of posterior") {
+TEST_CASE("the posterior over candidates is the estimator's fit, and its deviations are those that it states") {
   const gonio::located_samples samples = some_samples({3, 50, 120, 200});
-  const auto known = sequence().posterior_of(samples);
   const auto& estimator = sequence().estimator();
-  const auto fit = estimator.fit_located(samples).tabulate(small_cells());
-  const gonio::posterior stated(estimator, samples);
+  const gonio::sample_process process = estimator.process_of(samples);
+  const auto known = sequence().posterior_of(process);
+  const auto paint = estimator.fit_located(samples);
+  const auto fit = paint.tabulate(small_cells());
   for (Eigen::Index cell = 0; cell < small_cells().size(); cell += 37) {
     const gonio::location& at = sequence().location_of(cell);
     CHECK(estimator.prior().metric().inverse(known.mean(cell, 1), at) ==
           doctest::Approx(fit.at(cell)[1]).epsilon(1e-3));
-    const double variance = stated.scale() * (known.covariance(cell, cell) + sequence().error_variance());
-    CHECK(std::sqrt(variance) == doctest::Approx(stated.deviation(at)).epsilon(1e-6));
+    const double variance = process.scale() * (known.covariance(cell, cell) + sequence().error_variance());
+    CHECK(std::sqrt(variance) == doctest::Approx(paint.deviation(at)).epsilon(1e-6));
   }
 }
 
 TEST_CASE("a candidate's value is that of the covariance with its measurement, on any number of threads") {
-  const auto known = sequence().posterior_of(some_samples({3, 50, 120}));
+  const auto known = sequence().posterior_of(process_of_some({3, 50, 120}));
   const auto seen = random_sensitivity(4);
   const auto each = gonio::design::seen_deviation_with_each(known.covariance, seen, sequence().error_variance());
   const double before = gonio::design::seen_deviation(known.covariance, seen);
@@ -62,7 +66,7 @@ TEST_CASE("a candidate's value is that of the covariance with its measurement, o
     CHECK(each[candidate] <= before);
     // The same as measuring there.
     auto samples = std::vector<Eigen::Index>{3, 50, 120, candidate};
-    const auto measured = sequence().posterior_of(some_samples(samples));
+    const auto measured = sequence().posterior_of(process_of_some(samples));
     CHECK((measured.covariance - with.covariance).cwiseAbs().maxCoeff() < 1e-6);
   }
   CHECK(each == gonio::design::seen_deviation_with_each(known.covariance, seen, sequence().error_variance(),

@@ -22,8 +22,8 @@ const valid_cells& conformity_cells() {
   return small;
 }
 
-const gonio::discrepancy_decomposition<gonio::log_relative>& conformity_estimator() {
-  static const gonio::discrepancy_decomposition all{learn(synthetic_materials(conformity_cells(), 60), 80)};
+const gonio::reconstruction<gonio::log_relative>& conformity_estimator() {
+  static const gonio::reconstruction all{learn(synthetic_materials(conformity_cells(), 60), 80)};
   return all;
 }
 
@@ -253,7 +253,7 @@ TEST_CASE("noise is told by repeats, and none without") {
 TEST_CASE("a material of the prior is familiar, values in another order are not") {
   const auto cells = some_cells(20, 11);
   const auto samples = noisy(checked_material(), cells, 0.0, 0);
-  const auto known = gonio::familiarity_of(conformity_estimator(), samples);
+  const auto known = conformity_estimator().process_of(samples).familiarity();
   CHECK(known.components + known.discrepancy + known.errors == doctest::Approx(1.0));
   CHECK(known.components > 0.0);
   CHECK(known.discrepancy > 0.0);
@@ -261,12 +261,12 @@ TEST_CASE("a material of the prior is familiar, values in another order are not"
   CHECK(known.p_value > 0.05);
   auto shuffled = samples;
   shuffled.values = samples.values.colwise().reverse().eval();
-  const auto strange = gonio::familiarity_of(conformity_estimator(), shuffled);
+  const auto strange = conformity_estimator().process_of(shuffled).familiarity();
   CHECK(strange.scale > 5.0 * known.scale);
   CHECK(strange.p_value < known.p_value);
   // y' K^-1 y, by the definition.
-  const Eigen::MatrixXd y = conformity_estimator().mapped_values(samples);
-  const Eigen::MatrixXd k = conformity_estimator().covariance(samples);
+  const Eigen::MatrixXd y = conformity_estimator().process_of(samples).values();
+  const Eigen::MatrixXd k = conformity_estimator().process_of(samples).covariance();
   CHECK(known.scale == doctest::Approx(y.cwiseProduct(Eigen::MatrixXd(k.llt().solve(y))).sum() / 60.0).epsilon(1e-6));
 }
 

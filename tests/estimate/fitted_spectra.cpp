@@ -1,8 +1,8 @@
 #include "../synthetic_materials.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/fitted_spectra.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/solve/lasso.hpp>
 #include <gonio/solve/nnls.hpp>
@@ -71,7 +71,6 @@ using namespace spectra_test;
 TEST_CASE("each wavelength is fitted by components as a grey material") {
   check_like_grey(gonio::decomposition{prior(), gonio::tikhonov{0.1}});
   check_like_grey(gonio::decomposition{prior(), gonio::lasso{1e-3}});
-  check_like_grey(gonio::discrepancy_decomposition{prior()});
 }
 
 TEST_CASE("each wavelength is fitted by measured materials, any channel of which is a grey one") {

@@ -8,7 +8,7 @@ namespace {
 
 const gonio::measurement_chooser<gonio::log_relative>& small_chooser() {
   static const gonio::measurement_chooser chooser{
-      gonio::discrepancy_decomposition{learn(synthetic_materials(small_cells(), 12), 10)}, {}, small_cells()};
+      gonio::reconstruction{learn(synthetic_materials(small_cells(), 12), 10)}, {}, small_cells()};
   return chooser;
 }
 
@@ -56,7 +56,7 @@ TEST_CASE("measuring makes the stated deviation smaller") {
 }
 
 TEST_CASE("in the plane of incidence all that is chosen lies in it; a rule that leaves nothing is named") {
-  const gonio::discrepancy_decomposition estimator{learn(synthetic_materials(small_cells(), 12), 10)};
+  const gonio::reconstruction estimator{learn(synthetic_materials(small_cells(), 12), 10)};
   gonio::design::capture_constraint constraint;
   constraint.plane_tolerance = gonio::radians(0.5);
   const gonio::measurement_chooser in_plane{estimator, constraint, small_cells()};

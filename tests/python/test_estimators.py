@@ -124,10 +124,10 @@ class DecompositionTest(unittest.TestCase):
         worker.join()
 
 
-class KnownBrdfTest(unittest.TestCase):
+class ReconstructedBrdfTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.estimator = gonio.DiscrepancyDecomposition(gonio.read_prior(PRIOR), noise=0.02)
+        cls.estimator = gonio.Estimator(gonio.read_prior(PRIOR), noise=0.02)
         cls.paint = cls.estimator.fit(gonio.read_samples(MEASUREMENTS))
 
     def test_intervals_hold_the_value_and_widen(self):
@@ -143,10 +143,10 @@ class KnownBrdfTest(unittest.TestCase):
         samples = gonio.read_samples(MEASUREMENTS)
         samples.values[5] *= 20
         fit = self.estimator.fit(samples)
-        self.assertEqual(fit.left_out, [5])
-        found = fit.disagreeing[0]
+        self.assertEqual(fit.rejected, [5])
+        found = fit.contradicted[0]
         self.assertEqual(found.row, 5)
-        self.assertLess(found.others_say[1], found.measured[1])
+        self.assertLess(found.predicted[1], found.measured[1])
         self.assertGreater(found.probability, 0.75)
         self.assertIn("row 5", repr(found))
 
@@ -156,9 +156,9 @@ class KnownBrdfTest(unittest.TestCase):
         with self.assertRaisesRegex(gonio.Error, "pair 0 of wi and wo is not above the horizon"):
             self.paint.known_to([0, 0, -1], [0, 0, 1])
         with self.assertRaisesRegex(gonio.Error, "variance is"):
-            gonio.DiscrepancyDecomposition(gonio.read_prior(PRIOR), variance=-1)
+            gonio.Estimator(gonio.read_prior(PRIOR), variance=-1)
         with self.assertRaisesRegex(gonio.Error, "noise is"):
-            gonio.DiscrepancyDecomposition(gonio.read_prior(PRIOR), noise=float("nan"))
+            gonio.Estimator(gonio.read_prior(PRIOR), noise=float("nan"))
 
 
 class ReconstructTest(unittest.TestCase):

@@ -8,7 +8,7 @@
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/left_out_families.hpp"
-#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
 
@@ -27,7 +27,7 @@ struct adaptive_options : left_out_options {
   std::vector<std::string> methods{"perceived", "expected-error", "mean-material", "first-five", "adaptive"};
 };
 
-using estimator_type = gonio::discrepancy_decomposition<gonio::log_relative>;
+using estimator_type = gonio::reconstruction<gonio::log_relative>;
 using chooser_type = gonio::measurement_chooser<gonio::log_relative>;
 
 /// What is prepared for the materials of one family.
@@ -70,9 +70,10 @@ class adaptive_experiment : left_out_experiment {
   const family_setup& setup_without(const std::string& family) {
     if (setup_ && family_ == family) return *setup_;
     setup_.reset();
-    estimator_type estimator{library_.prior_without(family, given_.components), {}, given_.threads};
+    const auto estimator =
+        estimator_type{library_.prior_without(family, given_.components), {}, given_.threads}.keeping_all();
     chooser_type chooser{estimator, {}, gonio::design::default_candidates(), given_.threads};
-    setup_.emplace(family_setup{std::move(estimator), std::move(chooser)});
+    setup_.emplace(family_setup{estimator, std::move(chooser)});
     family_ = family;
     return *setup_;
   }
@@ -105,7 +106,7 @@ class adaptive_experiment : left_out_experiment {
   }
 
   json errors_of(const judged_material& material, const gonio::sample_set& samples, const family_setup& with) {
-    const auto table = with.estimator.fit(samples).tabulate(library_.cells(), given_.threads);
+    const auto table = with.estimator.fit(samples).tabulate(library_.cells());
     const gonio::comparison errors = compare(table, material);
     return {{"mapped_rms", errors.mapped_rms.mean()},     {"delta_e_env", errors.delta_e_env},
             {"delta_e_lights", errors.delta_e_lights},    {"deviation", with.chooser.median_deviation(samples)},

@@ -36,7 +36,7 @@ struct conformity_experiment_options : left_out_options {
 };
 
 using directions = std::vector<gonio::half_difference>;
-using estimator = gonio::discrepancy_decomposition<gonio::log_relative>;
+using estimator = gonio::reconstruction<gonio::log_relative>;
 
 /// A surface that is measured; what lies beyond the gamut is black there.
 struct known_surface {
@@ -233,7 +233,7 @@ class conformity_experiment {
       for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
         shuffled[i].value = samples[order[(i + 1) % std::ssize(samples)]].value;
       const auto add = [&](const std::string& what, const gonio::sample_set& judged) {
-        const auto found = gonio::familiarity_of(noisy, gonio::locate_samples(known.prior().cells(), judged));
+        const auto found = noisy.process_of(gonio::locate_samples(known.prior().cells(), judged)).familiarity();
         const std::string row = std::to_string(count) + what;
         results_.add(row, surface.name, {found.p_value});
         results_.add(row + " scale", surface.name, {found.scale});

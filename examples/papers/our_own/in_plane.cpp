@@ -8,7 +8,7 @@
 #include "papers/experiments.hpp"
 #include "papers/our_own/left_out_families.hpp"
 #include <gonio/core/statistics.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
 
@@ -77,15 +77,15 @@ class in_plane_experiment : left_out_experiment {
 
  private:
   struct setup {
-    gonio::discrepancy_decomposition<gonio::log_relative> estimator;
+    gonio::reconstruction<gonio::log_relative> estimator;
     chooser_type anywhere, within;
   };
 
   const setup& setup_without(const std::string& family) {
     if (setup_ && family_ == family) return *setup_;
     setup_.reset();
-    const gonio::discrepancy_decomposition estimator{
-        library_.prior_without(family, given_.components), {}, given_.threads};
+    const auto estimator =
+        gonio::reconstruction{library_.prior_without(family, given_.components), {}, given_.threads}.keeping_all();
     gonio::design::capture_constraint plane;
     plane.plane_tolerance = gonio::radians(0.5);
     const auto candidates = gonio::design::default_candidates();
@@ -118,13 +118,13 @@ class in_plane_experiment : left_out_experiment {
   }
 
   json errors_of(const judged_material& material, const gonio::sample_set& samples, const setup& with) const {
-    const auto located = gonio::locate_samples(library_.cells(), samples);
-    const auto table = with.estimator.fit_located(located).tabulate(library_.cells(), given_.threads);
+    const auto paint = with.estimator.fit(samples);
+    const auto table = paint.tabulate(library_.cells());
     const gonio::comparison errors = compare(table, material);
     json all{{"mapped_rms", errors.mapped_rms.mean()},
              {"delta_e_env", errors.delta_e_env},
              {"delta_e_lights", errors.delta_e_lights}};
-    const json by_region = errors_by_region(table, material.truth, gonio::posterior(with.estimator, located));
+    const json by_region = errors_by_region(table, material.truth, paint);
     for (const auto& [name, value] : by_region.items()) all[name] = value;
     return all;
   }
@@ -133,7 +133,7 @@ class in_plane_experiment : left_out_experiment {
   /// 95 %. A cell next to the plane has phi_d within 10 degrees of 0 or 180, one out of it is 30 degrees away from
   /// both.
   [[nodiscard]] json errors_by_region(const gonio::brdf_table& table, const gonio::brdf_table& truth,
-                                      const gonio::posterior<gonio::log_relative>& known) const {
+                                      const gonio::reconstruction<gonio::log_relative>::result_type& known) const {
     struct sums {
       double squares = 0.0, within = 0.0, count = 0.0;
       std::vector<double> deviations;

@@ -9,9 +9,7 @@
 #include "papers/our_own/rank_correlation.hpp"
 #include <gonio/core/random.hpp>
 #include <gonio/core/statistics.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
-#include <gonio/estimate/outlying_samples.hpp>
-#include <gonio/estimate/posterior.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/prior.hpp>
 
 #include <cmath>
@@ -37,19 +35,16 @@ struct tally {
 };
 
 /// Fits some of the measurements, chosen at random, and looks at all others.
-void count_repetition(const gonio::discrepancy_decomposition<gonio::log_relative>& estimator,
-                      const gonio::located_samples& all, Eigen::Index count, std::uint64_t seed, tally& sum) {
+void count_repetition(const gonio::reconstruction<gonio::log_relative>& estimator, const gonio::located_samples& all,
+                      Eigen::Index count, std::uint64_t seed, tally& sum) {
   const std::vector<Eigen::Index> chosen = gonio::random_choice(all.size(), count, seed);
-  gonio::located_samples fitted = all.subset(chosen);
-  fitted = fitted.subset(gonio::reject_outlying(estimator, fitted).kept);
-  const auto estimate = estimator.fit_located(fitted);
-  const gonio::posterior known(estimator, fitted);
+  const auto known = estimator.fit_located(all.subset(chosen));
   const auto& metric = estimator.prior().metric();
   std::vector<double> deviations, errors;
   for (Eigen::Index i = 0; i < all.size(); ++i) {
     if (std::ranges::binary_search(chosen, i)) continue;
     const gonio::location& at = all.locations[i];
-    const gonio::rgb truth = all.values.row(i).head<3>().transpose().array().max(0.0), value = estimate.at(at);
+    const gonio::rgb truth = all.values.row(i).head<3>().transpose().array().max(0.0), value = known.fit().at(at);
     const auto holds = [&](gonio::confidence_level level) {
       const auto [low, high] = known.interval(value, at, level);
       return static_cast<double>((truth >= low && truth <= high).count());
@@ -68,7 +63,7 @@ void count_repetition(const gonio::discrepancy_decomposition<gonio::log_relative
 }
 
 void run(const measured_intervals_options& given) {
-  const gonio::discrepancy_decomposition estimator{gonio::io::read_prior(given.prior), {}, given.threads};
+  const gonio::reconstruction estimator{gonio::io::read_prior(given.prior), {}, given.threads};
   std::cout << "Directions that were not fitted, " << given.repetitions << " random sets each.\n\n"
             << "| material | fitted | others | median error, mapped | within 68 % | within 95 % | rank correlation |\n"
             << "|---|---|---|---|---|---|---|\n";

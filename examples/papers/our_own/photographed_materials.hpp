@@ -3,8 +3,7 @@
 
 #include "papers/our_own/left_out_families.hpp"
 #include <gonio/core/statistics.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
-#include <gonio/estimate/screened_samples.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +26,7 @@ struct measured_brdf {
 
 class photograph_experiment : protected left_out_experiment {
  protected:
-  using estimator_type = gonio::discrepancy_decomposition<gonio::log_relative>;
+  using estimator_type = gonio::reconstruction<gonio::log_relative>;
 
   /// Throws gonio::error naming the one of `names` that is not in the folder of materials.
   photograph_experiment(const left_out_options& given, const std::vector<std::string>& names, cli::progress_bar& bar)
@@ -52,9 +51,7 @@ class photograph_experiment : protected left_out_experiment {
   /// As `gonio reconstruct` does it.
   [[nodiscard]] gonio::comparison judged(const estimator_type& estimator, const gonio::sample_set& samples,
                                          const judged_material& of) const {
-    const auto located = gonio::locate_samples(library_.cells(), samples);
-    const auto screened = gonio::screen(estimator, located, given_.threads);
-    return compare(estimator.fit_located(screened.kept).tabulate(library_.cells(), given_.threads), of);
+    return compare(estimator.fit(samples).tabulate(library_.cells()), of);
   }
 
   /// The median of the samples' relative errors in green, where they are said to be.

@@ -11,10 +11,8 @@
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
-#include <gonio/estimate/posterior.hpp>
-#include <gonio/estimate/screened_samples.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/networks.hpp>
 
@@ -118,7 +116,7 @@ class experiment : left_out_experiment {
   };
 
   /// Of every 37th cell; regions by theta_h (2, 10 and 30 degrees) and theta_d (45).
-  void count_within(estimated& found, const gonio::posterior<gonio::log_relative>& known,
+  void count_within(estimated& found, const gonio::reconstruction<gonio::log_relative>::result_type& known,
                     const gonio::brdf_table& truth) const {
     std::vector<double> deviations, errors;
     for (Eigen::Index cell = 0; cell < library_.cells().size(); cell += 37) {
@@ -164,18 +162,11 @@ class experiment : left_out_experiment {
       const gonio::decomposition components{known, gonio::tikhonov{eta}, given_.threads};
       return {components.fit(samples).tabulate(library_.cells(), given_.threads)};
     }
-    const gonio::discrepancy_decomposition both{known, {.noise = given_.noise}, given_.threads};
-    gonio::located_samples located = gonio::locate_samples(library_.cells(), samples);
-    std::vector<Eigen::Index> left_out;
-    if (method == "default") {
-      gonio::screened_samples screened = gonio::screen(both, located, given_.threads);
-      located = std::move(screened.kept);
-      left_out = std::move(screened.left_out);
-    }
-    estimated found{both.fit_located(located).tabulate(library_.cells(), given_.threads), std::move(left_out)};
-    const gonio::posterior known_to(both, located);
-    count_within(found, known_to, material.truth);
-    found.warned = gonio::highlight_factor(known_to, library_.cells()) > 4.0;
+    const gonio::reconstruction both{known, {.noise = given_.noise}, given_.threads};
+    const auto paint = (method == "default" ? both : both.keeping_all()).fit(samples);
+    estimated found{paint.tabulate(library_.cells()), paint.rejected()};
+    count_within(found, paint, material.truth);
+    found.warned = paint.certainty().highlight_factor > 4.0;
     return found;
   }
 

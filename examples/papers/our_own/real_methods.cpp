@@ -11,10 +11,8 @@
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
-#include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/estimate/pull_push.hpp>
-#include <gonio/estimate/robust_decomposition.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -87,9 +85,7 @@ class tool_methods {
       return gonio::robust_reconstruction{known_.materials(), known_.corrections(), {}, {}, threads_}
           .fit(samples)
           .tabulate(cells, threads_);
-    return gonio::robust_decomposition{gonio::discrepancy_decomposition{known_.prior(), {}, threads_}, {}, threads_}
-        .fit(samples)
-        .tabulate(cells, threads_);
+    return weighed(samples);
   }
 
  private:
@@ -100,11 +96,39 @@ class tool_methods {
     return table;
   }
 
-  [[nodiscard]] gonio::brdf_table components(const gonio::sample_set& samples, bool rejecting) const {
-    const gonio::discrepancy_decomposition both{known_.prior(), {}, threads_};
+  using estimator = gonio::reconstruction<gonio::log_relative>;
+
+  [[nodiscard]] estimator keeping_all() const { return estimator{known_.prior(), {}, threads_}.keeping_all(); }
+
+  /// Samples on the prior's cells, and the same as outliers are judged.
+  [[nodiscard]] std::pair<gonio::located_samples, gonio::located_samples> judged(
+      const gonio::sample_set& samples) const {
     gonio::located_samples located = gonio::locate_samples(known_.prior().cells(), samples);
-    if (rejecting && located.size() <= 1000) located = located.subset(gonio::reject_outlying(both, located).kept);
-    return both.fit_located(std::move(located)).tabulate(known_.prior().cells(), threads_);
+    gonio::located_samples in_gamut = gonio::out_of_gamut_as_xyz(located).value_or(located);
+    return {std::move(located), std::move(in_gamut)};
+  }
+
+  /// The way of fewer than a hundred samples, for up to a thousand.
+  [[nodiscard]] gonio::brdf_table components(const gonio::sample_set& samples, bool rejecting) const {
+    auto [located, in_gamut] = judged(samples);
+    const estimator both = keeping_all();
+    if (rejecting && located.size() <= 1000) {
+      gonio::inliers found = gonio::all_inliers(located.size());
+      for (const auto& [number, probability] : gonio::find_wrong_samples(both.process_of(in_gamut)))
+        found.weights[number] = 0.0;
+      located = located.subset(found.kept());
+    }
+    return both.fit_located(std::move(located)).tabulate(known_.prior().cells());
+  }
+
+  /// The way of a hundred samples and more, for any number.
+  [[nodiscard]] gonio::brdf_table weighed(const gonio::sample_set& samples) const {
+    const auto [located, in_gamut] = judged(samples);
+    const estimator both = keeping_all();
+    const Eigen::VectorXd weights =
+        gonio::weigh_inliers(known_.prior(), in_gamut, gonio::map_samples(known_.prior(), in_gamut, threads_),
+                             both.model().error_variance, threads_);
+    return both.fit_located(gonio::weighted(located, {weights, {}})).tabulate(known_.prior().cells());
   }
 
   learned& known_;

@@ -10,8 +10,8 @@
 #include <gonio/core/random.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/core/statistics.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/fitted_spectra.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/model/smooth_spectra.hpp>
 
@@ -39,8 +39,12 @@ struct spectra_options {
   gonio::thread_count threads;
 };
 
-using spectral_fit_estimator = gonio::discrepancy_decomposition<gonio::log_relative>;
+using spectral_fit_estimator = gonio::reconstruction<gonio::log_relative>;
 using gonio::illuminant;
+
+spectral_fit_estimator keeping_all(gonio::log_relative_pca prior, gonio::thread_count threads) {
+  return spectral_fit_estimator{std::move(prior), {}, threads}.keeping_all();
+}
 
 /// Of the directions that were not fitted.
 struct path_errors {
@@ -118,7 +122,7 @@ struct held_out {
 /// Each wavelength as a grey material.
 path_errors fit_wavelengths(const spectral_fit_estimator& estimator, const gonio::spectral_samples& fitted,
                             const held_out& others) {
-  const auto fit = gonio::fit_spectra(estimator, fitted);
+  const auto fit = estimator.fit(fitted);
   const auto spectrum_in = [&](Eigen::Index i) -> Eigen::ArrayXd {
     const auto& [wi, wo] = others.samples.directions[i].pair();
     return fit(wi, wo);
@@ -154,7 +158,7 @@ class colour_fit {
   }
 
   colour_space space_;
-  gonio::fitted_brdf<spectral_fit_estimator::basis_type> fit_;
+  spectral_fit_estimator::result_type fit_;
 };
 
 /// Colours under each illuminant; the spectra are the smoothest of those under D65.
@@ -260,8 +264,9 @@ gonio::log_relative_pca learn_as_spectra(const gonio::log_relative_pca& prior, c
 
 void compare_priors(const std::string& name, const gonio::spectral_samples& all, const spectra_options& given) {
   const auto colours = gonio::io::read_prior(given.prior);
-  const spectral_fit_estimator by_colours{colours, {}, given.threads},
-      by_spectra{learn_as_spectra(colours, all.wavelengths, given.threads), {}, given.threads};
+  const spectral_fit_estimator by_colours = keeping_all(colours, given.threads),
+                               by_spectra = keeping_all(learn_as_spectra(colours, all.wavelengths, given.threads),
+                                                        given.threads);
   for (const Eigen::Index count : given.counts) {
     all_errors of_colours, of_spectra;
     for (Eigen::Index r = 0; r < given.repetitions; ++r) {
@@ -291,7 +296,7 @@ std::vector<gonio::spectral_samples> read_all(const spectra_options& given) {
 
 void run(const spectra_options& given) {
   const std::vector<gonio::spectral_samples> files = read_all(given);
-  const spectral_fit_estimator estimator{gonio::io::read_prior(given.prior), {}, given.threads};
+  const spectral_fit_estimator estimator = keeping_all(gonio::io::read_prior(given.prior), given.threads);
   std::cout << "Directions that were not fitted, means (medians) of " << given.repetitions << " random sets each.\n\n"
             << "| material | fitted | " << (given.compares_priors ? "materials of the prior" : "what is fitted")
             << " |";

@@ -164,7 +164,7 @@ class sphere_photograph_experiment : photograph_experiment {
     const gonio::comparison photo = judged(estimator, taken.samples, material),
                             same = judged(estimator, perfect, material);
     const gonio::comparison alike =
-        compare(estimator.fit(taken.samples).tabulate(library_.cells(), given_.threads), material);
+        compare(estimator.keeping_all().fit(taken.samples).tabulate(library_.cells()), material);
     return {{"samples", taken.samples.size()},
             {"pixels", taken.pixels},
             {"views", std::to_string(taken.views) + " of " + std::to_string(views)},

@@ -20,6 +20,10 @@ template <gonio::brdf Brdf>
                   { f.tabulate(cells, threads) } -> std::same_as<gonio::brdf_table>;
                 })
     return f.tabulate(cells, threads);
+  else if constexpr (requires {
+                       { f.tabulate(cells) } -> std::same_as<gonio::brdf_table>;
+                     })
+    return f.tabulate(cells);
   else
     return gonio::tabulate(f, cells, threads);
 }

@@ -91,7 +91,7 @@ py::tuple next_for(const gonio::log_relative_pca& prior, const gonio::sample_set
   double remaining = 0.0;
   {
     const py::gil_scoped_release released;
-    const gonio::discrepancy_decomposition estimator{prior, {.noise = noise}, gonio::thread_count{threads}};
+    const gonio::reconstruction estimator{prior, {.noise = noise}, gonio::thread_count{threads}};
     const gonio::measurement_chooser chooser{
         estimator, {}, gonio::design::default_candidates(), gonio::thread_count{threads}};
     for (const gonio::next_measurement& next : chooser.choose(samples, count)) {

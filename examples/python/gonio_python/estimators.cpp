@@ -1,9 +1,9 @@
 /// Priors, and estimators as the library has them: one fit, and how sure it is.
 
 #include "brdf_methods.hpp"
-#include "known_brdf.hpp"
 #include "subjects.hpp"
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/solve/default_eta.hpp>
 #include <gonio/solve/tikhonov.hpp>
@@ -12,6 +12,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
 #include <string>
 
 namespace python {
@@ -19,6 +22,8 @@ namespace python {
 namespace {
 
 using fitted_pca = gonio::fitted_brdf<gonio::log_relative_pca>;
+using estimator_type = gonio::reconstruction<gonio::log_relative>;
+using reconstructed_brdf = estimator_type::result_type;
 
 /// A matrix of Eigen, column by column in memory.
 template <class Matrix>
@@ -136,7 +141,7 @@ direction_pairs pairs_above_horizon(const py::object& wi, const py::object& wo) 
   return pairs;
 }
 
-py::tuple intervals(const known_brdf& fit, const py::object& wi, const py::object& wo, double probability) {
+py::tuple intervals(const reconstructed_brdf& fit, const py::object& wi, const py::object& wo, double probability) {
   const direction_pairs pairs = pairs_above_horizon(wi, wo);
   const gonio::confidence_level level = level_of(probability);
   py::array_t<double> low = results_for(pairs, 3), high = results_for(pairs, 3);
@@ -144,7 +149,7 @@ py::tuple intervals(const known_brdf& fit, const py::object& wi, const py::objec
   {
     const py::gil_scoped_release released;
     gonio::for_each_index(pairs.size(), 64, [&](Eigen::Index i) {
-      const gonio::reflectance_interval found = fit.known().interval(fit, pairs.wi(i), pairs.wo(i), level);
+      const gonio::reflectance_interval found = fit.interval(pairs.wi(i), pairs.wo(i), level);
       std::copy_n(found.low.data(), 3, lowest + 3 * i);
       std::copy_n(found.high.data(), 3, highest + 3 * i);
     });
@@ -152,7 +157,7 @@ py::tuple intervals(const known_brdf& fit, const py::object& wi, const py::objec
   return py::make_tuple(low, high);
 }
 
-py::array_t<double> known_to(const known_brdf& fit, const py::object& wi, const py::object& wo) {
+py::array_t<double> known_to(const reconstructed_brdf& fit, const py::object& wi, const py::object& wo) {
   const direction_pairs pairs = pairs_above_horizon(wi, wo);
   py::array_t<double> shares = results_for(pairs, 1);
   double* to = shares.mutable_data();
@@ -161,42 +166,67 @@ py::array_t<double> known_to(const known_brdf& fit, const py::object& wi, const 
   return shares;
 }
 
-void add_disagreement(py::module_& m) {
-  py::class_<disagreement> type(m, "Disagreement", "A sample that the others contradict.");
-  type.def_readonly("row", &disagreement::row, "Of the samples, counted from 0.");
-  type.def_readonly("measured", &disagreement::measured, "sr^-1, by channel.");
-  type.def_readonly("others_say", &disagreement::others_say, "sr^-1, by channel: predicted from the others.");
-  type.def_readonly("deviation", &disagreement::deviation, "Of the logarithm of that prediction.");
-  type.def_readonly("probability", &disagreement::probability, "That the sample is wrong.");
-  type.def("__repr__", &disagreement::sentence);
+std::array<double, 3> channels_of(const gonio::rgb& colour) { return {colour[0], colour[1], colour[2]}; }
+
+std::string sentence_of(const gonio::outlying_sample& each) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "row " << each.number << ": measured " << each.measured[1] << ", the others say " << each.predicted[1]
+       << " (green)";
+  return text.str();
 }
 
-void add_known(py::module_& m) {
-  add_disagreement(m);
-  py::class_<known_brdf> fit(m, "KnownBrdf", "A fit that says how sure it is, and which samples disagree with it.");
+void add_outlying_sample(py::module_& m) {
+  using outlying = gonio::outlying_sample;
+  py::class_<outlying> type(m, "OutlyingSample", "A sample that the others contradict.");
+  type.def_readonly("row", &outlying::number, "Of the samples, counted from 0.");
+  type.def_property_readonly(
+      "measured", [](const outlying& each) { return channels_of(each.measured); }, "sr^-1, by channel.");
+  type.def_property_readonly(
+      "predicted", [](const outlying& each) { return channels_of(each.predicted); },
+      "sr^-1, by channel: from the others.");
+  type.def_readonly("deviation", &outlying::deviation, "Of the logarithm of that prediction.");
+  type.def_readonly("probability", &outlying::probability, "That the sample is wrong.");
+  type.def("__repr__", &sentence_of);
+}
+
+/// Throws gonio::error for an impossible model.
+estimator_type estimator_of(gonio::log_relative_pca prior, double variance, double noise, bool rejects,
+                            unsigned threads) {
+  if (!(variance > 0.0 && variance <= 10.0))
+    gonio::refuse({"variance is ", variance, ": expected more than 0, at most 10"});
+  if (!(noise >= 0.0 && std::isfinite(noise))) gonio::refuse({"noise is ", noise, ": expected at least 0"});
+  const estimator_type estimator{
+      std::move(prior), {.variance = variance, .noise = noise}, gonio::thread_count{threads}};
+  return rejects ? estimator : estimator.keeping_all();
+}
+
+void add_reconstruction(py::module_& m) {
+  add_outlying_sample(m);
+  py::class_<reconstructed_brdf> fit(m, "ReconstructedBrdf",
+                                     "A BRDF that says how sure it is, and which samples disagree with it.");
   add_brdf_methods(m, fit);
   fit.def("interval", &intervals, py::arg("wi"), py::arg("wo"), py::arg("probability") = 0.68,
           "Two arrays of shape (..., 3), sr^-1: a value lies between them with a probability of 0.68 or 0.95.");
   fit.def("known_to", &known_to, py::arg("wi"), py::arg("wo"),
           "By how much values are known, relative to them, with a probability of 68 %: 0.06 is to 6 %. Shape (...).");
-  fit.def_property_readonly("highlight_known_to_factor", &known_brdf::highlight_factor,
-                            "To which factor the highlight is known, with a probability of 95 %.");
-  fit.def_property_readonly("left_out", &known_brdf::left_out,
+  fit.def_property_readonly(
+      "highlight_known_to_factor", [](const reconstructed_brdf& f) { return f.certainty().highlight_factor; },
+      "To which factor the highlight is known, with a probability of 95 %.");
+  fit.def_property_readonly("rejected", &reconstructed_brdf::rejected,
                             "Rows of the samples that count less than half, or not at all, the worst first.");
-  fit.def_property_readonly("disagreeing", &known_brdf::disagreeing,
+  fit.def_property_readonly("contradicted", &reconstructed_brdf::contradicted,
                             "Samples that the others contradict, the worst first; of 100 samples and more none is\n"
                             "named. Of fewer than 13 they are kept all the same.");
-  fit.def_property_readonly("outlier_share", &known_brdf::outlier_share, "Of all samples.");
-  py::class_<discrepancy_estimator> type(
-      m, "DiscrepancyDecomposition",
-      "Fits a prior's components and what they cannot say, as `gonio reconstruct` does. variance: of what the "
-      "components\n"
-      "cannot say, in squared logarithms. noise: of the values, relative to them (0.02 is 2 %). reject: leave out\n"
-      "samples that the others contradict.");
-  type.def(py::init<gonio::log_relative_pca, double, double, bool, unsigned>(), py::arg("prior"),
-           py::arg("variance") = gonio::discrepancy_model{}.variance, py::arg("noise") = 0.0, py::arg("reject") = true,
-           py::arg("threads") = 0);
-  type.def("fit", &discrepancy_estimator::fit, py::arg("samples"), py::call_guard<py::gil_scoped_release>(),
+  fit.def_property_readonly("outlier_share", &reconstructed_brdf::outlier_share, "Of all samples.");
+  py::class_<estimator_type> type(
+      m, "Estimator",
+      "What `gonio reconstruct` does: a prior's components and what they cannot say are fitted together. variance: of\n"
+      "what the components cannot say, in squared logarithms. noise: of the values, relative to them (0.02 is 2 %).\n"
+      "reject: leave out samples that the others contradict.");
+  type.def(py::init(&estimator_of), py::arg("prior"), py::arg("variance") = gonio::discrepancy_model{}.variance,
+           py::arg("noise") = 0.0, py::arg("reject") = true, py::arg("threads") = 0);
+  type.def("fit", &estimator_type::fit<gonio::sample_set>, py::arg("samples"), py::call_guard<py::gil_scoped_release>(),
            "The BRDF that the samples are of, and how sure that is.");
 }
 
@@ -205,7 +235,7 @@ void add_known(py::module_& m) {
 void add_estimators(py::module_& m) {
   add_prior(m);
   add_decomposition(m);
-  add_known(m);
+  add_reconstruction(m);
 }
 
 }  // namespace python

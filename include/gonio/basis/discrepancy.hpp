@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,30 +39,41 @@ struct correlation_lengths {
                                                      const half_difference& place,
                                                      const correlation_lengths& lengths = {});
 
+/// k of angles with others: a row for each of `angles`.
+[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
+                                                     std::span<const half_difference> others,
+                                                     const correlation_lengths& lengths);
+
 /// The covariance and the functions of a discrepancy, over any cells and for any metric. A value type whose copies
 /// share their centres.
 ///
 /// With the covariance k(x, y) = exp(-|x - y|^2 / 2) of places in units of the lengths, the functions are
 /// phi(x) = amplitude^(1/2) L^-1 k(centres, x), L L' = k(centres, centres): weights of unit variance make a function of
-/// the variance `amplitude`, exactly so at the centres and less far from all of them (`unexplained`).
+/// the variance `amplitude`, exactly so at the centres and less far from all of them.
+///
+/// The same span has a second basis, the covariances k(centres, x) themselves: cheaper to read, but their weights are
+/// correlated.
 class discrepancy_functions {
  public:
-  /// Throws gonio::error if there is no centre, an angle is not finite, or a length or the amplitude is not positive.
+  /// phi. Throws gonio::error if there is no centre, an angle is not finite, or a length or the amplitude is not
+  /// positive.
   discrepancy_functions(std::span<const half_difference> centres, double amplitude,
                         const correlation_lengths& lengths = {});
 
-  [[nodiscard]] Eigen::Index size() const noexcept { return shared_->places.cols(); }
-  [[nodiscard]] double amplitude() const noexcept { return shared_->amplitude; }
-  [[nodiscard]] const correlation_lengths& lengths() const noexcept { return shared_->lengths; }
+  /// k. Throws gonio::error if there is no centre, an angle is not finite, or a length is not positive.
+  [[nodiscard]] static discrepancy_functions covariances(std::span<const half_difference> centres,
+                                                         const correlation_lengths& lengths = {});
 
-  /// phi at some angles: size() contiguous numbers. O(size^2).
+  [[nodiscard]] Eigen::Index size() const noexcept { return shared_->places.cols(); }
+
+  /// The functions at some angles: size() contiguous numbers. O(size^2) for phi, O(size) for k.
   void read(const half_difference& angles, double* out) const noexcept;
 
-  /// phi at many angles, a row of `out` each. O(size^2) for each, but twenty times as fast as one by one.
+  /// The functions at many angles, a row of `out` each: phi twenty times as fast as one by one.
   void read(std::span<const half_difference> angles, row_block out) const;
 
-  /// The variance at some angles that no weights can give: amplitude - |phi|^2, at least 0. Reads `row`, phi there.
-  [[nodiscard]] double unexplained(std::span<const double> row) const noexcept;
+  /// The weights of k, a column for each of those of phi.
+  [[nodiscard]] Eigen::MatrixXd covariance_weights(const Eigen::MatrixXd& weights) const;
 
   /// The functions, with the weights of three channels (size() x 3), at all cells of a grid. O(size x (cells + size)):
   /// the covariance is a product of one of theta_h and one of the other two angles.
@@ -74,27 +86,27 @@ class discrepancy_functions {
 
   struct stored {
     place_columns places;
-    cholesky factors;
-    double amplitude;
     correlation_lengths lengths;
+    double amplitude = 1.0;
+    std::optional<cholesky> factors;  ///< L of phi; none of k
   };
+
+  explicit discrepancy_functions(stored parts) : shared_(std::make_shared<const stored>(std::move(parts))) {}
 
   std::shared_ptr<const stored> shared_;
 };
 
 /// The same as a basis: a computed one, around centres, over some cells, in the domain of a metric. It stands beside
-/// components as `joined{prior, discrepancy{prior.cells(), prior.metric(), centres, amplitude}}`; see
-/// estimate/discrepancy_decomposition.hpp for an estimator that has chosen all of it.
+/// components as `joined{prior, discrepancy{prior.cells(), prior.metric(), functions}}`; estimate/reconstruction.hpp
+/// has an estimator that has chosen all of it.
 template <error_metric Metric>
 class discrepancy {
  public:
   /// A function times -1 is as good a function: see `has_arbitrary_sign`.
   static constexpr bool arbitrary_sign = true;
 
-  /// Throws gonio::error as `discrepancy_functions` does.
-  discrepancy(valid_cells cells, Metric metric, std::span<const half_difference> centres, double amplitude,
-              const correlation_lengths& lengths = {})
-      : cells_(std::move(cells)), metric_(std::move(metric)), functions_(centres, amplitude, lengths) {}
+  discrepancy(valid_cells cells, Metric metric, discrepancy_functions functions)
+      : cells_(std::move(cells)), metric_(std::move(metric)), functions_(std::move(functions)) {}
 
   [[nodiscard]] Eigen::Index size() const noexcept { return functions_.size(); }
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }

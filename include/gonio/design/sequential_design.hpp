@@ -1,14 +1,12 @@
 #pragma once
 /// The next best measurement, given those that were made: sequential experimental design. Each candidate is judged by
-/// what the posterior covariance of the Gaussian process behind `discrepancy_decomposition` becomes with it, as linear
-/// functions of the material see it: Cohn, Ghahramani and Jordan 1996, "Active learning with statistical models"
+/// what the posterior covariance of the Gaussian process behind `reconstruction` becomes with it, as linear functions
+/// of the material see it: Cohn, Ghahramani and Jordan 1996, "Active learning with statistical models"
 /// (doi:10.1613/jair.295); Rasmussen and Williams 2006, Eq. 2.24. Results: docs/results/adaptive-design.md.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/capture_geometry.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
-#include <gonio/solve/cholesky.hpp>
-#include <gonio/solve/product.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 
 #include <Eigen/Core>
 
@@ -52,20 +50,21 @@ struct candidate_posterior {
 /// anything is measured. A value type whose copies share it: 8 bytes for each pair of candidates.
 ///
 /// ```cpp
-/// const gonio::design::sequential_design candidates(gonio::discrepancy_decomposition{prior});
-/// const auto known = candidates.posterior_of(gonio::locate_samples(prior.cells(), samples));
+/// const gonio::reconstruction estimator{prior};
+/// const gonio::design::sequential_design candidates(estimator);
+/// const auto known = candidates.posterior_of(estimator.process_of(gonio::locate_samples(prior.cells(), samples)));
 /// ```
 template <error_metric Metric>
 class sequential_design {
  public:
   /// O(candidates^2 k) for k components.
-  explicit sequential_design(discrepancy_decomposition<Metric> estimator, capture_constraint constraint = {},
+  explicit sequential_design(reconstruction<Metric> estimator, capture_constraint constraint = {},
                              valid_cells candidates = default_candidates())
       : estimator_(std::move(estimator)),
         geometry_(std::move(candidates), std::move(constraint)),
         before_(std::make_shared<const expected>(estimator_, geometry_)) {}
 
-  [[nodiscard]] const discrepancy_decomposition<Metric>& estimator() const noexcept { return estimator_; }
+  [[nodiscard]] const reconstruction<Metric>& estimator() const noexcept { return estimator_; }
   [[nodiscard]] const point_geometry& geometry() const noexcept { return geometry_; }
   /// Of a measurement: the estimator's, noise not included.
   [[nodiscard]] double error_variance() const noexcept { return estimator_.model().error_variance; }
@@ -76,53 +75,31 @@ class sequential_design {
   /// Before anything is measured.
   [[nodiscard]] candidate_posterior prior() const { return {before_->offsets.replicate(1, 3), before_->covariance}; }
 
-  /// Given n samples, located on the prior's cells: O(candidates^2 n). Throws gonio::error where their covariance is
-  /// not positive definite.
-  [[nodiscard]] candidate_posterior posterior_of(const located_samples& samples) const {
-    const cholesky factors(estimator_.covariance(samples));
-    if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
-    const Eigen::MatrixXd with = covariance_with(samples);
-    const Eigen::MatrixXd gain = factors.solve(with.transpose());
-    candidate_posterior known = prior();
-    known.mean += product(gain.transpose(), estimator_.mapped_values(samples));
-    known.covariance -= product(with, gain);
-    return known;
+  /// Given the process of n samples: O(n^3 + candidates^2 n).
+  [[nodiscard]] candidate_posterior posterior_of(const sample_process& samples) const {
+    auto [mean, covariance] = samples.predict(before_->at, before_->covariance);
+    for (Eigen::Index c = 0; c < mean.cols(); ++c) mean.col(c) += before_->offsets;
+    return {std::move(mean), std::move(covariance)};
   }
 
  private:
   struct expected {
-    expected(const discrepancy_decomposition<Metric>& estimator, const point_geometry& geometry)
-        : offsets(geometry.size()) {
-      std::vector<half_difference> angles;
+    expected(const reconstruction<Metric>& estimator, const point_geometry& geometry) : offsets(geometry.size()) {
       for (Eigen::Index i = 0; i < geometry.size(); ++i) {
-        angles.push_back(geometry.cells().angles(i));
-        locations.push_back(locate(estimator.prior().cells(), angles.back()));
+        locations.push_back(locate(estimator.prior().cells(), geometry.cells().angles(i)));
         offsets[i] = offset_at(estimator.prior(), locations.back());
       }
-      rows = rows_at(estimator.prior(), locations);
-      covariance = product_with_transpose(rows) / estimator.observations();
-      covariance += estimator.model().variance * discrepancy_covariance(angles, estimator.model().lengths);
+      at = locate_rows(estimator.prior(), locations);
+      covariance = estimator.expected().among(at);
     }
 
-    Eigen::MatrixXd rows;     ///< the prior's functions at the candidates
+    located_rows at;          ///< the prior's functions at the candidates
     Eigen::VectorXd offsets;  ///< the prior's mean there
     std::vector<location> locations;
     Eigen::MatrixXd covariance;
   };
 
-  /// Of the candidates with the samples: candidates x n.
-  [[nodiscard]] Eigen::MatrixXd covariance_with(const located_samples& samples) const {
-    const Eigen::MatrixXd rows = rows_at(estimator_.prior(), samples.locations);
-    const std::vector<half_difference> places = samples.angles();
-    Eigen::MatrixXd with = product(before_->rows, rows.transpose()) / estimator_.observations();
-    for (Eigen::Index i = 0; i < with.rows(); ++i)
-      with.row(i) +=
-          estimator_.model().variance *
-          discrepancy_covariance(places, before_->locations[i].angles, estimator_.model().lengths).transpose();
-    return with;
-  }
-
-  discrepancy_decomposition<Metric> estimator_;
+  reconstruction<Metric> estimator_;
   point_geometry geometry_;
   std::shared_ptr<const expected> before_;
 };

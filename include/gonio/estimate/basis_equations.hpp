@@ -25,6 +25,23 @@ struct solved_channels {
   solution found;
 };
 
+/// Samples in the metric's domain of a basis, less its offset at each: what its functions combine to. O(samples).
+template <colour_basis Basis>
+[[nodiscard]] located_samples map_samples(const Basis& functions, located_samples samples, thread_count threads = {}) {
+  for_each_index(
+      samples.locations.size(), 1024,
+      [&](Eigen::Index i) {
+        const location& at = samples.locations[i];
+        double offset = 0.0;
+        for (Eigen::Index c = 0; c < samples.values.cols(); ++c) {
+          if (c == 0 || !basis<Basis>) offset = offset_at(channel_of(functions, c), at);
+          samples.values(i, c) = functions.metric().forward(samples.values(i, c), at) - offset;
+        }
+      },
+      threads);
+  return samples;
+}
+
 /// Measurements seen through a basis. Row i of a system is the basis interpolated at measurement i, the right-hand side
 /// its mapped value minus the offset there; its weight multiplies the squared error. Channels with a basis and weights
 /// in common share one system, with a right-hand side for each. Rows are read from the basis block by block, never
@@ -33,9 +50,12 @@ template <colour_basis Basis>
 class basis_equations {
  public:
   basis_equations(Basis functions, located_samples samples, thread_count threads = {})
-      : basis_(std::move(functions)),
-        measured_(std::make_shared<const located_samples>(std::move(samples))),
-        threads_(threads) {}
+      : basis_equations(of_mapped(functions, map_samples(functions, std::move(samples), threads), threads)) {}
+
+  /// Of samples that `map_samples` has mapped.
+  [[nodiscard]] static basis_equations of_mapped(Basis functions, located_samples mapped, thread_count threads = {}) {
+    return {mapped_already{}, std::move(functions), std::move(mapped), threads};
+  }
 
   /// Number of systems to solve: one if the channels share their basis and their weights, else one for each channel.
   [[nodiscard]] Eigen::Index systems() const noexcept {
@@ -60,31 +80,20 @@ class basis_equations {
   }
 
  private:
+  struct mapped_already {};
   using solve_function = std::function<solution(const least_squares_problem&)>;
+
+  basis_equations(mapped_already, Basis functions, located_samples mapped, thread_count threads)
+      : basis_(std::move(functions)),
+        measured_(std::make_shared<const located_samples>(std::move(mapped))),
+        threads_(threads) {}
 
   [[nodiscard]] solution solve_each(const solve_function& solve_one) const;
 
   [[nodiscard]] Eigen::Index channels() const noexcept { return measured_->values.cols(); }
 
-  /// The mapped values of the channels of a system, of which `first` is the first.
-  template <class Functions>
-  [[nodiscard]] Eigen::MatrixXd mapped(const Functions& functions, Eigen::Index first) const {
-    const Eigen::Index together = systems() == 1 ? channels() : 1;
-    Eigen::MatrixXd right(measured_->values.rows(), together);
-    for_each_index(
-        measured_->locations.size(), 4096,
-        [&](Eigen::Index i) {
-          const location& at = measured_->locations[i];
-          const double offset = offset_at(functions, at);
-          for (Eigen::Index c = 0; c < together; ++c)
-            right(i, c) = functions.metric().forward(measured_->values(i, first + c), at) - offset;
-        },
-        threads_);
-    return right;
-  }
-
   Basis basis_;
-  std::shared_ptr<const located_samples> measured_;
+  std::shared_ptr<const located_samples> measured_;  // mapped
   thread_count threads_;
 };
 
@@ -97,7 +106,8 @@ least_squares_problem basis_equations<Basis>::problem(Eigen::Index system) const
                           const std::span<const location> all = measured->locations;
                           read_rows_at(functions, all.subspan(range.begin, range.size()), out);
                         }};
-  return {rows, mapped(functions, system), measured->weights_of(system), threads_};
+  Eigen::MatrixXd right = systems() == 1 ? measured->values : Eigen::MatrixXd(measured->values.col(system));
+  return {rows, std::move(right), measured->weights_of(system), threads_};
 }
 
 template <colour_basis Basis>

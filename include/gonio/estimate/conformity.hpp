@@ -3,14 +3,11 @@
 /// In a direction that both have, the mapped values differ by their noise alone: a chi-square statistic (F if the noise
 /// was estimated). In any other direction the reference predicts the part, by the prior and its discrepancy: Rasmussen
 /// and Williams, "Gaussian Processes for Machine Learning", 2006, Eq. 2.23-2.24. The covariance of its channels is
-/// learned from the reference, as `posterior` learns its scale.
+/// learned from the reference, as `sample_process` learns its scale.
 /// How often it is wrong on measured materials: docs/results/conformity.md.
 
-#include <gonio/core/probability.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/located_samples.hpp>
-#include <gonio/solve/cholesky.hpp>
-#include <gonio/solve/product.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 
 #include <Eigen/Core>
 
@@ -74,17 +71,6 @@ struct conformity {
   }
 };
 
-/// How well the materials of a prior explain some samples.
-struct familiarity {
-  /// y' K^-1 y / n of n samples, the mean over channels: about 1 for the materials of the prior.
-  double scale = 1.0;
-  /// F of n and 4 degrees of freedom: channels are taken to be fully correlated, and materials to differ in scale as
-  /// those of docs/results/conformity.md do.
-  double p_value = 1.0;
-  /// Of y' K^-1 y: m |c|^2 of the components, the discrepancy's part, and that of the errors; together 1.
-  double components = 0.0, discrepancy = 0.0, errors = 0.0;
-};
-
 namespace detail {
 
 /// The samples of a part and, after them, of a reference.
@@ -145,16 +131,15 @@ template <error_metric Metric>
 /// samples of the part or 2,000 of both.
 ///
 /// ```cpp
-/// const gonio::discrepancy_decomposition estimator{prior};
+/// const gonio::reconstruction estimator{prior};
 /// const auto part = gonio::locate_samples(prior.cells(), gonio::io::read_samples("part.csv"));
 /// const auto good = gonio::locate_samples(prior.cells(), gonio::io::read_samples("good.csv"));
 /// const auto found = gonio::check_conformity(estimator, part, good, {.part = {0.02}, .reference = {0.02}});
 /// if (!found.conforms(0.01)) std::printf("differs, p = %g\n", found.p_value);
 /// ```
 template <error_metric Metric>
-[[nodiscard]] conformity check_conformity(const discrepancy_decomposition<Metric>& estimator,
-                                          const located_samples& part, const located_samples& reference,
-                                          const conformity_options& options) {
+[[nodiscard]] conformity check_conformity(const reconstruction<Metric>& estimator, const located_samples& part,
+                                          const located_samples& reference, const conformity_options& options) {
   detail::require_possible(options);
   const auto& metric = estimator.prior().metric();
 
@@ -162,11 +147,11 @@ template <error_metric Metric>
   const located_samples both = detail::both_of(part, reference);
   discrepancy_model model = estimator.model();
   model.noise = 0.0;
-  const discrepancy_decomposition<Metric> noiseless{estimator.prior(), model};
+  const sample_process process = reconstruction<Metric>{estimator.prior(), model}.process_of(both);
   detail::conformity_samples samples{.parts = part.size(),
                                      .angles = both.angles(),
-                                     .mapped = noiseless.mapped_values(both),
-                                     .covariance = noiseless.covariance(both),
+                                     .mapped = process.values(),
+                                     .covariance = process.covariance(),
                                      .independent = model.error_variance,
                                      .noise = Eigen::MatrixXd(both.size(), 3),
                                      .tolerance = Eigen::MatrixXd(part.size(), 3)};
@@ -227,30 +212,6 @@ template <error_metric Metric>
 
 /// Two estimates of the same noise as one, each with as much weight as it has degrees of freedom.
 [[nodiscard]] measurement_noise pooled_noise(const measurement_noise& a, const measurement_noise& b);
-
-/// Are these samples of a material like those that a prior was learned from? Noise is that of the estimator's model.
-/// O(n^2 (n + k)). Throws gonio::error if the covariance of the samples is not positive definite.
-template <error_metric Metric>
-[[nodiscard]] familiarity familiarity_of(const discrepancy_decomposition<Metric>& estimator,
-                                         const located_samples& samples) {
-  const Eigen::Index n = samples.size();
-  const cholesky factors(estimator.covariance(samples));
-  if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
-  const Eigen::MatrixXd values = estimator.mapped_values(samples), dual = factors.solve(values);
-  const double all = values.cwiseProduct(dual).sum();
-
-  // Share it among the terms of K.
-  const Eigen::MatrixXd rows = rows_at(estimator.prior(), samples.locations);
-  const double components = product(rows.transpose(), dual).squaredNorm() / estimator.observations();
-  const Eigen::MatrixXd smooth = discrepancy_covariance(samples.angles(), estimator.model().lengths);
-  const double discrepancy = estimator.model().variance * product(smooth, dual).cwiseProduct(dual).sum();
-  const auto channels = static_cast<double>(values.cols());
-  return {.scale = all / channels / static_cast<double>(n),
-          .p_value = f_tail(all / channels / static_cast<double>(n), static_cast<double>(n), 4.0),
-          .components = all > 0.0 ? components / all : 0.0,
-          .discrepancy = all > 0.0 ? discrepancy / all : 0.0,
-          .errors = all > 0.0 ? 1.0 - (components + discrepancy) / all : 1.0};
-}
 
 }  // namespace gonio
 

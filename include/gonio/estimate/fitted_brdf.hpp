@@ -92,7 +92,7 @@ class fitted_brdf {
   static constexpr bool combinable = !computed || combining_basis<Basis>;
 
   /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
-  [[nodiscard]] float stored_value(Eigen::Index cell, Eigen::Index channel) const noexcept {
+  [[nodiscard]] float stored_value(Eigen::Index cell, Eigen::Index channel) const noexcept requires(!computed) {
     const float* weights = float_weights_.data() + channel * weights_.rows();
     return dot(weights, channels_[channel].row(cell).data(), weights_.rows()) +
            static_cast<float>(channels_[channel].offset(cell));

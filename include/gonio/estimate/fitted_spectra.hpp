@@ -89,7 +89,7 @@ class fitted_spectra {
 };
 
 /// An estimator whose channels share a basis, so that there may be any number of them: `decomposition` by principal
-/// components or by `measured(...).as_grey()`, `discrepancy_decomposition`.
+/// components or by `measured(...).as_grey()`.
 template <class Estimator>
 concept spectral_estimator = requires(const Estimator& candidate, const located_samples& samples) {
   { candidate.cells() } -> std::convertible_to<const valid_cells&>;

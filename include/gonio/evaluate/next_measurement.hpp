@@ -6,7 +6,7 @@
 #include <gonio/core/statistics.hpp>
 #include <gonio/design/search.hpp>
 #include <gonio/design/sequential_design.hpp>
-#include <gonio/estimate/posterior.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/perceived_sensitivity.hpp>
 
 #include <Eigen/Core>
@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,14 +31,14 @@ struct next_measurement {
 /// which is why the choice depends on it: a Gaussian process alone is as unsure whatever was read.
 ///
 /// ```cpp
-/// const gonio::measurement_chooser chooser{gonio::discrepancy_decomposition{prior}};
+/// const gonio::measurement_chooser chooser{gonio::reconstruction{prior}};
 /// const auto next = chooser.choose(samples, 1).front();
 /// ```
 template <error_metric Metric>
 class measurement_chooser {
  public:
   /// Throws gonio::error if the constraint leaves no candidate.
-  explicit measurement_chooser(discrepancy_decomposition<Metric> estimator, design::capture_constraint constraint = {},
+  explicit measurement_chooser(reconstruction<Metric> estimator, design::capture_constraint constraint = {},
                                valid_cells candidates = design::default_candidates(), thread_count threads = {})
       : design_(std::move(estimator), std::move(constraint), std::move(candidates)),
         perceived_(design_.geometry().cells(), 14, threads),
@@ -58,10 +59,11 @@ class measurement_chooser {
       free[i] = free[i] && is_reachable(design_.geometry().centre(i));
     if (std::ranges::count(free, true) < count)
       refuse({"there are fewer than ", count, " candidates that were not measured"});
-    const located_samples located = samples.empty() ? located_samples{} : locate(samples);
-    design::candidate_posterior known = samples.empty() ? design_.prior() : design_.posterior_of(located);
+    std::optional<sample_process> process;
+    if (!samples.empty()) process = design_.estimator().process_of_inliers(locate(samples));
+    design::candidate_posterior known = process ? design_.posterior_of(*process) : design_.prior();
     const design::sensitivity seen = sensitivity_at(known.mean);
-    const double scale = samples.empty() ? 1.0 : posterior(design_.estimator(), located).scale();
+    const double scale = process ? process->scale() : 1.0;
     std::vector<next_measurement> chosen;
     while (std::ssize(chosen) < count) {
       // The best candidate beside those that are chosen.
@@ -81,10 +83,10 @@ class measurement_chooser {
     return chosen;
   }
 
-  /// The median, over the candidates, of the deviation that `posterior` states for the estimate from some samples:
+  /// The median, over the candidates, of the deviation that `reconstructed` states for the estimate from some samples:
   /// relative to the values, where the metric is a logarithm. Throws gonio::error for unusable samples.
   [[nodiscard]] double median_deviation(const sample_set& samples) const {
-    return median(posterior(design_.estimator(), locate(samples)).deviations(design_.geometry().cells(), threads_));
+    return median(design_.estimator().fit(samples).deviations(design_.geometry().cells()));
   }
 
  private:

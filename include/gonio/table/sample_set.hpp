@@ -132,6 +132,18 @@ void require_usable(const Samples& samples) {
   if (number == 0) detail::refuse_no_samples();
 }
 
+/// The positions of the measurements that count in any channel, which are those that estimators keep.
+template <sample_range Samples>
+[[nodiscard]] std::vector<Eigen::Index> counting_positions(const Samples& samples) {
+  std::vector<Eigen::Index> positions;
+  Eigen::Index position = 0;
+  for (const sample& s : samples) {
+    if (s.weight.counts()) positions.push_back(position);
+    ++position;
+  }
+  return positions;
+}
+
 /// Does one of the measurements count more in one channel than in another? They are samples, or whatever else has a
 /// `weight` of type `channel_weights`.
 template <class Measurements>

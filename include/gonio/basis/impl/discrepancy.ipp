@@ -84,19 +84,34 @@ GONIO_INLINE Eigen::VectorXd discrepancy_covariance(std::span<const half_differe
   return with;
 }
 
-GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_difference> centres, double amplitude,
-                                                          const correlation_lengths& lengths) {
+GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
+                                                    std::span<const half_difference> others,
+                                                    const correlation_lengths& lengths) {
+  const detail::discrepancy_places places = detail::places_of(others, lengths);
+  const Eigen::ArrayX4d rows = detail::places_of(angles, lengths).transpose();
+  Eigen::MatrixXd all(rows.rows(), places.cols());
+  for (Eigen::Index j = 0; j < all.cols(); ++j) detail::covariances_with(places.col(j), rows, all.col(j));
+  return all;
+}
+
+GONIO_INLINE discrepancy_functions discrepancy_functions::covariances(std::span<const half_difference> centres,
+                                                                      const correlation_lengths& lengths) {
   if (centres.empty()) refuse("a discrepancy needs at least one centre");
+  return discrepancy_functions(stored{detail::places_of(centres, lengths), lengths, 1.0, {}});
+}
+
+GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_difference> centres, double amplitude,
+                                                          const correlation_lengths& lengths)
+    : discrepancy_functions(covariances(centres, lengths)) {
   if (!(amplitude > 0.0 && std::isfinite(amplitude)))
     refuse({"the amplitude of a discrepancy must be positive and finite, not ", amplitude});
-  place_columns places = detail::places_of(centres, lengths);
-  Eigen::MatrixXd among = detail::covariance_of(places);
+  Eigen::MatrixXd among = detail::covariance_of(shared_->places);
   // A small part more keeps it positive definite where places coincide.
   constexpr double least_eigenvalue = 1e-7;
   for (Eigen::Index i = 0; i < among.cols(); ++i) among(i, i) += least_eigenvalue;
   cholesky factors(among);
   if (!factors.positive_definite()) refuse("the covariance of a discrepancy's centres is not positive definite");
-  shared_ = std::make_shared<const stored>(stored{std::move(places), std::move(factors), amplitude, lengths});
+  shared_ = std::make_shared<const stored>(stored{shared_->places, lengths, amplitude, std::move(factors)});
 }
 
 GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, double* out) const noexcept {
@@ -104,7 +119,7 @@ GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, dou
   const double scale = std::sqrt(shared_->amplitude);
   for (Eigen::Index i = 0; i < size(); ++i)
     out[i] = scale * detail::squared_exponential((shared_->places.col(i) - here).squaredNorm());
-  shared_->factors.solve_lower_in_place(out);
+  if (shared_->factors) shared_->factors->solve_lower_in_place(out);
 }
 
 GONIO_INLINE void discrepancy_functions::read(std::span<const half_difference> angles, row_block out) const {
@@ -112,11 +127,13 @@ GONIO_INLINE void discrepancy_functions::read(std::span<const half_difference> a
   Eigen::MatrixXd columns(size(), std::ssize(angles));
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
     detail::covariances_with(detail::discrepancy_place(angles[i], shared_->lengths), centres, columns.col(i));
-  out = std::sqrt(shared_->amplitude) * shared_->factors.solve_lower(columns).transpose();
+  if (shared_->factors) columns = std::sqrt(shared_->amplitude) * shared_->factors->solve_lower(columns);
+  out = columns.transpose();
 }
 
-GONIO_INLINE double discrepancy_functions::unexplained(std::span<const double> row) const noexcept {
-  return std::max(shared_->amplitude - dot(row.data(), row.data(), std::ssize(row)), 0.0);
+GONIO_INLINE Eigen::MatrixXd discrepancy_functions::covariance_weights(const Eigen::MatrixXd& weights) const {
+  if (!shared_->factors) return weights;
+  return std::sqrt(shared_->amplitude) * shared_->factors->solve_upper(weights);
 }
 
 GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::MatrixXd& weights, const valid_cells& cells,
@@ -125,7 +142,7 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
   const auto [heights, rows, columns] = over.extents();
   const correlation_lengths& lengths = shared_->lengths;
   // What each centre's covariance is multiplied by.
-  const Eigen::MatrixXd centre_weights = std::sqrt(shared_->amplitude) * shared_->factors.solve_upper(weights);
+  const Eigen::MatrixXd centre_weights = covariance_weights(weights);
   // The part of theta_h times these: three columns for each theta_h of the grid.
   Eigen::MatrixXd by_height(size(), 3 * heights);
   for (int i = 0; i < heights; ++i) {

@@ -69,9 +69,9 @@ struct difference_operator {
 };
 
 /// How the channels of the reference vary together, relative to what the model expects of one of them. Ten measurements
-/// are what is known before, as in `posterior`, of channels that are correlated as those of most materials.
+/// are what is known before, as in `sample_process`, of channels that are correlated as those of most materials.
 [[nodiscard]] inline Eigen::Matrix3d channel_covariance(const Eigen::MatrixXd& whitened) {
-  constexpr double before = 10.0, correlation = 0.9;
+  constexpr double before = sample_process::known_before, correlation = 0.9;
   Eigen::Matrix3d known = Eigen::Matrix3d::Constant(correlation);
   known.diagonal().setOnes();
   return (before * known + product(whitened.transpose(), whitened)) / (before + static_cast<double>(whitened.rows()));

@@ -4,8 +4,8 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/estimate/sample_process.hpp>
 #include <gonio/estimate/texel_decomposition.hpp>
-#include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/product.hpp>
 #include <gonio/solve/symmetric_eigen.hpp>
 
@@ -46,22 +46,26 @@ GONIO_INLINE texel_decomposition::texel_decomposition(const log_relative_pca& pr
     offset_[i] =
         static_cast<float>(std::log(metric.reference(at) * weight + log_relative::epsilon) + offset_at(prior, at));
   }
-  const Eigen::MatrixXd rows = rows_at(prior, locations);
+  // Components alone, and errors of the variance eta / m: the ridge's dual is m times the covariance of the images.
+  const auto observations = static_cast<double>(prior.coefficients().rows());
+  const expected_covariance expected{observations, {.variance = 0.0, .error_variance = penalty.eta() / observations}};
+  const located_samples nothing{locations, Eigen::MatrixXd(n, 0), Eigen::MatrixXd::Ones(n, 1)};
+  const sample_process process(expected, locate_rows(prior, locations), nothing,
+                               Eigen::VectorXd::Constant(n, expected.model.error_variance));
+  const Eigen::MatrixXd& rows = process.at().rows;
   // A A' = U S^2 U'.
   const symmetric_eigen gram = decompose_symmetric(product_with_transpose(rows), "the products of the images' rows");
   const Eigen::ArrayXd squares = gram.values.array().max(0.0), penalised = squares + penalty.eta();
   const double largest = squares.maxCoeff();
   if (!(penalised.minCoeff() > 1e-14 * largest))
     refuse({"eta is ", penalty.eta(), ", too small for ", n, " images: rounding leaves no optimum"});
-  const Eigen::MatrixXd inverse =
-      product(gram.vectors * penalised.inverse().matrix().asDiagonal(), gram.vectors.transpose());
   const Eigen::Index r = std::max<Eigen::Index>((squares > 1e-12 * largest).count(), 1);
   // The largest are the last.
   const Eigen::ArrayXd scales = squares.tail(r).sqrt().max(std::numeric_limits<double>::min());
   const Eigen::MatrixXd spanning = gram.vectors.rightCols(r);
   functions_ = (product(rows.transpose(), spanning) * scales.inverse().matrix().asDiagonal()).cast<float>();
   // Residuals whose variance the prior expects to be 1: those of leaving out each image.
-  const auto observations = static_cast<double>(prior.coefficients().rows());
+  const Eigen::MatrixXd inverse = process.inverse() / observations;
   const Eigen::ArrayXd deviations = (inverse.diagonal().array() / observations).sqrt();
   products_.resize(r + n, n);
   products_.topRows(r) = ((scales / penalised.tail(r)).matrix().asDiagonal() * spanning.transpose()).cast<float>();
@@ -95,8 +99,7 @@ GONIO_INLINE void texel_decomposition::solve_block(const float_matrix_view& refl
   const Eigen::MatrixXf values = mapped(reflectance, texels);
   const Eigen::MatrixXf results = product(products_, values);
   found.weights.middleCols(3 * texels.begin, results.cols()) = results.topRows(r);
-  // What is known before is worth ten images, as in `posterior`.
-  constexpr float before = 10.0f;
+  constexpr auto before = static_cast<float>(sample_process::known_before);
   const auto of_all = static_cast<float>(n);
   for (Eigen::Index t = 0; t < texels.size(); ++t) {
     float squares = 0.0f, mahalanobis = 0.0f;

@@ -1,12 +1,14 @@
 #include "../synthetic_materials.hpp"
-#include <gonio/estimate/posterior.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 
 #include <Eigen/Cholesky>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 using gonio::confidence_level;
 using gonio::valid_cells;
@@ -18,8 +20,8 @@ const valid_cells& posterior_cells() {
   return small;
 }
 
-const gonio::discrepancy_decomposition<gonio::log_relative>& posterior_estimator() {
-  static const gonio::discrepancy_decomposition all{learn(synthetic_materials(posterior_cells(), 20), 30)};
+const gonio::reconstruction<gonio::log_relative>& posterior_estimator() {
+  static const auto all = gonio::reconstruction{learn(synthetic_materials(posterior_cells(), 20), 30)}.keeping_all();
   return all;
 }
 
@@ -41,11 +43,12 @@ gonio::brdf_table drawn_material(unsigned seed) {
   std::vector<gonio::half_difference> centres;
   for (const Eigen::Index cell : gonio::random_cells(posterior_cells(), 120, seed))
     centres.push_back(posterior_cells().angles(cell));
-  const gonio::discrepancy smooth{posterior_cells(), prior.metric(), centres, posterior_estimator().model().variance};
+  const gonio::discrepancy smooth{posterior_cells(), prior.metric(),
+                                  gonio::discrepancy_functions(centres, posterior_estimator().model().variance)};
   gonio::brdf_table table(posterior_cells());
   Eigen::MatrixXd components(prior.size(), 3), waves(smooth.size(), 3);
   for (Eigen::Index c = 0; c < 3; ++c) {
-    components.col(c) = numbers(components.rows()) / std::sqrt(posterior_estimator().observations());
+    components.col(c) = numbers(components.rows()) / std::sqrt(posterior_estimator().expected().observations);
     waves.col(c) = numbers(waves.rows());
   }
   for (Eigen::Index cell = 0; cell < posterior_cells().size(); ++cell) {
@@ -67,16 +70,18 @@ gonio::brdf_table drawn_material(unsigned seed) {
 TEST_CASE("the deviation is that of the textbook, times the scale") {
   const gonio::brdf_table table = synthetic_materials(posterior_cells(), 4, 91).table(2);
   auto chosen = gonio::random_cells(posterior_cells(), 13, 3);
-  const gonio::posterior known(posterior_estimator(), measured_at({chosen.begin(), chosen.end() - 1}, table));
+  const auto some = measured_at({chosen.begin(), chosen.end() - 1}, table);
+  const auto known = posterior_estimator().fit_located(some);
+  const gonio::sample_process process = posterior_estimator().process_of(some);
   // The last sample's variance given the others.
-  const Eigen::MatrixXd all = posterior_estimator().covariance(measured_at(chosen, table));
+  const Eigen::MatrixXd all = posterior_estimator().process_of(measured_at(chosen, table)).covariance();
   const Eigen::LLT<Eigen::MatrixXd> factors(all.topLeftCorner(12, 12));
   const double variance = all(12, 12) - all.col(12).head(12).dot(factors.solve(all.col(12).head(12)));
   const auto at = gonio::locate_cell(posterior_cells(), chosen.back());
-  CHECK(known.deviation(at) == doctest::Approx(std::sqrt(known.scale() * variance)).epsilon(1e-6));
+  CHECK(known.deviation(at) == doctest::Approx(std::sqrt(process.scale() * variance)).epsilon(1e-6));
   // What the samples are, relative to what was expected.
-  const Eigen::MatrixXd y = posterior_estimator().mapped_values(measured_at({chosen.begin(), chosen.end() - 1}, table));
-  CHECK(known.scale() == doctest::Approx((10.0 + (y.array() * factors.solve(y).array()).sum() / 3.0) / 22.0));
+  const Eigen::MatrixXd& y = process.values();
+  CHECK(process.scale() == doctest::Approx((10.0 + (y.array() * factors.solve(y).array()).sum() / 3.0) / 22.0));
 }
 
 TEST_CASE("intervals hold as often as they say on materials of the model") {
@@ -84,11 +89,10 @@ TEST_CASE("intervals hold as often as they say on materials of the model") {
   for (unsigned seed = 0; seed < 12; ++seed) {
     const gonio::brdf_table truth = drawn_material(seed);
     const auto located = measured_at(gonio::random_cells(posterior_cells(), 25, seed + 50), truth);
-    const auto fit = posterior_estimator().fit_located(located);
-    const gonio::posterior known(posterior_estimator(), located);
+    const auto known = posterior_estimator().fit_located(located);
     for (const Eigen::Index cell : gonio::random_cells(posterior_cells(), 60, seed + 90)) {
       const auto at = gonio::locate_cell(posterior_cells(), cell);
-      const auto [low, high] = known.interval(fit.at(at), at, confidence_level::ninety_five_percent);
+      const auto [low, high] = known.interval(known.fit().at(at), at, confidence_level::ninety_five_percent);
       for (Eigen::Index c = 0; c < 3; ++c) {
         inside += truth.at(cell)[c] >= low[c] * (1.0 - 1e-6) && truth.at(cell)[c] <= high[c] * (1.0 + 1e-6) ? 1.0 : 0.0;
         all += 1.0;
@@ -102,8 +106,9 @@ TEST_CASE("intervals hold as often as they say on materials of the model") {
 
 TEST_CASE("more samples make surer, and intervals are nested and not negative") {
   const gonio::brdf_table table = synthetic_materials(posterior_cells(), 4, 91).table(2);
-  const gonio::posterior few(posterior_estimator(), measured_at(gonio::random_cells(posterior_cells(), 5, 1), table));
-  const gonio::posterior many(posterior_estimator(), measured_at(gonio::random_cells(posterior_cells(), 80, 1), table));
+  const auto few = posterior_estimator().fit_located(measured_at(gonio::random_cells(posterior_cells(), 5, 1), table));
+  const auto many =
+      posterior_estimator().fit_located(measured_at(gonio::random_cells(posterior_cells(), 80, 1), table));
   const auto coarse = valid_cells(gonio::grid({6, 5, 6}));
   const auto with_few = few.deviations(coarse), with_many = many.deviations(coarse);
   double sum_few = 0.0, sum_many = 0.0;
@@ -121,4 +126,47 @@ TEST_CASE("more samples make surer, and intervals are nested and not negative") 
   CHECK((wide.low >= 0.0).all());
   CHECK((narrow.low <= value).all());
   CHECK((narrow.high >= value * (1.0 - 1e-9)).all());
+}
+
+TEST_CASE("certainty is the median of what is said of each direction") {
+  const gonio::brdf_table table = synthetic_materials(posterior_cells(), 4, 91).table(2);
+  const auto paint =
+      posterior_estimator().fit_located(measured_at(gonio::random_cells(posterior_cells(), 12, 1), table));
+  const gonio::certainty known = paint.certainty();
+  std::vector<double> everywhere, grazing;
+  const valid_cells coarse(gonio::grid({15, 9, 12}));
+  for (Eigen::Index cell = 0; cell < coarse.size(); ++cell) {
+    const auto [wi, wo] = gonio::to_directions(coarse.angles(cell));
+    everywhere.push_back(paint.known_to(wi, wo));
+    if (std::min(wi.z(), wo.z()) < std::cos(gonio::radians(80.0))) grazing.push_back(everywhere.back());
+  }
+  CHECK(known.known_to == doctest::Approx(gonio::median(everywhere)).epsilon(1e-3));
+  CHECK(known.known_to_at_grazing == doctest::Approx(gonio::median(grazing)).epsilon(1e-3));
+  CHECK(known.highlight_factor > 1.0);
+  // The more is measured in the highlight, the better it is known.
+  auto more = gonio::sample_table(table, gonio::random_cells(posterior_cells(), 12, 1));
+  for (const double theta_d : {0.3, 0.7, 1.1}) {
+    const gonio::half_difference angles{0.02, theta_d, 1.5};
+    more.push_back({angles, table.at(gonio::locate(posterior_cells(), angles))});
+  }
+  CHECK(posterior_estimator().fit(more).certainty().highlight_factor < known.highlight_factor);
+}
+
+TEST_CASE("each residual is beside what a fit of all other samples says") {
+  auto samples = gonio::sample_table(synthetic_materials(posterior_cells(), 4, 91).table(2),
+                                     gonio::random_cells(posterior_cells(), 9, 5));
+  samples[3].weight = 0.0;
+  const auto paint = posterior_estimator().fit(samples);
+  const std::vector<gonio::sample_residual> residuals = paint.residuals();
+  REQUIRE(residuals.size() == 8);
+  CHECK(residuals[3].number == 4);  // sample 3 does not count
+  for (const gonio::sample_residual& each : residuals) {
+    auto others = samples;
+    others[each.number].weight = 0.0;
+    const auto without = posterior_estimator().fit(others);
+    const auto at = gonio::locate(posterior_cells(), samples[each.number].angles());
+    CHECK((each.measured - samples[each.number].value).abs().maxCoeff() < 1e-6);
+    CHECK((each.predicted / without.fit().at(at) - 1.0).abs().maxCoeff() < 1e-5);
+    CHECK(!each.rejected);
+  }
 }

@@ -1,15 +1,15 @@
 #pragma once
-/// Bodies of estimate/outlying_samples.hpp.
+/// Bodies of estimate/inliers.hpp.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
-#include <gonio/estimate/outlying_samples.hpp>
-#include <gonio/solve/cholesky.hpp>
+#include <gonio/estimate/inliers.hpp>
 #include <gonio/solve/product.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -17,41 +17,6 @@
 namespace gonio {
 
 namespace detail {
-
-/// Each of the samples from all others, given the inverse of their covariance.
-[[nodiscard]] GONIO_INLINE left_out_predictions predict_by_inverse(const Eigen::MatrixXd& inverse,
-                                                                   const Eigen::MatrixXd& values) {
-  const Eigen::MatrixXd dual = product(inverse, values);
-  left_out_predictions found{values, values, Eigen::VectorXd(inverse.rows())};
-  for (Eigen::Index i = 0; i < inverse.rows(); ++i) {
-    found.mean.row(i) -= dual.row(i) / inverse(i, i);
-    found.deviation[i] = std::sqrt(1.0 / inverse(i, i));
-  }
-  return found;
-}
-
-[[nodiscard]] GONIO_INLINE Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& covariance) {
-  const cholesky factors(covariance);
-  if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
-  return factors.solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
-}
-
-}  // namespace detail
-
-GONIO_INLINE left_out_predictions predict_left_out(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values) {
-  return detail::predict_by_inverse(detail::inverse_of(covariance), values);
-}
-
-namespace detail {
-
-/// Rows and columns of a matrix, or rows alone.
-[[nodiscard]] inline Eigen::MatrixXd part_of(const Eigen::MatrixXd& whole, const std::vector<Eigen::Index>& rows,
-                                             const std::vector<Eigen::Index>& columns) {
-  Eigen::MatrixXd part(std::ssize(rows), std::ssize(columns));
-  for (Eigen::Index j = 0; j < part.cols(); ++j)
-    for (Eigen::Index i = 0; i < part.rows(); ++i) part(i, j) = whole(rows[i], columns[j]);
-  return part;
-}
 
 [[nodiscard]] inline std::vector<Eigen::Index> numbers_up_to(Eigen::Index count) {
   std::vector<Eigen::Index> all(count);
@@ -65,17 +30,17 @@ namespace detail {
 /// material are alike: the mean of their likelihoods counts, not the product.
 class wrong_sample_set {
  public:
-  wrong_sample_set(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values, const rejection_rule& rule)
-      : mean_{3.0 * std::pow(rule.common_error, 2) + std::pow(rule.channel_error, 2), inverse_of(covariance), {}},
+  wrong_sample_set(const sample_process& samples, const rejection_rule& rule)
+      : mean_{3.0 * std::pow(rule.common_error, 2) + std::pow(rule.channel_error, 2), samples.inverse(), {}},
         contrasts_{std::pow(rule.channel_error, 2), mean_.inverse, {}},
-        is_wrong_(covariance.rows(), false),
-        log_odds_(log_odds_of_one(rule, covariance.rows())) {
-    const Eigen::MatrixXd dual = product(mean_.inverse, values);
+        is_wrong_(samples.size(), false),
+        log_odds_(log_odds_of_one(rule, samples.size())) {
+    const Eigen::MatrixXd dual = product(mean_.inverse, samples.values());
     mean_.dual = dual.rowwise().sum() / std::sqrt(3.0);
     contrasts_.dual.resize(dual.rows(), 2);
     contrasts_.dual.col(0) = (dual.col(0) - dual.col(1)) / std::sqrt(2.0);
     contrasts_.dual.col(1) = (dual.col(0) + dual.col(1) - 2.0 * dual.col(2)) / std::sqrt(6.0);
-    squares_ = (dual.array() * values.array()).sum();
+    squares_ = (dual.array() * samples.values().array()).sum();
   }
 
   [[nodiscard]] Eigen::Index size() const noexcept { return std::ranges::count(is_wrong_, true); }
@@ -85,7 +50,7 @@ class wrong_sample_set {
   [[nodiscard]] double gain(Eigen::Index i) const {
     const double sign = is_wrong_[i] ? -1.0 : 1.0;
     const change mean = mean_.change_by(i, sign), contrasts = contrasts_.change_by(i, sign);
-    constexpr double degrees = 10.0, channels = 3.0;
+    constexpr double degrees = sample_process::known_before, channels = 3.0;
     const auto n = static_cast<double>(is_wrong_.size());
     const double before = degrees + squares_ / channels;
     const double after = before - (mean.squares + contrasts.squares) / channels;
@@ -184,13 +149,14 @@ inline void require_possible(const rejection_rule& rule) {
             rule.channel_error});
 }
 
-GONIO_INLINE std::vector<wrong_sample> find_wrong_samples(const Eigen::MatrixXd& covariance,
-                                                          const Eigen::MatrixXd& values, const rejection_rule& rule) {
-  require_possible(rule);
-  const Eigen::Index n = covariance.rows();
+}  // namespace detail
+
+GONIO_INLINE std::vector<wrong_sample> find_wrong_samples(const sample_process& samples, const rejection_rule& rule) {
+  detail::require_possible(rule);
+  const Eigen::Index n = samples.size();
   if (n < 3) return {};
   const auto most = std::max<Eigen::Index>(static_cast<Eigen::Index>(rule.largest_share * static_cast<double>(n)), 1);
-  wrong_sample_set wrong(covariance, values, rule);
+  detail::wrong_sample_set wrong(samples, rule);
   // Change sides while that makes the set more probable; in pairs where no single change does.
   for (bool improves = true; improves;) {
     const Eigen::Index i = wrong.best_change(wrong.size() < most);
@@ -198,10 +164,10 @@ GONIO_INLINE std::vector<wrong_sample> find_wrong_samples(const Eigen::MatrixXd&
     if (improves)
       wrong.change_side(i);
     else if (wrong.size() + 2 <= most)
-      improves = add_pair(wrong, n);
+      improves = detail::add_pair(wrong, n);
   }
   // Keep the samples about which there is doubt, the most doubtful first.
-  std::vector<Eigen::Index> members = numbers_up_to(n);
+  std::vector<Eigen::Index> members = detail::numbers_up_to(n);
   std::erase_if(members, [&](Eigen::Index i) { return !wrong.contains(i); });
   while (!members.empty()) {
     const auto doubtful = std::ranges::min_element(members, {}, [&](Eigen::Index i) { return wrong.probability(i); });
@@ -215,25 +181,41 @@ GONIO_INLINE std::vector<wrong_sample> find_wrong_samples(const Eigen::MatrixXd&
   return found;
 }
 
-GONIO_INLINE left_out_predictions predict_from_others(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
-                                                      const std::vector<Eigen::Index>& left_out) {
-  const std::vector<Eigen::Index> channels = numbers_up_to(values.cols());
-  std::vector<Eigen::Index> kept = numbers_up_to(covariance.rows());
-  std::erase_if(kept, [&](Eigen::Index i) { return std::ranges::find(left_out, i) != left_out.end(); });
-  const Eigen::MatrixXd between = part_of(covariance, kept, left_out);
-  const cholesky factors(part_of(covariance, kept, kept));
-  if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
-  const Eigen::MatrixXd half = factors.solve_lower(between);
-  left_out_predictions found{part_of(values, left_out, channels),
-                             product(half.transpose(), factors.solve_lower(part_of(values, kept, channels))),
-                             Eigen::VectorXd(std::ssize(left_out))};
-  for (Eigen::Index i = 0; i < std::ssize(left_out); ++i) {
-    const Eigen::Index number = left_out[i];
-    found.deviation[i] = std::sqrt(std::max(covariance(number, number) - half.col(i).squaredNorm(), 0.0));
-  }
-  return found;
+GONIO_INLINE std::vector<Eigen::Index> inliers::kept() const {
+  constexpr double least_weight = 0.01;
+  std::vector<Eigen::Index> positions;
+  for (Eigen::Index i = 0; i < weights.size(); ++i)
+    if (weights[i] >= least_weight) positions.push_back(i);
+  return positions;
 }
 
-}  // namespace detail
+GONIO_INLINE inliers all_inliers(Eigen::Index n) { return {Eigen::VectorXd::Ones(n), {}}; }
+
+GONIO_INLINE Eigen::VectorXd limit_outliers(const Eigen::VectorXd& inlier_weights) {
+  const Eigen::Index n = inlier_weights.size();
+  if (n == 0) return inlier_weights;
+  const auto most = static_cast<Eigen::Index>(largest_outlier_share(n) * static_cast<double>(n));
+  std::vector<double> sorted(inlier_weights.begin(), inlier_weights.end());
+  const auto least_inlier = sorted.begin() + (n - 1 - most);
+  std::ranges::nth_element(sorted, least_inlier, std::greater{});
+  if (!(*least_inlier > 0.0)) return Eigen::VectorXd::Ones(n);
+  return (inlier_weights / *least_inlier).cwiseMin(1.0);
+}
+
+GONIO_INLINE located_samples weighted(const located_samples& samples, const inliers& found) {
+  const std::vector<Eigen::Index> kept = found.kept();
+  located_samples some = samples.subset(kept);
+  for (Eigen::Index i = 0; i < some.size(); ++i) some.weights.row(i) *= found.weights[kept[i]];
+  return some;
+}
+
+GONIO_INLINE inliers detail::weighed_inliers(Eigen::VectorXd weights) {
+  inliers found{std::move(weights), {}};
+  for (Eigen::Index i = 0; i < found.weights.size(); ++i)
+    if (found.weights[i] < 0.5) found.rejected.push_back(i);
+  std::ranges::sort(found.rejected, {}, [&](Eigen::Index i) { return std::pair(found.weights[i], i); });
+  found.outlier_share = 1.0 - found.weights.sum() / static_cast<double>(found.weights.size());
+  return found;
+}
 
 }  // namespace gonio

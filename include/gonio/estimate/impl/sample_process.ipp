@@ -1,0 +1,221 @@
+#pragma once
+/// Bodies of estimate/sample_process.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/probability.hpp>
+#include <gonio/estimate/sample_process.hpp>
+#include <gonio/solve/product.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+namespace detail {
+
+/// Rows and columns of a matrix.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd part_of(const Eigen::MatrixXd& whole, std::span<const Eigen::Index> rows,
+                                                   std::span<const Eigen::Index> columns) {
+  Eigen::MatrixXd part(std::ssize(rows), std::ssize(columns));
+  for (Eigen::Index j = 0; j < part.cols(); ++j)
+    for (Eigen::Index i = 0; i < part.rows(); ++i) part(i, j) = whole(rows[i], columns[j]);
+  return part;
+}
+
+/// Rows of a matrix.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd rows_of_matrix(const Eigen::MatrixXd& whole,
+                                                          std::span<const Eigen::Index> rows) {
+  Eigen::MatrixXd part(std::ssize(rows), whole.cols());
+  for (Eigen::Index j = 0; j < part.cols(); ++j)
+    for (Eigen::Index i = 0; i < part.rows(); ++i) part(i, j) = whole(rows[i], j);
+  return part;
+}
+
+[[nodiscard]] GONIO_INLINE cholesky factors_of(const Eigen::MatrixXd& covariance) {
+  cholesky factors(covariance);
+  if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
+  return factors;
+}
+
+}  // namespace detail
+
+GONIO_INLINE Eigen::MatrixXd expected_covariance::among(const located_rows& all) const {
+  Eigen::MatrixXd sum = product_with_transpose(all.rows) / observations;
+  if (model.variance != 0.0) sum += model.variance * discrepancy_covariance(all.angles, model.lengths);
+  return sum;
+}
+
+GONIO_INLINE Eigen::MatrixXd expected_covariance::between(const located_rows& some, const located_rows& others) const {
+  Eigen::MatrixXd sum = product(some.rows, others.rows.transpose()) / observations;
+  if (model.variance != 0.0) sum += model.variance * discrepancy_covariance(some.angles, others.angles, model.lengths);
+  return sum;
+}
+
+GONIO_INLINE sample_process::stored::stored(expected_covariance model, located_rows rows, Eigen::MatrixXd weights,
+                                            Eigen::VectorXd errors, Eigen::MatrixXd without_errors)
+    : expected(std::move(model)),
+      at(std::move(rows)),
+      sample_weights(std::move(weights)),
+      error_variances(std::move(errors)),
+      covariance(std::move(without_errors)) {
+  covariance.diagonal() += errors_of(*this);
+}
+
+GONIO_INLINE sample_process::sample_process(const expected_covariance& expected, located_rows at,
+                                            const located_samples& mapped, const Eigen::VectorXd& error_variances)
+    : values_(mapped.values) {
+  Eigen::MatrixXd among = expected.among(at);
+  shared_ = std::make_shared<const stored>(expected, std::move(at), mapped.weights, error_variances, std::move(among));
+}
+
+GONIO_INLINE sample_process::sample_process(std::shared_ptr<const stored> shared, Eigen::MatrixXd values)
+    : shared_(std::move(shared)), values_(std::move(values)) {}
+
+GONIO_INLINE Eigen::VectorXd sample_process::errors_of(const stored& parts, std::optional<Eigen::Index> column) {
+  const Eigen::MatrixXd& weights = parts.sample_weights;
+  const Eigen::ArrayXd counts =
+      column ? Eigen::ArrayXd(weights.col(*column)) : Eigen::ArrayXd(weights.rowwise().mean());
+  return parts.error_variances.array() / counts;
+}
+
+GONIO_INLINE const cholesky& sample_process::factors() const {
+  std::call_once(shared_->factorised, [&] { shared_->factors = detail::factors_of(shared_->covariance); });
+  return *shared_->factors;
+}
+
+GONIO_INLINE const Eigen::MatrixXd& sample_process::inverse() const {
+  std::call_once(shared_->inverted,
+                 [&] { shared_->inverse = factors().solve(Eigen::MatrixXd::Identity(size(), size())); });
+  return shared_->inverse;
+}
+
+GONIO_INLINE sample_process sample_process::with_values(Eigen::MatrixXd values) const {
+  if (values.rows() != size()) refuse({"a process of ", size(), " samples has as many values, not ", values.rows()});
+  return {shared_, std::move(values)};
+}
+
+GONIO_INLINE sample_process sample_process::subset(std::span<const Eigen::Index> positions,
+                                                   const Eigen::VectorXd& inlier_weights) const {
+  located_rows some{detail::rows_of_matrix(at().rows, positions), {}};
+  for (const Eigen::Index i : positions) some.angles.push_back(at().angles[i]);
+  Eigen::MatrixXd without_errors = detail::part_of(covariance(), positions, positions);
+  const Eigen::VectorXd all_errors = errors_of(*shared_);
+  Eigen::MatrixXd weights = detail::rows_of_matrix(shared_->sample_weights, positions);
+  Eigen::VectorXd errors(some.size());
+  for (Eigen::Index i = 0; i < errors.size(); ++i) {
+    without_errors(i, i) -= all_errors[positions[i]];
+    errors[i] = shared_->error_variances[positions[i]];
+    if (inlier_weights.size() > 0) weights.row(i) *= inlier_weights[positions[i]];
+  }
+  return {std::make_shared<const stored>(expected(), std::move(some), std::move(weights), std::move(errors),
+                                         std::move(without_errors)),
+          detail::rows_of_matrix(values_, positions)};
+}
+
+GONIO_INLINE solution sample_process::fit() const {
+  const Eigen::Index n = size(), k = at().rows.cols();
+  const bool apart = shared_->sample_weights.cols() > 1;
+  const Eigen::Index together = apart ? 1 : channels();
+  solution found{Eigen::MatrixXd(k + n, channels()),
+                 {Eigen::VectorXd(channels()), Eigen::VectorXd(channels()), Eigen::VectorXd(channels())}};
+  const Eigen::VectorXd mean_errors = errors_of(*shared_);
+  for (Eigen::Index first = 0; first < channels(); first += together) {
+    // The dual a of these channels, K a = y, with one step of refinement.
+    const Eigen::VectorXd errors = apart ? errors_of(*shared_, first) : mean_errors;
+    Eigen::MatrixXd own_covariance;
+    std::optional<cholesky> own_factors;
+    if (apart) {
+      own_covariance = covariance();
+      own_covariance.diagonal() += errors - mean_errors;
+      own_factors = detail::factors_of(own_covariance);
+    }
+    const Eigen::MatrixXd& among = apart ? own_covariance : covariance();
+    const cholesky& by = apart ? *own_factors : factors();
+    const Eigen::MatrixXd y = values_.middleCols(first, together);
+    Eigen::MatrixXd dual = by.solve(y);
+    dual += by.solve(y - product(among, dual));
+    const Eigen::MatrixXd off = y - product(among, dual);
+
+    found.weights.block(0, first, k, together) = product(at().rows.transpose(), dual) / expected().observations;
+    found.weights.block(k, first, n, together) = expected().model.variance * dual;
+    for (Eigen::Index c = 0; c < together; ++c) {
+      // With the weights error_variance / E of the rows, and eta = m error_variance.
+      const double unit = expected().model.error_variance;
+      const double squares = unit * (errors.array() * dual.col(c).array().square()).sum();
+      const double largest = y.col(c).cwiseAbs().maxCoeff();
+      found.report.residual[first + c] = std::sqrt(squares);
+      found.report.objective[first + c] =
+          0.5 * unit * (y.col(c).dot(dual.col(c)) - (y.col(c).array().square() / errors.array()).sum());
+      found.report.kkt_residual[first + c] = off.col(c).cwiseAbs().maxCoeff() / (largest > 0.0 ? largest : 1.0);
+    }
+  }
+  return detail::require_certified(std::move(found), "the process of the samples");
+}
+
+GONIO_INLINE sample_predictions sample_process::predicted_without() const {
+  const Eigen::MatrixXd dual = product(inverse(), values_);
+  sample_predictions found{values_, values_, Eigen::VectorXd(size())};
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    found.mean.row(i) -= dual.row(i) / inverse()(i, i);
+    found.deviation[i] = std::sqrt(1.0 / inverse()(i, i));
+  }
+  return found;
+}
+
+GONIO_INLINE sample_predictions sample_process::predicted_without(std::span<const Eigen::Index> positions) const {
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index i = 0; i < size(); ++i)
+    if (std::ranges::find(positions, i) == positions.end()) others.push_back(i);
+  const cholesky by = detail::factors_of(detail::part_of(covariance(), others, others));
+  const Eigen::MatrixXd half = by.solve_lower(detail::part_of(covariance(), others, positions));
+  sample_predictions found{detail::rows_of_matrix(values_, positions),
+                           product(half.transpose(), by.solve_lower(detail::rows_of_matrix(values_, others))),
+                           Eigen::VectorXd(std::ssize(positions))};
+  for (Eigen::Index i = 0; i < std::ssize(positions); ++i)
+    found.deviation[i] = std::sqrt(std::max(covariance()(positions[i], positions[i]) - half.col(i).squaredNorm(), 0.0));
+  return found;
+}
+
+GONIO_INLINE double sample_process::scale() const {
+  const auto n = static_cast<double>(size()), over = static_cast<double>(channels());
+  return (known_before + factors().solve_lower(values_).squaredNorm() / over) / (known_before + n);
+}
+
+GONIO_INLINE double sample_process::deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const {
+  const discrepancy_model& model = expected().model;
+  Eigen::VectorXd with = product(at().rows, row.transpose()) / expected().observations;
+  if (model.variance != 0.0) with += model.variance * discrepancy_covariance(at().angles, angles, model.lengths);
+  const double before = row.squaredNorm() / expected().observations + model.variance + model.error_variance;
+  factors().solve_lower_in_place(with.data());
+  return std::sqrt(std::max(before - with.squaredNorm(), 0.0));
+}
+
+GONIO_INLINE process_prediction sample_process::predict(const located_rows& places,
+                                                        Eigen::MatrixXd covariance_before) const {
+  const Eigen::MatrixXd with = expected().between(places, at());
+  const Eigen::MatrixXd gain = factors().solve(with.transpose());
+  process_prediction found{product(gain.transpose(), values_), std::move(covariance_before)};
+  found.covariance -= product(with, gain);
+  return found;
+}
+
+GONIO_INLINE gonio::familiarity sample_process::familiarity() const {
+  const Eigen::MatrixXd dual = factors().solve(values_);
+  const double all = values_.cwiseProduct(dual).sum();
+  // Share it among the terms of K.
+  const double components = product(at().rows.transpose(), dual).squaredNorm() / expected().observations;
+  const Eigen::VectorXd errors = errors_of(*shared_);
+  const double by_errors = (errors.asDiagonal() * dual).cwiseProduct(dual).sum();
+  const double discrepancy = all - components - by_errors;
+  const auto n = static_cast<double>(size()), over = static_cast<double>(channels());
+  return {.scale = all / over / n,
+          .p_value = f_tail(all / over / n, n, 4.0),
+          .components = all > 0.0 ? components / all : 0.0,
+          .discrepancy = all > 0.0 ? discrepancy / all : 0.0,
+          .errors = all > 0.0 ? by_errors / all : 1.0};
+}
+
+}  // namespace gonio

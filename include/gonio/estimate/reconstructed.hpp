@@ -1,0 +1,225 @@
+#pragma once
+/// A material reconstructed from samples, and how sure that is: the posterior of the Gaussian process that it is the
+/// mean of (Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, Eq. 2.24). How often the intervals
+/// hold on measured materials whose families the prior has not seen: docs/results/real-materials.md.
+
+#include <gonio/basis/discrepancy.hpp>
+#include <gonio/basis/joined.hpp>
+#include <gonio/basis/pca.hpp>
+#include <gonio/core/statistics.hpp>
+#include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/estimate/fitted_spectra.hpp>
+#include <gonio/estimate/inliers.hpp>
+#include <gonio/estimate/sample_process.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// A reflectance with this probability lies between two values, sr^-1.
+struct reflectance_interval {
+  rgb low, high;
+};
+
+/// Probabilities that intervals are offered for.
+enum class confidence_level { sixty_eight_percent, ninety_five_percent };
+
+/// To how many of the model's deviations an interval reaches, given the number of samples: a curve through the
+/// conformal factors of measured materials, the quantiles of their errors in such deviations (Lee, Barber and Willett
+/// 2023, doi:10.48550/arXiv.2306.06342). With the factors of other families than its own, a material's intervals hold
+/// 67 to 68 and 94 to 95 % of its values on average. A promise for materials like those, averaged over directions.
+[[nodiscard]] double deviations_of(confidence_level level, Eigen::Index samples) noexcept;
+
+/// How sure a reconstruction is.
+struct certainty {
+  /// Half of all directions are known to this or better, relative to the value, with a probability of 68 %,
+  double known_to = 0.0;
+  /// and so are half of those whose light or viewer is more than 80 degrees from the normal.
+  double known_to_at_grazing = 0.0;
+  /// To which factor the highlight is known, with a probability of 95 %: the median over half vectors within 5 degrees
+  /// of the normal and difference angles up to 70 degrees.
+  double highlight_factor = 1.0;
+};
+
+/// A sample beside what all others say of it.
+struct sample_residual {
+  Eigen::Index number = 0;          ///< its position among the samples that were given
+  rgb measured;                     ///< sr^-1
+  rgb predicted;                    ///< sr^-1, from all others
+  double relative_deviation = 0.0;  ///< of the prediction and the sample together
+  double disagreement = 0.0;        ///< `sample_predictions::disagreement`
+  bool rejected = false;
+};
+
+namespace detail {
+
+[[nodiscard]] certainty certainty_of(std::vector<double> everywhere, std::vector<double> grazing,
+                                     std::vector<double> highlight, Eigen::Index samples);
+
+/// Directions all over the half sphere, and in the highlight, by which certainty is stated.
+[[nodiscard]] const valid_cells& certainty_cells();
+[[nodiscard]] bool is_grazing(const half_difference& angles);
+[[nodiscard]] std::vector<half_difference> highlight_angles();
+
+}  // namespace detail
+
+/// What `reconstruction` found: a fit, of colours (`fitted_brdf`) or of wavelengths (`fitted_spectra`), with all that
+/// its samples say about it. A value type whose copies share what they hold.
+template <error_metric Metric, class Fit>
+class reconstructed {
+ public:
+  /// Of more samples, so many at random say how sure the fit is: what more of them know is left out, deviations are too
+  /// large.
+  static constexpr Eigen::Index most_known = 500;
+
+  /// For `reconstruction`: `known` is the process of the samples that the fit is of, or of some of them, and `all` that
+  /// of all `samples`, if they are few enough; `numbers` are their positions among those that were given.
+  reconstructed(pca<Metric> prior, Fit fit, sample_process known, inliers found, std::optional<sample_process> all,
+                std::shared_ptr<const located_samples> samples, std::vector<Eigen::Index> numbers, thread_count threads)
+      : prior_(std::move(prior)),
+        fit_(std::move(fit)),
+        known_(std::move(known)),
+        scale_(known_.scale()),
+        found_(std::move(found)),
+        kept_(std::ssize(found_.kept())),
+        all_(std::move(all)),
+        samples_(std::move(samples)),
+        numbers_(std::move(numbers)),
+        threads_(threads) {
+    for (Eigen::Index& i : found_.rejected) i = number_of(i);
+    for (outlying_sample& each : found_.contradicted) each.number = number_of(each.number);
+  }
+
+  /// Reflectance in sr^-1, at least zero; zero below the horizon.
+  [[nodiscard]] auto operator()(const direction& wi, const direction& wo) const noexcept { return fit_(wi, wo); }
+  /// All directions as a table.
+  [[nodiscard]] auto tabulate(const valid_cells& cells) const { return fit_.tabulate(cells, threads_); }
+  /// The weights, the functions that they are of, and the solver's report.
+  [[nodiscard]] const Fit& fit() const noexcept { return fit_; }
+
+  // ---- how sure ----
+
+  /// The standard deviation of a value in the metric's domain; where that is a logarithm, relative to the value. O(n (n
+  /// + k)) for n samples, of which at most `most_known` count, and k components.
+  [[nodiscard]] double deviation(const location& at) const {
+    return std::sqrt(scale_) * known_.deviation(row_at(prior_, at), at.angles);
+  }
+  /// In two directions above the horizon.
+  [[nodiscard]] double deviation(const direction& wi, const direction& wo) const { return deviation(located(wi, wo)); }
+
+  /// The deviations at all of some cells: choose a coarse grid, deviations are smooth.
+  [[nodiscard]] std::vector<double> deviations(const valid_cells& cells) const {
+    std::vector<double> all(cells.size());
+    for_each_index(
+        cells.size(), 64, [&](Eigen::Index cell) { all[cell] = deviation(locate(prior_.cells(), cells.angles(cell))); },
+        threads_);
+    return all;
+  }
+
+  /// To how many deviations an interval reaches to either side.
+  [[nodiscard]] double deviations_of(confidence_level level) const noexcept {
+    return gonio::deviations_of(level, kept_);
+  }
+
+  /// Around a value at a location, each channel on its own; never below zero.
+  [[nodiscard]] reflectance_interval interval(const rgb& value, const location& at, confidence_level level) const {
+    const double reach = deviations_of(level) * deviation(at);
+    const auto moved = [&](double by) {
+      rgb other;
+      for (Eigen::Index c = 0; c < 3; ++c)
+        other[c] = std::max(prior_.metric().inverse(prior_.metric().forward(value[c], at) + by, at), 0.0);
+      return other;
+    };
+    return {moved(-reach), moved(reach)};
+  }
+  /// Around the value in two directions above the horizon.
+  [[nodiscard]] reflectance_interval interval(const direction& wi, const direction& wo, confidence_level level) const {
+    return interval(fit_(wi, wo), located(wi, wo), level);
+  }
+
+  /// By how much a value is known, relative to it, with a probability of 68 %, given its deviation.
+  [[nodiscard]] double known_to(double deviation) const {
+    return std::expm1(deviations_of(confidence_level::sixty_eight_percent) * deviation);
+  }
+  /// In two directions above the horizon.
+  [[nodiscard]] double known_to(const direction& wi, const direction& wo) const { return known_to(deviation(wi, wo)); }
+
+  /// O(1,800 deviations).
+  [[nodiscard]] gonio::certainty certainty() const {
+    const valid_cells& cells = detail::certainty_cells();
+    const std::vector<double> everywhere = deviations(cells);
+    std::vector<double> grazing, highlight;
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
+      if (detail::is_grazing(cells.angles(cell))) grazing.push_back(everywhere[cell]);
+    for (const half_difference& angles : detail::highlight_angles())
+      highlight.push_back(deviation(locate(prior_.cells(), angles)));
+    return detail::certainty_of(everywhere, grazing, highlight, kept_);
+  }
+
+  /// Is this a material like those of the prior?
+  [[nodiscard]] gonio::familiarity familiarity() const { return known_.familiarity(); }
+
+  // ---- which samples ----
+
+  /// Positions of samples that count less than half, or not at all, the worst first.
+  [[nodiscard]] const std::vector<Eigen::Index>& rejected() const noexcept { return found_.rejected; }
+  /// Samples that the others contradict, the worst first; see `inliers`.
+  [[nodiscard]] const std::vector<outlying_sample>& contradicted() const noexcept { return found_.contradicted; }
+  /// Of all samples, the sum of what they do not count.
+  [[nodiscard]] double outlier_share() const noexcept { return found_.outlier_share; }
+  /// How many samples the fit is of.
+  [[nodiscard]] Eigen::Index kept() const noexcept { return kept_; }
+
+  /// Each sample that counts beside what all others say, rejected ones included. O(n^3). Throws gonio::error for more
+  /// samples than `discrepancy_model::most_centres`.
+  [[nodiscard]] std::vector<sample_residual> residuals() const {
+    if (!all_) refuse({"residuals are told of fewer than ", samples_->size(), " samples"});
+    const sample_predictions others = all_->predicted_without();
+    const Eigen::VectorXd disagreement = others.disagreement();
+    std::vector<sample_residual> told;
+    for (Eigen::Index i = 0; i < samples_->size(); ++i) {
+      const location& at = samples_->locations[i];
+      const double offset = offset_at(prior_, at);
+      sample_residual each{.number = number_of(i),
+                           .measured = samples_->values.row(i).template head<3>().transpose().array(),
+                           .predicted = rgb::Zero(),
+                           .relative_deviation = std::expm1(others.deviation[i]),
+                           .disagreement = disagreement[i],
+                           .rejected = found_.weights[i] < 0.5};
+      for (Eigen::Index c = 0; c < 3; ++c)
+        each.predicted[c] = std::max(prior_.metric().inverse(others.mean(i, c) + offset, at), 0.0);
+      told.push_back(each);
+    }
+    return told;
+  }
+
+ private:
+  [[nodiscard]] location located(const direction& wi, const direction& wo) const {
+    return locate(prior_.cells(), to_half_difference(wi, wo));
+  }
+  [[nodiscard]] Eigen::Index number_of(Eigen::Index i) const { return numbers_.empty() ? i : numbers_[i]; }
+
+  pca<Metric> prior_;
+  Fit fit_;
+  sample_process known_;
+  double scale_;
+  inliers found_;
+  Eigen::Index kept_;
+  std::optional<sample_process> all_;
+  std::shared_ptr<const located_samples> samples_;
+  std::vector<Eigen::Index> numbers_;
+  thread_count threads_;
+};
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/reconstructed.ipp>
+#endif

@@ -1,0 +1,235 @@
+#pragma once
+/// What `gonio reconstruct` does by default: samples of a material in, the material out, with how sure that is and
+/// which sample disagrees. A prior's components and what they cannot say are fitted together: principal components
+/// (Nielsen et al. 2015, doi:10.1145/2816795.2818085, Eq. 12) and a Gaussian process beside them (Kennedy and O'Hagan
+/// 2001, doi:10.1111/1467-9868.00294). Where few directions were measured the components decide, where many were the
+/// measurements themselves. Results on real materials, with families left out: docs/results/real-materials.md.
+
+#include <gonio/basis/pca.hpp>
+#include <gonio/core/random.hpp>
+#include <gonio/estimate/basis_equations.hpp>
+#include <gonio/estimate/estimator.hpp>
+#include <gonio/estimate/mapped_noise.hpp>
+#include <gonio/estimate/reconstructed.hpp>
+#include <gonio/solve/tikhonov.hpp>
+#include <gonio/table/spectral_samples.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// Samples to a material, in four steps: map the samples, ask their process which of them are inliers, take the mean of
+/// the process of these, and keep the process for all questions about the result. An `estimator`.
+///
+/// With m observations in the prior, components have the coefficients c ~ N(0, I / m) and the discrepancy the variance
+/// `discrepancy_model::variance`. The mean of that process is ridge regression in its dual form: `tikhonov` with eta =
+/// m error_variance, of the components joined to the discrepancy's functions around the samples
+/// (docs/decisions/0019-discrepancy-beside-the-prior.md). Noise takes weight from the samples in proportion.
+///
+/// ```cpp
+/// const auto paint = gonio::reconstruction{prior}.fit(samples);
+/// gonio::io::write_merl("paint.binary", paint);
+/// const double relative = paint.known_to(wi, wo);
+/// for (const Eigen::Index i : paint.rejected()) std::printf("sample %td disagrees with the others\n", i + 1);
+/// ```
+template <error_metric Metric>
+class reconstruction {
+ public:
+  using basis_type = joined<pca<Metric>, discrepancy<Metric>>;
+  using result_type = reconstructed<Metric, fitted_brdf<basis_type>>;
+  using spectral_result_type = reconstructed<Metric, fitted_spectra<basis_type>>;
+
+  /// Throws gonio::error for an impossible model.
+  explicit reconstruction(pca<Metric> prior, const discrepancy_model& model = {}, thread_count threads = {});
+
+  /// The same, but for its belief in all samples.
+  [[nodiscard]] reconstruction keeping_all() const {
+    reconstruction other = *this;
+    other.rejects_ = false;
+    return other;
+  }
+
+  [[nodiscard]] const pca<Metric>& prior() const noexcept { return prior_; }
+  [[nodiscard]] const valid_cells& cells() const noexcept { return prior_.cells(); }
+  [[nodiscard]] const discrepancy_model& model() const noexcept { return expected_.model; }
+  /// What is expected of a material before it is measured.
+  [[nodiscard]] const expected_covariance& expected() const noexcept { return expected_; }
+
+  /// n samples, k components and c centres: O(n^2 (n + k)) up to `most_centres` samples, O(n (k + c)^2) for more.
+  /// Throws gonio::error for unusable samples.
+  template <class Samples>
+  [[nodiscard]] result_type fit(const Samples& samples) const {
+    return fit_located(locate_samples(cells(), samples, threads_), counting_positions(samples));
+  }
+  /// The same of samples that are located on the prior's cells.
+  [[nodiscard]] result_type fit_located(located_samples samples, std::vector<Eigen::Index> numbers = {}) const;
+
+  /// Each wavelength as a grey material, all by one process. Which samples are inliers is told by their colours.
+  [[nodiscard]] spectral_result_type fit(const spectral_samples& samples, illuminant light = illuminant::d65) const;
+
+  /// The process of samples that are located on the prior's cells, all of them believed.
+  [[nodiscard]] sample_process process_of(const located_samples& samples) const {
+    return process_of_mapped(map_samples(prior_, samples, threads_));
+  }
+  /// The process of those that `fit` would keep.
+  [[nodiscard]] sample_process process_of_inliers(const located_samples& samples) const;
+
+ private:
+  /// Samples that count, mapped, and their process if they are few enough for one.
+  struct selection {
+    inliers found;
+    std::optional<sample_process> all;      ///< of all samples
+    located_samples kept;                   ///< mapped
+    std::optional<sample_process> process;  ///< of those that are kept
+  };
+
+  [[nodiscard]] bool has_process(Eigen::Index samples) const noexcept { return samples <= model().most_centres; }
+  [[nodiscard]] selection select(const located_samples& samples) const;
+  [[nodiscard]] sample_process process_of_mapped(const located_samples& mapped) const {
+    return {expected_, locate_rows(prior_, mapped.locations), mapped, error_variances(mapped)};
+  }
+  /// Of the samples that are kept, or of some of them.
+  [[nodiscard]] sample_process known_by(const selection& chosen) const;
+
+  [[nodiscard]] solved_channels<basis_type> solve(const located_samples& kept,
+                                                  const std::optional<sample_process>& process) const;
+  [[nodiscard]] solved_channels<basis_type> solve_around_centres(located_samples kept) const;
+  /// Components, and a discrepancy as a combination of covariances with its centres.
+  [[nodiscard]] basis_type functions_around(const std::vector<half_difference>& centres) const {
+    return {prior_, {prior_.cells(), prior_.metric(), discrepancy_functions::covariances(centres, model().lengths)}};
+  }
+
+  /// Of each sample's error: the model's, and what its noise is in the metric's domain.
+  [[nodiscard]] Eigen::VectorXd error_variances(const located_samples& samples) const {
+    return model().error_variance + map_noise(prior_, samples.locations, model().noise, threads_).variance.array();
+  }
+
+  pca<Metric> prior_;
+  expected_covariance expected_;
+  thread_count threads_;
+  bool rejects_ = true;
+};
+
+// ---- bodies, outside their class so that those of `log_relative` can be compiled once -----------------------------
+
+template <error_metric Metric>
+reconstruction<Metric>::reconstruction(pca<Metric> prior, const discrepancy_model& model, thread_count threads)
+    : prior_(std::move(prior)), expected_{static_cast<double>(prior_.coefficients().rows()), model}, threads_(threads) {
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (!positive(model.error_variance))
+    refuse({"the error variance beside a discrepancy must be positive and finite, not ", model.error_variance});
+  if (!positive(model.variance))
+    refuse({"the variance of a discrepancy must be positive and finite, not ", model.variance});
+  if (model.most_centres < 1 || model.most_samples < 1)
+    refuse("a discrepancy needs at least one centre and one sample");
+}
+
+template <error_metric Metric>
+typename reconstruction<Metric>::selection reconstruction<Metric>::select(const located_samples& samples) const {
+  const located_samples mapped = map_samples(prior_, samples, threads_);
+  selection chosen;
+  if (has_process(samples.size()) || (rejects_ && samples.size() < fewest_weighed))
+    chosen.all = process_of_mapped(mapped);
+  chosen.found = rejects_ ? find_inliers(prior_, samples, mapped, chosen.all, model().error_variance, threads_)
+                          : all_inliers(samples.size());
+  chosen.kept = weighted(mapped, chosen.found);
+  if (!has_process(chosen.kept.size())) return chosen;
+  if (!chosen.all)
+    chosen.process = process_of_mapped(chosen.kept);
+  else if (chosen.found.weights.minCoeff() == 1.0)
+    chosen.process = chosen.all;
+  else
+    chosen.process = chosen.all->subset(chosen.found.kept(), chosen.found.weights);
+  return chosen;
+}
+
+template <error_metric Metric>
+sample_process reconstruction<Metric>::known_by(const selection& chosen) const {
+  const Eigen::Index count = chosen.kept.size();
+  if (chosen.process && count <= result_type::most_known) return *chosen.process;
+  const std::vector<Eigen::Index> some = random_choice(count, result_type::most_known, 0);
+  return chosen.process ? chosen.process->subset(some) : process_of_mapped(chosen.kept.subset(some));
+}
+
+template <error_metric Metric>
+sample_process reconstruction<Metric>::process_of_inliers(const located_samples& samples) const {
+  const selection chosen = select(samples);
+  return chosen.process ? *chosen.process : process_of_mapped(chosen.kept);
+}
+
+template <error_metric Metric>
+solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metric>::solve(
+    const located_samples& kept, const std::optional<sample_process>& process) const {
+  if (!process) return solve_around_centres(kept);
+  return {functions_around(process->at().angles), process->fit()};
+}
+
+template <error_metric Metric>
+solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metric>::solve_around_centres(
+    located_samples kept) const {
+  if (kept.size() > model().most_samples) kept = kept.subset(random_choice(kept.size(), model().most_samples, 0));
+  kept.weights.array().colwise() *= model().error_variance / error_variances(kept).array();
+  std::vector<half_difference> centres;
+  for (const Eigen::Index i : random_choice(kept.size(), model().most_centres, 0))
+    centres.push_back(kept.locations[i].angles);
+  const discrepancy_functions smooth(centres, expected_.observations * model().variance, model().lengths);
+  const basis_type whitened{prior_, {prior_.cells(), prior_.metric(), smooth}};
+  const auto equations = basis_equations<basis_type>::of_mapped(whitened, std::move(kept), threads_);
+  solution found = equations.solve(tikhonov(expected_.observations * model().error_variance));
+  found.weights.bottomRows(smooth.size()) = smooth.covariance_weights(found.weights.bottomRows(smooth.size()));
+  return {functions_around(centres), std::move(found)};
+}
+
+template <error_metric Metric>
+typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located(
+    located_samples samples, std::vector<Eigen::Index> numbers) const {
+  auto shared = std::make_shared<const located_samples>(std::move(samples));
+  selection chosen = select(*shared);
+  auto [functions, found] = solve(chosen.kept, chosen.process);
+  fitted_brdf<basis_type> fit(std::move(functions), std::move(found));
+  return {prior_,
+          std::move(fit),
+          known_by(chosen),
+          std::move(chosen.found),
+          std::move(chosen.all),
+          std::move(shared),
+          std::move(numbers),
+          threads_};
+}
+
+template <error_metric Metric>
+typename reconstruction<Metric>::spectral_result_type reconstruction<Metric>::fit(const spectral_samples& samples,
+                                                                                  illuminant light) const {
+  const sample_set colours = samples.colours(light);
+  auto shared = std::make_shared<const located_samples>(locate_samples(cells(), colours, threads_));
+  selection chosen = select(*shared);
+  const located_samples spectra =
+      weighted(map_samples(prior_, locate_samples(cells(), samples, threads_), threads_), chosen.found);
+  std::optional<sample_process> process;
+  if (chosen.process) process = chosen.process->with_values(spectra.values);
+  auto [functions, found] = solve(spectra, process);
+  fitted_spectra<basis_type> fit(samples.wavelengths, std::move(functions), std::move(found));
+  return {prior_,
+          std::move(fit),
+          known_by(chosen),
+          std::move(chosen.found),
+          std::move(chosen.all),
+          std::move(shared),
+          counting_positions(colours),
+          threads_};
+}
+
+#if defined(GONIO_COMPILED)
+extern template class basis_equations<reconstruction<log_relative>::basis_type>;
+extern template class fitted_brdf<reconstruction<log_relative>::basis_type>;
+extern template class reconstruction<log_relative>;
+#endif
+
+}  // namespace gonio
