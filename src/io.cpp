@@ -9,6 +9,7 @@
 #include <gonio/io/impl/checked_file.ipp>
 #include <gonio/io/impl/cornell.ipp>
 #include <gonio/io/impl/csv_dialect.ipp>
+#include <gonio/io/impl/csv_reader.ipp>
 #include <gonio/io/impl/exposure_times.ipp>
 #include <gonio/io/impl/file.ipp>
 #include <gonio/io/impl/gzip.ipp>

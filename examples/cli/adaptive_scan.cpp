@@ -56,7 +56,7 @@ std::optional<gonio::direction_pair> adaptive_choice::next(
   if (deviation <= options_.until) return std::nullopt;
   if (std::ssize(scan.poses) >= options_.most) {
     std::cout << "stopped at --most " << options_.most << " poses, before --until "
-              << gonio::io::detail::shortest(options_.until) << " was reached\n";
+              << gonio::io::shortest(options_.until) << " was reached\n";
     return std::nullopt;
   }
   // A pose that failed is tried again, but not chosen again.

@@ -90,7 +90,7 @@ std::vector<std::string> channel_names(const gonio::conformity& found, const mea
   if (found.shift.size() == 1) return {"value"};
   if (part.wavelengths.empty()) return {"red", "green", "blue"};
   std::vector<std::string> names;
-  for (const double wavelength : part.wavelengths) names.push_back(gonio::io::detail::shortest(wavelength) + " nm");
+  for (const double wavelength : part.wavelengths) names.push_back(gonio::io::shortest(wavelength) + " nm");
   return names;
 }
 

@@ -9,6 +9,7 @@
 #include "tiff_files.hpp"
 #include <gonio/io/camera_calibration.hpp>
 #include <gonio/io/capture_constraint.hpp>
+#include <gonio/io/csv_reader.hpp>
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/mbsdf.hpp>
@@ -19,7 +20,6 @@
 #include <gonio/io/prior.hpp>
 #include <gonio/io/reference_reflectance.hpp>
 #include <gonio/io/rgl.hpp>
-#include <gonio/io/sample_rows.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
@@ -187,7 +187,7 @@ json describe_mbsdf(const path_type& path) {
 json describe_array(const path_type& path) {
   const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
   std::span<const std::byte> left = bytes;
-  const gonio::io::detail::npy_layout layout = gonio::io::detail::take_npy_header(left, path.string());
+  const gonio::io::npy_layout layout = gonio::io::read_npy_header(left, path.string());
   if (layout.shape.size() == 2 && layout.shape[1] == 675) {
     const auto networks = gonio::io::read_networks(path);
     return {{"kind", "networks"}, {"materials", networks.names.size()}, {"names", networks.names}};
@@ -230,8 +230,8 @@ json describe_frames(const path_type& path) {
 
 bool has_keyword(const file_look& file, std::initializer_list<std::string_view> keywords) {
   std::string_view text = file.start;
-  gonio::io::detail::text_place place;
-  for (std::string_view line; gonio::io::detail::next_line(text, place, line);)
+  gonio::io::text_place place;
+  for (std::string_view line; gonio::io::next_line(text, place, line);)
     if (std::ranges::find(keywords, line.substr(0, line.find_first_of(" \t"))) != keywords.end()) return true;
   return false;
 }
@@ -239,25 +239,11 @@ bool has_keyword(const file_look& file, std::initializer_list<std::string_view> 
 /// Is there a line that begins with a number within what was read of a text?
 bool is_list_of_numbers(const file_look& file) {
   std::string_view text = file.start;
-  gonio::io::detail::text_place place;
+  gonio::io::text_place place;
   double ignored = 0.0;
-  for (std::string_view line; gonio::io::detail::next_line(text, place, line);)
-    if (!gonio::io::detail::read_number(line.substr(0, line.find_first_of(" \t,;")), ignored)) return true;
+  for (std::string_view line; gonio::io::next_line(text, place, line);)
+    if (!gonio::io::read_number(line.substr(0, line.find_first_of(" \t,;")), ignored)) return true;
   return false;
-}
-
-/// The first line that is no comment.
-std::string_view first_line(const file_look& file) {
-  std::string_view text = gonio::io::detail::without_byte_order_mark(file.start), line;
-  gonio::io::detail::text_place place;
-  return gonio::io::detail::next_line(text, place, line) ? line : std::string_view();
-}
-
-/// Has its first line, in whatever dialect, directions alone?
-bool has_directions_only(const file_look& file, const gonio::io::sample_reading& reading) {
-  gonio::io::detail::row_reader rows(file.start, file.path.native(), false, reading);
-  static_cast<void>(rows.next());
-  return rows.row().values.count == 0;
 }
 
 json describe_directions(const path_type& path, const gonio::io::sample_reading& reading) {
@@ -276,17 +262,24 @@ json describe_exposure_times(const path_type& path) {
 
 json describe_csv(const path_type& path, const measurement_options& reading) {
   const file_look file(path);
-  const std::string_view header = first_line(file);
-  if (header == "file,seconds") return describe_exposure_times(path);
-  if (header.starts_with("pose,")) return {{"kind", "poses of a machine"}};
-  if (header.starts_with("round,error,")) return {{"kind", "history of an iteration"}};
-  if (header.starts_with("sample,r,g,b,others_r,")) return {{"kind", "what the others say of each sample"}};
-  if (header.find("factor") != std::string_view::npos) {
+  gonio::io::csv_reader lines(file.start, path.native());
+  static_cast<void>(lines.next());
+  const std::vector<std::string_view>& header = lines.fields();
+  const auto starts_with = [&](std::initializer_list<std::string_view> names) {
+    return std::ranges::mismatch(names, header).in1 == names.end();
+  };
+  if (starts_with({"file", "seconds"})) return describe_exposure_times(path);
+  if (starts_with({"pose"})) return {{"kind", "poses of a machine"}};
+  if (starts_with({"round", "error"})) return {{"kind", "history of an iteration"}};
+  if (starts_with({"sample", "r", "g", "b", "others_r"})) return {{"kind", "what the others say of each sample"}};
+  if (std::ranges::any_of(header,
+                          [](std::string_view name) { return gonio::io::lower_case(name).starts_with("factor"); })) {
     static_cast<void>(gonio::io::read_reference_reflectance(path));
     return {{"kind", "reflectance of a white reference"}};
   }
   const gonio::io::sample_reading how = reading_of(reading);
-  return has_directions_only(file, how) ? describe_directions(path, how) : describe_samples(path, reading);
+  return gonio::io::has_directions_alone(file.start, path.native(), how) ? describe_directions(path, how)
+                                                                         : describe_samples(path, reading);
 }
 
 json describe_constraint(const path_type& path) {

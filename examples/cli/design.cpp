@@ -170,7 +170,7 @@ std::uint32_t checksum_of(const design_command& command) {
                                       command.angular_error, command.field_of_view, command.step}
                                      .dump()};
   for (const std::filesystem::path& file : {command.prior, command.constraint, command.start})
-    words.push_back(file.empty() ? "" : std::to_string(gonio::io::detail::checksum(gonio::io::read_bytes(file))));
+    words.push_back(file.empty() ? "" : std::to_string(gonio::io::checksum(gonio::io::read_bytes(file))));
   return cli::checksum_of(words);
 }
 

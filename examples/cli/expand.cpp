@@ -41,18 +41,12 @@ struct expand_options {
 
 /// The numbers of a list, as 0.5,-1,2.
 std::vector<double> numbers_of(std::string_view list) {
-  std::vector<double> numbers;
-  for (bool more = true; more;) {
-    const std::size_t comma = list.find(',');
-    const std::string_view field = list.substr(0, comma);
-    double number = 0.0;
-    if (const char* wrong = gonio::io::detail::read_number(field, number))
-      gonio::refuse(
-          {"--weights: number ", numbers.size() + 1, " of a list, ", gonio::io::detail::quoted(field), ",", wrong});
-    numbers.push_back(number);
-    more = comma != std::string_view::npos;
-    if (more) list.remove_prefix(comma + 1);
-  }
+  std::vector<std::string_view> fields;
+  gonio::io::split_fields(list, fields);
+  std::vector<double> numbers(fields.size());
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (const char* wrong = gonio::io::read_number(fields[i], numbers[i]))
+      gonio::refuse({"--weights: number ", i + 1, " of a list, ", gonio::io::in_quotes(fields[i]), ",", wrong});
   return numbers;
 }
 

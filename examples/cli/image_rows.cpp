@@ -22,16 +22,14 @@ namespace {
 /// An array of numbers, read from its place.
 class npy_rows : public image_rows {
  public:
-  explicit npy_rows(const std::filesystem::path& path)
-      : name_(path.string()), file_(gonio::io::detail::open_to_read(path)) {
-    const std::uint64_t size = gonio::io::detail::size_of_regular(file_, path);
+  explicit npy_rows(const std::filesystem::path& path) : name_(path.string()), file_(gonio::io::open_to_read(path)) {
+    const std::uint64_t size = gonio::io::size_of_regular(file_, path);
     std::vector<std::byte> start(std::min<std::uint64_t>(size, 1u << 16));
     read_exactly(0, start);
     std::span<const std::byte> rest(start);
-    layout_ = gonio::io::detail::take_npy_header(rest, name_);
+    layout_ = gonio::io::read_npy_header(rest, name_);
     if (layout_.shape.size() != 3 || layout_.shape[2] != 3)
-      gonio::refuse(
-          {name_, ": has shape ", gonio::io::detail::npy_shape_text(layout_.shape), ", expected (rows, columns, 3)"});
+      gonio::refuse({name_, ": has shape ", gonio::io::npy_shape_text(layout_.shape), ", expected (rows, columns, 3)"});
     offset_ = start.size() - rest.size();
     if (size - offset_ != std::uint64_t{layout_.count} * layout_.word_size)
       gonio::refuse({name_, ": has ", size - offset_, " bytes of elements, expected ",
@@ -58,9 +56,9 @@ class npy_rows : public image_rows {
     std::vector<std::byte> bytes(out.size() * layout_.word_size);
     read_exactly(place_of(rows.begin), bytes);
     if (layout_.word_size == sizeof(double))
-      gonio::io::detail::copy_elements<double>(bytes, out, name_);
+      gonio::io::copy_elements<double>(bytes, out, name_);
     else
-      gonio::io::detail::copy_halves(bytes, out);
+      gonio::io::copy_halves(bytes, out);
   }
 
  private:
@@ -69,13 +67,12 @@ class npy_rows : public image_rows {
     return offset_ + static_cast<std::uint64_t>(row) * bytes_of_row();
   }
   void read_exactly(std::uint64_t offset, std::span<std::byte> bytes) const {
-    if (gonio::io::detail::read_at(file_, offset, bytes, name_) != bytes.size())
-      gonio::refuse({name_, ": is truncated"});
+    if (gonio::io::read_at(file_, offset, bytes, name_) != bytes.size()) gonio::refuse({name_, ": is truncated"});
   }
 
   std::string name_;
-  gonio::io::detail::descriptor file_;
-  gonio::io::detail::npy_layout layout_;
+  gonio::io::descriptor file_;
+  gonio::io::npy_layout layout_;
   std::uint64_t offset_ = 0;  ///< of the first number
 };
 

@@ -20,33 +20,31 @@ namespace cli {
 namespace {
 
 /// A file that vanishes with its process.
-gonio::io::detail::descriptor unnamed_file(const std::filesystem::path& folder) {
-  gonio::io::detail::descriptor file;
+gonio::io::descriptor unnamed_file(const std::filesystem::path& folder) {
+  gonio::io::descriptor file;
 #if defined(O_TMPFILE)
-  file = gonio::io::detail::descriptor(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  file = gonio::io::descriptor(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
 #endif
   if (!file.is_open()) {
     std::string name = (folder / ".gonio-images-XXXXXX").string();
-    file = gonio::io::detail::descriptor(::mkstemp(name.data()));
+    file = gonio::io::descriptor(::mkstemp(name.data()));
     if (file.is_open()) ::unlink(name.c_str());
   }
-  if (!file.is_open())
-    gonio::io::detail::refuse_file(folder, {"cannot be written: ", gonio::io::detail::system_reason(errno)});
+  if (!file.is_open()) gonio::io::refuse_file(folder, {"cannot be written: ", gonio::io::system_reason(errno)});
   return file;
 }
 
-void keep_decoded(const gonio::io::detail::descriptor& file, std::span<const std::byte> bytes, const std::string& name,
+void keep_decoded(const gonio::io::descriptor& file, std::span<const std::byte> bytes, const std::string& name,
                   const std::filesystem::path& folder) {
-  if (!gonio::io::detail::write_all(file, bytes))
-    gonio::io::detail::refuse_file(
-        folder,
-        {"the decoded ", name, " cannot be written into this folder: ", gonio::io::detail::system_reason(errno)});
+  if (!gonio::io::write_all(file, bytes))
+    gonio::io::refuse_file(
+        folder, {"the decoded ", name, " cannot be written into this folder: ", gonio::io::system_reason(errno)});
 }
 
 /// All of the bytes, or a refusal.
-void read_exactly(const gonio::io::detail::descriptor& file, std::uint64_t offset, std::span<std::byte> bytes,
+void read_exactly(const gonio::io::descriptor& file, std::uint64_t offset, std::span<std::byte> bytes,
                   const std::string& name) {
-  if (gonio::io::detail::read_at(file, offset, bytes, name) != bytes.size()) gonio::refuse({name, ": is truncated"});
+  if (gonio::io::read_at(file, offset, bytes, name) != bytes.size()) gonio::refuse({name, ": is truncated"});
 }
 
 }  // namespace
@@ -63,7 +61,7 @@ image_stack::image_stack(const image_list& list, const std::filesystem::path& fo
     }
     require_size(image.file.string(), opened.rows(), opened.columns());
   }
-  if (!list.mask.empty()) mask_ = decode_mask(list.mask, folder);
+  if (!list.mask.empty()) mask_ = read_mask(list.mask, folder);
 }
 
 void image_stack::require_size(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
@@ -73,8 +71,8 @@ void image_stack::require_size(const std::string& name, Eigen::Index rows, Eigen
                    " x ", rows_});
 }
 
-image_stack::decoded_mask image_stack::decode_mask(const std::filesystem::path& path,
-                                                   const std::filesystem::path& folder) const {
+image_stack::decoded_mask image_stack::read_mask(const std::filesystem::path& path,
+                                                 const std::filesystem::path& folder) const {
   const gonio::stored_codes pixels = gonio::io::read_png_codes(path);
   decoded_mask mask{path.string(), unnamed_file(folder)};
   require_size(mask.name, static_cast<Eigen::Index>(pixels.rows), static_cast<Eigen::Index>(pixels.columns));

@@ -47,10 +47,10 @@ class image_stack {
   };
   struct decoded_mask {
     std::string name;
-    gonio::io::detail::descriptor file;
+    gonio::io::descriptor file;
   };
 
-  [[nodiscard]] decoded_mask decode_mask(const std::filesystem::path& path, const std::filesystem::path& folder) const;
+  [[nodiscard]] decoded_mask read_mask(const std::filesystem::path& path, const std::filesystem::path& folder) const;
   /// A byte for each texel, zero if it is of the sample as far as the mask says.
   [[nodiscard]] std::vector<std::uint8_t> masked(gonio::block rows) const;
   /// Marks the texels that have a value that is not finite in an image, or refuses the first.

@@ -44,7 +44,7 @@ json weights_of(const gonio::log_relative_pca& prior, const info_options& option
     return {{"r", array_of(weights.col(0))}, {"g", array_of(weights.col(1))}, {"b", array_of(weights.col(2))}};
   json all;
   for (Eigen::Index band = 0; band < prior.channels(); ++band)
-    all[gonio::io::detail::shortest(prior.wavelengths()[band]) + "nm"] = array_of(weights.col(band));
+    all[gonio::io::shortest(prior.wavelengths()[band]) + "nm"] = array_of(weights.col(band));
   return all;
 }
 

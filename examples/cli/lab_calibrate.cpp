@@ -40,10 +40,9 @@ void write_responses(const std::filesystem::path& path, const gonio::capture::ca
   const auto& responses = known.responses;
   const auto knots = responses[0].log_exposures().size();
   for (Eigen::Index k = 0; k < knots; ++k) {
-    text += gonio::io::detail::shortest(static_cast<double>(k + 1) * responses[0].largest_count() /
-                                        static_cast<double>(knots));
+    text += gonio::io::shortest(static_cast<double>(k + 1) * responses[0].largest_count() / static_cast<double>(knots));
     for (const gonio::capture::camera_response& each : responses)
-      text += ',' + gonio::io::detail::shortest(each.log_exposures()[k]);
+      text += ',' + gonio::io::shortest(each.log_exposures()[k]);
     text += '\n';
   }
   gonio::io::write_atomically(path, std::as_bytes(std::span(text)));

@@ -80,7 +80,7 @@ std::string pose_table(const Machine& machine, const std::vector<gonio::directio
   }
   constexpr bool has_lamps = requires { machine.arc(); };
   text += has_lamps ? ",lamp\n" : "\n";
-  const auto rounded = [](double number) { return gonio::io::detail::shortest(std::round(number * 1e9) / 1e9 + 0.0); };
+  const auto rounded = [](double number) { return gonio::io::shortest(std::round(number * 1e9) / 1e9 + 0.0); };
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     text += std::to_string(i + 1);
     for (const auto& path : paths) {

@@ -69,7 +69,7 @@ lab::dark_room room_of(const scan_command& options) {
   return {surface_of(options), chip, wrong, options.room_seed, 2 * options.seed + (options.white ? 1 : 0)};
 }
 
-using gonio::io::detail::shortest;
+using gonio::io::shortest;
 
 /// What the journal says that it is of. Options that change no count are left out.
 gonio::io::scan_subject subject_of(const scan_command& options) {

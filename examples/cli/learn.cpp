@@ -52,8 +52,8 @@ std::string source_of(const material_source& source, const gonio::material_rows&
   const std::string text = source_of(source, materials.names.size());
   if (materials.wavelengths.empty()) return text;
   return text + ", at " + std::to_string(materials.wavelengths.size()) + " wavelengths from " +
-         gonio::io::detail::shortest(materials.wavelengths.front()) + " to " +
-         gonio::io::detail::shortest(materials.wavelengths.back()) + " nm";
+         gonio::io::shortest(materials.wavelengths.front()) + " to " +
+         gonio::io::shortest(materials.wavelengths.back()) + " nm";
 }
 
 /// "kept 60 components of 45 soft of 90 materials of networks.npy: 99.87 % of the mapped variance".

@@ -16,15 +16,14 @@ namespace {
 /// The light of a text such as 45,35: degrees to the right of the camera, and above it.
 gonio::direction light_of(const std::string& text) {
   std::vector<std::string_view> fields;
-  gonio::io::detail::split_fields(text, fields);
-  if (fields.size() != 2) gonio::refuse({"--light needs two angles, as 45,35, not ", gonio::io::detail::quoted(text)});
+  gonio::io::split_fields(text, fields);
+  if (fields.size() != 2) gonio::refuse({"--light needs two angles, as 45,35, not ", gonio::io::in_quotes(text)});
   std::array<double, 2> angles{};
   for (std::size_t i = 0; i < 2; ++i)
-    if (const char* wrong = gonio::io::detail::read_number(fields[i], angles[i]))
-      gonio::refuse({"--light: ", gonio::io::detail::quoted(fields[i]), ",", wrong});
+    if (const char* wrong = gonio::io::read_number(fields[i], angles[i]))
+      gonio::refuse({"--light: ", gonio::io::in_quotes(fields[i]), ",", wrong});
   if (std::abs(angles[0]) > 180.0 || std::abs(angles[1]) > 90.0)
-    gonio::refuse(
-        {"--light needs an angle from -180 to 180 and one from -90 to 90, not ", gonio::io::detail::quoted(text)});
+    gonio::refuse({"--light needs an angle from -180 to 180 and one from -90 to 90, not ", gonio::io::in_quotes(text)});
   const double right = gonio::radians(angles[0]), up = gonio::radians(angles[1]);
   return {std::sin(right) * std::cos(up), std::sin(up), std::cos(right) * std::cos(up)};
 }

@@ -73,7 +73,7 @@ class svbrdf_job {
     images_.will_read(rows_of(header, number + 1));
     gonio::texel_estimates found = estimator_.solve(values.reflectance, options_.threads);
     for (const Eigen::Index texel : values.outside) found.clear(texel);
-    return gonio::io::encode_band(header, number, gonio::io::as_halves(found, options_.threads));
+    return gonio::io::write_band(header, number, gonio::io::as_halves(found, options_.threads));
   }
 
   /// Of a few rows of all images.
@@ -84,7 +84,7 @@ class svbrdf_job {
       const Eigen::Index row = i * images_.rows() / std::min(most, images_.rows());
       each.push_back(checksum_of_numbers(images_.read({row, row + 1}, options_.threads).reflectance));
     }
-    return gonio::io::detail::checksum(std::as_bytes(std::span(each)));
+    return gonio::io::checksum(std::as_bytes(std::span(each)));
   }
 
  private:
@@ -95,8 +95,7 @@ class svbrdf_job {
   }
 
   static std::uint32_t checksum_of_numbers(const Eigen::MatrixXf& numbers) {
-    return gonio::io::detail::checksum(
-        std::as_bytes(std::span(numbers.data(), static_cast<std::size_t>(numbers.size()))));
+    return gonio::io::checksum(std::as_bytes(std::span(numbers.data(), static_cast<std::size_t>(numbers.size()))));
   }
 
   static std::filesystem::path folder_of(const std::filesystem::path& file) {

@@ -14,7 +14,7 @@ void write_texel_array(const std::filesystem::path& path, const gonio::io::svbrd
                        const std::function<void(gonio::io::file_writer&, Eigen::Index)>& write) {
   std::vector<std::size_t> shape{static_cast<std::size_t>(header.rows), static_cast<std::size_t>(header.columns)};
   shape.insert(shape.end(), extents.begin(), extents.end());
-  const std::string start = gonio::io::detail::npy_header(type, gonio::io::detail::npy_shape_text(shape));
+  const std::string start = gonio::io::npy_header(type, gonio::io::npy_shape_text(shape));
   gonio::io::write_atomically(path, [&](gonio::io::file_writer& file) {
     file.write(std::as_bytes(std::span(start)));
     for (Eigen::Index band = 0; band < header.bands(); ++band) write(file, band);

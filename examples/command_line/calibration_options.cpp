@@ -17,7 +17,7 @@ void add_reflectance_option(command& to, std::filesystem::path& given) {
 
 std::optional<double> number_of_reflectance(const std::filesystem::path& given) {
   double number = 0.0;
-  if (gonio::io::detail::read_number(given.native(), number) != nullptr) return {};
+  if (gonio::io::read_number(given.native(), number) != nullptr) return {};
   if (!(number >= 0.01 && number <= 1.0))
     gonio::refuse({"--reflectance ", given.native(), ": expected a number from 0.01 to 1, or a table's file"});
   return number;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 /// Where a path leads, be there a file or not.
 fs::path resolved(const fs::path& path) {
   std::error_code failed;
-  const fs::path whole = fs::absolute(gonio::io::detail::follow_links(path), failed);
+  const fs::path whole = fs::absolute(gonio::io::follow_links(path), failed);
   const fs::path known = fs::weakly_canonical(whole, failed);
   return failed ? whole.lexically_normal() : known;
 }
@@ -40,7 +40,7 @@ std::string listed(const std::vector<std::string>& words) {
 
 /// What can be known before hours of work.
 void require_place(const std::string& option, const fs::path& path) {
-  const fs::path folder = gonio::io::detail::follow_links(path).parent_path();
+  const fs::path folder = gonio::io::follow_links(path).parent_path();
   std::error_code failed;
   if (fs::is_directory(path, failed)) gonio::refuse({option, " ", path.native(), ": is a directory"});
   if (folder.empty() || fs::is_directory(folder, failed)) return;

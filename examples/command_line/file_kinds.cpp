@@ -94,7 +94,7 @@ void write_openmaterial(const fs::path& path, const file_content& content, const
   io::openmaterial_steps steps;
   if (how.polar_steps != 0) steps = {how.polar_steps, 2 * how.polar_steps};
   io::write_openmaterial(path, with_brdf(path, content, [&](const auto& f) {
-                           return io::format_openmaterial(f, metadata, steps, how.threads);
+                           return io::write_openmaterial(f, metadata, steps, how.threads);
                          }));
 }
 
@@ -110,7 +110,7 @@ bool ends_as(const fs::path& path, const file_kind& kind) {
 }
 
 bool begins_as(bytes content, const file_kind& kind) {
-  return !kind.magic.empty() && io::detail::as_text(content).starts_with(kind.magic);
+  return !kind.magic.empty() && io::as_text(content).starts_with(kind.magic);
 }
 
 /// "MERL table (.binary, .gz), ..." of those that are written, or of all.
@@ -133,27 +133,27 @@ const std::vector<file_kind>& file_kinds() {
       {"RGL material",
        {".bsdf"},
        {"tensor_file\0", 12},
-       [](bytes content, const std::string& name) -> file_content { return io::parse_rgl(content, name); },
+       [](bytes content, const std::string& name) -> file_content { return io::read_rgl(content, name); },
        &write_rgl},
       {"MDL measurement",
        {".mbsdf"},
        "NVIDIA ARC MBSDF",
-       [](bytes content, const std::string& name) -> file_content { return io::parse_mbsdf(content, name); },
+       [](bytes content, const std::string& name) -> file_content { return io::read_mbsdf(content, name); },
        &write_mbsdf},
       {"OpenMATERIAL table", {".xompt"}, "", nullptr, &write_openmaterial},
       {"table as an array",
        {".npy"},
        "\x93NUMPY",
-       [](bytes content, const std::string& name) -> file_content { return io::parse_table_npy(content, name); },
+       [](bytes content, const std::string& name) -> file_content { return io::read_table_npy(content, name); },
        &write_array},
       {"MERL table, compressed",
        {".gz"},
        "\x1f\x8b",
-       [](bytes content, const std::string& name) -> file_content { return io::parse_merl_any(content, name); }},
+       [](bytes content, const std::string& name) -> file_content { return io::read_merl_any(content, name); }},
       {"MERL table",
        {".binary"},
        "",
-       [](bytes content, const std::string& name) -> file_content { return io::parse_merl(content, name); },
+       [](bytes content, const std::string& name) -> file_content { return io::read_merl(content, name); },
        &write_merl},
       {"samples", {".csv"}, "", nullptr, &write_samples},
   };

@@ -17,7 +17,7 @@ std::string file_start(const std::filesystem::path& path) {
 }
 
 std::string lower_extension(const std::filesystem::path& path) {
-  return gonio::io::detail::lower_case(path.extension().string());
+  return gonio::io::lower_case(path.extension().string());
 }
 
 }  // namespace cli

@@ -26,7 +26,7 @@ void require_known(const json& object, std::initializer_list<std::string_view> k
   for (const auto& [key, value] : object.items()) {
     if (std::ranges::find(known, key) == known.end())
       gonio::refuse({name, ": '", gonio::printable(key), "' is unknown in ", shown(object), ", expected one of ",
-                     gonio::io::detail::listed({known.begin(), known.size()}, ", ")});
+                     gonio::io::listed({known.begin(), known.size()}, ", ")});
   }
 }
 
@@ -76,7 +76,7 @@ void read_outside(const json& text, const std::filesystem::path& path, image_lis
 image_list read_image_list(const std::filesystem::path& path) {
   const std::string name = path.string();
   const auto bytes = gonio::io::read_bytes(path);
-  const json text = json::parse(std::string(gonio::io::detail::as_text(bytes)));
+  const json text = json::read(std::string(gonio::io::as_text(bytes)));
   if (!text.is_object() || !text.contains("images") || !text["images"].is_array() || text["images"].empty())
     gonio::refuse({name, ": must be a JSON object whose 'images' is a list with an image at least"});
   require_known(text, {"quantity", "mask", "invalid", "images"}, name);

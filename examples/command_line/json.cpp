@@ -239,7 +239,7 @@ struct json_text {
   }
 };
 
-json json::parse(const std::string& text) {
+json json::read(const std::string& text) {
   json_reader reader;
   return nlohmann::json::sax_parse(text, &reader) ? std::move(reader).read() : json();
 }

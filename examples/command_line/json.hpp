@@ -51,7 +51,7 @@ class json {
   /// Arrays and objects in one another that `parse` reads, and values in all: what destroys or prints a value recurses.
   static constexpr std::size_t deepest = 100, most_values = 1 << 18;
   /// Null where the text is no JSON, or more than these.
-  [[nodiscard]] static json parse(const std::string& text);
+  [[nodiscard]] static json read(const std::string& text);
 
   [[nodiscard]] bool is_null() const noexcept;
   [[nodiscard]] bool is_string() const noexcept;

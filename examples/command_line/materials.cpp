@@ -63,7 +63,7 @@ std::vector<double> wavelengths_in(const std::string& text) {
   bool is_range = std::ranges::count(text, ':') == 2;
   for (std::size_t i = 0; i < numbers.size() && is_range; ++i) {
     const std::size_t end = std::min(left.find(':'), left.size());
-    is_range = gonio::io::detail::read_number(left.substr(0, end), numbers[i]) == nullptr;
+    is_range = gonio::io::read_number(left.substr(0, end), numbers[i]) == nullptr;
     left.remove_prefix(std::min(end + 1, left.size()));
   }
   const auto [first, step, last] = numbers;
@@ -181,7 +181,7 @@ std::uint32_t checksum_of(const gonio::material_rows& materials) {
   gonio::cell_matrix rows(most, materials.columns());
   for (Eigen::Index i = 0; i < most; ++i)
     materials.read({i * cells / most, i * cells / most + 1}, rows.middleRows(i, 1));
-  return gonio::io::detail::checksum(std::as_bytes(std::span(rows.data(), static_cast<std::size_t>(rows.size()))));
+  return gonio::io::checksum(std::as_bytes(std::span(rows.data(), static_cast<std::size_t>(rows.size()))));
 }
 
 /// A folder of MERL tables alone, over their own cells.
@@ -238,7 +238,7 @@ gonio::material_rows stream_materials(const material_source& source, const std::
   });
   std::vector<std::string> names;
   for (const named_table& each : all) names.push_back(each.name);
-  for (const double wavelength : wavelengths) names.push_back(gonio::io::detail::shortest(wavelength));
+  for (const double wavelength : wavelengths) names.push_back(gonio::io::shortest(wavelength));
   agree_on_names(processes, names);
   const gonio::valid_cells over = cells ? *cells : gonio::valid_cells();
   const Eigen::Index channels = gonio::channels_at<gonio::valid_cells>(wavelengths);

@@ -23,7 +23,7 @@ namespace {
 /// Appends the entries of "theta_o=Winkel,g=Y".
 void add_columns(const std::string& list, std::vector<gonio::io::column_name>& columns) {
   std::vector<std::string_view> entries;
-  gonio::io::detail::split_fields(list, entries);
+  gonio::io::split_fields(list, entries);
   for (const std::string_view entry : entries) {
     const std::size_t equals = entry.find('=');
     if (equals == std::string_view::npos || equals == 0 || equals + 1 == entry.size())
@@ -35,10 +35,10 @@ void add_columns(const std::string& list, std::vector<gonio::io::column_name>& c
 /// Spectra become colours under D65.
 gonio::io::sample_file read_csv(const std::filesystem::path& path, const gonio::io::sample_reading& reading) {
   const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
-  const std::string_view text = gonio::io::detail::as_text(bytes);
+  const std::string_view text = gonio::io::as_text(bytes);
   if (!gonio::io::names_wavelengths(text, path.native(), reading))
-    return gonio::io::parse_sample_file(text, path.native(), reading);
-  return as_colours(path, gonio::io::parse_spectral_sample_file(text, path.native(), reading), gonio::illuminant::d65);
+    return gonio::io::read_sample_file(text, path.native(), reading);
+  return as_colours(path, gonio::io::read_spectral_sample_file(text, path.native(), reading), gonio::illuminant::d65);
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ bool names_wavelengths(const std::filesystem::path& path, const measurement_opti
   if (const measurement_kind* kind = measurement_kind_of(path))
     return kind->read_spectra != nullptr && kind->read_spectra(path).bands() > 1;
   const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
-  return gonio::io::names_wavelengths(gonio::io::detail::as_text(bytes), path.native(), reading_of(options));
+  return gonio::io::names_wavelengths(gonio::io::as_text(bytes), path.native(), reading_of(options));
 }
 
 gonio::io::sample_file as_colours(const std::filesystem::path& path, const gonio::io::spectral_sample_file& file,

@@ -26,7 +26,7 @@ std::optional<double> gamma_of(const reconstruct_options& options) {
   const std::string& text = options.gamma;
   if (text == "auto") return options.as_printed ? std::optional(usual) : std::nullopt;
   double gamma = 0.0;
-  if (gonio::io::detail::read_number(text, gamma) || gamma < 0.0)
+  if (gonio::io::read_number(text, gamma) || gamma < 0.0)
     gonio::refuse("--gamma needs a number of at least 0, or auto, not '" + text + "'");
   return gamma;
 }

@@ -87,7 +87,7 @@ reconstruction by_threes(const reconstruct_options& options, const gonio::spectr
 }  // namespace
 
 reconstruction described_spectra(gonio::spectral_table spectra, const reconstruct_options& options) {
-  using gonio::io::detail::shortest;
+  using gonio::io::shortest;
   const gonio::illuminant light = options.reading.light.value_or(gonio::illuminant::d65);
   const std::vector<double>& wavelengths = spectra.wavelengths();
   const bool has_colours = wavelengths.size() == 1 || std::ranges::any_of(wavelengths, gonio::is_visible);

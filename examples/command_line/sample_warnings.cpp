@@ -1,6 +1,7 @@
 #include "sample_warnings.hpp"
 
 #include "fixed.hpp"
+#include <gonio/core/statistics.hpp>
 
 #include <Eigen/Core>
 
@@ -107,12 +108,12 @@ bool fall_like_cosine(const std::vector<dull_reading>& readings) {
 }
 
 /// What half of the samples away from the highlight reflect at least, relative to a white diffuser; 0 of few samples.
-double typical_reflectance_factor(std::vector<dull_reading> readings) {
+double typical_reflectance_factor(const std::vector<dull_reading>& readings) {
   constexpr std::size_t enough = 5;
   if (readings.size() < enough) return 0.0;
-  const auto middle = readings.begin() + static_cast<std::ptrdiff_t>(readings.size() / 2);
-  std::ranges::nth_element(readings, middle, {}, &dull_reading::value);
-  return std::numbers::pi * middle->value;
+  std::vector<double> values;
+  for (const dull_reading& each : readings) values.push_back(each.value);
+  return std::numbers::pi * gonio::upper_median(values);
 }
 
 /// Values of white may be a little above 1: noise, and a reference that is not quite white.

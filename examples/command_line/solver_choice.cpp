@@ -32,7 +32,7 @@ gonio::any_solver make_tikhonov(const std::string& eta) {
 
 double number_of_eta(const std::string& text) {
   double value = 0.0;
-  if (gonio::io::detail::read_number(text, value))
+  if (gonio::io::read_number(text, value))
     gonio::refuse("--eta needs a positive number, gcv or loo, not '" + text + "'");
   return value;
 }

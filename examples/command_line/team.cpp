@@ -28,7 +28,7 @@ const team& alone() {
 std::uint32_t checksum_of(std::span<const std::string> words) {
   std::string all;
   for (const std::string& word : words) all.append(word).push_back('\0');
-  return gonio::io::detail::checksum(std::as_bytes(std::span(all)));
+  return gonio::io::checksum(std::as_bytes(std::span(all)));
 }
 
 void team::compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
@@ -50,7 +50,7 @@ void agree_on_file(const team& processes, const std::filesystem::path& path, con
   if (processes.is_alone()) return;
   std::uint32_t checksum = 0;
   processes.together([&] {
-    if (!path.empty()) checksum = gonio::io::detail::checksum(gonio::io::read_bytes(path));
+    if (!path.empty()) checksum = gonio::io::checksum(gonio::io::read_bytes(path));
   });
   processes.agree_on(checksum, what);
 }

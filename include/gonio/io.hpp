@@ -12,6 +12,7 @@
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/cornell.hpp>
 #include <gonio/io/csv_dialect.hpp>
+#include <gonio/io/csv_reader.hpp>
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>

@@ -97,7 +97,7 @@ TEST_CASE("lab: a scan with all defects is calibrated by itself, and goes on whe
 
   // The whole way: what comes out is near what was in the machine.
   run("reconstruct " + room.at("samples.csv") + " -o " + room.at("estimate.binary"));
-  const auto errors = parse_json(run("compare --json " + room.at("estimate.binary") + " " + room.at("truth.binary")));
+  const auto errors = read_json(run("compare --json " + room.at("estimate.binary") + " " + room.at("truth.binary")));
   CHECK(errors["delta_e_env"].get<double>() < 10.0);
 }
 

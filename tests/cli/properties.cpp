@@ -22,7 +22,7 @@ namespace {
 auto properties(const std::filesystem::path& file, const std::string& options = "") {
   const auto result = gonio_tool("properties --json " + file.string() + options);
   REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-  return parse_json(result.output);
+  return read_json(result.output);
 }
 
 gonio::brdf_table grey_table(double albedo) {

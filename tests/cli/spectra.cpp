@@ -47,14 +47,14 @@ class measured_files {
 TEST_CASE("each wavelength is reconstructed, and written as spectra or as their colours") {
   const measured_files files;
   const auto told =
-      parse_json(run("reconstruct " + files.at("spectra.csv") + " --spectra --json -o " + files.at("a.bsdf")));
+      read_json(run("reconstruct " + files.at("spectra.csv") + " --spectra --json -o " + files.at("a.bsdf")));
   CHECK(told["wavelengths_nm"].size() == 5);
   CHECK(told["mapped_residual_rms"].size() == 5);
   CHECK(told["illuminant"] == "D65");
   const auto material = gonio::io::read_rgl(files.at("a.bsdf"));
   REQUIRE(material.spectra);
   CHECK(material.spectra->wavelengths == std::vector<double>{420, 480, 540, 600, 660});
-  CHECK(parse_json(run("info --json " + files.at("a.bsdf")))["wavelengths_nm"].size() == 5);
+  CHECK(read_json(run("info --json " + files.at("a.bsdf")))["wavelengths_nm"].size() == 5);
 
   CHECK(run("reconstruct " + files.at("spectra.csv") + " --spectra -o " + files.at("d65.binary"))
             .find("5 wavelengths from 420 to 660 nm") != std::string::npos);
@@ -86,7 +86,7 @@ TEST_CASE("without --spectra, spectra are their colours wherever samples are rea
   run("reconstruct " + files.at("colours.csv") + " -o " + files.at("from_colours.binary"));
   CHECK(scratch::get(files.at("from_spectra.binary")) == scratch::get(files.at("from_colours.binary")));
   CHECK(scratch::get(files.at("from_spectra.binary")) == scratch::get(files.at("from_d65.binary")));
-  const auto facts = parse_json(run("info --json " + files.at("spectra.csv")));
+  const auto facts = read_json(run("info --json " + files.at("spectra.csv")));
   CHECK(facts["samples"] == 18);
 }
 
@@ -153,7 +153,7 @@ TEST_CASE("interpolated spectra are those of three wavelengths at a time, which 
 TEST_CASE("one wavelength is reconstructed as it is, with --spectra and without") {
   const measured_files files;
   const auto told =
-      parse_json(run("reconstruct " + files.at("laser.csv") + " --spectra --json -o " + files.at("spectral.binary")));
+      read_json(run("reconstruct " + files.at("laser.csv") + " --spectra --json -o " + files.at("spectral.binary")));
   CHECK(told["wavelength_nm"] == 633.0);
   CHECK(told["wavelengths_nm"].size() == 1);
   run("reconstruct " + files.at("laser.csv") + " -o " + files.at("grey.binary"));

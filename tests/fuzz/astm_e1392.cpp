@@ -5,9 +5,7 @@
 
 namespace {
 
-void read(fuzz::input bytes) {
-  fuzz::read_both(bytes, gonio::io::parse_astm_e1392, gonio::io::parse_astm_e1392_spectra);
-}
+void read(fuzz::input bytes) { fuzz::read_both(bytes, gonio::io::read_astm_e1392, gonio::io::read_astm_e1392_spectra); }
 
 const fuzz::registered harness("astm_e1392", &read);
 

@@ -5,7 +5,7 @@
 
 namespace {
 
-void read(fuzz::input bytes) { fuzz::read_both(bytes, gonio::io::parse_bird, gonio::io::parse_bird_spectra); }
+void read(fuzz::input bytes) { fuzz::read_both(bytes, gonio::io::read_bird, gonio::io::read_bird_spectra); }
 
 const fuzz::registered harness("bird", &read);
 

@@ -5,7 +5,7 @@
 
 namespace {
 
-void read(fuzz::input bytes) { static_cast<void>(gonio::io::parse_exif_exposure_time(bytes, fuzz::bytes_name)); }
+void read(fuzz::input bytes) { static_cast<void>(gonio::io::read_exif_exposure_time(bytes, fuzz::bytes_name)); }
 
 const fuzz::registered harness("exif", &read);
 

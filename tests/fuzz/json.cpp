@@ -9,9 +9,9 @@
 namespace {
 
 void read(fuzz::input bytes) {
-  const cli::json value = cli::json::parse(std::string(fuzz::text_of(bytes)));
+  const cli::json value = cli::json::read(std::string(fuzz::text_of(bytes)));
   const std::string text = value.dump();
-  if (cli::json::parse(text).dump() != text) std::abort();
+  if (cli::json::read(text).dump() != text) std::abort();
 }
 
 const fuzz::registered harness("json", &read);

@@ -5,7 +5,7 @@
 
 namespace {
 
-void read(fuzz::input bytes) { static_cast<void>(gonio::io::parse_merl_any(bytes, fuzz::bytes_name)); }
+void read(fuzz::input bytes) { static_cast<void>(gonio::io::read_merl_any(bytes, fuzz::bytes_name)); }
 
 const fuzz::registered harness("merl", &read);
 

@@ -48,7 +48,7 @@ std::string with_checksums(std::string_view text) {
 }
 
 void read(fuzz::input bytes) {
-  static_cast<void>(gonio::io::parse_scan(with_checksums(fuzz::text_of(bytes)), fuzz::bytes_name));
+  static_cast<void>(gonio::io::read_scan(with_checksums(fuzz::text_of(bytes)), fuzz::bytes_name));
 }
 
 const fuzz::registered harness("scan_journal", &read);

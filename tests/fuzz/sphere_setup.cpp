@@ -6,7 +6,7 @@
 namespace {
 
 void read(fuzz::input bytes) {
-  static_cast<void>(gonio::io::parse_sphere_setup(fuzz::text_of(bytes), fuzz::bytes_name));
+  static_cast<void>(gonio::io::read_sphere_setup(fuzz::text_of(bytes), fuzz::bytes_name));
 }
 
 const fuzz::registered harness("sphere_setup", &read);

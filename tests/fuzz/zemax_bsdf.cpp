@@ -5,7 +5,7 @@
 
 namespace {
 
-void read(fuzz::input bytes) { static_cast<void>(gonio::io::parse_zemax_bsdf(fuzz::text_of(bytes), fuzz::bytes_name)); }
+void read(fuzz::input bytes) { static_cast<void>(gonio::io::read_zemax_bsdf(fuzz::text_of(bytes), fuzz::bytes_name)); }
 
 const fuzz::registered harness("zemax_bsdf", &read);
 

@@ -36,8 +36,8 @@ gonio::log_relative_pca as_shipped(const gonio::log_relative_pca& prior) {
   const gonio::grid_extents fine = prior.cells().grid().extents();
   const gonio::valid_cells thin(gonio::grid({fine.theta_h, fine.theta_d / 3, fine.phi_d / 5}));
   const auto encoded =
-      gonio::io::encode_prior(gonio::thin(prior.truncated(std::min<std::size_t>(60, prior.size())), thin));
-  return gonio::io::decode_prior(encoded, "the shipped form of the prior");
+      gonio::io::write_prior(gonio::thin(prior.truncated(std::min<std::size_t>(60, prior.size())), thin));
+  return gonio::io::read_prior(encoded, "the shipped form of the prior");
 }
 
 void print_row(const std::string& label, double reference, const json& full, const json* shipped) {

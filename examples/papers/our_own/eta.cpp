@@ -124,7 +124,7 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
   const reconstruction_error error(prior, truths, equations_of(places).rows());
 
   // Reconstruct each material with every penalty, and with the one that each rule chooses.
-  const Eigen::VectorXd etas = gonio::detail::geometric(1e-3, 1e5, 97);
+  const Eigen::VectorXd etas = gonio::geometric_sequence(1e-3, 1e5, 97);
   Eigen::VectorXd shared = Eigen::VectorXd::Zero(etas.size());
   eta_outcome each, forty, of_noise, unknown, free;
   const std::size_t repetitions = noise > 0.0 ? options.repetitions : 1;

@@ -266,7 +266,7 @@ void print_added(const streaming_experiment& given) {
     const gonio::material_rows new_rows = random_tables(old_count, given.grown, given).rows();
     const gonio::material_rows all_rows = random_tables(0, given.grown, given).rows();
     const auto old = gonio::learn_streamed_pca(old_rows, options_of(given)).prior;
-    const auto stored = gonio::io::decode_prior(gonio::io::encode_prior(old), "the prior of the others");
+    const auto stored = gonio::io::read_prior(gonio::io::write_prior(old), "the prior of the others");
     const auto exactly = gonio::add_materials(old, new_rows, options_of(given)).prior;
     gonio::streamed_pca added{old}, all{old};
     const double adding = seconds_of([&] { added = gonio::add_materials(stored, new_rows, options_of(given)); });

@@ -32,8 +32,7 @@ struct found_design {
 
 void require_one_of(const std::string& given, const char* name, std::initializer_list<std::string_view> words) {
   if (std::ranges::count(words, std::string_view(given)) > 0) return;
-  gonio::refuse(
-      {name, " is '", given, "': expected one of ", gonio::io::detail::listed({words.begin(), words.size()}, ", ")});
+  gonio::refuse({name, " is '", given, "': expected one of ", gonio::io::listed({words.begin(), words.size()}, ", ")});
 }
 
 std::vector<gonio::direction_pair> pairs_of(const py::object& directions, const char* name) {

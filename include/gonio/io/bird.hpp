@@ -27,13 +27,13 @@ namespace gonio::io {
 ///
 /// Throws gonio::error naming what is wrong; also for light that was analysed after reflection, fluorescence, and other
 /// variables than these that change within the file: a sample cannot say them.
-[[nodiscard]] sample_set parse_bird(std::string_view text, const std::string& name);
+[[nodiscard]] sample_set read_bird(std::string_view text, const std::string& name);
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_bird(const std::filesystem::path& path);
 
 /// The same with the spectra as they are, which need the same wavelengths in all pairs of directions.
-[[nodiscard]] spectral_samples parse_bird_spectra(std::string_view text, const std::string& name);
+[[nodiscard]] spectral_samples read_bird_spectra(std::string_view text, const std::string& name);
 [[nodiscard]] spectral_samples read_bird_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io

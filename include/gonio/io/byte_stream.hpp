@@ -22,26 +22,25 @@ class byte_writer {
  public:
   template <class Number>
   requires std::is_trivially_copyable_v<Number>
-  void put(Number value) { put_bytes(&value, sizeof value); }
+  void write(Number value) { write_bytes(&value, sizeof value); }
 
   template <class Number>
   requires std::is_trivially_copyable_v<Number>
-  void put_all(std::span<const Number> values) { put_bytes(values.data(), values.size_bytes()); }
+  void write_all(std::span<const Number> values) { write_bytes(values.data(), values.size_bytes()); }
 
-  void put_bytes(const void* bytes, std::size_t count);
+  void write_bytes(const void* bytes, std::size_t count);
 
   /// A length of 32 bits and the characters.
-  void put_text(const std::string& text);
+  void write_text(const std::string& text);
 
-  [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
-  /// Moves them out.
-  [[nodiscard]] std::vector<std::byte> take() noexcept { return std::move(bytes_); }
+  [[nodiscard]] std::span<const std::byte> bytes() const& noexcept { return bytes_; }
+  [[nodiscard]] std::vector<std::byte> bytes() && noexcept { return std::move(bytes_); }
 
  private:
   std::vector<std::byte> bytes_;
 };
 
-/// Takes numbers and arrays off the front of a byte buffer; throws gonio::error naming `name` where the
+/// Reads numbers and arrays off the front of a byte buffer; throws gonio::error naming `name` where the
 /// bytes do not suffice. Counts are checked against the bytes that are left before anything is allocated.
 class byte_reader {
  public:
@@ -49,25 +48,25 @@ class byte_reader {
 
   template <class Number>
   requires std::is_trivially_copyable_v<Number>
-  [[nodiscard]] Number take() {
+  [[nodiscard]] Number read() {
     Number value;
-    std::memcpy(&value, take_bytes(sizeof(Number)).data(), sizeof(Number));
+    std::memcpy(&value, read_bytes(sizeof(Number)).data(), sizeof(Number));
     return value;
   }
 
   template <class Number>
   requires std::is_trivially_copyable_v<Number>
-  [[nodiscard]] std::vector<Number> take_all(std::size_t count) {
+  [[nodiscard]] std::vector<Number> read_all(std::size_t count) {
     if (count > bytes_.size() / sizeof(Number)) fail();
     std::vector<Number> values(count);
-    const auto bytes = take_bytes(count * sizeof(Number));
+    const auto bytes = read_bytes(count * sizeof(Number));
     if (count != 0) std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
 
-  [[nodiscard]] std::string take_text();
+  [[nodiscard]] std::string read_text();
 
-  [[nodiscard]] std::span<const std::byte> take_bytes(std::size_t count);
+  [[nodiscard]] std::span<const std::byte> read_bytes(std::size_t count);
 
   [[nodiscard]] std::size_t left() const noexcept { return bytes_.size(); }
 

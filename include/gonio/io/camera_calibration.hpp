@@ -25,7 +25,7 @@ struct camera_calibration {
 /// Throws gonio::error naming the entry that is missing or not what it should be: a matrix of another shape than its
 /// numbers, a size that is no whole number, focal lengths that are not positive, axes that are not at right angles, or
 /// coefficients beyond k3 that are not zero. `name` is what errors call the text.
-[[nodiscard]] camera_calibration parse_camera_calibration(std::string_view text, const std::string& name);
+[[nodiscard]] camera_calibration read_camera_calibration(std::string_view text, const std::string& name);
 
 /// Reads a calibration. Throws gonio::error naming the file.
 [[nodiscard]] camera_calibration read_camera_calibration(const std::filesystem::path& path);

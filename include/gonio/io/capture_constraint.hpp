@@ -23,14 +23,14 @@ namespace gonio::io {
 namespace detail {
 
 /// A range of polar angles from two numbers in degrees.
-[[nodiscard]] design::polar_range parse_polar_range(const text_rule& rule, std::size_t first, const text_place& place);
+[[nodiscard]] design::polar_range read_polar_range(const text_rule& rule, std::size_t first, const text_place& place);
 
 void apply_rule(const text_rule& rule, design::capture_constraint& constraint, const text_place& place);
 
 }  // namespace detail
 
 /// Throws gonio::error naming the line that is no rule; `name` is what errors call the text.
-[[nodiscard]] design::capture_constraint parse_capture_constraint(std::string_view text, const std::string& name);
+[[nodiscard]] design::capture_constraint read_capture_constraint(std::string_view text, const std::string& name);
 
 /// Reads a file of rules. Throws gonio::error naming the file and the line.
 [[nodiscard]] design::capture_constraint read_capture_constraint(const std::filesystem::path& path);

@@ -23,25 +23,27 @@ struct checked_file_kind {
   std::uint32_t oldest = 0;  ///< the first version that is read, too; 0: `version` alone is
 };
 
+/// The CRC-32 of bytes, as of gzip.
+[[nodiscard]] std::uint32_t checksum(std::span<const std::byte> bytes);
+[[nodiscard]] inline std::uint32_t checksum(std::string_view text) { return checksum(std::as_bytes(std::span(text))); }
+
 namespace detail {
 
 /// More than any plausible payload, so that a corrupt size is refused before memory is asked for.
 inline constexpr std::uint64_t payload_size_limit = std::uint64_t{4} << 30;
 
-[[nodiscard]] std::uint32_t checksum(std::span<const std::byte> bytes);
-
-/// Takes the magic word and the version. Throws gonio::error starting with `name` if they are others.
-void take_kind(const checked_file_kind& kind, byte_reader& file, const std::string& name);
+/// Reads the magic word and the version. Throws gonio::error starting with `name` if they are others.
+void read_kind(const checked_file_kind& kind, byte_reader& file, const std::string& name);
 
 }  // namespace detail
 
 /// A payload as the bytes of a file.
-[[nodiscard]] std::vector<std::byte> encode_checked(const checked_file_kind& kind, std::span<const std::byte> payload);
+[[nodiscard]] std::vector<std::byte> write_checked(const checked_file_kind& kind, std::span<const std::byte> payload);
 
 /// The payload in the bytes of a file. Throws gonio::error starting with `name` where they are not of the kind, of
 /// another version, damaged (checksum), truncated or over-long.
-[[nodiscard]] std::vector<std::byte> decode_checked(const checked_file_kind& kind, std::span<const std::byte> bytes,
-                                                    const std::string& name);
+[[nodiscard]] std::vector<std::byte> read_checked(const checked_file_kind& kind, std::span<const std::byte> bytes,
+                                                  const std::string& name);
 
 /// Does the file start as this kind does?
 [[nodiscard]] bool is_of_kind(const checked_file_kind& kind, const std::filesystem::path& path);

@@ -22,9 +22,9 @@ namespace gonio::io {
 namespace detail {
 
 /// Reads such a file line by line.
-class cornell_parser {
+class cornell_reader {
  public:
-  explicit cornell_parser(text_place& place) : place_(place) {}
+  explicit cornell_reader(text_place& place) : place_(place) {}
 
   void read(std::string_view line);
 
@@ -35,7 +35,7 @@ class cornell_parser {
   void split(std::string_view line);
 
   [[nodiscard]] double number(std::size_t field) const {
-    return parse_number(fields_[field], place_, [&] { return "field " + std::to_string(field + 1); });
+    return read_number(fields_[field], place_, [&] { return "field " + std::to_string(field + 1); });
   }
 
   void read_count();
@@ -58,13 +58,13 @@ class cornell_parser {
 
 /// Samples from the text of such a file, as linear Rec. 709 under D65; `name` is what errors call it. Throws
 /// gonio::error naming line and field of what is wrong.
-[[nodiscard]] sample_set parse_cornell(std::string_view text, const std::string& name);
+[[nodiscard]] sample_set read_cornell(std::string_view text, const std::string& name);
 
 /// Reads such a file. Throws gonio::error naming file, line and field of what is wrong.
 [[nodiscard]] sample_set read_cornell(const std::filesystem::path& path);
 
 /// The same with the spectra as they are.
-[[nodiscard]] spectral_samples parse_cornell_spectra(std::string_view text, const std::string& name);
+[[nodiscard]] spectral_samples read_cornell_spectra(std::string_view text, const std::string& name);
 [[nodiscard]] spectral_samples read_cornell_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io

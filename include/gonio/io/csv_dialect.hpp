@@ -16,6 +16,14 @@ struct csv_dialect {
   char separator = ',';     ///< a comma, a semicolon, a tab, or a blank for runs of blanks and tabs
   char decimal_mark = '?';  ///< a point, a comma, or ? as long as no number has had one
 
+  /// The fields of a line, trimmed, without the double quotes around them (RFC 4180, but a field ends on its line;
+  /// doubled quotes in a field stay doubled). Returns what is wrong with the line, or nothing.
+  [[nodiscard]] const char* split(std::string_view line, std::vector<std::string_view>& fields) const;
+
+  /// Reads a finite number; the first with a decimal mark decides which one the file has. Returns what is wrong with
+  /// the field, or nothing.
+  [[nodiscard]] const char* read_number(std::string_view field, double& value);
+
   friend bool operator==(const csv_dialect&, const csv_dialect&) = default;
 };
 
@@ -29,15 +37,6 @@ namespace detail {
 
 /// Refuses what is often saved instead of CSV: a workbook, UTF-16 text. `name` is what the sentence calls the file.
 void require_plain_text(std::string_view text, const std::string& name);
-
-/// The fields of a line, trimmed, without the double quotes around them (RFC 4180, but a field ends on its line;
-/// doubled quotes in a field stay doubled). Returns what is wrong with the line, or nothing.
-[[nodiscard]] const char* split_fields(std::string_view line, const csv_dialect& dialect,
-                                       std::vector<std::string_view>& fields);
-
-/// Reads a finite number; the first with a decimal mark decides which one the file has. Returns what is wrong with the
-/// field, or nothing.
-[[nodiscard]] const char* read_number(std::string_view field, csv_dialect& dialect, double& value);
 
 }  // namespace detail
 

@@ -12,7 +12,7 @@ namespace gonio::io {
 
 /// Seconds of exposure; nothing if the EXIF data has none. Throws gonio::error starting with `name` if the bytes are no
 /// JPEG file with EXIF data, or if the time is not from 1e-7 s to a day.
-[[nodiscard]] std::optional<double> parse_exif_exposure_time(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] std::optional<double> read_exif_exposure_time(std::span<const std::byte> bytes, const std::string& name);
 
 /// The same of a file.
 [[nodiscard]] std::optional<double> read_exif_exposure_time(const std::filesystem::path& path);

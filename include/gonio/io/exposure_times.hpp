@@ -20,9 +20,9 @@ void require_believable_exposure(double seconds, const std::string& name);
 /// Seconds of exposure by the names of files, with their extensions.
 using exposure_times = std::map<std::string, double, std::less<>>;
 
-/// Reads a table (.csv) with the header `file,seconds` and a line for each file; seconds are a number, or two with a
-/// slash, as in 1/250. `#` starts a comment line. Throws gonio::error naming the line if it has not these two fields,
-/// if seconds are not positive, or if a file is there twice.
+/// Reads a table (.csv, of any dialect) with the header `file,seconds` and a line for each file; seconds are a number,
+/// or two with a slash, as in 1/250; a name that holds a comma is in quotes. Throws gonio::error naming the line if it
+/// has not these two fields, if seconds are not positive, or if a file is there twice.
 [[nodiscard]] exposure_times read_exposure_times(const std::filesystem::path& path);
 
 }  // namespace gonio::io

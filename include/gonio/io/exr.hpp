@@ -20,7 +20,7 @@ namespace gonio::io {
 /// ignored. Throws gonio::error starting with `name` if the bytes are no such file or are truncated, if the image has
 /// more than 16384 pixels one way or more pixels than is believable of the bytes, if there is neither R, G and B nor Y,
 /// and if a value is a NaN.
-[[nodiscard]] image parse_exr(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] image read_exr(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads an OpenEXR file.
 [[nodiscard]] image read_exr(const std::filesystem::path& path);
@@ -33,7 +33,7 @@ class exr_decoder;
 /// compressed, or a row of its tiles.
 class exr_rows {
  public:
-  /// Looks at the header and where each block of lines or tile is. Throws gonio::error as `parse_exr` does, if a block
+  /// Looks at the header and where each block of lines or tile is. Throws gonio::error as `read_exr` does, if a block
   /// is missing or ends behind the file, and if tiles have more than 512 rows.
   explicit exr_rows(const std::filesystem::path& path);
   exr_rows(exr_rows&&) noexcept;

@@ -25,11 +25,10 @@
 
 namespace gonio::io {
 
-namespace detail {
-
+/// What the system says of an error number: "No such file or directory".
 [[nodiscard]] std::string system_reason(int code);
 
-/// The parts of the message, one after the other.
+/// Throws gonio::error naming the file: the parts of the message, one after the other.
 [[noreturn]] void refuse_file(const std::filesystem::path& path, std::initializer_list<message_part> what);
 [[noreturn]] inline void refuse_file(const std::filesystem::path& path, const message_part& what) {
   refuse_file(path, {what});
@@ -79,6 +78,11 @@ class descriptor {
 /// Writes all bytes where the file is written next. False, and errno, if they cannot be stored.
 [[nodiscard]] bool write_all(const descriptor& file, std::span<const std::byte> bytes) noexcept;
 
+/// What a path's symbolic links lead to, be it there or not, so that a link stays a link when written.
+[[nodiscard]] std::filesystem::path follow_links(const std::filesystem::path& path);
+
+namespace detail {
+
 /// The name of a temporary file: that of the machine, of the process and a number. Made without memory or locks.
 struct temporary_name {
   explicit temporary_name(std::uint32_t number) noexcept;
@@ -98,9 +102,6 @@ inline std::array<std::atomic<std::uint64_t>, 64> named_temporaries{};
 
 /// Removes temporary files that no process holds. What cannot be removed stays.
 void remove_abandoned(const std::filesystem::path& folder, const descriptor& opened);
-
-/// What a path's symbolic links lead to, be it there or not, so that a link stays a link when written.
-[[nodiscard]] std::filesystem::path follow_links(const std::filesystem::path& path);
 
 }  // namespace detail
 
@@ -149,8 +150,8 @@ class file_writer {
 
   std::filesystem::path path_;
   std::filesystem::path target_;
-  detail::descriptor folder_;
-  detail::descriptor file_;
+  descriptor folder_;
+  descriptor file_;
   std::optional<detail::temporary_name> temporary_;
   std::atomic<std::uint64_t>* noted_ = nullptr;  ///< where remove_unfinished_files finds the temporary file
   bool replaces_ = false;

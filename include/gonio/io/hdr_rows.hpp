@@ -33,7 +33,7 @@ class hdr_rows {
   class row_reader;
 
   std::string name_;
-  detail::descriptor file_;
+  descriptor file_;
   Eigen::Index columns_ = 0;
   bool has_runs_ = false;              ///< rows are run-length encoded
   std::vector<std::uint64_t> begins_;  ///< of each row in the file, and the end of the last

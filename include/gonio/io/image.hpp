@@ -67,7 +67,7 @@ struct png_header {
 
 [[nodiscard]] std::uint32_t big_endian(std::span<const std::byte> bytes) noexcept;
 
-[[nodiscard]] png_header parse_png_header(std::span<const std::byte> data, const std::string& name);
+[[nodiscard]] png_header read_png_header(std::span<const std::byte> data, const std::string& name);
 
 /// Walks a PNG's chunks: throws gonio::error unless all are whole with right checksums, the last is IEND with
 /// nothing after it, and the pixels expand to exactly the size that the header promises.
@@ -106,7 +106,7 @@ struct stb_extents {
 [[nodiscard]] stored_codes read_png_codes(const std::filesystem::path& path);
 
 /// A PNG as the bytes of a file, as `write_png` writes it; `name` is what an error calls it.
-[[nodiscard]] std::vector<std::byte> encode_png(const image& picture, const std::string& name);
+[[nodiscard]] std::vector<std::byte> write_png(const image& picture, const std::string& name);
 
 /// Writes a PNG: clipped to [0, 1], sRGB-encoded, rounded to 8 bits. NaN is refused.
 void write_png(const std::filesystem::path& path, const image& picture);

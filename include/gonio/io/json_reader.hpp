@@ -1,11 +1,11 @@
 #pragma once
-/// JSON texts (RFC 8259), read forwards: the caller takes the values that it wants and skips the others. No tree of
-/// values is built, and nothing is allocated but what is taken.
+/// JSON texts (RFC 8259), read forwards: the caller reads the values that it wants and skips the others. No tree of
+/// values is built, and nothing is allocated but what is read.
 /// ```
 /// json_reader json(text, place);
 /// json.open_object("file");
 /// while (const auto key = json.next_key())
-///   if (*key == "angle") angle = json.take_number("angle"); else json.skip();
+///   if (*key == "angle") angle = json.read_number("angle"); else json.skip();
 /// json.finish();
 /// ```
 
@@ -28,17 +28,17 @@ class json_reader {
   void open_object(std::string_view what) { open('{', "an object", what); }
   void open_array(std::string_view what) { open('[', "an array", what); }
 
-  /// The next key of the object that was opened last, or nothing at its end. Its value must be taken before the next.
+  /// The next key of the object that was opened last, or nothing at its end. Its value must be read before the next.
   [[nodiscard]] std::optional<std::string> next_key();
 
-  /// Is there a next element in the array that was opened last? It must be taken before the next.
+  /// Is there a next element in the array that was opened last? It must be read before the next.
   [[nodiscard]] bool next_element();
 
   /// A finite number.
-  [[nodiscard]] double take_number(std::string_view what);
+  [[nodiscard]] double read_number(std::string_view what);
 
   /// A string in UTF-8. A character beyond the basic plane that is escaped becomes two question marks.
-  [[nodiscard]] std::string take_string(std::string_view what);
+  [[nodiscard]] std::string read_string(std::string_view what);
 
   /// The first character of the next value: one of {["-0123456789tfn if it is one.
   [[nodiscard]] char peek();
@@ -58,8 +58,8 @@ class json_reader {
   void skip_blanks();
   void expect(char c);
   void append_escaped(std::string& string);
-  [[nodiscard]] unsigned take_code();
-  [[nodiscard]] std::string_view take_literal();
+  [[nodiscard]] unsigned read_code();
+  [[nodiscard]] std::string_view read_literal();
 
   std::string_view text_;
   text_place& place_;

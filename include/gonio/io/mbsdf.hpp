@@ -33,20 +33,20 @@ struct mbsdf_material {
 /// A material from the bytes of a file; `name` is what errors call it. Lines of the header that are no key and value
 /// are passed over, as MDL's own reader does. Throws gonio::error for a file without reflection, and for values that
 /// are not finite.
-[[nodiscard]] mbsdf_material parse_mbsdf(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] mbsdf_material read_mbsdf(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads a file.
 [[nodiscard]] inline mbsdf_material read_mbsdf(const std::filesystem::path& path) {
-  return parse_mbsdf(read_bytes(path), path.string());
+  return read_mbsdf(read_bytes(path), path.string());
 }
 
 /// The bytes of a file. Throws gonio::error for a key that is not letters, digits and underscores; of values, what is
 /// no printable ASCII becomes '?'.
-[[nodiscard]] std::vector<std::byte> serialise_mbsdf(const mbsdf_material& material);
+[[nodiscard]] std::vector<std::byte> write_mbsdf(const mbsdf_material& material);
 
 /// Writes a file beside its target and renames it.
 inline void write_mbsdf(const std::filesystem::path& path, const mbsdf_material& material) {
-  write_atomically(path, serialise_mbsdf(material));
+  write_atomically(path, write_mbsdf(material));
 }
 
 /// The same of any BRDF, over this grid.

@@ -127,12 +127,12 @@ namespace detail {
 
 /// A table from the bytes of a MERL file; `name` is what errors call it. Values at cells below the horizon
 /// are ignored. Negative values at the others are measurements and stay; NaN and infinity are refused.
-[[nodiscard]] brdf_table parse_merl(std::span<const std::byte> bytes, const std::string& name,
-                                    const merl_options& options = {});
+[[nodiscard]] brdf_table read_merl(std::span<const std::byte> bytes, const std::string& name,
+                                   const merl_options& options = {});
 
 /// Reads an uncompressed MERL file.
 [[nodiscard]] inline brdf_table read_merl(const std::filesystem::path& path, const merl_options& options = {}) {
-  return parse_merl(read_bytes(path), path.string(), options);
+  return read_merl(read_bytes(path), path.string(), options);
 }
 
 /// Writes a table; what is read back is equal to it. The format has no place for the table's anchor and

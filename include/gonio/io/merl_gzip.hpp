@@ -7,12 +7,12 @@
 namespace gonio::io {
 
 /// A table from the bytes of a MERL file, plain or gzip.
-[[nodiscard]] brdf_table parse_merl_any(std::span<const std::byte> bytes, const std::string& name,
-                                        const merl_options& options = {});
+[[nodiscard]] brdf_table read_merl_any(std::span<const std::byte> bytes, const std::string& name,
+                                       const merl_options& options = {});
 
 /// Reads a MERL file, plain or gzip (`.binary`, `.binary.gz`, or any other name).
 [[nodiscard]] inline brdf_table read_merl_any(const std::filesystem::path& path, const merl_options& options = {}) {
-  return parse_merl_any(read_bytes(path), path.string(), options);
+  return read_merl_any(read_bytes(path), path.string(), options);
 }
 
 }  // namespace gonio::io

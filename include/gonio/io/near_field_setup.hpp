@@ -24,7 +24,7 @@ namespace gonio::io {
 /// Throws gonio::error naming the line with an entry that is unknown, there twice or not what it should be, or the
 /// entry that is missing, and as `require_usable` does. With a calibration the text says neither size nor lens. `name`
 /// is what errors call the text.
-[[nodiscard]] capture::near_field_setup parse_near_field_setup(
+[[nodiscard]] capture::near_field_setup read_near_field_setup(
     std::string_view text, const std::string& name, const std::optional<camera_calibration>& calibration = {});
 
 /// Reads the set-up of an image. Throws gonio::error naming the file and the line.

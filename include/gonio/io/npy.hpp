@@ -32,10 +32,6 @@ namespace gonio::io {
 static_assert(std::endian::native == std::endian::little,
               "we write little-endian arrays, as is every supported machine");
 
-namespace detail {
-
-inline constexpr std::string_view npy_magic = "\x93NUMPY";
-
 /// What the header of a file says, checked.
 struct npy_layout {
   std::size_t word_size = 0;
@@ -51,15 +47,19 @@ template <class Shape>
   return "(" + text + (std::size(shape) == 1 ? ",)" : ")");
 }
 
-/// Reads the header's dictionary: a Python literal with exactly the keys descr, fortran_order and shape.
-class npy_header_parser {
- public:
-  npy_header_parser(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+namespace detail {
 
-  [[nodiscard]] npy_layout parse();
+inline constexpr std::string_view npy_magic = "\x93NUMPY";
+
+/// Reads the header's dictionary: a Python literal with exactly the keys descr, fortran_order and shape.
+class npy_header_reader {
+ public:
+  npy_header_reader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+  [[nodiscard]] npy_layout read();
 
  private:
-  void parse_entry();
+  void read_entry();
 
   [[nodiscard]] npy_layout layout() const;
 
@@ -85,8 +85,10 @@ class npy_header_parser {
   std::optional<std::vector<std::size_t>> shape_;
 };
 
-/// Takes the magic, version and header off the front of a file's bytes.
-[[nodiscard]] npy_layout take_npy_header(std::span<const std::byte>& bytes, const std::string& name);
+}  // namespace detail
+
+/// Reads the magic, version and header off the front of a file's bytes.
+[[nodiscard]] npy_layout read_npy_header(std::span<const std::byte>& bytes, const std::string& name);
 
 template <std::floating_point Stored, std::floating_point T>
 void copy_elements(std::span<const std::byte> bytes, std::span<T> out, const std::string& name) {
@@ -114,18 +116,16 @@ void copy_halves(std::span<const std::byte> bytes, std::span<T> out) {
 /// What stands before the elements of a file of version 1.0, as numpy writes it: they begin at a multiple of 64 bytes.
 [[nodiscard]] std::string npy_header(std::string_view type, const std::string& shape);
 
-}  // namespace detail
-
 template <class T>
 concept npy_element = std::same_as<T, float> || std::same_as<T, double>;
 
 /// An array from the bytes of an .npy file, converted to T where it holds another type; `name` is what
 /// errors call it. NaN and infinity are left to whoever uses the array.
 template <npy_element T, std::size_t Rank>
-[[nodiscard]] xt::xtensor<T, Rank> parse_npy(std::span<const std::byte> bytes, const std::string& name) {
-  const detail::npy_layout layout = detail::take_npy_header(bytes, name);
+[[nodiscard]] xt::xtensor<T, Rank> read_npy(std::span<const std::byte> bytes, const std::string& name) {
+  const npy_layout layout = read_npy_header(bytes, name);
   if (layout.shape.size() != Rank)
-    gonio::refuse({name, ": has shape ", detail::npy_shape_text(layout.shape), ", expected ", Rank,
+    gonio::refuse({name, ": has shape ", npy_shape_text(layout.shape), ", expected ", Rank,
                    (Rank == 1 ? " dimension" : " dimensions")});
   if (bytes.size() != layout.count * layout.word_size)
     gonio::refuse({name, ": has ", bytes.size(), " bytes of elements, expected ", layout.count * layout.word_size,
@@ -135,24 +135,24 @@ template <npy_element T, std::size_t Rank>
   xt::xtensor<T, Rank> array(shape);
   const std::span<T> elements(array.data(), layout.count);
   if (layout.word_size == sizeof(std::uint16_t))
-    detail::copy_halves(bytes, elements);
+    copy_halves(bytes, elements);
   else if (layout.word_size == sizeof(float))
-    detail::copy_elements<float>(bytes, elements, name);
+    copy_elements<float>(bytes, elements, name);
   else
-    detail::copy_elements<double>(bytes, elements, name);
+    copy_elements<double>(bytes, elements, name);
   return array;
 }
 
 /// Reads an .npy file.
 template <npy_element T, std::size_t Rank>
 [[nodiscard]] xt::xtensor<T, Rank> read_npy(const std::filesystem::path& path) {
-  return parse_npy<T, Rank>(read_bytes(path), path.string());
+  return read_npy<T, Rank>(read_bytes(path), path.string());
 }
 
 /// Writes an array as numpy itself would (version 1.0).
 template <npy_element T, std::size_t Rank>
 void write_npy(const std::filesystem::path& path, const xt::xtensor<T, Rank>& array) {
-  const std::string header = detail::npy_header(sizeof(T) == 4 ? "<f4" : "<f8", detail::npy_shape_text(array.shape()));
+  const std::string header = npy_header(sizeof(T) == 4 ? "<f4" : "<f8", npy_shape_text(array.shape()));
   write_atomically(path, [&](file_writer& file) {
     file.write(std::as_bytes(std::span(header)));
     file.write(std::as_bytes(std::span(array.data(), array.size())));
@@ -171,7 +171,7 @@ void write_npy_halves(const std::filesystem::path& path, const xt::xtensor<float
       gonio::refuse({path.native(), ": element ", i, " is ", double{value},
                      ", beyond the range of half floats, 65504: write float32"});
   }
-  const std::string header = detail::npy_header("<f2", detail::npy_shape_text(array.shape()));
+  const std::string header = npy_header("<f2", npy_shape_text(array.shape()));
   write_atomically(path, [&](file_writer& file) {
     file.write(std::as_bytes(std::span(header)));
     file.write(std::as_bytes(std::span(halves)));

@@ -51,8 +51,8 @@ namespace detail {
 /// 760 nanometres; what is negative becomes 0, the smallest value that the schema has. Same bytes for any number of
 /// threads.
 template <brdf Brdf>
-[[nodiscard]] std::string format_openmaterial(const Brdf& f, const openmaterial_metadata& metadata = {},
-                                              const openmaterial_steps& steps = {}, thread_count threads = {}) {
+[[nodiscard]] std::string write_openmaterial(const Brdf& f, const openmaterial_metadata& metadata = {},
+                                             const openmaterial_steps& steps = {}, thread_count threads = {}) {
   const std::vector<direction_pair> pairs = detail::openmaterial_directions(steps);
   std::vector<rgb> colours(pairs.size());
   for_each_index(
@@ -71,13 +71,13 @@ void write_openmaterial(const std::filesystem::path& path, const std::string& te
 /// the mean of those of the same wavelength, then the colour of the spectrum (linear Rec. 709 under D65; grey for a
 /// single wavelength); samples ascend by their angles. Rows with a null and directions at the horizon are none. Throws
 /// gonio::error naming the line of what is wrong, and for tables of other properties. O(rows log rows).
-[[nodiscard]] sample_set parse_openmaterial(std::string_view text, const std::string& name);
+[[nodiscard]] sample_set read_openmaterial(std::string_view text, const std::string& name);
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_openmaterial(const std::filesystem::path& path);
 
 /// The same with the spectra as they are, which need the same wavelengths in all pairs of directions.
-[[nodiscard]] spectral_samples parse_openmaterial_spectra(std::string_view text, const std::string& name);
+[[nodiscard]] spectral_samples read_openmaterial_spectra(std::string_view text, const std::string& name);
 [[nodiscard]] spectral_samples read_openmaterial_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io

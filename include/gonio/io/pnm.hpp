@@ -14,7 +14,7 @@ namespace gonio::io {
 /// The counts of a PPM or PGM file, which has one image and nothing after it. Grey becomes three equal channels.
 /// Throws gonio::error starting with `name` if the bytes are of another kind, truncated or over-long, if a count is
 /// above the file's largest one, or if the image has more than 16384 pixels one way.
-[[nodiscard]] stored_codes parse_pnm(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] stored_codes read_pnm(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads a PPM or PGM file.
 [[nodiscard]] stored_codes read_pnm(const std::filesystem::path& path);

@@ -14,11 +14,11 @@ namespace gonio::io {
 
 /// A prior as the bytes of a file: components as 8-bit codes, mean and logarithm of the reference as 16-bit
 /// ones.
-[[nodiscard]] std::vector<std::byte> encode_prior(const log_relative_pca& prior);
+[[nodiscard]] std::vector<std::byte> write_prior(const log_relative_pca& prior);
 
 /// The prior in the bytes of a file. Throws gonio::error starting with `name` where they are not a prior, of
 /// another version, damaged (checksum), truncated or over-long.
-[[nodiscard]] log_relative_pca decode_prior(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] log_relative_pca read_prior(std::span<const std::byte> bytes, const std::string& name);
 
 /// Does the file start as a prior does?
 [[nodiscard]] bool is_prior(const std::filesystem::path& path);
@@ -26,7 +26,7 @@ namespace gonio::io {
 /// Writes a prior. An existing file is replaced only once the new one is complete.
 void write_prior(const std::filesystem::path& path, const log_relative_pca& prior);
 
-/// Reads a prior; see decode_prior for what is refused.
+/// Reads a file, which is refused for the same reasons.
 [[nodiscard]] log_relative_pca read_prior(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -10,11 +10,11 @@
 namespace gonio::io {
 
 /// Appends a prior: components as 8-bit codes, mean and logarithm of the reference as 16-bit ones. O(cells x k).
-void put_prior(byte_writer& out, const log_relative_pca& prior);
+void write_prior(byte_writer& out, const log_relative_pca& prior);
 
-/// Takes a prior, which must be all that is left. Throws gonio::error starting with `name` where the bytes are not a
+/// Reads a prior, which must be all that is left. Throws gonio::error starting with `name` where the bytes are not a
 /// prior's; counts that they cannot hold are refused before memory is asked for. O(cells x k).
-[[nodiscard]] log_relative_pca take_prior(byte_reader& in, const std::string& name);
+[[nodiscard]] log_relative_pca read_prior(byte_reader& in, const std::string& name);
 
 }  // namespace gonio::io
 

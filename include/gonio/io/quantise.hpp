@@ -50,9 +50,9 @@ template <std::unsigned_integral Code>
 /// Writes low, step, and the differences of successive codes (modulo the code's range), most significant
 /// bytes of all first.
 template <std::unsigned_integral Code>
-void put_quantised(byte_writer& out, const quantised<Code>& column) {
-  out.put(column.low);
-  out.put(column.step);
+void write_quantised(byte_writer& out, const quantised<Code>& column) {
+  out.write(column.low);
+  out.write(column.step);
   std::vector<std::uint8_t> plane(column.codes.size());
   for (int shift = 8 * (static_cast<int>(sizeof(Code)) - 1); shift >= 0; shift -= 8) {
     Code previous = 0;
@@ -60,15 +60,15 @@ void put_quantised(byte_writer& out, const quantised<Code>& column) {
       plane[i] = static_cast<std::uint8_t>(static_cast<Code>(column.codes[i] - previous) >> shift);
       previous = column.codes[i];
     }
-    out.put_bytes(plane.data(), plane.size());
+    out.write_bytes(plane.data(), plane.size());
   }
 }
 
 template <std::unsigned_integral Code>
-[[nodiscard]] quantised<Code> take_quantised(byte_reader& in, std::size_t count) {
-  quantised<Code> column{in.take<float>(), in.take<float>(), std::vector<Code>(count)};
+[[nodiscard]] quantised<Code> read_quantised(byte_reader& in, std::size_t count) {
+  quantised<Code> column{in.read<float>(), in.read<float>(), std::vector<Code>(count)};
   for (std::size_t byte = 0; byte < sizeof(Code); ++byte) {
-    const auto plane = in.take_all<std::uint8_t>(count);
+    const auto plane = in.read_all<std::uint8_t>(count);
     for (std::size_t i = 0; i < count; ++i) column.codes[i] = static_cast<Code>((column.codes[i] << 8) | plane[i]);
   }
   Code value = 0;

@@ -7,9 +7,10 @@
 
 namespace gonio::io {
 
-/// Reads a table: the header names the columns, in any order: `theta_i`, perhaps `theta_o` (degrees), and `factor`, or
-/// `factor_r,factor_g,factor_b`. Lines ascend by theta_i, and of one theta_i by theta_o, of which every theta_i has the
-/// same. `#` starts a comment line.
+/// Reads a table in any dialect (io/csv_dialect.hpp): the header names the columns, in any order: `theta_i`, perhaps
+/// `theta_o` (degrees, or with their unit as in files of samples), and `factor`, or `factor_r,factor_g,factor_b` (or
+/// per cent, `factor [%]`). Lines ascend by theta_i, and of one theta_i by theta_o, of which every theta_i has the
+/// same.
 ///
 /// Throws gonio::error naming the file, and the line where there is one to name, if a column is missing or unknown, if
 /// a number is none, if angles do not ascend or a pair of them is missing, or as reference_reflectance does.

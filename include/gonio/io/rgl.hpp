@@ -56,11 +56,11 @@ struct rgl_material {
 
 /// A material from the bytes of a file; `name` is what errors call it. Throws gonio::error if an array is missing or
 /// malformed and for an anisotropic material (more than two azimuths of the light).
-[[nodiscard]] rgl_material parse_rgl(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] rgl_material read_rgl(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads a file.
 [[nodiscard]] inline rgl_material read_rgl(const std::filesystem::path& path) {
-  return parse_rgl(read_bytes(path), path.string());
+  return read_rgl(read_bytes(path), path.string());
 }
 
 /// Spectra for a material that is known in RGB, for pbrt-v4 and spectral variants of Mitsuba.
@@ -70,11 +70,11 @@ struct rgl_material {
 /// The bytes of a file. Of spectra, if there are any, the spectral variant, which pbrt-v4 and Mitsuba's spectral
 /// variants want; otherwise that of Mitsuba's RGB variants. Throws gonio::error for spectra that do not fit the
 /// material, and for a material whose values are in tables that are not square, which renderers refuse.
-[[nodiscard]] std::vector<std::byte> serialise_rgl(const rgl_material& material);
+[[nodiscard]] std::vector<std::byte> write_rgl(const rgl_material& material);
 
 /// Writes a file beside its target and renames it.
 inline void write_rgl(const std::filesystem::path& path, const rgl_material& material) {
-  write_atomically(path, serialise_rgl(material));
+  write_atomically(path, write_rgl(material));
 }
 
 /// The same of any BRDF, in RGB: `tabulate_keeping_albedo` makes its tables, unless it has some.

@@ -17,7 +17,7 @@ struct text_rule {
   std::vector<double> numbers;
 };
 
-[[nodiscard]] text_rule parse_rule(std::string_view line, const text_place& place);
+[[nodiscard]] text_rule read_rule(std::string_view line, const text_place& place);
 
 /// Refuses a rule unless it has one of these counts of numbers.
 void require_numbers(const text_rule& rule, std::initializer_list<std::size_t> counts, const text_place& place);

@@ -67,10 +67,10 @@ class sample_collector {
   void add(const direction_pair& pair, std::span<const double> values, double weight = 1.0);
 
   /// Throws gonio::error naming the file if there is no sample, or one of an invisible spectrum.
-  [[nodiscard]] sample_set take(const std::string& name) &&;
+  [[nodiscard]] sample_set samples(const std::string& name) &&;
 
   /// Throws gonio::error naming the file if there is no sample, or one that has no spectrum or other wavelengths.
-  [[nodiscard]] spectral_samples take_spectra(const std::string& name) &&;
+  [[nodiscard]] spectral_samples spectra(const std::string& name) &&;
 
  private:
   void require_samples(const std::string& name) const;

@@ -2,7 +2,7 @@
 /// The header line of a file of samples: which column each field of a line is, what the columns' names and units say of
 /// the numbers, and which columns are not needed. io/samples.hpp has the names.
 
-#include <gonio/io/csv_dialect.hpp>
+#include <gonio/io/csv_reader.hpp>
 #include <gonio/io/sample_quantity.hpp>
 #include <gonio/io/text.hpp>
 
@@ -56,6 +56,13 @@ struct written_column {
   std::string text, name, unit;
 };
 
+/// The name in small letters. A unit is in brackets behind it, or its last word if that is a word for a unit:
+/// theta_i_deg.
+[[nodiscard]] written_column written(std::string_view field);
+
+enum class column_unit { none, degrees, radians, nanometres, percent, per_steradian, unknown };
+[[nodiscard]] column_unit unit_named(std::string_view name);
+
 /// What a column may be called, in letters and digits alone: Theta_In, "theta in" and thetaIn are one name.
 struct known_name {
   std::string_view letters;
@@ -68,8 +75,8 @@ class sample_header {
   /// Of a field that is no column of samples.
   static constexpr std::size_t ignored = sample_columns.size();
 
-  void read(std::string_view line, const csv_dialect& dialect, const sample_reading& reading, bool needs_value,
-            const text_place& place);
+  /// Of the line that the file is at.
+  void read(const csv_reader& file, const sample_reading& reading, bool needs_value);
 
   [[nodiscard]] const std::vector<std::size_t>& columns() const noexcept { return columns_; }
   [[nodiscard]] const column_group& directions() const noexcept { return directions_; }

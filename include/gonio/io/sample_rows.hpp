@@ -2,7 +2,7 @@
 /// The lines of a file of samples or directions as numbers, each where it stands. io/samples.hpp makes directions and
 /// values of them.
 
-#include <gonio/io/csv_dialect.hpp>
+#include <gonio/io/csv_reader.hpp>
 #include <gonio/io/sample_header.hpp>
 #include <gonio/io/sample_provenance.hpp>
 #include <gonio/io/sample_quantity.hpp>
@@ -33,16 +33,17 @@ struct parsed_row {
 };
 
 /// Reads a file of samples or directions line by line:
-/// `row_reader rows(text, name, false, {}); while (rows.next()) use(rows.row());`
-class row_reader {
+/// `sample_rows rows(text, name, false, {}); while (rows.next()) use(rows.row());`
+class sample_rows {
  public:
-  row_reader(std::string_view text, const std::string& name, bool needs_value, const sample_reading& reading);
+  sample_rows(std::string_view text, const std::string& name, bool needs_value, const sample_reading& reading);
 
   /// Turns to the next line of numbers. At the end of the file it is false, or an error if there was none.
   [[nodiscard]] bool next();
 
   [[nodiscard]] parsed_row row() const noexcept {
-    return {numbers_, header_.directions(), header_.values(), header_.weights(), quantity_.quantity(), place_, header_};
+    return {numbers_, header_.directions(), header_.values(), header_.weights(), quantity_.quantity(), csv_.place(),
+            header_};
   }
   [[nodiscard]] const sample_header& header() const noexcept { return header_; }
   [[nodiscard]] std::optional<sample_quantity> quantity() const noexcept { return quantity_.quantity(); }
@@ -50,10 +51,9 @@ class row_reader {
   [[nodiscard]] const sample_provenance& provenance() const noexcept { return provenance_; }
 
  private:
-  [[nodiscard]] bool next_line(std::string_view& line);
   void read_comment(std::string_view comment);
-  void read_header(std::string_view line);
-  void read_fields(std::string_view line);
+  void read_header();
+  void read_fields();
   void read_number_of(std::size_t column, std::string_view field, std::size_t& percent_signs);
   void read_quantity(std::string_view field);
   void check_percent_signs(std::size_t signs);
@@ -61,18 +61,14 @@ class row_reader {
   void check_weights() const;
   void look_at_sides();
   void finish() const;
-  [[noreturn]] void refuse_size(std::string_view line) const;
 
-  std::string_view left_;
-  text_place place_;
+  csv_reader csv_;
   bool needs_value_;
   const sample_reading& reading_;
-  csv_dialect dialect_;
   sample_header header_;
   stated_quantity quantity_;
   sample_provenance provenance_;
   std::optional<double> wavelength_;
-  std::vector<std::string_view> fields_;
   sample_row numbers_ = sample_row(sample_columns.size());
   std::size_t rows_ = 0;
   bool has_percent_signs_ = false, has_signed_angle_ = false;

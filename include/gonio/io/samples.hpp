@@ -31,10 +31,15 @@ struct sample_file {
 };
 
 /// Samples from the text of a CSV file; `name` is what errors call it.
-[[nodiscard]] sample_file parse_sample_file(std::string_view text, const std::string& name,
-                                            const sample_reading& reading = {});
-[[nodiscard]] sample_set parse_samples(std::string_view text, const std::string& name,
-                                       const sample_reading& reading = {});
+[[nodiscard]] sample_file read_sample_file(std::string_view text, const std::string& name,
+                                           const sample_reading& reading = {});
+[[nodiscard]] sample_set read_samples(std::string_view text, const std::string& name,
+                                      const sample_reading& reading = {});
+
+/// Does the text have no column of values? Throws gonio::error for a header line or a first line of numbers that
+/// `read_directions` refuses.
+[[nodiscard]] bool has_directions_alone(std::string_view text, const std::string& name,
+                                        const sample_reading& reading = {});
 
 /// Reads measurements. Throws gonio::error naming file, line, column and value of what is wrong, also if neither file
 /// nor `reading` say what the numbers of `value` are. What is ignored or assumed goes to `reading.note`.
@@ -55,7 +60,7 @@ void write_direction_pairs(const std::filesystem::path& path, std::span<const di
 namespace detail {
 
 /// Appends a line, with one weight or one for each channel.
-void format_sample(std::string& text, const sample& s, bool weighs_channels_apart);
+void write_sample(std::string& text, const sample& s, bool weighs_channels_apart);
 
 void write_text(const std::filesystem::path& path, std::string_view text);
 
@@ -65,11 +70,11 @@ void write_text(const std::filesystem::path& path, std::string_view text);
 /// `theta_h,theta_d,phi_d,r,g,b,weight`, or `weight_r,weight_g,weight_b` if a sample counts more in one channel than in
 /// another. Where they come from stands above, in comment lines.
 template <sample_range Samples>
-[[nodiscard]] std::string format_samples(const Samples& samples, const sample_provenance& provenance = {}) {
+[[nodiscard]] std::string write_samples(const Samples& samples, const sample_provenance& provenance = {}) {
   const bool apart = weigh_channels_apart(samples);
   std::string text = comment_lines(provenance) + "theta_h,theta_d,phi_d,r,g,b,";
   text += apart ? "weight_r,weight_g,weight_b\n" : "weight\n";
-  for (auto&& each : samples) detail::format_sample(text, each, apart);
+  for (auto&& each : samples) detail::write_sample(text, each, apart);
   return text;
 }
 
@@ -82,7 +87,7 @@ void write_samples(const std::filesystem::path& path, const Samples& samples,
   } catch (const error& unusable) {
     gonio::refuse({path.native(), ": ", unusable.what()});
   }
-  detail::write_text(path, format_samples(samples, provenance));
+  detail::write_text(path, write_samples(samples, provenance));
 }
 
 }  // namespace gonio::io

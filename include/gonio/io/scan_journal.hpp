@@ -52,15 +52,15 @@ namespace detail {
 
 [[nodiscard]] bool has_checksum(std::string_view line);
 
-[[nodiscard]] std::string format_pose(const direction_pair& pose);
-[[nodiscard]] std::string format_added_pose(const direction_pair& pose);
+[[nodiscard]] std::string write_pose(const direction_pair& pose);
+[[nodiscard]] std::string write_added_pose(const direction_pair& pose);
 /// Throws gonio::error if a text of the subject is not one line.
-[[nodiscard]] std::string format_scan_header(const scan_subject& subject, std::span<const direction_pair> poses,
-                                             std::uint16_t largest_count);
+[[nodiscard]] std::string write_scan_header(const scan_subject& subject, std::span<const direction_pair> poses,
+                                            std::uint16_t largest_count);
 
-[[nodiscard]] std::string format_reading(std::size_t pose, const capture::reading& taken);
+[[nodiscard]] std::string write_reading(std::size_t pose, const capture::reading& taken);
 
-/// Takes a line's numbers one after the other.
+/// Reads a line's numbers one after the other.
 class number_reader {
  public:
   number_reader(const text_rule& rule, const text_place& place) : rule_(rule), place_(place) {}
@@ -75,11 +75,11 @@ class number_reader {
   std::size_t used_ = 0;
 };
 
-[[nodiscard]] capture::reading parse_reading(number_reader& numbers, std::uint16_t largest_count,
-                                             const text_place& place);
+[[nodiscard]] capture::reading read_reading(number_reader& numbers, std::uint16_t largest_count,
+                                            const text_place& place);
 
 /// A pose of the plan, or, with a checksum behind its six numbers, one that was added.
-[[nodiscard]] direction_pair parse_pose(const text_rule& rule, std::size_t numbers, const text_place& place);
+[[nodiscard]] direction_pair read_pose(const text_rule& rule, std::size_t numbers, const text_place& place);
 
 /// What a reader of lines knows of those before.
 struct scan_lines {
@@ -102,7 +102,7 @@ void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& 
 
 /// Throws gonio::error naming the line that is damaged or not what it should be; a last line that is not whole is left
 /// out. `name` is what errors call the text.
-[[nodiscard]] recorded_scan parse_scan(std::string_view text, const std::string& name);
+[[nodiscard]] recorded_scan read_scan(std::string_view text, const std::string& name);
 
 /// Reads a scan, whole or not. Throws gonio::error naming the file and the line.
 [[nodiscard]] recorded_scan read_scan(const std::filesystem::path& path);
@@ -132,10 +132,10 @@ class scan_journal {
   void require_same(const scan_subject& subject, std::span<const direction_pair> poses,
                     std::uint16_t largest_count) const;
 
-  [[noreturn]] void fail() const { detail::refuse_file(path_, "cannot be written: " + detail::system_reason(errno)); }
+  [[noreturn]] void fail() const { refuse_file(path_, "cannot be written: " + system_reason(errno)); }
 
   std::filesystem::path path_;
-  detail::descriptor file_;
+  descriptor file_;
   recorded_scan scan_;
 };
 

@@ -74,7 +74,7 @@ class setup_text {
   [[nodiscard]] std::size_t count(std::string_view name, std::size_t which, std::size_t smallest) const;
 
   [[noreturn]] void refuse(std::string_view name, const std::string& what) const {
-    at(name).place.refuse(quoted(name) + ": " + what);
+    at(name).place.refuse(in_quotes(name) + ": " + what);
   }
 
   /// Refuses a file with none of these entries.
@@ -82,7 +82,7 @@ class setup_text {
 
   /// Refuses a file that says in two ways what `subject` is.
   void require_one_of(std::string_view one, std::string_view other, const std::string& subject) const {
-    if (has(one) && has(other)) refuse(one, quoted(other) + " says already " + subject + ", give only one of them");
+    if (has(one) && has(other)) refuse(one, in_quotes(other) + " says already " + subject + ", give only one of them");
   }
 
   /// Calls what knows nothing of the file, and names the file where that refuses something.

@@ -23,14 +23,14 @@ struct spectral_sample_file {
 };
 
 /// Does the text of a CSV file of samples name two wavelengths or more in its header line? Throws gonio::error for a
-/// header line or a first sample that `parse_samples` refuses.
+/// header line or a first sample that `read_samples` refuses.
 [[nodiscard]] bool names_wavelengths(std::string_view text, const std::string& name,
                                      const sample_reading& reading = {});
 
 /// Samples from the text of a CSV file; `name` is what errors call it. Throws gonio::error naming line, column and
 /// value of what is wrong, and for a file without wavelengths.
-[[nodiscard]] spectral_sample_file parse_spectral_sample_file(std::string_view text, const std::string& name,
-                                                              const sample_reading& reading = {});
+[[nodiscard]] spectral_sample_file read_spectral_sample_file(std::string_view text, const std::string& name,
+                                                             const sample_reading& reading = {});
 
 /// Reads such a file.
 [[nodiscard]] spectral_sample_file read_spectral_sample_file(const std::filesystem::path& path,
@@ -38,8 +38,8 @@ struct spectral_sample_file {
 
 /// Samples as CSV text: `theta_h,theta_d,phi_d`, a column for each wavelength, `weight`, below `# quantity: brdf`.
 /// Every number is in the fewest digits that read back as the same number.
-[[nodiscard]] std::string format_spectral_samples(const spectral_samples& samples,
-                                                  const sample_provenance& provenance = {});
+[[nodiscard]] std::string write_spectral_samples(const spectral_samples& samples,
+                                                 const sample_provenance& provenance = {});
 
 /// Writes such a file beside its target and renames it. Throws gonio::error if a sample is unusable, before anything is
 /// written.

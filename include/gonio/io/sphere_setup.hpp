@@ -41,8 +41,8 @@ struct sphere_setup {
 
 /// Throws gonio::error naming the line with an entry that is unknown, there twice or not what it should be, or the
 /// entry that is missing. With a calibration the file says neither size nor lens. `name` is what errors call the text.
-[[nodiscard]] sphere_setup parse_sphere_setup(std::string_view text, const std::string& name,
-                                              const std::optional<camera_calibration>& calibration = {});
+[[nodiscard]] sphere_setup read_sphere_setup(std::string_view text, const std::string& name,
+                                             const std::optional<camera_calibration>& calibration = {});
 
 /// Reads a set-up. Throws gonio::error naming the file and the line.
 [[nodiscard]] sphere_setup read_sphere_setup(const std::filesystem::path& path,

@@ -22,9 +22,9 @@ namespace gonio::io {
 namespace detail {
 
 /// Reads such a file block by block.
-class ssdd_parser {
+class ssdd_reader {
  public:
-  ssdd_parser(std::string_view text, text_place& place) : words_(text, place) {}
+  ssdd_reader(std::string_view text, text_place& place) : words_(text, place) {}
 
   [[nodiscard]] sample_collector read();
 
@@ -65,13 +65,13 @@ class ssdd_parser {
 /// is reduced by symmetry or reciprocity the part that is there is read. A direction that the table has more than once
 /// is one sample; those at the horizon are none. Throws gonio::error naming the line of what is wrong, also for
 /// distorted spherical coordinates and offsets, which the specification does not define in full.
-[[nodiscard]] sample_set parse_ssdd(std::string_view text, const std::string& name);
+[[nodiscard]] sample_set read_ssdd(std::string_view text, const std::string& name);
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_ssdd(const std::filesystem::path& path);
 
 /// The same with the spectra as they are; throws gonio::error if the colours are none.
-[[nodiscard]] spectral_samples parse_ssdd_spectra(std::string_view text, const std::string& name);
+[[nodiscard]] spectral_samples read_ssdd_spectra(std::string_view text, const std::string& name);
 [[nodiscard]] spectral_samples read_ssdd_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -60,8 +60,8 @@ struct svbrdf_band {
 
 /// A band as the file has it, its checksum at the end. Throws gonio::error unless it has as many numbers as the header
 /// asks for.
-[[nodiscard]] std::vector<std::byte> encode_band(const svbrdf_header& header, Eigen::Index band,
-                                                 const svbrdf_band& values);
+[[nodiscard]] std::vector<std::byte> write_band(const svbrdf_header& header, Eigen::Index band,
+                                                const svbrdf_band& values);
 
 /// Writes a map band by band into `PATH.part`, which becomes PATH when it is whole. A job whose process ended goes on
 /// behind its last whole band: the same job makes the same bytes, however often it is interrupted. One process at a
@@ -80,7 +80,7 @@ class svbrdf_writer {
 
   /// The next band. Throws gonio::error if it cannot be stored, as on a full disk: what was written before stays.
   void append(const svbrdf_band& values);
-  /// The next band as `encode_band` has made it, maybe elsewhere. Throws gonio::error, too, if it was damaged since.
+  /// The next band as `write_band` has made it, maybe elsewhere. Throws gonio::error, too, if it was damaged since.
   void append(std::span<const std::byte> bytes);
 
   /// Gives the file its name once all bands are there, and are on the disk.
@@ -95,7 +95,7 @@ class svbrdf_writer {
 
   std::filesystem::path path_, target_, part_;
   svbrdf_header header_;
-  detail::descriptor file_;
+  descriptor file_;
   std::uint64_t head_size_ = 0;
   Eigen::Index finished_ = 0;
 };
@@ -118,7 +118,7 @@ class svbrdf_map {
  private:
   std::filesystem::path path_;
   svbrdf_header header_;
-  detail::descriptor file_;
+  descriptor file_;
   std::uint64_t head_size_ = 0;
 };
 

@@ -20,7 +20,7 @@ void write_table_npy_halves(const std::filesystem::path& path, const brdf_table&
 
 /// A table from the bytes of such an array, whose values are those at the cells' centres; `name` is what errors call
 /// it. Throws gonio::error for another shape and values that are not finite.
-[[nodiscard]] brdf_table parse_table_npy(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] brdf_table read_table_npy(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace gonio::io
 

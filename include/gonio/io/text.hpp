@@ -13,7 +13,7 @@
 #include <system_error>
 #include <vector>
 
-namespace gonio::io::detail {
+namespace gonio::io {
 
 /// Where in which file a reader is, for its errors.
 struct text_place {
@@ -29,7 +29,7 @@ struct text_place {
 inline constexpr std::string_view blanks = " \t\r";
 
 /// A field in quotes, short and printable whatever a broken file holds.
-[[nodiscard]] std::string quoted(std::string_view field);
+[[nodiscard]] std::string in_quotes(std::string_view field);
 
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
@@ -66,9 +66,9 @@ void for_each_line(std::string_view text, text_place& place, Use&& use) {
 
 /// A finite number; `describe()` is what errors call it.
 template <class Describe>
-[[nodiscard]] double parse_number(std::string_view field, const text_place& place, const Describe& describe) {
+[[nodiscard]] double read_number(std::string_view field, const text_place& place, const Describe& describe) {
   double value = 0.0;
-  if (const char* wrong = read_number(field, value)) place.refuse({describe(), ": ", quoted(field), wrong});
+  if (const char* wrong = read_number(field, value)) place.refuse({describe(), ": ", in_quotes(field), wrong});
   return value;
 }
 
@@ -79,7 +79,7 @@ template <class Describe>
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-}  // namespace gonio::io::detail
+}  // namespace gonio::io
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/io/impl/text.ipp>

@@ -19,14 +19,14 @@ namespace gonio::io {
 /// Throws gonio::error starting with `name` if the bytes are no TIFF file or are truncated, if the image is tiled, has
 /// channels in planes, a palette, another colour space or samples that are no such counts, or if it has more than 16384
 /// pixels one way or more pixels than is believable of the bytes.
-[[nodiscard]] stored_codes parse_tiff(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] stored_codes read_tiff(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads a TIFF file.
 [[nodiscard]] stored_codes read_tiff(const std::filesystem::path& path);
 
 /// Seconds of exposure by the EXIF data of a TIFF file; nothing if it has none. Throws gonio::error starting with
 /// `name` if the bytes are no TIFF file, or if the time is not from 1e-7 s to a day.
-[[nodiscard]] std::optional<double> parse_tiff_exposure_time(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] std::optional<double> read_tiff_exposure_time(std::span<const std::byte> bytes, const std::string& name);
 
 /// The same of a file.
 [[nodiscard]] std::optional<double> read_tiff_exposure_time(const std::filesystem::path& path);

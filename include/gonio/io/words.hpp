@@ -11,7 +11,7 @@
 
 namespace gonio::io::detail {
 
-/// Takes the words of a text one after the other; `place` is then the line of the last one.
+/// Reads the words of a text one after the other; `place` is then the line of the last one.
 class word_reader {
  public:
   word_reader(std::string_view text, text_place& place) : text_(without_byte_order_mark(text)), place_(place) {}
@@ -19,29 +19,29 @@ class word_reader {
   /// The next word, and it stays there; empty at the end.
   [[nodiscard]] std::string_view peek();
 
-  /// Takes the next word. `what` is what a file that ends before it misses.
-  [[nodiscard]] std::string_view take(std::string_view what);
+  /// Reads the next word. `what` is what a file that ends before it misses.
+  [[nodiscard]] std::string_view read(std::string_view what);
 
-  /// Takes a word that must be one of these; returns which.
-  [[nodiscard]] std::size_t take_one_of(std::initializer_list<std::string_view> words);
+  /// Reads a word that must be one of these; returns which.
+  [[nodiscard]] std::size_t read_one_of(std::initializer_list<std::string_view> words);
 
-  /// Takes the next word if it is this one.
-  bool take_if(std::string_view word);
+  /// Reads the next word if it is this one.
+  bool read_if(std::string_view word);
 
   /// A finite number.
-  [[nodiscard]] double take_number(std::string_view what);
+  [[nodiscard]] double read_number(std::string_view what);
 
   /// A count, at least 1, and as many numbers from `lowest` to `highest`. Memory is asked for as they come.
-  [[nodiscard]] std::vector<double> take_list(std::string_view what, double lowest, double highest);
+  [[nodiscard]] std::vector<double> read_list(std::string_view what, double lowest, double highest);
 
   /// The numbers that stand on the rest of this line, at least one.
-  [[nodiscard]] std::vector<double> take_line(std::string_view what, double lowest, double highest);
+  [[nodiscard]] std::vector<double> read_line(std::string_view what, double lowest, double highest);
 
   /// The words that are left on the line of the last one.
-  [[nodiscard]] std::string_view take_rest_of_line();
+  [[nodiscard]] std::string_view read_rest_of_line();
 
   /// As many bytes of so many each as follow the line of the last word, whatever they are.
-  [[nodiscard]] std::string_view take_bytes(std::size_t count, std::size_t of_each);
+  [[nodiscard]] std::string_view read_bytes(std::size_t count, std::size_t of_each);
 
   [[nodiscard]] text_place& place() const noexcept { return place_; }
 

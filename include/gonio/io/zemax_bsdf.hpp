@@ -21,9 +21,9 @@ namespace gonio::io {
 namespace detail {
 
 /// Reads such a file word by word.
-class zemax_bsdf_parser {
+class zemax_bsdf_reader {
  public:
-  zemax_bsdf_parser(std::string_view text, text_place& place) : words_(text, place) {}
+  zemax_bsdf_reader(std::string_view text, text_place& place) : words_(text, place) {}
 
   [[nodiscard]] sample_set read();
 
@@ -54,7 +54,7 @@ class zemax_bsdf_parser {
 /// (radial 0, azimuths 0 and 360) is one sample; those at or below the horizon are none. One half of a table that is
 /// symmetric about the plane of incidence is enough, and stays the half that was measured. Throws gonio::error naming
 /// the line of what is wrong, and for files of transmission.
-[[nodiscard]] sample_set parse_zemax_bsdf(std::string_view text, const std::string& name);
+[[nodiscard]] sample_set read_zemax_bsdf(std::string_view text, const std::string& name);
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_zemax_bsdf(const std::filesystem::path& path);

@@ -3,13 +3,13 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/inliers.hpp>
 #include <gonio/solve/product.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -195,11 +195,9 @@ GONIO_INLINE Eigen::VectorXd limit_outliers(const Eigen::VectorXd& inlier_weight
   const Eigen::Index n = inlier_weights.size();
   if (n == 0) return inlier_weights;
   const auto most = static_cast<Eigen::Index>(largest_outlier_share(n) * static_cast<double>(n));
-  std::vector<double> sorted(inlier_weights.begin(), inlier_weights.end());
-  const auto least_inlier = sorted.begin() + (n - 1 - most);
-  std::ranges::nth_element(sorted, least_inlier, std::greater{});
-  if (!(*least_inlier > 0.0)) return Eigen::VectorXd::Ones(n);
-  return (inlier_weights / *least_inlier).cwiseMin(1.0);
+  const double least_inlier = nth_smallest(std::vector<double>(inlier_weights.begin(), inlier_weights.end()), most);
+  if (!(least_inlier > 0.0)) return Eigen::VectorXd::Ones(n);
+  return (inlier_weights / least_inlier).cwiseMin(1.0);
 }
 
 GONIO_INLINE located_samples weighted(const located_samples& samples, const inliers& found) {

@@ -25,9 +25,9 @@
 namespace gonio::io::detail {
 
 /// Reads such a file line by line.
-class astm_parser {
+class astm_reader {
  public:
-  explicit astm_parser(text_place& place) : place_(place) {}
+  explicit astm_reader(text_place& place) : place_(place) {}
 
   void read(std::string_view line);
 
@@ -55,33 +55,33 @@ class astm_parser {
   std::optional<sample_collector> collector_;
 };
 
-GONIO_INLINE void astm_parser::read(std::string_view line) {
+GONIO_INLINE void astm_reader::read(std::string_view line) {
   if (collector_)
     read_row(line);
   else
     read_keyword(line);
 }
 
-GONIO_INLINE sample_collector astm_parser::samples() && {
+GONIO_INLINE sample_collector astm_reader::samples() && {
   if (!collector_) gonio::refuse({place_.name, ": ends before its line VARS, which names the columns"});
   if (points_ && *points_ != static_cast<double>(rows_))
     gonio::refuse({place_.name, ": has ", rows_, " lines of numbers, expected NUM_POINTS ", shortest(*points_)});
   return *std::move(collector_);
 }
 
-GONIO_INLINE void astm_parser::read_keyword(std::string_view line) {
+GONIO_INLINE void astm_reader::read_keyword(std::string_view line) {
   const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
   const std::string_view keyword = line.substr(0, end), value = trimmed(line.substr(end));
-  if (keyword == "NUM_POINTS") points_ = parse_number(value, place_, [] { return "NUM_POINTS"; });
+  if (keyword == "NUM_POINTS") points_ = read_number(value, place_, [] { return "NUM_POINTS"; });
   if (keyword == "VARS") read_variables(value);
 }
 
-GONIO_INLINE void astm_parser::read_variables(std::string_view names) {
+GONIO_INLINE void astm_reader::read_variables(std::string_view names) {
   std::vector<std::string_view> all, of_values;
   split_fields(names, all);
   for (std::size_t angle = 0; angle < angle_names.size(); ++angle) {
     if (std::ranges::count(all, angle_names[angle]) != 1)
-      place_.refuse({"VARS: expected one column ", angle_names[angle], " in ", quoted(names)});
+      place_.refuse({"VARS: expected one column ", angle_names[angle], " in ", in_quotes(names)});
     angles_[angle] = std::ranges::find(all, angle_names[angle]) - all.begin();
   }
   for (std::size_t column = 0; column < all.size(); ++column) {
@@ -94,7 +94,7 @@ GONIO_INLINE void astm_parser::read_variables(std::string_view names) {
   collector_.emplace(channels_of(of_values));
 }
 
-GONIO_INLINE colour_channels astm_parser::channels_of(const std::vector<std::string_view>& names) const {
+GONIO_INLINE colour_channels astm_reader::channels_of(const std::vector<std::string_view>& names) const {
   const auto are = [&](std::string_view a, std::string_view b, std::string_view c) {
     return names.size() == 3 && names[0] == a && names[1] == b && names[2] == c;
   };
@@ -107,7 +107,7 @@ GONIO_INLINE colour_channels astm_parser::channels_of(const std::vector<std::str
         name.ends_with("nm") && read_number(name.substr(0, name.size() - 2), wavelength) == nullptr;
     if (!is_wavelength && names.size() == 1 && !name.empty()) return colour_channels::grey();
     if (!is_wavelength)
-      place_.refuse({"VARS: ", quoted(name), ", expected one value, or R,G,B, or X,Y,Z, or wavelengths like 400nm"});
+      place_.refuse({"VARS: ", in_quotes(name), ", expected one value, or R,G,B, or X,Y,Z, or wavelengths like 400nm"});
     wavelengths.push_back(wavelength);
   }
   try {
@@ -117,11 +117,11 @@ GONIO_INLINE colour_channels astm_parser::channels_of(const std::vector<std::str
   }
 }
 
-GONIO_INLINE double astm_parser::number(std::size_t column) const {
-  return parse_number(fields_[column], place_, [&] { return "column " + quoted(std::string_view(names_[column])); });
+GONIO_INLINE double astm_reader::number(std::size_t column) const {
+  return read_number(fields_[column], place_, [&] { return "column " + in_quotes(std::string_view(names_[column])); });
 }
 
-GONIO_INLINE direction astm_parser::read_direction(std::size_t angle) const {
+GONIO_INLINE direction astm_reader::read_direction(std::size_t angle) const {
   const double theta = number(angles_[angle]), phi = number(angles_[angle + 1]);
   // Rounded to four digits, pi / 2 may be a little more than it.
   if (!(theta >= 0.0 && theta < std::numbers::pi / 2.0 + 1e-3))
@@ -132,7 +132,7 @@ GONIO_INLINE direction astm_parser::read_direction(std::size_t angle) const {
   return spherical_direction(theta, phi);
 }
 
-GONIO_INLINE void astm_parser::read_row(std::string_view line) {
+GONIO_INLINE void astm_reader::read_row(std::string_view line) {
   split_fields(line, fields_);
   if (fields_.size() != names_.size())
     place_.refuse({fields_.size(), " fields, expected ", names_.size(), " as in the line VARS"});
@@ -147,7 +147,7 @@ GONIO_INLINE void astm_parser::read_row(std::string_view line) {
 
 [[nodiscard]] GONIO_INLINE sample_collector collect_astm(std::string_view text, const std::string& name) {
   text_place place{name, 0};
-  astm_parser parser(place);
+  astm_reader parser(place);
   for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
   return std::move(parser).samples();
 }
@@ -157,30 +157,30 @@ GONIO_INLINE void astm_parser::read_row(std::string_view line) {
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_astm_e1392(std::string_view text) {
-  text = detail::without_byte_order_mark(text).substr(0, 4096);
-  detail::text_place place;
-  for (std::string_view line; detail::next_line(text, place, line);)
+  text = without_byte_order_mark(text).substr(0, 4096);
+  text_place place;
+  for (std::string_view line; next_line(text, place, line);)
     if ((line.starts_with("VARS ") || line.starts_with("VARS\t")) && line.find("theta_i") != std::string_view::npos)
       return true;
   return false;
 }
 
-GONIO_INLINE sample_set parse_astm_e1392(std::string_view text, const std::string& name) {
-  return detail::collect_astm(text, name).take(name);
+GONIO_INLINE sample_set read_astm_e1392(std::string_view text, const std::string& name) {
+  return detail::collect_astm(text, name).samples(name);
 }
 
 GONIO_INLINE sample_set read_astm_e1392(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_astm_e1392(detail::as_text(bytes), path.string());
+  return read_astm_e1392(as_text(bytes), path.string());
 }
 
-GONIO_INLINE spectral_samples parse_astm_e1392_spectra(std::string_view text, const std::string& name) {
-  return detail::collect_astm(text, name).take_spectra(name);
+GONIO_INLINE spectral_samples read_astm_e1392_spectra(std::string_view text, const std::string& name) {
+  return detail::collect_astm(text, name).spectra(name);
 }
 
 GONIO_INLINE spectral_samples read_astm_e1392_spectra(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_astm_e1392_spectra(detail::as_text(bytes), path.string());
+  return read_astm_e1392_spectra(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -83,13 +83,14 @@ GONIO_INLINE double bird_samples::to_radians(std::string_view variable) const {
   const std::string& unit = require(variable).unit;
   if (unit == "rad") return 1.0;
   if (unit == "deg" || unit == "\xC2\xB0") return radians(1.0);
-  gonio::refuse({place_.name, ": data.", variable, ": unit ", quoted(std::string_view(unit)), ", expected deg or rad"});
+  gonio::refuse(
+      {place_.name, ": data.", variable, ": unit ", in_quotes(std::string_view(unit)), ", expected deg or rad"});
 }
 
 GONIO_INLINE void bird_samples::check_units() {
   const auto require_unit = [this](std::string_view variable, const std::string& unit, bool may_be_percent) {
     if (unit != "1/sr" && unit != "sr^-1" && !(may_be_percent && unit == "%"))
-      gonio::refuse({place_.name, ": data.", variable, ": unit ", quoted(std::string_view(unit)), ", expected sr^-1",
+      gonio::refuse({place_.name, ": data.", variable, ": unit ", in_quotes(std::string_view(unit)), ", expected sr^-1",
                      may_be_percent ? " or %" : ""});
   };
   const bird_variable& brdf = require("BRDF");
@@ -108,7 +109,7 @@ GONIO_INLINE void bird_samples::check_units() {
   const std::string& unit = wavelengths_->unit;
   if (unit != "nm" && unit != "\xCE\xBCm" && unit != "\xC2\xB5m")
     gonio::refuse(
-        {place_.name, ": wavelengths: unit ", quoted(std::string_view(unit)), ", expected nm or micrometres"});
+        {place_.name, ": wavelengths: unit ", in_quotes(std::string_view(unit)), ", expected nm or micrometres"});
   nanometres_ = unit == "nm" ? 1.0 : 1000.0;
 }
 
@@ -212,7 +213,7 @@ GONIO_INLINE sample_collector bird_samples::make() {
 
 [[nodiscard]] GONIO_INLINE sample_collector collect_bird(std::string_view text, const std::string& name) {
   text_place place{name, 0};
-  const bird_data data = bird_parser(text, place).read();
+  const bird_data data = bird_reader(text, place).read();
   return bird_samples(data, place).make();
 }
 
@@ -221,29 +222,29 @@ GONIO_INLINE sample_collector bird_samples::make() {
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_bird(std::string_view text) {
-  text = detail::without_byte_order_mark(text);
+  text = without_byte_order_mark(text);
   const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   if (!text.substr(first).starts_with('{')) return false;
   const auto has = [&](std::string_view key) { return text.find(key) != std::string_view::npos; };
   return has("\"metadata\"") || has("\"data\"");
 }
 
-GONIO_INLINE sample_set parse_bird(std::string_view text, const std::string& name) {
-  return detail::collect_bird(text, name).take(name);
+GONIO_INLINE sample_set read_bird(std::string_view text, const std::string& name) {
+  return detail::collect_bird(text, name).samples(name);
 }
 
 GONIO_INLINE sample_set read_bird(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_bird(detail::as_text(bytes), path.string());
+  return read_bird(as_text(bytes), path.string());
 }
 
-GONIO_INLINE spectral_samples parse_bird_spectra(std::string_view text, const std::string& name) {
-  return detail::collect_bird(text, name).take_spectra(name);
+GONIO_INLINE spectral_samples read_bird_spectra(std::string_view text, const std::string& name) {
+  return detail::collect_bird(text, name).spectra(name);
 }
 
 GONIO_INLINE spectral_samples read_bird_spectra(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_bird_spectra(detail::as_text(bytes), path.string());
+  return read_bird_spectra(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -43,9 +43,9 @@ struct bird_data {
 };
 
 /// Reads such a file key by key.
-class bird_parser {
+class bird_reader {
  public:
-  bird_parser(std::string_view text, text_place& place) : json_(text, place), name_(place.name) {}
+  bird_reader(std::string_view text, text_place& place) : json_(text, place), name_(place.name) {}
 
   [[nodiscard]] bird_data read();
 
@@ -63,7 +63,7 @@ class bird_parser {
   bird_data data_;
 };
 
-GONIO_INLINE bird_data bird_parser::read() {
+GONIO_INLINE bird_data bird_reader::read() {
   bool has_data = false;
   json_.open_object("the file");
   while (const auto key = json_.next_key()) {
@@ -79,17 +79,17 @@ GONIO_INLINE bird_data bird_parser::read() {
   return std::move(data_);
 }
 
-GONIO_INLINE void bird_parser::read_data() {
+GONIO_INLINE void bird_reader::read_data() {
   json_.open_object("data");
   while (const auto key = json_.next_key()) read_entry(*key);
 }
 
-GONIO_INLINE void bird_parser::read_entry(const std::string& key) {
+GONIO_INLINE void bird_reader::read_entry(const std::string& key) {
   constexpr std::array<std::string_view, 8> numeric{"theta_i", "phi_i", "theta_r",      "phi_r",
                                                     "BRDF",    "uBRDF", "wavelength_i", "wavelength_r"};
   if (std::ranges::find(numeric, key) != numeric.end()) {
     if (!data_.variables.try_emplace(key, read_variable(key)).second)
-      json_.refuse({quoted(std::string_view(key)), " appears twice"});
+      json_.refuse({in_quotes(std::string_view(key)), " appears twice"});
   } else if (key == "polarization_i") {
     data_.illumination = read_polarisation(key);
   } else if (key == "polarization_r") {
@@ -106,15 +106,15 @@ GONIO_INLINE void bird_parser::read_entry(const std::string& key) {
   }
 }
 
-GONIO_INLINE bird_variable bird_parser::read_variable(const std::string& key) {
+GONIO_INLINE bird_variable bird_reader::read_variable(const std::string& key) {
   bird_variable variable;
   json_.open_object(key);
   while (const auto field = json_.next_key()) {
     if (*field == "unit") {
-      variable.unit = json_.take_string(key + ".unit");
+      variable.unit = json_.read_string(key + ".unit");
     } else if (*field == "values") {
       json_.open_array(key + ".values");
-      while (json_.next_element()) variable.values.push_back(json_.take_number(key));
+      while (json_.next_element()) variable.values.push_back(json_.read_number(key));
     } else if (*field == "uncertainty" && key == "BRDF") {
       read_uncertainty(key, variable);
     } else {
@@ -124,19 +124,19 @@ GONIO_INLINE bird_variable bird_parser::read_variable(const std::string& key) {
   return variable;
 }
 
-GONIO_INLINE void bird_parser::read_uncertainty(const std::string& key, bird_variable& variable) {
+GONIO_INLINE void bird_reader::read_uncertainty(const std::string& key, bird_variable& variable) {
   json_.open_object(key + ".uncertainty");
   while (const auto field = json_.next_key()) {
     if (*field == "value")
-      variable.uncertainty = json_.take_number(key + ".uncertainty");
+      variable.uncertainty = json_.read_number(key + ".uncertainty");
     else if (*field == "unit")
-      variable.uncertainty_unit = json_.take_string(key + ".uncertainty.unit");
+      variable.uncertainty_unit = json_.read_string(key + ".uncertainty.unit");
     else
       json_.skip();
   }
 }
 
-GONIO_INLINE stokes_states bird_parser::read_polarisation(const std::string& key) {
+GONIO_INLINE stokes_states bird_reader::read_polarisation(const std::string& key) {
   stokes_states states;
   json_.open_object(key);
   while (const auto field = json_.next_key()) {
@@ -150,20 +150,20 @@ GONIO_INLINE stokes_states bird_parser::read_polarisation(const std::string& key
   return states;
 }
 
-GONIO_INLINE std::array<double, 3> bird_parser::read_state(const std::string& key) {
+GONIO_INLINE std::array<double, 3> bird_reader::read_state(const std::string& key) {
   if (json_.peek() == '"') {
-    const std::string state = json_.take_string(key);
+    const std::string state = json_.read_string(key);
     if (state == "s") return {1.0, 0.0, 0.0};
     if (state == "p") return {-1.0, 0.0, 0.0};
     if (state != "u")
-      json_.refuse({key, ": ", quoted(std::string_view(state)), ", expected s, p, u or a Stokes vector"});
+      json_.refuse({key, ": ", in_quotes(std::string_view(state)), ", expected s, p, u or a Stokes vector"});
     return {};
   }
   std::array<double, 4> stokes{};
   std::size_t count = 0;
   json_.open_array(key);
   while (json_.next_element()) {
-    const double number = json_.take_number(key);
+    const double number = json_.read_number(key);
     if (count == 4 || !(std::abs(number) <= 1.0)) json_.refuse({key, ": expected Stokes vectors of 4 numbers up to 1"});
     stokes[count++] = number;
   }
@@ -171,7 +171,7 @@ GONIO_INLINE std::array<double, 3> bird_parser::read_state(const std::string& ke
   return {stokes[1], stokes[2], stokes[3]};
 }
 
-GONIO_INLINE void bird_parser::require_constant(const std::string& key) {
+GONIO_INLINE void bird_reader::require_constant(const std::string& key) {
   json_.open_object(key);
   while (const auto field = json_.next_key()) {
     if (*field != "values") {
@@ -184,7 +184,8 @@ GONIO_INLINE void bird_parser::require_constant(const std::string& key) {
       const std::string_view value = json_.skip();
       if (!first) first = value;
       if (*first != value)
-        json_.refuse({"adhoc_variables: ", quoted(std::string_view(key)), " changes; expected a file for each value"});
+        json_.refuse(
+            {"adhoc_variables: ", in_quotes(std::string_view(key)), " changes; expected a file for each value"});
     }
   }
 }

@@ -12,22 +12,22 @@
 
 namespace gonio::io {
 
-GONIO_INLINE void byte_writer::put_bytes(const void* bytes, std::size_t count) {
+GONIO_INLINE void byte_writer::write_bytes(const void* bytes, std::size_t count) {
   const auto* begin = static_cast<const std::byte*>(bytes);
   bytes_.insert(bytes_.end(), begin, begin + count);
 }
 
-GONIO_INLINE void byte_writer::put_text(const std::string& text) {
-  put(static_cast<std::uint32_t>(text.size()));
-  put_bytes(text.data(), text.size());
+GONIO_INLINE void byte_writer::write_text(const std::string& text) {
+  write(static_cast<std::uint32_t>(text.size()));
+  write_bytes(text.data(), text.size());
 }
 
-GONIO_INLINE std::string byte_reader::take_text() {
-  const auto characters = take_bytes(take<std::uint32_t>());
+GONIO_INLINE std::string byte_reader::read_text() {
+  const auto characters = read_bytes(read<std::uint32_t>());
   return {reinterpret_cast<const char*>(characters.data()), characters.size()};
 }
 
-GONIO_INLINE std::span<const std::byte> byte_reader::take_bytes(std::size_t count) {
+GONIO_INLINE std::span<const std::byte> byte_reader::read_bytes(std::size_t count) {
   if (count > bytes_.size()) fail();
   const auto taken = bytes_.first(count);
   bytes_ = bytes_.subspan(count);

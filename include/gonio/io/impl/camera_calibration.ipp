@@ -45,11 +45,11 @@ class storage_text {
   [[nodiscard]] std::size_t pixels(std::initializer_list<std::string_view> names) const {
     for (const std::string_view each : names)
       if (const auto value = find(text_, each)) return count_of(trimmed(*value), each);
-    gonio::refuse({name_, ": ", quoted(*names.begin()), " is missing"});
+    gonio::refuse({name_, ": ", in_quotes(*names.begin()), " is missing"});
   }
 
   [[noreturn]] void refuse(std::string_view entry, const std::string& what) const {
-    gonio::refuse({name_, ": ", quoted(entry), " ", what});
+    gonio::refuse({name_, ": ", in_quotes(entry), " ", what});
   }
 
  private:
@@ -103,7 +103,7 @@ class storage_text {
     constexpr double most = 1e6;
     double value = 0.0;
     if (read_number(field, value) != nullptr || !(value >= 1.0 && value <= most && value == std::floor(value)))
-      refuse(entry, "must be a whole number from 1 to 1000000, not " + quoted(field));
+      refuse(entry, "must be a whole number from 1 to 1000000, not " + in_quotes(field));
     return static_cast<std::size_t>(value);
   }
 
@@ -121,7 +121,7 @@ class storage_text {
       const std::string_view field = rest.substr(begin, end - begin);
       // OpenCV writes "1." for 1.
       if (const char* wrong = read_number(field.ends_with('.') ? field.substr(0, field.size() - 1) : field, number))
-        refuse(entry, "holds " + quoted(field) + wrong);
+        refuse(entry, "holds " + in_quotes(field) + wrong);
       read.values.push_back(number);
       rest.remove_prefix(end);
     }
@@ -170,14 +170,14 @@ GONIO_INLINE lens_distortion calibrated_distortion(const storage_text& text) {
 
 namespace gonio::io {
 
-GONIO_INLINE camera_calibration parse_camera_calibration(std::string_view text, const std::string& name) {
+GONIO_INLINE camera_calibration read_camera_calibration(std::string_view text, const std::string& name) {
   const detail::storage_text entries(text, name);
   return {detail::calibrated_intrinsics(entries), detail::calibrated_distortion(entries)};
 }
 
 GONIO_INLINE camera_calibration read_camera_calibration(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  return parse_camera_calibration(detail::as_text(bytes), path.string());
+  return read_camera_calibration(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -22,18 +22,22 @@
 #include <system_error>
 #include <vector>
 
-namespace gonio::io::detail {
+namespace gonio::io {
 
 [[gnu::cold]] GONIO_INLINE std::uint32_t checksum(std::span<const std::byte> bytes) {
   return static_cast<std::uint32_t>(
       crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));  // NOLINT: zlib's byte type
 }
 
-[[gnu::cold]] GONIO_INLINE void take_kind(const checked_file_kind& kind, byte_reader& file, const std::string& name) {
-  const auto magic = file.take_bytes(std::min(kind.magic.size(), file.left()));
+}  // namespace gonio::io
+
+namespace gonio::io::detail {
+
+[[gnu::cold]] GONIO_INLINE void read_kind(const checked_file_kind& kind, byte_reader& file, const std::string& name) {
+  const auto magic = file.read_bytes(std::min(kind.magic.size(), file.left()));
   if (magic.size() != kind.magic.size() || std::memcmp(magic.data(), kind.magic.data(), magic.size()) != 0)
     gonio::refuse({name, ": not a gonio ", kind.noun, " (it does not start with '", kind.magic, "')"});
-  const auto version = file.take<std::uint32_t>();
+  const auto version = file.read<std::uint32_t>();
   const std::uint32_t oldest = kind.oldest == 0 ? kind.version : kind.oldest;
   if (version >= oldest && version <= kind.version) return;
   const std::string readable = oldest == kind.version ? message_of({"version ", oldest})
@@ -69,33 +73,32 @@ namespace gonio::io::detail {
 
 namespace gonio::io {
 
-[[gnu::cold]] GONIO_INLINE std::vector<std::byte> encode_checked(const checked_file_kind& kind,
-                                                                 std::span<const std::byte> payload) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> write_checked(const checked_file_kind& kind,
+                                                                std::span<const std::byte> payload) {
   byte_writer file;
-  file.put_bytes(kind.magic.data(), kind.magic.size());
-  file.put(kind.version);
-  file.put(std::uint64_t{payload.size()});
-  file.put(detail::checksum(payload));
+  file.write_bytes(kind.magic.data(), kind.magic.size());
+  file.write(kind.version);
+  file.write(std::uint64_t{payload.size()});
+  file.write(checksum(payload));
   std::vector<std::byte> deflated = compress_bytes(payload);
   if (!detail::is_believable(payload.size(), detail::freely_claimed_payload, deflated.size()))
     deflated = detail::huffman_code(payload);
-  file.put_bytes(deflated.data(), deflated.size());
-  return file.take();
+  file.write_bytes(deflated.data(), deflated.size());
+  return std::move(file).bytes();
 }
 
-[[gnu::cold]] GONIO_INLINE std::vector<std::byte> decode_checked(const checked_file_kind& kind,
-                                                                 std::span<const std::byte> bytes,
-                                                                 const std::string& name) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> read_checked(const checked_file_kind& kind,
+                                                               std::span<const std::byte> bytes,
+                                                               const std::string& name) {
   byte_reader file(bytes, name);
-  detail::take_kind(kind, file, name);
-  const auto size = file.take<std::uint64_t>();
-  const auto expected = file.take<std::uint32_t>();
+  detail::read_kind(kind, file, name);
+  const auto size = file.read<std::uint64_t>();
+  const auto expected = file.read<std::uint32_t>();
   if (size > detail::payload_size_limit || !detail::is_believable(size, detail::freely_claimed_payload, file.left()))
     gonio::refuse(
         {name, ": a ", kind.noun, " of ", size, " bytes is not believable of ", file.left(), " compressed ones"});
-  std::vector<std::byte> payload = decompress_bytes(file.take_bytes(file.left()), static_cast<std::size_t>(size), name);
-  if (detail::checksum(payload) != expected)
-    gonio::refuse({name, ": the checksum does not match, the file is damaged"});
+  std::vector<std::byte> payload = decompress_bytes(file.read_bytes(file.left()), static_cast<std::size_t>(size), name);
+  if (checksum(payload) != expected) gonio::refuse({name, ": the checksum does not match, the file is damaged"});
   return payload;
 }
 

@@ -17,7 +17,7 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE void cornell_parser::read(std::string_view line) {
+GONIO_INLINE void cornell_reader::read(std::string_view line) {
   split(line);
   if (count_ == 0)
     read_count();
@@ -27,14 +27,14 @@ GONIO_INLINE void cornell_parser::read(std::string_view line) {
     read_sample();
 }
 
-GONIO_INLINE sample_collector cornell_parser::samples() && {
+GONIO_INLINE sample_collector cornell_reader::samples() && {
   if (!collector_)
     gonio::refuse(
         {place_.name, ": ends before its ", count_, " wavelengths, of which there are ", wavelengths_.size()});
   return *std::move(collector_);
 }
 
-GONIO_INLINE void cornell_parser::split(std::string_view line) {
+GONIO_INLINE void cornell_reader::split(std::string_view line) {
   fields_.clear();
   while (!line.empty()) {
     const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
@@ -43,14 +43,14 @@ GONIO_INLINE void cornell_parser::split(std::string_view line) {
   }
 }
 
-GONIO_INLINE void cornell_parser::read_count() {
+GONIO_INLINE void cornell_reader::read_count() {
   const double given = number(0);
   if (fields_.size() != 1 || !(given >= 2.0 && given <= 1e4 && given == std::floor(given)))
-    place_.refuse("expected the number of wavelengths, at least 2, not " + quoted(fields_[0]));
+    place_.refuse("expected the number of wavelengths, at least 2, not " + in_quotes(fields_[0]));
   count_ = static_cast<std::size_t>(given);
 }
 
-GONIO_INLINE void cornell_parser::read_wavelengths() {
+GONIO_INLINE void cornell_reader::read_wavelengths() {
   if (wavelengths_.size() + fields_.size() > count_)
     place_.refuse("more than the " + std::to_string(count_) + " wavelengths that the file announces");
   for (std::size_t i = 0; i < fields_.size(); ++i) wavelengths_.push_back(number(i));
@@ -62,7 +62,7 @@ GONIO_INLINE void cornell_parser::read_wavelengths() {
   }
 }
 
-GONIO_INLINE void cornell_parser::read_sample() {
+GONIO_INLINE void cornell_reader::read_sample() {
   if (fields_.size() != 4 + count_)
     place_.refuse(std::to_string(fields_.size()) + " fields, expected 4 angles and " + std::to_string(count_) +
                   " reflectances");
@@ -77,7 +77,7 @@ GONIO_INLINE void cornell_parser::read_sample() {
   collector_->add({wi, wo}, reflectances_);
 }
 
-GONIO_INLINE direction cornell_parser::read_direction(std::size_t field) const {
+GONIO_INLINE direction cornell_reader::read_direction(std::size_t field) const {
   const double theta = number(field), phi = number(field + 1);
   if (!(theta >= 0.0 && theta < std::numbers::pi / 2.0))
     place_.refuse("field " + std::to_string(field + 1) + ": polar angle " + shortest(theta) +
@@ -90,7 +90,7 @@ GONIO_INLINE direction cornell_parser::read_direction(std::size_t field) const {
 
 [[nodiscard]] GONIO_INLINE sample_collector collect_cornell(std::string_view text, const std::string& name) {
   text_place place{name, 0};
-  cornell_parser parser(place);
+  cornell_reader parser(place);
   for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
   return std::move(parser).samples();
 }
@@ -99,22 +99,22 @@ GONIO_INLINE direction cornell_parser::read_direction(std::size_t field) const {
 
 namespace gonio::io {
 
-GONIO_INLINE sample_set parse_cornell(std::string_view text, const std::string& name) {
-  return detail::collect_cornell(text, name).take(name);
+GONIO_INLINE sample_set read_cornell(std::string_view text, const std::string& name) {
+  return detail::collect_cornell(text, name).samples(name);
 }
 
-GONIO_INLINE spectral_samples parse_cornell_spectra(std::string_view text, const std::string& name) {
-  return detail::collect_cornell(text, name).take_spectra(name);
+GONIO_INLINE spectral_samples read_cornell_spectra(std::string_view text, const std::string& name) {
+  return detail::collect_cornell(text, name).spectra(name);
 }
 
 GONIO_INLINE spectral_samples read_cornell_spectra(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_cornell_spectra(detail::as_text(bytes), path.string());
+  return read_cornell_spectra(as_text(bytes), path.string());
 }
 
 GONIO_INLINE sample_set read_cornell(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_cornell(detail::as_text(bytes), path.string());
+  return read_cornell(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -64,7 +64,7 @@ namespace gonio::io::detail {
 
 /// Takes a field that begins with a double quote off the front of a line, with both its quotes. False if there is no
 /// second one.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE bool take_quoted(std::string_view& line, std::string_view& field) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE bool read_quoted(std::string_view& line, std::string_view& field) {
   std::size_t end = line.find('"', 1);
   while (end != std::string_view::npos && line.substr(end + 1).starts_with('"')) end = line.find('"', end + 2);
   if (end == std::string_view::npos) return false;
@@ -83,23 +83,13 @@ namespace gonio::io::detail {
     line.remove_prefix(std::min(line.find_first_not_of(separator == '\t' ? " " : blanks), line.size()));
     std::string_view field;
     const bool has_quotes = line.starts_with('"');
-    if (has_quotes && !take_quoted(line, field)) return "a double quote is not closed on its line";
+    if (has_quotes && !read_quoted(line, field)) return "a double quote is not closed on its line";
     const std::string_view rest = line.substr(0, line.find_first_of(ends));
     if (has_quotes && !trimmed(rest).empty()) return "a field goes on behind its closing double quote";
     fields.push_back(has_quotes ? field : trimmed(rest));
     if (rest.size() == line.size()) return nullptr;
     line.remove_prefix(rest.size() + 1);
   }
-}
-
-GONIO_INLINE const char* split_fields(std::string_view line, const csv_dialect& dialect,
-                                      std::vector<std::string_view>& fields) {
-  if (line.find('"') != std::string_view::npos) return split_quoted(line, dialect.separator, fields);
-  if (dialect.separator == ' ')
-    split_at_blanks(line, fields);
-  else
-    split_fields(line, fields, dialect.separator);
-  return nullptr;
 }
 
 /// Numbers of files with decimal commas, and of those that have shown no decimal mark yet.
@@ -125,11 +115,24 @@ GONIO_INLINE const char* split_fields(std::string_view line, const csv_dialect& 
   return wrong;
 }
 
-GONIO_INLINE const char* read_number(std::string_view field, csv_dialect& dialect, double& value) {
-  if (dialect.decimal_mark != '.') return read_marked_number(field, dialect, value);
-  const char* wrong = read_number(field, value);
-  const bool has_comma = wrong != nullptr && field.find(',') != std::string_view::npos;
-  return has_comma ? read_marked_number(field, dialect, value) : wrong;
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE const char* csv_dialect::split(std::string_view line, std::vector<std::string_view>& fields) const {
+  if (line.find('"') != std::string_view::npos) return detail::split_quoted(line, separator, fields);
+  if (separator == ' ')
+    detail::split_at_blanks(line, fields);
+  else
+    split_fields(line, fields, separator);
+  return nullptr;
 }
 
-}  // namespace gonio::io::detail
+GONIO_INLINE const char* csv_dialect::read_number(std::string_view field, double& value) {
+  if (decimal_mark != '.') return detail::read_marked_number(field, *this, value);
+  const char* wrong = io::read_number(field, value);
+  const bool has_comma = wrong != nullptr && field.find(',') != std::string_view::npos;
+  return has_comma ? detail::read_marked_number(field, *this, value) : wrong;
+}
+
+}  // namespace gonio::io

@@ -19,7 +19,7 @@
 
 namespace gonio::io {
 
-GONIO_INLINE std::optional<double> parse_exif_exposure_time(std::span<const std::byte> bytes, const std::string& name) {
+GONIO_INLINE std::optional<double> read_exif_exposure_time(std::span<const std::byte> bytes, const std::string& name) {
   constexpr std::size_t most = std::size_t{1} << 30;  // libexif counts in 32 bits
   if (bytes.size() < 2 || bytes[0] != std::byte{0xFF} || bytes[1] != std::byte{0xD8} || bytes.size() > most)
     gonio::refuse({name, ": is no JPEG file"});
@@ -40,7 +40,7 @@ GONIO_INLINE std::optional<double> parse_exif_exposure_time(std::span<const std:
 }
 
 GONIO_INLINE std::optional<double> read_exif_exposure_time(const std::filesystem::path& path) {
-  return parse_exif_exposure_time(read_bytes(path), path.string());
+  return read_exif_exposure_time(read_bytes(path), path.string());
 }
 
 }  // namespace gonio::io

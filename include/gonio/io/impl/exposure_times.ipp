@@ -3,6 +3,8 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/io/csv_dialect.hpp>
+#include <gonio/io/csv_reader.hpp>
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/text.hpp>
@@ -12,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gonio::io::detail {
 
@@ -21,12 +24,14 @@ namespace gonio::io::detail {
   return before == std::string_view::npos ? text : text.substr(before + 1);
 }
 
-/// A number above 0, or the quotient of two; nothing if it is neither.
-[[nodiscard]] GONIO_INLINE std::optional<double> positive_quotient(std::string_view text) {
+/// A number above 0, or the quotient of two; nothing if it is neither. `numbers.read_number` reads each.
+template <class Numbers>
+[[nodiscard]] std::optional<double> positive_quotient(std::string_view text, Numbers&& numbers) {
   const std::size_t slash = text.find('/');
   double above = 0.0, below = 1.0;
-  if (read_number(trimmed(text.substr(0, slash)), above) != nullptr) return {};
-  if (slash != std::string_view::npos && read_number(trimmed(text.substr(slash + 1)), below) != nullptr) return {};
+  if (numbers.read_number(trimmed(text.substr(0, slash)), above) != nullptr) return {};
+  if (slash != std::string_view::npos && numbers.read_number(trimmed(text.substr(slash + 1)), below) != nullptr)
+    return {};
   if (!(above > 0.0 && below > 0.0 && above / below > 0.0 && above / below < 1e9)) return {};
   return above / below;
 }
@@ -47,7 +52,7 @@ GONIO_INLINE std::optional<double> exposure_time_of_name(std::string_view name) 
     const std::string_view whole_number = detail::ending_of(mantissa.substr(0, mantissa.size() - 2), "0123456789.");
     if (!whole_number.empty()) number = name.substr(name.size() - number.size() - 2 - whole_number.size());
   }
-  const std::optional<double> seconds = detail::positive_quotient(number);
+  const std::optional<double> seconds = detail::positive_quotient(number, csv_dialect{});
   if (!seconds) return {};
   // Is it the lower part of a fraction?
   const bool is_whole = number.find_first_not_of(digits) == std::string_view::npos;
@@ -57,36 +62,31 @@ GONIO_INLINE std::optional<double> exposure_time_of_name(std::string_view name) 
   const std::string_view above = detail::ending_of(before, digits);
   if (above.empty()) return seconds;
   if (above == "1") return 1.0 / *seconds;
-  gonio::refuse({"the name ", detail::quoted(whole), " ends in two numbers, ", detail::quoted(above), " and ",
-                 detail::quoted(number), ": of fractions the first must be 1"});
+  gonio::refuse({"the name ", in_quotes(whole), " ends in two numbers, ", in_quotes(above), " and ", in_quotes(number),
+                 ": of fractions the first must be 1"});
 }
 
 GONIO_INLINE void require_believable_exposure(double seconds, const std::string& name) {
   constexpr double least = 1e-7, most = 86400.0;
   if (!(seconds >= least && seconds <= most))
-    gonio::refuse({name, ": an exposure time of ", detail::shortest(seconds), " s, expected from 1e-07 s to a day"});
+    gonio::refuse({name, ": an exposure time of ", shortest(seconds), " s, expected from 1e-07 s to a day"});
 }
 
 GONIO_INLINE exposure_times read_exposure_times(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  detail::text_place place{path.string()};
+  csv_reader table(as_text(bytes), path.string());
   exposure_times times;
-  bool has_header = false;
-  detail::for_each_line(detail::as_text(bytes), place, [&](std::string_view line) {
-    const std::size_t comma = line.rfind(',');
-    if (comma == std::string_view::npos) place.refuse("expected two fields, file and seconds");
-    const std::string_view file = detail::trimmed(line.substr(0, comma)),
-                           seconds = detail::trimmed(line.substr(comma + 1));
-    if (!has_header) {
-      if (file != "file" || seconds != "seconds") place.refuse("expected the header 'file,seconds'");
-      has_header = true;
-      return;
-    }
-    const std::optional<double> time = detail::positive_quotient(seconds);
-    if (file.empty() || !time)
-      place.refuse({"expected a file and a positive number of seconds, not ", detail::quoted(line)});
-    if (!times.emplace(file, *time).second) place.refuse({"the file ", detail::quoted(file), " is there twice"});
-  });
+  const std::vector<std::string_view>& fields = table.fields();
+  if (table.next() && (fields.size() != 2 || fields[0] != "file" || fields[1] != "seconds"))
+    table.place().refuse("expected the header 'file,seconds'");
+  while (table.next()) {
+    const std::optional<double> time = detail::positive_quotient(fields[1], table);
+    if (fields[0].empty() || !time)
+      table.place().refuse({"expected a file and a positive number of seconds, not ", in_quotes(fields[0]), " and ",
+                            in_quotes(fields[1])});
+    if (!times.emplace(fields[0], *time).second)
+      table.place().refuse({"the file ", in_quotes(fields[0]), " is there twice"});
+  }
   if (times.empty()) gonio::refuse({path.string(), ": has no exposure time"});
   return times;
 }

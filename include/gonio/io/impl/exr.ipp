@@ -281,7 +281,7 @@ GONIO_INLINE void require_no_nan(const image& picture, const std::string& name) 
 
 namespace gonio::io {
 
-GONIO_INLINE image parse_exr(std::span<const std::byte> bytes, const std::string& name) {
+GONIO_INLINE image read_exr(std::span<const std::byte> bytes, const std::string& name) {
   detail::exr_decoder file(detail::exr_in_memory(bytes, name));
   image picture = uniform_image(file.rows(), file.columns());
   file.read({0, static_cast<Eigen::Index>(file.rows())}, {picture.data(), picture.size()});
@@ -289,7 +289,7 @@ GONIO_INLINE image parse_exr(std::span<const std::byte> bytes, const std::string
   return picture;
 }
 
-GONIO_INLINE image read_exr(const std::filesystem::path& path) { return parse_exr(read_bytes(path), path.string()); }
+GONIO_INLINE image read_exr(const std::filesystem::path& path) { return read_exr(read_bytes(path), path.string()); }
 
 GONIO_INLINE exr_rows::exr_rows(const std::filesystem::path& path)
     : decoder_(std::make_unique<detail::exr_decoder>(detail::exr_in_file(path))) {

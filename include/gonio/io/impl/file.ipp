@@ -30,7 +30,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::io::detail {
+namespace gonio::io {
 
 [[gnu::cold]] GONIO_INLINE std::string system_reason(int code) { return std::generic_category().message(code); }
 
@@ -78,6 +78,21 @@ namespace gonio::io::detail {
   return true;
 }
 
+[[gnu::cold]] GONIO_INLINE std::filesystem::path follow_links(const std::filesystem::path& path) {
+  std::filesystem::path target = path;
+  for (int hop = 0; hop < 40; ++hop) {
+    std::error_code failed;
+    const std::filesystem::path next = std::filesystem::read_symlink(target, failed);
+    if (failed) return target;
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  refuse_file(path, {"cannot be written: ", system_reason(ELOOP)});
+}
+
+}  // namespace gonio::io
+
+namespace gonio::io::detail {
+
 inline constexpr std::string_view temporary_prefix = ".gonio-", temporary_suffix = ".tmp";
 
 inline std::atomic<std::uint32_t> next_temporary{0};
@@ -94,17 +109,6 @@ class machine_name {
  private:
   utsname system_{};
 };
-
-[[gnu::cold]] GONIO_INLINE std::filesystem::path follow_links(const std::filesystem::path& path) {
-  std::filesystem::path target = path;
-  for (int hop = 0; hop < 40; ++hop) {
-    std::error_code failed;
-    const std::filesystem::path next = std::filesystem::read_symlink(target, failed);
-    if (failed) return target;
-    target = next.is_absolute() ? next : target.parent_path() / next;
-  }
-  refuse_file(path, {"cannot be written: ", system_reason(ELOOP)});
-}
 
 [[gnu::cold]] GONIO_INLINE temporary_name::temporary_name(std::uint32_t given) noexcept : number(given) {
   char* at = text.data();
@@ -126,7 +130,7 @@ class machine_name {
   if (!name.starts_with(temporary_prefix) || !name.ends_with(temporary_suffix)) return false;
   name.remove_prefix(temporary_prefix.size());
   name.remove_suffix(temporary_suffix.size());
-  const auto take_number = [&]() -> pid_t {
+  const auto read_number = [&]() -> pid_t {
     const std::size_t begin = name.find_last_of('-') + 1;  // 0 if there is none
     pid_t number = -1;
     const auto [end, failed] = std::from_chars(name.data() + begin, name.data() + name.size(), number);
@@ -134,7 +138,7 @@ class machine_name {
     name = name.substr(0, begin == 0 ? 0 : begin - 1);
     return number;
   };
-  const pid_t number = take_number(), process = take_number();
+  const pid_t number = read_number(), process = read_number();
   if (number < 0 || process <= 0) return false;
   // Earlier versions did not name the machine.
   if (const machine_name here; !name.empty() && name != std::string_view(here)) return false;
@@ -164,23 +168,22 @@ class machine_name {
 namespace gonio::io {
 
 [[gnu::cold]] GONIO_INLINE std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
-  const detail::descriptor file = detail::open_to_read(path);
-  const std::uint64_t size = detail::size_of_regular(file, path);
+  const descriptor file = open_to_read(path);
+  const std::uint64_t size = size_of_regular(file, path);
   std::vector<std::byte> bytes;
   try {
     bytes.resize(static_cast<std::size_t>(size));
   } catch (const std::bad_alloc&) {
-    detail::refuse_file(path, "is too large for this machine's memory");
+    refuse_file(path, "is too large for this machine's memory");
   } catch (const std::length_error&) {
-    detail::refuse_file(path, "is too large for this machine's memory");
+    refuse_file(path, "is too large for this machine's memory");
   }
-  if (detail::read_at(file, 0, bytes, path) != bytes.size())
-    detail::refuse_file(path, "became shorter while it was read");
+  if (read_at(file, 0, bytes, path) != bytes.size()) refuse_file(path, "became shorter while it was read");
   return bytes;
 }
 
 [[gnu::cold]] GONIO_INLINE file_writer::file_writer(const std::filesystem::path& path, staging held)
-    : path_(path), target_(detail::follow_links(path)) {
+    : path_(path), target_(follow_links(path)) {
   inspect_target();
   open_folder();
   detail::remove_abandoned(target_.has_parent_path() ? target_.parent_path() : ".", folder_);
@@ -190,7 +193,7 @@ namespace gonio::io {
 }
 
 [[gnu::cold]] GONIO_INLINE void file_writer::write(std::span<const std::byte> bytes) {
-  if (!detail::write_all(file_, bytes)) fail();
+  if (!write_all(file_, bytes)) fail();
 }
 
 [[gnu::cold]] GONIO_INLINE void file_writer::commit() {
@@ -202,7 +205,7 @@ namespace gonio::io {
     if (!claim_name([&](const char* beside) { return link_as(beside); })) copy_to_named();
   }
   // Some file systems report a failed write only when a descriptor is closed; this one keeps the lock.
-  if (!detail::descriptor(::dup(file_.get())).close()) fail();
+  if (!descriptor(::dup(file_.get())).close()) fail();
   if (::renameat(folder_.get(), temporary_->c_str(), folder_.get(), name.c_str()) != 0) fail();
   forget_name(false);
 }
@@ -216,7 +219,7 @@ namespace gonio::io {
 
 /// What has no name may be refused one, by a file system or a policy that knows no links.
 [[gnu::cold]] GONIO_INLINE void file_writer::copy_to_named() {
-  const detail::descriptor unnamed = std::move(file_);
+  const descriptor unnamed = std::move(file_);
   create_named();
   std::vector<std::byte> block(std::size_t{1} << 16);
   for (off_t at = 0;;) {
@@ -231,14 +234,14 @@ namespace gonio::io {
 }
 
 [[gnu::cold]] GONIO_INLINE void file_writer::fail() const {
-  detail::refuse_file(path_, {"cannot be written: ", detail::system_reason(errno)});
+  refuse_file(path_, {"cannot be written: ", system_reason(errno)});
 }
 
 [[gnu::cold]] GONIO_INLINE void file_writer::inspect_target() {
   struct stat info {};
   if (::stat(target_.c_str(), &info) != 0) return;
-  if (S_ISDIR(info.st_mode)) detail::refuse_file(path_, "cannot be written: it is a directory");
-  if (!S_ISREG(info.st_mode)) detail::refuse_file(path_, "cannot be written: it is not a regular file");
+  if (S_ISDIR(info.st_mode)) refuse_file(path_, "cannot be written: it is a directory");
+  if (!S_ISREG(info.st_mode)) refuse_file(path_, "cannot be written: it is not a regular file");
   if (::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) fail();
   replaces_ = true;
   old_mode_ = info.st_mode & 07777;
@@ -251,24 +254,24 @@ namespace gonio::io {
   constexpr int access = O_RDONLY;
 #endif
   const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-  folder_ = detail::descriptor(::open(folder.c_str(), access | O_DIRECTORY | O_CLOEXEC));
+  folder_ = descriptor(::open(folder.c_str(), access | O_DIRECTORY | O_CLOEXEC));
   if (!folder_.is_open()) fail();
 }
 
 [[gnu::cold]] GONIO_INLINE bool file_writer::create_unnamed() {
 #if defined(O_TMPFILE)
-  file_ = detail::descriptor(::openat(folder_.get(), ".", O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
+  file_ = descriptor(::openat(folder_.get(), ".", O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
   if (!file_.is_open()) return false;
   // It is given its name through this link, which a process may not have.
   if (::access(message_of({"/proc/self/fd/", file_.get()}).c_str(), F_OK) == 0) return true;
-  file_ = detail::descriptor();
+  file_ = descriptor();
 #endif
   return false;
 }
 
 [[gnu::cold]] GONIO_INLINE void file_writer::create_named() {
   const bool created = claim_name([&](const char* name) {
-    file_ = detail::descriptor(::openat(folder_.get(), name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    file_ = descriptor(::openat(folder_.get(), name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     return file_.is_open();
   });
   if (!created) fail();

@@ -36,7 +36,7 @@ struct hdr_header {
 }
 
 /// Takes "-Y 12" off the front of a line: the number behind these letters, 0 if it is negative.
-[[nodiscard]] GONIO_INLINE bool take_hdr_extent(std::string_view& line, std::string_view letters, std::size_t& extent) {
+[[nodiscard]] GONIO_INLINE bool read_hdr_extent(std::string_view& line, std::string_view letters, std::size_t& extent) {
   if (!line.starts_with(letters)) return false;
   line.remove_prefix(letters.size());
   std::int64_t number = 0;
@@ -50,7 +50,7 @@ struct hdr_header {
 }
 
 /// Lines of text, an empty one, and a line with the size.
-[[nodiscard]] GONIO_INLINE hdr_header parse_hdr_header(std::string_view text, const std::string& name) {
+[[nodiscard]] GONIO_INLINE hdr_header read_hdr_header(std::string_view text, const std::string& name) {
   if (!text.starts_with("#?RADIANCE\n") && !text.starts_with("#?RGBE\n"))
     gonio::refuse({name, ": is not a Radiance HDR file"});
   hdr_header header;
@@ -62,7 +62,7 @@ struct hdr_header {
     header.size = end + 1;
     is_rgbe = is_rgbe || line == "FORMAT=32-bit_rle_rgbe";
     if (!before_empty) {
-      is_sized = take_hdr_extent(line, "-Y ", header.rows) && take_hdr_extent(line, "+X ", header.columns);
+      is_sized = read_hdr_extent(line, "-Y ", header.rows) && read_hdr_extent(line, "+X ", header.columns);
       break;
     }
     before_empty = !line.empty();
@@ -101,39 +101,39 @@ class hdr_rows::row_reader {
   /// pixel.
   [[nodiscard]] std::span<const std::uint8_t> next() {
     if (!file_.has_runs_) {
-      take(codes_);
+      read(codes_);
       return codes_;
     }
     std::array<std::uint8_t, 4> start{};
-    take(start);
+    read(start);
     if (start[0] != 2 || start[1] != 2 || start[2] * 256 + start[3] != file_.columns_)
       fail("a row does not begin as a row of runs");
     const auto columns = static_cast<std::size_t>(file_.columns_);
     for (std::size_t channel = 0; channel < 4; ++channel)
-      take_channel(std::span(codes_).subspan(channel * columns, columns));
+      read_channel(std::span(codes_).subspan(channel * columns, columns));
     return codes_;
   }
 
  private:
-  void take_channel(std::span<std::uint8_t> out) {
+  void read_channel(std::span<std::uint8_t> out) {
     while (!out.empty()) {
       std::array<std::uint8_t, 1> count{};
-      take(count);
+      read(count);
       const bool is_run = count[0] > 128;
       const std::size_t length = is_run ? count[0] - 128u : count[0];
       if (length == 0 || length > out.size()) fail("a run has no pixel, or leaves its row");
       if (is_run) {
         std::array<std::uint8_t, 1> value{};
-        take(value);
+        read(value);
         std::ranges::fill(out.first(length), value[0]);
       } else {
-        take(out.first(length));
+        read(out.first(length));
       }
       out = out.subspan(length);
     }
   }
 
-  void take(std::span<std::uint8_t> out) {
+  void read(std::span<std::uint8_t> out) {
     while (!out.empty()) {
       if (ended()) gonio::refuse({file_.name_, ": the HDR file is truncated"});
       const std::size_t count = std::min(out.size(), left_.size());
@@ -144,8 +144,7 @@ class hdr_rows::row_reader {
   }
 
   [[nodiscard]] bool refill() {
-    const std::size_t count =
-        detail::read_at(file_.file_, end_, std::as_writable_bytes(std::span(buffer_)), file_.name_);
+    const std::size_t count = read_at(file_.file_, end_, std::as_writable_bytes(std::span(buffer_)), file_.name_);
     end_ += count;
     left_ = std::span(buffer_).first(count);
     return count > 0;
@@ -162,12 +161,11 @@ class hdr_rows::row_reader {
   std::vector<std::uint8_t> codes_;
 };
 
-GONIO_INLINE hdr_rows::hdr_rows(const std::filesystem::path& path)
-    : name_(path.string()), file_(detail::open_to_read(path)) {
-  const std::uint64_t size = detail::size_of_regular(file_, path);
+GONIO_INLINE hdr_rows::hdr_rows(const std::filesystem::path& path) : name_(path.string()), file_(open_to_read(path)) {
+  const std::uint64_t size = size_of_regular(file_, path);
   std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(size, 1u << 16)), ' ');
-  text.resize(detail::read_at(file_, 0, std::as_writable_bytes(std::span(text)), path));
-  const detail::hdr_header header = detail::parse_hdr_header(text, name_);
+  text.resize(read_at(file_, 0, std::as_writable_bytes(std::span(text)), path));
+  const detail::hdr_header header = detail::read_hdr_header(text, name_);
   if (size < detail::least_hdr_size(header.rows, header.columns)) gonio::refuse({name_, ": the HDR file is truncated"});
   detail::check_believable_pixels(detail::hdr_claims, header.rows, header.columns, size, name_);
   columns_ = static_cast<Eigen::Index>(header.columns);

@@ -61,7 +61,7 @@ GONIO_INLINE std::uint32_t big_endian(std::span<const std::byte> bytes) noexcept
   return value;
 }
 
-GONIO_INLINE png_header parse_png_header(std::span<const std::byte> data, const std::string& name) {
+GONIO_INLINE png_header read_png_header(std::span<const std::byte> data, const std::string& name) {
   if (data.size() != 13) gonio::refuse({name, ": the PNG header has ", data.size(), " bytes, expected 13"});
   // Channels of colour types 0 (grey), 2 (RGB), 3 (palette), 4 (grey and alpha), 6 (RGB and alpha).
   constexpr std::array<std::size_t, 7> channels{1, 0, 3, 1, 2, 0, 4};
@@ -105,7 +105,7 @@ GONIO_INLINE void check_png(std::span<const std::byte> bytes, const std::string&
     type = {reinterpret_cast<const char*>(checked.data()), 4};
     if (first != (type == "IHDR")) gonio::refuse({name, ": the PNG header is missing or appears twice"});
     if (first) {
-      header = parse_png_header(data, name);
+      header = read_png_header(data, name);
       check_believable_pixels(png_claims, header.rows, header.columns, bytes.size(), name);
     }
     if (type == "IDAT") pixels.insert(pixels.end(), data.begin(), data.end());
@@ -196,7 +196,7 @@ GONIO_INLINE stored_codes read_png_codes(const std::filesystem::path& path) {
   return codes;
 }
 
-GONIO_INLINE std::vector<std::byte> encode_png(const image& picture, const std::string& name) {
+GONIO_INLINE std::vector<std::byte> write_png(const image& picture, const std::string& name) {
   const auto [columns, rows] = detail::check_pixels(picture, std::numeric_limits<float>::infinity(), name);
   std::vector<stbi_uc> codes(picture.size());
   std::transform(picture.data(), picture.data() + picture.size(), codes.begin(),
@@ -209,7 +209,7 @@ GONIO_INLINE std::vector<std::byte> encode_png(const image& picture, const std::
 }
 
 GONIO_INLINE void write_png(const std::filesystem::path& path, const image& picture) {
-  write_atomically(path, encode_png(picture, path.string()));
+  write_atomically(path, write_png(picture, path.string()));
 }
 
 GONIO_INLINE image read_hdr(const std::filesystem::path& path) {

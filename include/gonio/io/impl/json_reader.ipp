@@ -32,7 +32,7 @@ GONIO_INLINE char json_reader::peek() {
 }
 
 GONIO_INLINE void json_reader::expect(char c) {
-  if (peek() != c) refuse({quoted(text_.substr(at_, 1)), " where JSON has ", quoted(std::string_view(&c, 1))});
+  if (peek() != c) refuse({in_quotes(text_.substr(at_, 1)), " where JSON has ", in_quotes(std::string_view(&c, 1))});
   ++at_;
 }
 
@@ -54,30 +54,30 @@ GONIO_INLINE bool json_reader::next(char closing) {
 
 GONIO_INLINE std::optional<std::string> json_reader::next_key() {
   if (!next('}')) return std::nullopt;
-  std::string key = take_string("a key");
+  std::string key = read_string("a key");
   expect(':');
   return key;
 }
 
 GONIO_INLINE bool json_reader::next_element() { return next(']'); }
 
-GONIO_INLINE std::string_view json_reader::take_literal() {
+GONIO_INLINE std::string_view json_reader::read_literal() {
   skip_blanks();
   const std::size_t begin = at_;
   at_ = std::min(text_.find_first_of(" \t\r\n,:]}[{\"", at_), text_.size());
   return text_.substr(begin, at_ - begin);
 }
 
-GONIO_INLINE double json_reader::take_number(std::string_view what) {
-  const std::string_view literal = take_literal();
+GONIO_INLINE double json_reader::read_number(std::string_view what) {
+  const std::string_view literal = read_literal();
   double number = 0.0;
   const bool begins_well = !literal.empty() && (literal[0] == '-' || (literal[0] >= '0' && literal[0] <= '9'));
-  if (!begins_well) refuse({what, ": ", quoted(literal), " is not a number"});
-  if (const char* wrong = read_number(literal, number)) refuse({what, ": ", quoted(literal), wrong});
+  if (!begins_well) refuse({what, ": ", in_quotes(literal), " is not a number"});
+  if (const char* wrong = io::read_number(literal, number)) refuse({what, ": ", in_quotes(literal), wrong});
   return number;
 }
 
-GONIO_INLINE std::string json_reader::take_string(std::string_view what) {
+GONIO_INLINE std::string json_reader::read_string(std::string_view what) {
   if (peek() != '"') refuse({what, ": expected a string"});
   ++at_;
   std::string string;
@@ -94,12 +94,12 @@ GONIO_INLINE std::string json_reader::take_string(std::string_view what) {
   return string;
 }
 
-GONIO_INLINE unsigned json_reader::take_code() {
+GONIO_INLINE unsigned json_reader::read_code() {
   const std::string_view digits = text_.substr(std::min(at_, text_.size()), 4);
   unsigned code = 0;
   const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
   if (digits.size() != 4 || failed != std::errc() || end != digits.data() + 4)
-    refuse({quoted(digits), " after \\u, expected four hexadecimal digits"});
+    refuse({in_quotes(digits), " after \\u, expected four hexadecimal digits"});
   at_ += 4;
   return code;
 }
@@ -111,8 +111,8 @@ GONIO_INLINE void json_reader::append_escaped(std::string& string) {
     string += meanings[known];
     return;
   }
-  if (name != 'u') refuse({quoted(std::string_view(&name, 1)), " after a backslash"});
-  const unsigned code = take_code();
+  if (name != 'u') refuse({in_quotes(std::string_view(&name, 1)), " after a backslash"});
+  const unsigned code = read_code();
   const auto put = [&](unsigned byte) { string += static_cast<char>(byte); };
   if (code < 0x80u) {
     put(code);
@@ -139,19 +139,19 @@ GONIO_INLINE std::string_view json_reader::skip(std::size_t depth) {
     open_array("a value");
     while (next_element()) skip(depth + 1);
   } else if (first == '"') {
-    static_cast<void>(take_string("a value"));
+    static_cast<void>(read_string("a value"));
   } else if (first == 't' || first == 'f' || first == 'n') {
-    const std::string_view literal = take_literal();
-    if (literal != "true" && literal != "false" && literal != "null") refuse({quoted(literal), " is no JSON value"});
+    const std::string_view literal = read_literal();
+    if (literal != "true" && literal != "false" && literal != "null") refuse({in_quotes(literal), " is no JSON value"});
   } else {
-    static_cast<void>(take_number("a value"));
+    static_cast<void>(read_number("a value"));
   }
   return text_.substr(begin, at_ - begin);
 }
 
 GONIO_INLINE void json_reader::finish() {
   skip_blanks();
-  if (at_ < text_.size()) refuse({quoted(text_.substr(at_, 1)), " follows the JSON value"});
+  if (at_ < text_.size()) refuse({in_quotes(text_.substr(at_, 1)), " follows the JSON value"});
 }
 
 }  // namespace gonio::io::detail

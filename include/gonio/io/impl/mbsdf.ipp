@@ -90,8 +90,8 @@ class mbsdf_reader {
 
   [[nodiscard]] model::polar_grid_brdf read_block() {
     byte_reader reader(bytes_, name_);
-    const auto type = reader.take<std::uint32_t>();
-    const std::uint64_t polar = reader.take<std::uint32_t>(), azimuth = reader.take<std::uint32_t>();
+    const auto type = reader.read<std::uint32_t>();
+    const std::uint64_t polar = reader.read<std::uint32_t>(), azimuth = reader.read<std::uint32_t>();
     if (type > 1) refuse({name_, ": has values of the unknown type ", type, ", expected 0 or 1"});
     if (polar == 0 || azimuth == 0) refuse({name_, ": has no cells of theta or of phi"});
     const std::uint64_t most = reader.left() / sizeof(float) / (type == 0 ? 1 : 3);
@@ -99,7 +99,7 @@ class mbsdf_reader {
       refuse({name_, ": the file is truncated or its counts are wrong: ", polar, " x ", polar, " x ", azimuth,
               " cells are announced"});
     const std::uint64_t count = polar * polar * azimuth * (type == 0 ? 1 : 3);
-    std::vector<float> values = reader.take_all<float>(count);
+    std::vector<float> values = reader.read_all<float>(count);
     bytes_ = bytes_.last(reader.left());
     if (const auto wrong = std::ranges::find_if_not(values, [](float value) { return std::isfinite(value); });
         wrong != values.end())
@@ -115,11 +115,11 @@ class mbsdf_reader {
 
 namespace gonio::io {
 
-GONIO_INLINE mbsdf_material parse_mbsdf(std::span<const std::byte> bytes, const std::string& name) {
+GONIO_INLINE mbsdf_material read_mbsdf(std::span<const std::byte> bytes, const std::string& name) {
   return detail::mbsdf_reader(bytes, name).read();
 }
 
-GONIO_INLINE std::vector<std::byte> serialise_mbsdf(const mbsdf_material& material) {
+GONIO_INLINE std::vector<std::byte> write_mbsdf(const mbsdf_material& material) {
   const auto is_word = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
   };
@@ -132,12 +132,12 @@ GONIO_INLINE std::vector<std::byte> serialise_mbsdf(const mbsdf_material& materi
   head += message_of({detail::mbsdf_reflection, "\n"});
   const model::polar_grid_brdf& f = material.reflection;
   byte_writer writer;
-  writer.put_bytes(head.data(), head.size());
-  writer.put(static_cast<std::uint32_t>(f.channels() == 1 ? 0 : 1));
-  writer.put(static_cast<std::uint32_t>(f.grid().polar));
-  writer.put(static_cast<std::uint32_t>(f.grid().azimuth));
-  writer.put_all(f.values());
-  return writer.take();
+  writer.write_bytes(head.data(), head.size());
+  writer.write(static_cast<std::uint32_t>(f.channels() == 1 ? 0 : 1));
+  writer.write(static_cast<std::uint32_t>(f.grid().polar));
+  writer.write(static_cast<std::uint32_t>(f.grid().azimuth));
+  writer.write_all(f.values());
+  return std::move(writer).bytes();
 }
 
 }  // namespace gonio::io

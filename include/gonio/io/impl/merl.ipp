@@ -68,8 +68,8 @@ GONIO_INLINE void refuse_cell(const std::string& name, const grid& cells, std::s
 
 namespace gonio::io {
 
-GONIO_INLINE brdf_table parse_merl(std::span<const std::byte> bytes, const std::string& name,
-                                   const merl_options& options) {
+GONIO_INLINE brdf_table read_merl(std::span<const std::byte> bytes, const std::string& name,
+                                  const merl_options& options) {
   const grid_extents extents = detail::merl_extents(bytes, name);
   if (const std::uint64_t expected = detail::merl_file_size(extents); bytes.size() != expected)
     gonio::refuse({name, ": has ", bytes.size(), " bytes, expected ", expected, " for a MERL table of ",

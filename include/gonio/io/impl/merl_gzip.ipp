@@ -10,9 +10,9 @@
 
 namespace gonio::io {
 
-GONIO_INLINE brdf_table parse_merl_any(std::span<const std::byte> bytes, const std::string& name,
-                                       const merl_options& options) {
-  if (!is_gzip(bytes)) return parse_merl(bytes, name, options);
+GONIO_INLINE brdf_table read_merl_any(std::span<const std::byte> bytes, const std::string& name,
+                                      const merl_options& options) {
+  if (!is_gzip(bytes)) return read_merl(bytes, name, options);
   // The extents at the start say how much more there may be.
   const auto header = gunzip_prefix(bytes, detail::merl_header_size, name);
   const grid_extents extents = detail::merl_extents(header, name);
@@ -20,7 +20,7 @@ GONIO_INLINE brdf_table parse_merl_any(std::span<const std::byte> bytes, const s
   if (!detail::is_believable(size, detail::freely_claimed_table, bytes.size()))
     gonio::refuse({name, ": a MERL table of ", detail::to_text(extents), " cells is not believable of ", bytes.size(),
                    " compressed bytes"});
-  return parse_merl(gunzip(bytes, static_cast<std::size_t>(size), name), name, options);
+  return read_merl(gunzip(bytes, static_cast<std::size_t>(size), name), name, options);
 }
 
 }  // namespace gonio::io

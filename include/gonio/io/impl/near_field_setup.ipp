@@ -43,8 +43,8 @@ GONIO_INLINE capture::near_field_setup make_setup(const setup_text& text,
 
 namespace gonio::io {
 
-GONIO_INLINE capture::near_field_setup parse_near_field_setup(std::string_view text, const std::string& name,
-                                                              const std::optional<camera_calibration>& calibration) {
+GONIO_INLINE capture::near_field_setup read_near_field_setup(std::string_view text, const std::string& name,
+                                                             const std::optional<camera_calibration>& calibration) {
   const detail::setup_text entries(text, name, detail::near_field_entries);
   capture::near_field_setup setup = detail::make_setup(entries, calibration);
   entries.naming_file([&] { require_usable(setup); });
@@ -54,7 +54,7 @@ GONIO_INLINE capture::near_field_setup parse_near_field_setup(std::string_view t
 GONIO_INLINE capture::near_field_setup read_near_field_setup(const std::filesystem::path& path,
                                                              const std::optional<camera_calibration>& calibration) {
   const auto bytes = read_bytes(path);
-  return parse_near_field_setup(detail::as_text(bytes), path.string(), calibration);
+  return read_near_field_setup(as_text(bytes), path.string(), calibration);
 }
 
 }  // namespace gonio::io

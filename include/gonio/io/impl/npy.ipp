@@ -26,10 +26,10 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE npy_layout npy_header_parser::parse() {
+GONIO_INLINE npy_layout npy_header_reader::read() {
   expect('{');
   while (!accept('}')) {
-    parse_entry();
+    read_entry();
     if (accept(',')) continue;
     expect('}');
     break;
@@ -42,7 +42,7 @@ GONIO_INLINE npy_layout npy_header_parser::parse() {
   return layout();
 }
 
-GONIO_INLINE void npy_header_parser::parse_entry() {
+GONIO_INLINE void npy_header_reader::read_entry() {
   const std::string_view key = quoted_text();
   expect(':');
   if (key == "descr" && !descr_)
@@ -55,7 +55,7 @@ GONIO_INLINE void npy_header_parser::parse_entry() {
     refuse("the key '" + std::string(key) + "' is unknown or appears twice");
 }
 
-GONIO_INLINE npy_layout npy_header_parser::layout() const {
+GONIO_INLINE npy_layout npy_header_reader::layout() const {
   if (*descr_ != "<f2" && *descr_ != "<f4" && *descr_ != "<f8")
     refuse("holds elements of type '" + std::string(*descr_) +
            "', expected '<f2', '<f4' or '<f8' (little-endian floats)");
@@ -73,7 +73,7 @@ GONIO_INLINE npy_layout npy_header_parser::layout() const {
   return found;
 }
 
-GONIO_INLINE std::string_view npy_header_parser::quoted_text() {
+GONIO_INLINE std::string_view npy_header_reader::quoted_text() {
   skip_blanks();
   const char quote = text_.empty() ? '\0' : text_.front();
   if (quote != '\'' && quote != '"') refuse("expected a quoted text");
@@ -84,7 +84,7 @@ GONIO_INLINE std::string_view npy_header_parser::quoted_text() {
   return inside;
 }
 
-GONIO_INLINE bool npy_header_parser::boolean() {
+GONIO_INLINE bool npy_header_reader::boolean() {
   skip_blanks();
   for (const auto& [word, value] :
        {std::pair{std::string_view("True"), true}, std::pair{std::string_view("False"), false}}) {
@@ -95,7 +95,7 @@ GONIO_INLINE bool npy_header_parser::boolean() {
   refuse("fortran_order is neither True nor False");
 }
 
-GONIO_INLINE std::vector<std::size_t> npy_header_parser::tuple() {
+GONIO_INLINE std::vector<std::size_t> npy_header_reader::tuple() {
   std::vector<std::size_t> extents;
   expect('(');
   while (!accept(')')) {
@@ -108,7 +108,7 @@ GONIO_INLINE std::vector<std::size_t> npy_header_parser::tuple() {
   return extents;
 }
 
-GONIO_INLINE std::size_t npy_header_parser::count() {
+GONIO_INLINE std::size_t npy_header_reader::count() {
   skip_blanks();
   std::size_t value = 0;
   const auto [end, failed] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
@@ -117,21 +117,26 @@ GONIO_INLINE std::size_t npy_header_parser::count() {
   return value;
 }
 
-GONIO_INLINE bool npy_header_parser::accept(char c) {
+GONIO_INLINE bool npy_header_reader::accept(char c) {
   skip_blanks();
   if (!text_.starts_with(c)) return false;
   text_.remove_prefix(1);
   return true;
 }
 
-GONIO_INLINE void npy_header_parser::refuse(const std::string& what) const {
+GONIO_INLINE void npy_header_reader::refuse(const std::string& what) const {
   gonio::refuse({name_, ": npy header: ", what});
 }
 
-GONIO_INLINE npy_layout take_npy_header(std::span<const std::byte>& bytes, const std::string& name) {
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE npy_layout read_npy_header(std::span<const std::byte>& bytes, const std::string& name) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!text.starts_with(npy_magic)) gonio::refuse({name, ": is no npy file, expected it to start with \\x93NUMPY"});
-  const std::size_t version_at = npy_magic.size();
+  if (!text.starts_with(detail::npy_magic))
+    gonio::refuse({name, ": is no npy file, expected it to start with \\x93NUMPY"});
+  const std::size_t version_at = detail::npy_magic.size();
   const auto byte_at = [&](std::size_t i) { return std::to_integer<std::size_t>(bytes[i]); };
   if (bytes.size() < version_at + 2) gonio::refuse({name, ": npy header: truncated"});
   const std::size_t version = byte_at(version_at);
@@ -144,20 +149,20 @@ GONIO_INLINE npy_layout take_npy_header(std::span<const std::byte>& bytes, const
   std::size_t length = 0;
   for (std::size_t i = begin; i > version_at + 2; --i) length = length * 256 + byte_at(i - 1);
   if (bytes.size() - begin < length) gonio::refuse({name, ": npy header: truncated"});
-  npy_layout layout = npy_header_parser(text.substr(begin, length), name).parse();
+  npy_layout layout = detail::npy_header_reader(text.substr(begin, length), name).read();
   bytes = bytes.subspan(begin + length);
   return layout;
 }
 
 GONIO_INLINE std::string npy_header(std::string_view type, const std::string& shape) {
   std::string dictionary = message_of({"{'descr': '", type, "', 'fortran_order': False, 'shape': ", shape, ", }"});
-  const std::size_t before = npy_magic.size() + 4;
+  const std::size_t before = detail::npy_magic.size() + 4;
   dictionary.resize((before + dictionary.size() + 1 + 63) / 64 * 64 - before - 1, ' ');
   dictionary += '\n';
-  std::string header(npy_magic);
+  std::string header(detail::npy_magic);
   for (const std::size_t byte : {std::size_t{1}, std::size_t{0}, dictionary.size() % 256, dictionary.size() / 256})
     header += static_cast<char>(byte);
   return header + dictionary;
 }
 
-}  // namespace gonio::io::detail
+}  // namespace gonio::io

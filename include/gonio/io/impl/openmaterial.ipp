@@ -151,9 +151,9 @@ GONIO_INLINE std::string openmaterial_text(const std::vector<rgb>& colours, cons
 // ---- reading
 
 /// Reads such a file row by row.
-class openmaterial_parser {
+class openmaterial_reader {
  public:
-  openmaterial_parser(std::string_view text, text_place& place) : json_(text, place), place_(place) {}
+  openmaterial_reader(std::string_view text, text_place& place) : json_(text, place), place_(place) {}
 
   [[nodiscard]] sample_collector read() {
     json_.open_object("the file");
@@ -183,12 +183,12 @@ class openmaterial_parser {
       if (std::exchange(has_table_, true)) json_.refuse({"brdf.lookupTable appears twice"});
       json_.open_array("brdf.lookupTable");
       while (json_.next_element())
-        if (const std::optional<row> values = take_row()) rows_.push_back(checked(*values));
+        if (const std::optional<row> values = read_row()) rows_.push_back(checked(*values));
     }
   }
 
   /// Nothing if one of the numbers is null.
-  [[nodiscard]] std::optional<row> take_row() {
+  [[nodiscard]] std::optional<row> read_row() {
     row values{};
     std::size_t count = 0;
     bool has_null = false;
@@ -199,7 +199,7 @@ class openmaterial_parser {
         json_.skip();
         has_null = true;
       } else {
-        values[count] = json_.take_number("a row");
+        values[count] = json_.read_number("a row");
       }
     }
     if (count != values.size()) json_.refuse({"a row has ", count, " numbers, expected 5"});
@@ -267,31 +267,31 @@ GONIO_INLINE void write_openmaterial(const std::filesystem::path& path, const st
 }
 
 GONIO_INLINE bool looks_like_openmaterial(std::string_view text) {
-  text = detail::without_byte_order_mark(text);
+  text = without_byte_order_mark(text);
   const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   if (!text.substr(first).starts_with('{')) return false;
   const auto has = [&](std::string_view key) { return text.find(key) != std::string_view::npos; };
   return has("\"openMaterial3dVersion\"") || has("\"lookupTable\"");
 }
 
-GONIO_INLINE sample_set parse_openmaterial(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
-  return detail::openmaterial_parser(text, place).read().take(name);
+GONIO_INLINE sample_set read_openmaterial(std::string_view text, const std::string& name) {
+  text_place place{name, 0};
+  return detail::openmaterial_reader(text, place).read().samples(name);
 }
 
 GONIO_INLINE sample_set read_openmaterial(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_openmaterial(detail::as_text(bytes), path.string());
+  return read_openmaterial(as_text(bytes), path.string());
 }
 
-GONIO_INLINE spectral_samples parse_openmaterial_spectra(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
-  return detail::openmaterial_parser(text, place).read().take_spectra(name);
+GONIO_INLINE spectral_samples read_openmaterial_spectra(std::string_view text, const std::string& name) {
+  text_place place{name, 0};
+  return detail::openmaterial_reader(text, place).read().spectra(name);
 }
 
 GONIO_INLINE spectral_samples read_openmaterial_spectra(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_openmaterial_spectra(detail::as_text(bytes), path.string());
+  return read_openmaterial_spectra(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

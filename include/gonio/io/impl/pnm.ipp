@@ -18,7 +18,7 @@
 namespace gonio::io::detail {
 
 /// Takes the next whole number off the front of a Netpbm header, of at most five digits: after blanks and comments.
-[[nodiscard]] GONIO_INLINE std::size_t take_pnm_number(std::string_view& text, const std::string& name) {
+[[nodiscard]] GONIO_INLINE std::size_t read_pnm_number(std::string_view& text, const std::string& name) {
   constexpr std::string_view blank = " \t\n\v\f\r";
   while (!text.empty() && (blank.find(text.front()) != std::string_view::npos || text.front() == '#')) {
     const std::size_t end = text.front() == '#' ? text.find('\n') : 0;
@@ -54,16 +54,16 @@ GONIO_INLINE void copy_pnm_counts(std::span<const std::byte> bytes, std::size_t 
 
 namespace gonio::io {
 
-GONIO_INLINE stored_codes parse_pnm(std::span<const std::byte> bytes, const std::string& name) {
-  std::string_view text = detail::as_text(bytes);
+GONIO_INLINE stored_codes read_pnm(std::span<const std::byte> bytes, const std::string& name) {
+  std::string_view text = as_text(bytes);
   if (!text.starts_with("P6") && !text.starts_with("P5"))
     gonio::refuse({name, ": is no PPM or PGM file of bytes (P6 or P5)"});
   const std::size_t channels = text[1] == '6' ? 3 : 1;
   text.remove_prefix(2);
   stored_codes codes;
-  codes.columns = detail::take_pnm_number(text, name);
-  codes.rows = detail::take_pnm_number(text, name);
-  const std::size_t largest = detail::take_pnm_number(text, name);
+  codes.columns = detail::read_pnm_number(text, name);
+  codes.rows = detail::read_pnm_number(text, name);
+  const std::size_t largest = detail::read_pnm_number(text, name);
   constexpr std::size_t most = 16384;
   if (codes.rows < 1 || codes.columns < 1 || codes.rows > most || codes.columns > most)
     gonio::refuse(
@@ -82,7 +82,7 @@ GONIO_INLINE stored_codes parse_pnm(std::span<const std::byte> bytes, const std:
 }
 
 GONIO_INLINE stored_codes read_pnm(const std::filesystem::path& path) {
-  return parse_pnm(read_bytes(path), path.string());
+  return read_pnm(read_bytes(path), path.string());
 }
 
 GONIO_INLINE void write_pnm(const std::filesystem::path& path, const stored_codes& codes) {

@@ -26,18 +26,18 @@ inline constexpr checked_file_kind soft_specular_kind{"gonio-split", 1, "soft an
 
 namespace gonio::io {
 
-[[gnu::cold]] GONIO_INLINE std::vector<std::byte> encode_prior(const log_relative_pca& prior) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> write_prior(const log_relative_pca& prior) {
   byte_writer payload;
-  put_prior(payload, prior);
-  return encode_checked(prior.wavelengths().empty() ? detail::colour_prior_kind : detail::prior_kind, payload.bytes());
+  write_prior(payload, prior);
+  return write_checked(prior.wavelengths().empty() ? detail::colour_prior_kind : detail::prior_kind, payload.bytes());
 }
 
-[[gnu::cold]] GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, const std::string& name) {
-  if (detail::as_text(bytes).starts_with(detail::soft_specular_kind.magic))
+[[gnu::cold]] GONIO_INLINE log_relative_pca read_prior(std::span<const std::byte> bytes, const std::string& name) {
+  if (as_text(bytes).starts_with(detail::soft_specular_kind.magic))
     gonio::refuse({name, ": a soft and a specular prior, where one prior of all materials is expected"});
-  const auto payload = decode_checked(detail::prior_kind, bytes, name);
+  const auto payload = read_checked(detail::prior_kind, bytes, name);
   byte_reader in(payload, name);
-  return take_prior(in, name);
+  return read_prior(in, name);
 }
 
 [[gnu::cold]] GONIO_INLINE bool is_prior(const std::filesystem::path& path) {
@@ -45,11 +45,11 @@ namespace gonio::io {
 }
 
 [[gnu::cold]] GONIO_INLINE void write_prior(const std::filesystem::path& path, const log_relative_pca& prior) {
-  write_atomically(path, encode_prior(prior));
+  write_atomically(path, write_prior(prior));
 }
 
 [[gnu::cold]] GONIO_INLINE log_relative_pca read_prior(const std::filesystem::path& path) {
-  return decode_prior(read_bytes(path), path.string());
+  return read_prior(read_bytes(path), path.string());
 }
 
 }  // namespace gonio::io

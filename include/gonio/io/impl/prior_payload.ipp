@@ -53,14 +53,14 @@ struct prior_domain {
   bool is_spectral;
 };
 
-[[nodiscard]] GONIO_INLINE prior_domain take_domain(byte_reader& in, const std::string& name) {
-  const auto extent = [&] { return static_cast<int>(std::min<std::uint32_t>(in.take<std::uint32_t>(), 1u << 30)); };
+[[nodiscard]] GONIO_INLINE prior_domain read_domain(byte_reader& in, const std::string& name) {
+  const auto extent = [&] { return static_cast<int>(std::min<std::uint32_t>(in.read<std::uint32_t>(), 1u << 30)); };
   const int theta_h = extent(), theta_d = extent(), phi_d = extent();
-  const auto conventions = in.take<std::uint32_t>();
+  const auto conventions = in.read<std::uint32_t>();
   if (conventions > 7)
     gonio::refuse({name, ": cell anchor and cosine weight are ", conventions,
                    ", expected 0 (centre) or 1 (lower corner), 2 more for the larger cosine, 4 more for wavelengths"});
-  const auto minimum_cosine = in.take<double>();
+  const auto minimum_cosine = in.read<double>();
   if (!(minimum_cosine >= 0.0 && minimum_cosine < 1.0))
     gonio::refuse({name, ": the smallest cosine of a valid cell must be in [0, 1)"});
   const gonio::grid grid = naming_prior(name, [&] {
@@ -90,13 +90,13 @@ struct prior_domain {
 }
 
 /// Wavelengths behind their number; none of colours.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::vector<double> take_wavelengths(byte_reader& in, bool is_spectral,
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::vector<double> read_wavelengths(byte_reader& in, bool is_spectral,
                                                                               const std::string& name) {
   if (!is_spectral) return {};
-  const auto count = in.take<std::uint32_t>();
+  const auto count = in.read<std::uint32_t>();
   if (count == 0 || count > in.left() / sizeof(double))
     gonio::refuse({name, ": ", in.left(), " bytes cannot hold ", count, " wavelengths"});
-  std::vector<double> wavelengths = in.take_all<double>(count);
+  std::vector<double> wavelengths = in.read_all<double>(count);
   naming_prior(name, [&] { require_wavelengths(wavelengths); });
   return wavelengths;
 }
@@ -111,40 +111,40 @@ struct prior_domain {
 
 namespace gonio::io {
 
-GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
+GONIO_INLINE void write_prior(byte_writer& out, const log_relative_pca& prior) {
   const gonio::grid& grid = prior.cells().grid();
-  out.put(static_cast<std::uint32_t>(grid.extents().theta_h));
-  out.put(static_cast<std::uint32_t>(grid.extents().theta_d));
-  out.put(static_cast<std::uint32_t>(grid.extents().phi_d));
-  out.put(detail::conventions_of(prior));
-  out.put(prior.cells().minimum_cosine());
-  out.put(static_cast<std::uint32_t>(prior.size()));
-  out.put(static_cast<std::uint32_t>(prior.names().size()));
+  out.write(static_cast<std::uint32_t>(grid.extents().theta_h));
+  out.write(static_cast<std::uint32_t>(grid.extents().theta_d));
+  out.write(static_cast<std::uint32_t>(grid.extents().phi_d));
+  out.write(detail::conventions_of(prior));
+  out.write(prior.cells().minimum_cosine());
+  out.write(static_cast<std::uint32_t>(prior.size()));
+  out.write(static_cast<std::uint32_t>(prior.names().size()));
   if (const std::vector<double>& wavelengths = prior.wavelengths(); !wavelengths.empty()) {
-    out.put(static_cast<std::uint32_t>(wavelengths.size()));
-    out.put_bytes(wavelengths.data(), wavelengths.size() * sizeof(double));
+    out.write(static_cast<std::uint32_t>(wavelengths.size()));
+    out.write_bytes(wavelengths.data(), wavelengths.size() * sizeof(double));
   }
-  out.put(prior.explained_variance());
-  out.put_text(prior.source());
-  for (const std::string& name : prior.names()) out.put_text(name);
-  out.put_bytes(prior.singular_values().data(), prior.size() * sizeof(double));
+  out.write(prior.explained_variance());
+  out.write_text(prior.source());
+  for (const std::string& name : prior.names()) out.write_text(name);
+  out.write_bytes(prior.singular_values().data(), prior.size() * sizeof(double));
   const Eigen::MatrixXf& coefficients = prior.coefficients();
-  out.put_bytes(coefficients.data(), coefficients.size() * sizeof(float));
-  put_quantised(out, quantise<std::uint16_t>(detail::log_of_reference(prior.metric())));
-  put_quantised(out, quantise<std::uint16_t>(prior.mean()));
+  out.write_bytes(coefficients.data(), coefficients.size() * sizeof(float));
+  write_quantised(out, quantise<std::uint16_t>(detail::log_of_reference(prior.metric())));
+  write_quantised(out, quantise<std::uint16_t>(prior.mean()));
   std::vector<float> component(prior.cells().size());
   for (Eigen::Index k = 0; k < prior.size(); ++k) {
     for (std::size_t cell = 0; cell < component.size(); ++cell) component[cell] = prior.row(cell)[k];
-    put_quantised(out, quantise<std::uint8_t>(component));
+    write_quantised(out, quantise<std::uint8_t>(component));
   }
 }
 
-GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& name) {
+GONIO_INLINE log_relative_pca read_prior(byte_reader& in, const std::string& name) {
   // Read the grid and the counts, and refuse counts that the rest of the file cannot hold.
-  const auto [cells, weighting, is_spectral] = detail::take_domain(in, name);
-  const auto components = in.take<std::uint32_t>();
-  const auto materials = in.take<std::uint32_t>();
-  std::vector<double> wavelengths = detail::take_wavelengths(in, is_spectral, name);
+  const auto [cells, weighting, is_spectral] = detail::read_domain(in, name);
+  const auto components = in.read<std::uint32_t>();
+  const auto materials = in.read<std::uint32_t>();
+  std::vector<double> wavelengths = detail::read_wavelengths(in, is_spectral, name);
   const std::uint64_t channels = is_spectral ? wavelengths.size() : 3;
   if (components == 0 || components > channels * materials)
     gonio::refuse({name, ": ", components, " components of ", materials, " materials are impossible"});
@@ -153,22 +153,22 @@ GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& nam
     gonio::refuse({name, ": the file is truncated or its counts are wrong: ", in.left(), " bytes cannot hold ",
                    components, " components of ", materials, " materials over ", cells.size(), " cells"});
   // Read what describes the training: variance, source, names, singular values and coefficients.
-  const auto explained_variance = in.take<double>();
-  std::string source = in.take_text();
+  const auto explained_variance = in.read<double>();
+  std::string source = in.read_text();
   std::vector<std::string> names(materials);
-  for (std::string& material : names) material = in.take_text();
+  for (std::string& material : names) material = in.read_text();
   const Eigen::Index k = components;
-  const auto singular = in.take_all<double>(components);
-  const auto observed = in.take_all<float>(channels * materials * components);
+  const auto singular = in.read_all<double>(components);
+  const auto observed = in.read_all<float>(channels * materials * components);
 
   // Decode the quantised reference, mean and components.
-  std::vector<float> reference = detail::dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
+  std::vector<float> reference = detail::dequantise_all(read_quantised<std::uint16_t>(in, cells.size()));
   for (float& value : reference) value = std::exp(value);
-  std::vector<float> mean = detail::dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
+  std::vector<float> mean = detail::dequantise_all(read_quantised<std::uint16_t>(in, cells.size()));
   cell_matrix functions(cells.size(), k);
   advise_huge_pages(functions.data(), functions.size() * sizeof(float));  // an expansion reads them all
   for (Eigen::Index c = 0; c < k; ++c) {
-    const auto column = take_quantised<std::uint8_t>(in, cells.size());
+    const auto column = read_quantised<std::uint8_t>(in, cells.size());
     for (Eigen::Index cell = 0; cell < cells.size(); ++cell) functions(cell, c) = dequantise(column, cell);
   }
   if (in.left() != 0) gonio::refuse({name, ": ", in.left(), " bytes follow the last component"});

@@ -6,14 +6,17 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/rgb.hpp>
+#include <gonio/io/csv_reader.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/reference_reflectance.hpp>
+#include <gonio/io/sample_header.hpp>
 #include <gonio/io/text.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -28,32 +31,51 @@ using reflectance_row = std::array<double, reflectance_columns.size()>;
 /// The file as it is read: which column each field of a line is, and the table so far.
 class reflectance_table {
  public:
-  void read_header(std::string_view line, const text_place& place);
-  void read_row(std::string_view line, const text_place& place);
+  void read_header(const csv_reader& file);
+  void read_row(csv_reader& file);
 
-  [[nodiscard]] bool has_header() const noexcept { return !columns_.empty(); }
   [[nodiscard]] capture::reference_reflectance table() const;
 
  private:
-  [[nodiscard]] bool has(std::size_t column) const { return std::ranges::count(columns_, column) > 0; }
+  struct scaled_column {
+    std::size_t column;
+    double scale;  ///< to degrees, and of per cent
+  };
+
+  [[nodiscard]] static std::optional<scaled_column> column_of(const written_column& written);
+  [[nodiscard]] bool has(std::size_t column) const {
+    return std::ranges::count(columns_, column, &scaled_column::column) > 0;
+  }
   void add_angles(double theta_i, double theta_o, const text_place& place);
 
-  std::vector<std::size_t> columns_;
+  std::vector<scaled_column> columns_;
   std::vector<double> theta_i_, theta_o_;  ///< degrees
   std::vector<rgb> factors_;
 };
 
-GONIO_INLINE void reflectance_table::read_header(std::string_view line, const text_place& place) {
-  std::vector<std::string_view> fields;
-  split_fields(line, fields);
-  for (const std::string_view field : fields) {
-    const std::size_t column = std::ranges::find(reflectance_columns, field) - reflectance_columns.begin();
-    if (column == reflectance_columns.size())
-      place.refuse({"column ", quoted(field),
+GONIO_INLINE std::optional<reflectance_table::scaled_column> reflectance_table::column_of(
+    const written_column& written) {
+  const std::size_t column = std::ranges::find(reflectance_columns, written.name) - reflectance_columns.begin();
+  const column_unit unit = unit_named(written.unit);
+  const bool is_angle = column < 2;
+  if (column == reflectance_columns.size()) return {};
+  if (unit == column_unit::none || (is_angle && unit == column_unit::degrees)) return scaled_column{column, 1.0};
+  if (is_angle && unit == column_unit::radians) return scaled_column{column, degrees(1.0)};
+  if (!is_angle && unit == column_unit::percent) return scaled_column{column, 0.01};
+  return {};
+}
+
+GONIO_INLINE void reflectance_table::read_header(const csv_reader& file) {
+  const text_place& place = file.place();
+  for (const std::string_view field : file.fields()) {
+    const auto found = column_of(written(field));
+    if (!found)
+      place.refuse({"column ", in_quotes(field),
                     " is unknown, expected theta_i, perhaps theta_o, and factor or "
-                    "factor_r,factor_g,factor_b"});
-    if (has(column)) place.refuse({"column ", quoted(field), " appears twice"});
-    columns_.push_back(column);
+                    "factor_r,factor_g,factor_b; the header line looks ",
+                    description(file.dialect())});
+    if (has(found->column)) place.refuse({"column ", in_quotes(field), " appears twice"});
+    columns_.push_back(*found);
   }
   const bool has_channels = has(3) || has(4) || has(5);
   if (has_channels && has(2))
@@ -64,16 +86,15 @@ GONIO_INLINE void reflectance_table::read_header(std::string_view line, const te
   }
 }
 
-GONIO_INLINE void reflectance_table::read_row(std::string_view line, const text_place& place) {
-  std::vector<std::string_view> fields;
-  split_fields(line, fields);
-  if (fields.size() != columns_.size())
-    place.refuse({fields.size(), " fields, expected ", columns_.size(), " as in the header line"});
+GONIO_INLINE void reflectance_table::read_row(csv_reader& file) {
   reflectance_row row{};
-  for (std::size_t i = 0; i < fields.size(); ++i)
-    if (const char* wrong = read_number(fields[i], row[columns_[i]]))
-      place.refuse({"column ", reflectance_columns[columns_[i]], ": ", quoted(fields[i]), wrong});
-  add_angles(row[0], row[1], place);
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const auto [column, scale] = columns_[i];
+    if (const char* wrong = file.read_number(file.fields()[i], row[column]))
+      file.place().refuse({"column ", reflectance_columns[column], ": ", in_quotes(file.fields()[i]), wrong});
+    row[column] *= scale;
+  }
+  add_angles(row[0], row[1], file.place());
   factors_.push_back(has(2) ? rgb::Constant(row[2]) : rgb(row[3], row[4], row[5]));
 }
 
@@ -105,11 +126,10 @@ namespace gonio::io {
 
 GONIO_INLINE capture::reference_reflectance read_reference_reflectance(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  detail::text_place place{path.native()};
+  csv_reader file(as_text(bytes), path.native());
   detail::reflectance_table read;
-  detail::for_each_line(detail::as_text(bytes), place, [&](std::string_view line) {
-    read.has_header() ? read.read_row(line, place) : read.read_header(line, place);
-  });
+  if (file.next()) read.read_header(file);
+  while (file.next()) read.read_row(file);
   try {
     return read.table();
   } catch (const error& unusable) {

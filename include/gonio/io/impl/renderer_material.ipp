@@ -105,7 +105,7 @@ namespace gonio::io {
 GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
   const detail::rough_surface surface = detail::bounded(detail::as_ggx_surface(model, "pbrt"));
   const std::string roughness =
-      "  \"float roughness\" [ " + detail::shortest(surface.alpha) + " ]\n  \"bool remaproughness\" false\n";
+      "  \"float roughness\" [ " + shortest(surface.alpha) + " ]\n  \"bool remaproughness\" false\n";
   if (surface.metal())
     return "Material \"conductor\"\n  \"rgb reflectance\" [ " +
            detail::three_numbers((surface.specular * surface.f0).min(1.0), " ") + " ]\n" + roughness;
@@ -113,14 +113,13 @@ GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
   const double index = surface.refractive_index();
   return "Material \"coateddiffuse\"\n  \"rgb reflectance\" [ " +
          detail::three_numbers(detail::base_below_coat(surface.diffuse, index), " ") + " ]\n" + roughness +
-         "  \"float eta\" [ " + detail::shortest(index) +
-         " ]\n  \"float thickness\" [ 0 ]\n  \"integer maxdepth\" [ 100 ]\n";
+         "  \"float eta\" [ " + shortest(index) + " ]\n  \"float thickness\" [ 0 ]\n  \"integer maxdepth\" [ 100 ]\n";
 }
 
 GONIO_INLINE std::string mitsuba_material(const model::analytic_brdf& model) {
   const detail::rough_surface surface = detail::as_rough_surface(model);
   const auto number = [](const char* type, const char* name, double value) {
-    return "<" + std::string(type) + " name=\"" + name + "\" value=\"" + detail::shortest(value) + "\"/>\n";
+    return "<" + std::string(type) + " name=\"" + name + "\" value=\"" + shortest(value) + "\"/>\n";
   };
   // A colour above 1 is refused unless it says that it is meant.
   const auto colour = [](const char* name, const rgb& value) {
@@ -142,7 +141,7 @@ GONIO_INLINE std::string materialx_material(const model::analytic_brdf& model, c
   const detail::rough_surface surface = detail::bounded(detail::as_ggx_surface(model, "OpenPBR"));
   constexpr const char* known = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
   if (name.empty() || name.find_first_not_of(known) != std::string::npos)
-    gonio::refuse({"the name of a MaterialX material is letters, digits and underscores, not ", detail::quoted(name)});
+    gonio::refuse({"the name of a MaterialX material is letters, digits and underscores, not ", in_quotes(name)});
   const auto input = [](const char* of, const char* type, const std::string& value) {
     return "    <input name=\"" + std::string(of) + "\" type=\"" + type + "\" value=\"" + value + "\"/>\n";
   };
@@ -156,10 +155,10 @@ GONIO_INLINE std::string materialx_material(const model::analytic_brdf& model, c
   text += input("base_weight", "float", "1");
   text += colour("base_color", surface.metal() ? rgb(surface.specular * surface.f0) : surface.diffuse);
   text += input("base_metalness", "float", surface.metal() ? "1" : "0");
-  text += input("specular_roughness", "float", detail::shortest(std::sqrt(surface.alpha)));
+  text += input("specular_roughness", "float", shortest(std::sqrt(surface.alpha)));
   if (!surface.metal()) {
     text += colour("specular_color", surface.specular);
-    text += input("specular_ior", "float", detail::shortest(surface.refractive_index()));
+    text += input("specular_ior", "float", shortest(surface.refractive_index()));
   }
   return text + "  </open_pbr_surface>\n  <surfacematerial name=\"" + name + "\" type=\"material\">\n" +
          "    <input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"" + name + "_surface\"/>\n" +
@@ -172,7 +171,7 @@ GONIO_INLINE std::string gltf_material(const model::analytic_brdf& model) {
   const std::string core =
       "      \"pbrMetallicRoughness\": {\n        \"baseColorFactor\": [" + detail::three_numbers(base.min(1.0), ", ") +
       ", 1],\n        \"metallicFactor\": " + (surface.metal() ? "1" : "0") +
-      ",\n        \"roughnessFactor\": " + detail::shortest(std::sqrt(std::min(surface.alpha, 1.0))) + "\n      }";
+      ",\n        \"roughnessFactor\": " + shortest(std::sqrt(std::min(surface.alpha, 1.0))) + "\n      }";
   const std::string begin = "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"gonio\"},\n";
   const std::string materials = "  \"materials\": [\n    {\n" + core;
   const std::string end = "\n    }\n  ]\n}\n";
@@ -182,8 +181,8 @@ GONIO_INLINE std::string gltf_material(const model::analytic_brdf& model) {
   const rgb colour = factor > 0.0 ? rgb(surface.specular / factor) : rgb(rgb::Ones());
   return begin + "  \"extensionsUsed\": [\"KHR_materials_ior\", \"KHR_materials_specular\"],\n" + materials +
          ",\n      \"extensions\": {\n        \"KHR_materials_ior\": {\"ior\": " +
-         detail::shortest(surface.refractive_index()) +
-         "},\n        \"KHR_materials_specular\": {\"specularFactor\": " + detail::shortest(factor) +
+         shortest(surface.refractive_index()) +
+         "},\n        \"KHR_materials_specular\": {\"specularFactor\": " + shortest(factor) +
          ", \"specularColorFactor\": [" + detail::three_numbers(colour, ", ") + "]}\n      }" + end;
 }
 

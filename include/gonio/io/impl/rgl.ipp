@@ -38,20 +38,20 @@ inline constexpr std::array<std::uint64_t, 12> tensor_element_size{0, 1, 1, 2, 2
 GONIO_INLINE std::map<std::string, tensor_field> tensor_fields(std::span<const std::byte> bytes,
                                                                const std::string& name) {
   byte_reader reader(bytes, name);
-  const auto magic = reader.take_bytes(std::min(tensor_magic.size(), bytes.size()));
+  const auto magic = reader.read_bytes(std::min(tensor_magic.size(), bytes.size()));
   if (!std::ranges::equal(magic, std::as_bytes(std::span(tensor_magic))))
     refuse({name, ": does not start with 'tensor_file', expected a .bsdf file of the RGL database"});
-  const auto major = reader.take<std::uint8_t>(), minor = reader.take<std::uint8_t>();
+  const auto major = reader.read<std::uint8_t>(), minor = reader.read<std::uint8_t>();
   if (major != 1 || minor != 0) refuse({name, ": has version ", int{major}, ".", int{minor}, ", expected 1.0"});
   std::map<std::string, tensor_field> fields;
-  for (auto left = reader.take<std::uint32_t>(); left > 0; --left) {
-    const auto letters = reader.take_all<char>(reader.take<std::uint16_t>());
+  for (auto left = reader.read<std::uint32_t>(); left > 0; --left) {
+    const auto letters = reader.read_all<char>(reader.read<std::uint16_t>());
     const std::string field_name(letters.begin(), letters.end());
     tensor_field field;
-    const auto dimensions = reader.take<std::uint16_t>();
-    field.type = reader.take<std::uint8_t>();
-    const auto position = reader.take<std::uint64_t>();
-    field.shape = reader.take_all<std::uint64_t>(dimensions);
+    const auto dimensions = reader.read<std::uint16_t>();
+    field.type = reader.read<std::uint8_t>();
+    const auto position = reader.read<std::uint64_t>();
+    field.shape = reader.read_all<std::uint64_t>(dimensions);
     if (field.type == 0 || field.type >= tensor_element_size.size())
       refuse({name, ": the array '", field_name, "' has elements of the unknown type ", int{field.type}});
     const std::uint64_t size = tensor_size(field, bytes.size());
@@ -89,7 +89,7 @@ class rgl_arrays {
   [[nodiscard]] std::vector<float> numbers(const std::string& field) const {
     const tensor_field& found = array(field);
     if (found.type != tensor_float32) refuse({name_, ": the array '", field, "' does not hold float32 numbers"});
-    return byte_reader(found.elements, name_).take_all<float>(found.elements.size() / sizeof(float));
+    return byte_reader(found.elements, name_).read_all<float>(found.elements.size() / sizeof(float));
   }
 
   /// The last two dimensions of an array as tables; of an array over the azimuths of the light, of which an isotropic
@@ -176,21 +176,21 @@ class tensor_writer {
     std::uint64_t position = tensor_magic.size() + 2 + sizeof(std::uint32_t);
     for (const field& each : fields_) position += 13 + each.name.size() + 8 * each.shape.size();
     byte_writer writer;
-    writer.put_bytes(tensor_magic.data(), tensor_magic.size());
-    writer.put(std::uint8_t{1});
-    writer.put(std::uint8_t{0});
-    writer.put(static_cast<std::uint32_t>(fields_.size()));
+    writer.write_bytes(tensor_magic.data(), tensor_magic.size());
+    writer.write(std::uint8_t{1});
+    writer.write(std::uint8_t{0});
+    writer.write(static_cast<std::uint32_t>(fields_.size()));
     for (const field& each : fields_) {
-      writer.put(static_cast<std::uint16_t>(each.name.size()));
-      writer.put_bytes(each.name.data(), each.name.size());
-      writer.put(static_cast<std::uint16_t>(each.shape.size()));
-      writer.put(each.type);
-      writer.put(position);
-      writer.put_all(std::span(each.shape));
+      writer.write(static_cast<std::uint16_t>(each.name.size()));
+      writer.write_bytes(each.name.data(), each.name.size());
+      writer.write(static_cast<std::uint16_t>(each.shape.size()));
+      writer.write(each.type);
+      writer.write(position);
+      writer.write_all(std::span(each.shape));
       position += each.elements.size();
     }
-    for (const field& each : fields_) writer.put_all(std::span(each.elements));
-    return writer.take();
+    for (const field& each : fields_) writer.write_all(std::span(each.elements));
+    return std::move(writer).bytes();
   }
 
  private:
@@ -246,7 +246,7 @@ GONIO_INLINE rgl_spectra upsampled_spectra(const model::adaptive_brdf& material,
   return all;
 }
 
-GONIO_INLINE std::vector<std::byte> serialise_rgl(const rgl_material& material) {
+GONIO_INLINE std::vector<std::byte> write_rgl(const rgl_material& material) {
   const model::adaptive_brdf_parts& parts = material.material.parts();
   const model::unit_square_tables& values = material.spectra ? material.spectra->values : parts.reflectance;
   if (material.spectra) detail::require_spectra(*material.spectra, parts.theta_i.size());
@@ -272,7 +272,7 @@ GONIO_INLINE std::vector<std::byte> serialise_rgl(const rgl_material& material) 
   return file.bytes();
 }
 
-GONIO_INLINE rgl_material parse_rgl(std::span<const std::byte> bytes, const std::string& name) {
+GONIO_INLINE rgl_material read_rgl(std::span<const std::byte> bytes, const std::string& name) {
   const detail::rgl_arrays arrays(bytes, name);
   if (const std::size_t azimuths = arrays.numbers("phi_i").size(); azimuths > 2)
     gonio::refuse({name, ": is anisotropic (", azimuths, " azimuths of the light), expected an isotropic material"});

@@ -106,9 +106,8 @@ GONIO_INLINE rgl_spectra at_wavelengths(const rgl_spectra& spectra, std::vector<
   const std::vector<double>& known = spectra.wavelengths;
   const model::unit_square_tables& all = spectra.values;
   if (wavelengths.front() < known.front() || wavelengths.back() > known.back())
-    refuse({"a material at wavelengths from ", detail::shortest(known.front()), " to ", detail::shortest(known.back()),
-            " nm is not known from ", detail::shortest(wavelengths.front()), " to ",
-            detail::shortest(wavelengths.back()), " nm"});
+    refuse({"a material at wavelengths from ", shortest(known.front()), " to ", shortest(known.back()),
+            " nm is not known from ", shortest(wavelengths.front()), " to ", shortest(wavelengths.back()), " nm"});
   const Eigen::Index size = all.rows * all.columns, bands = std::ssize(wavelengths), others = std::ssize(known),
                      angles = all.tables / others;
   rgl_spectra found{std::move(wavelengths),

@@ -13,7 +13,7 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE text_rule parse_rule(std::string_view line, const text_place& place) {
+GONIO_INLINE text_rule read_rule(std::string_view line, const text_place& place) {
   line = trimmed(line.substr(0, line.find('#')));
   text_rule rule;
   while (!line.empty()) {
@@ -22,7 +22,7 @@ GONIO_INLINE text_rule parse_rule(std::string_view line, const text_place& place
     if (rule.name.empty())
       rule.name = word;
     else
-      rule.numbers.push_back(parse_number(word, place, [&] { return "number of " + quoted(rule.name); }));
+      rule.numbers.push_back(read_number(word, place, [&] { return "number of " + in_quotes(rule.name); }));
     line = trimmed(line.substr(end));
   }
   return rule;
@@ -33,7 +33,7 @@ GONIO_INLINE void require_numbers(const text_rule& rule, std::initializer_list<s
   if (std::ranges::find(counts, rule.numbers.size()) != counts.end()) return;
   std::string expected;
   for (const std::size_t count : counts) expected += (expected.empty() ? "" : " or ") + std::to_string(count);
-  place.refuse(quoted(rule.name) + " takes " + expected + (expected == "1" ? " number" : " numbers") + ", not " +
+  place.refuse(in_quotes(rule.name) + " takes " + expected + (expected == "1" ? " number" : " numbers") + ", not " +
                std::to_string(rule.numbers.size()));
 }
 

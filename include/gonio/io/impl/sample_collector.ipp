@@ -73,7 +73,7 @@ GONIO_INLINE void sample_collector::require_samples(const std::string& name) con
   if (samples_.empty()) gonio::refuse({name, ": has no sample above the horizon, expected at least one"});
 }
 
-GONIO_INLINE sample_set sample_collector::take(const std::string& name) && {
+GONIO_INLINE sample_set sample_collector::samples(const std::string& name) && {
   require_samples(name);
   if (!have_colours_)
     gonio::refuse(
@@ -81,7 +81,7 @@ GONIO_INLINE sample_set sample_collector::take(const std::string& name) && {
   return std::move(samples_);
 }
 
-GONIO_INLINE spectral_samples sample_collector::take_spectra(const std::string& name) && {
+GONIO_INLINE spectral_samples sample_collector::spectra(const std::string& name) && {
   require_samples(name);
   const std::vector<double>& wavelengths = channels_.wavelengths();
   if (wavelengths.empty()) gonio::refuse({name, ": has no spectra: its values are of no stated wavelength"});

@@ -5,6 +5,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/spelling.hpp>
 #include <gonio/io/csv_dialect.hpp>
+#include <gonio/io/csv_reader.hpp>
 #include <gonio/io/sample_header.hpp>
 #include <gonio/io/sample_quantity.hpp>
 #include <gonio/io/text.hpp>
@@ -68,9 +69,7 @@ inline constexpr std::array known_names{known_name{"thetah", 0},
                                         known_name{"lambda", 21},
                                         known_name{"quantity", 22}};
 
-enum class column_unit { none, degrees, radians, nanometres, percent, per_steradian, unknown };
-
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE column_unit unit_named(std::string_view name) {
+[[gnu::cold]] GONIO_INLINE column_unit unit_named(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, column_unit>, 18> known{
       {{"", column_unit::none},
        {"-", column_unit::none},
@@ -104,8 +103,7 @@ enum class column_unit { none, degrees, radians, nanometres, percent, per_sterad
   return column == wavelength_column && unit == column_unit::nanometres;
 }
 
-/// A name's unit is in brackets behind it, or its last word if that is a word for a unit: theta_i_deg.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE written_column written(std::string_view field) {
+[[gnu::cold]] GONIO_INLINE written_column written(std::string_view field) {
   std::string text;
   for (std::size_t i = 0; i < field.size(); ++i) {
     text += field[i];
@@ -186,25 +184,22 @@ inline constexpr std::size_t longest_name = 40;
 
 // ---- the header line -----------------------------------------------------------------------------------------------
 
-[[gnu::cold]] GONIO_INLINE void sample_header::read(std::string_view line, const csv_dialect& dialect,
-                                                    const sample_reading& reading, bool needs_value,
-                                                    const text_place& place) {
-  dialect_ = dialect;
-  std::vector<std::string_view> fields;
-  if (const char* wrong = split_fields(line, dialect, fields)) place.refuse(wrong);
-  while (!fields.empty() && fields.back().empty()) fields.pop_back();  // spreadsheets end lines with separators
+[[gnu::cold]] GONIO_INLINE void sample_header::read(const csv_reader& file, const sample_reading& reading,
+                                                    bool needs_value) {
+  dialect_ = file.dialect();
+  const text_place& place = file.place();
   double number = 0.0;
-  csv_dialect of_numbers = dialect;
-  if (!fields.empty() && read_number(fields.front(), of_numbers, number) == nullptr)
+  csv_dialect of_numbers = dialect_;
+  if (of_numbers.read_number(file.fields().front(), number) == nullptr)
     place.refuse(
         {"there is no header line above the numbers, expected one like theta_i,phi_i,theta_o,phi_o,r,g,b (what stands "
          "behind # is a comment); the line looks ",
-         description(dialect)});
+         description(dialect_)});
   for (const column_name& each : reading.columns)
     if (column_named(each.column) == ignored)
-      place.refuse({"samples have no column ", detail::quoted(each.column), " that ", detail::quoted(each.in_file),
+      place.refuse({"samples have no column ", in_quotes(each.column), " that ", in_quotes(each.in_file),
                     " could be, expected theta_i, value or another one of theirs"});
-  for (const std::string_view field : fields) add(written(field), reading, place);
+  for (const std::string_view field : file.fields()) add(written(field), reading, place);
   require_named(reading, place);
   find_directions(place);
   find_values(needs_value, place);
@@ -235,7 +230,7 @@ inline constexpr std::size_t longest_name = 40;
   const std::size_t column = known.column;
   const column_unit unit = unit_named(written.unit);
   if (!fits(unit, column)) return false;
-  const std::string text = detail::quoted(written.text);
+  const std::string text = in_quotes(written.text);
   const std::string_view name = sample_columns[column];
   const bool is_synonym = written.text != name;
   if (has(column))
@@ -253,8 +248,8 @@ inline constexpr std::size_t longest_name = 40;
   const double nanometres = wavelength_named(written);
   if (nanometres == 0.0) return false;
   if (!wavelengths_.empty() && !(nanometres > wavelengths_.back()))
-    place.refuse({"column ", detail::quoted(written.text), " stands behind that of ",
-                  detail::shortest(wavelengths_.back()), " nm, expected wavelengths that ascend, none of them twice"});
+    place.refuse({"column ", in_quotes(written.text), " stands behind that of ", shortest(wavelengths_.back()),
+                  " nm, expected wavelengths that ascend, none of them twice"});
   wavelengths_.push_back(nanometres);
   columns_.push_back(ignored + wavelengths_.size());
   return true;
@@ -262,7 +257,7 @@ inline constexpr std::size_t longest_name = 40;
 
 [[gnu::cold]] GONIO_INLINE std::string sample_header::name_of(std::size_t column) const {
   if (column < ignored) return std::string(sample_columns[column]);
-  return message_of({detail::shortest(wavelengths_[column - ignored - 1]), "nm"});
+  return message_of({shortest(wavelengths_[column - ignored - 1]), "nm"});
 }
 
 /// Refuses a file that has not all columns that the caller named.
@@ -270,7 +265,7 @@ inline constexpr std::size_t longest_name = 40;
                                                              const text_place& place) const {
   for (const column_name& each : reading.columns)
     if (!has(column_named(each.column)))
-      place.refuse({"there is no column ", detail::quoted(each.in_file), " to be ", each.column, "; ", as_it_looks()});
+      place.refuse({"there is no column ", in_quotes(each.in_file), " to be ", each.column, "; ", as_it_looks()});
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_header::find_directions(const text_place& place) {
@@ -343,7 +338,7 @@ inline constexpr std::size_t longest_name = 40;
   if (const auto near = nearest_word(name, names))
     for (const written_column& each : extra_)
       if (each.name == *near)
-        place.refuse({"column '", name, "' is missing: perhaps it is ", detail::quoted(each.text), "; ", looks});
+        place.refuse({"column '", name, "' is missing: perhaps it is ", in_quotes(each.text), "; ", looks});
   place.refuse(
       {"column '", name, "' is missing",
        colour_group.has(column) ? ", expected r,g,b, or value for one channel, or wavelengths, as 400nm; " : "; ",
@@ -360,7 +355,7 @@ inline constexpr std::size_t most_listed = 6;
 [[gnu::cold]] GONIO_INLINE std::string sample_header::as_it_looks() const {
   std::string unknown;
   for (std::size_t i = 0; i < std::min(most_listed, extra_.size()); ++i)
-    unknown += message_of({i == 0 ? "" : ", ", detail::quoted(extra_[i].text)});
+    unknown += message_of({i == 0 ? "" : ", ", in_quotes(extra_[i].text)});
   return message_of({"the header line looks ", description(dialect_),
                      extra_.empty() ? "" : ", and not known in it: ", unknown, how_many_more(extra_.size()),
                      extra_.empty() ? "" : " (--columns NAME=THEIRS says what they are)"});
@@ -375,7 +370,7 @@ inline constexpr std::size_t most_listed = 6;
   const bool is_one = extra_.size() == 1;
   std::string names;
   for (std::size_t i = 0; i < std::min(most_listed, extra_.size()); ++i) {
-    names += message_of({i == 0 ? "" : ", ", detail::quoted(extra_[i].text)});
+    names += message_of({i == 0 ? "" : ", ", in_quotes(extra_[i].text)});
     if (extra_[i].name.size() > longest_name) continue;
     if (const auto near = nearest_word(extra_[i].name, optional)) names += message_of({" (is it ", *near, "?)"});
   }

@@ -19,7 +19,7 @@ namespace gonio::io {
 }
 
 [[gnu::cold]] GONIO_INLINE std::optional<sample_quantity> quantity_named(std::string_view name) {
-  std::string word = detail::lower_case(detail::trimmed(name));
+  std::string word = lower_case(trimmed(name));
   for (char& c : word)
     if (c == ' ' || c == '_') c = '-';
   for (std::size_t i = 0; i < sample_quantity_names.size(); ++i)

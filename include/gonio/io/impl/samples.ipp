@@ -42,7 +42,7 @@ namespace gonio::io::detail {
 
 [[nodiscard]] GONIO_INLINE direction unit_vector(const sample_row& row, std::size_t first, const text_place& place) {
   const double x = row[first], y = row[first + 1], z = row[first + 2];
-  const double length = gonio::detail::norm_of(x, y, z);
+  const double length = gonio::norm_of(x, y, z);
   const auto refuse = [&](const char* what, double value, const char* expected) {
     place.refuse(
         {"columns ", sample_columns[first], " to ", sample_columns[first + 2], what, shortest(value), expected});
@@ -125,7 +125,7 @@ GONIO_INLINE void refuse_beyond_float(const parsed_row& row, std::size_t column,
   return value;
 }
 
-GONIO_INLINE void format_sample(std::string& text, const sample& s, bool weighs_channels_apart) {
+GONIO_INLINE void write_sample(std::string& text, const sample& s, bool weighs_channels_apart) {
   const half_difference& at = s.angles();
   for (const double value : {degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d)), s.value.x(),
                              s.value.y(), s.value.z()}) {
@@ -148,10 +148,10 @@ GONIO_INLINE void format_sample(std::string& text, const sample& s, bool weighs_
 
 namespace gonio::io {
 
-GONIO_INLINE sample_file parse_sample_file(std::string_view text, const std::string& name,
-                                           const sample_reading& reading) {
+GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::string& name,
+                                          const sample_reading& reading) {
   sample_file file;
-  detail::row_reader rows(text, name, true, reading);
+  detail::sample_rows rows(text, name, true, reading);
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
     if (rows.header().wavelengths().size() > 1)
@@ -166,14 +166,20 @@ GONIO_INLINE sample_file parse_sample_file(std::string_view text, const std::str
   return file;
 }
 
-GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& name, const sample_reading& reading) {
-  return parse_sample_file(text, name, reading).samples;
+GONIO_INLINE sample_set read_samples(std::string_view text, const std::string& name, const sample_reading& reading) {
+  return read_sample_file(text, name, reading).samples;
 }
 
 [[gnu::cold]] GONIO_INLINE sample_file read_sample_file(const std::filesystem::path& path,
                                                         const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  return parse_sample_file(detail::as_text(bytes), path.native(), reading);
+  return read_sample_file(as_text(bytes), path.native(), reading);
+}
+
+[[gnu::cold]] GONIO_INLINE bool has_directions_alone(std::string_view text, const std::string& name,
+                                                     const sample_reading& reading) {
+  detail::sample_rows rows(text, name, false, reading);
+  return rows.next() && rows.row().values.count == 0;
 }
 
 GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sample_reading& reading) {
@@ -183,7 +189,7 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
 [[gnu::cold]] GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem::path& path,
                                                                         const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  detail::row_reader rows(detail::as_text(bytes), path.native(), false, reading);
+  detail::sample_rows rows(as_text(bytes), path.native(), false, reading);
   std::vector<half_difference> all;
   while (rows.next()) all.push_back(detail::row_directions(rows.row()).angles());
   return all;
@@ -192,7 +198,7 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
 [[gnu::cold]] GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
                                                                             const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  detail::row_reader rows(detail::as_text(bytes), path.native(), false, reading);
+  detail::sample_rows rows(as_text(bytes), path.native(), false, reading);
   std::vector<direction_pair> all;
   while (rows.next()) all.push_back(detail::row_directions(rows.row()).pair());
   return all;
@@ -200,7 +206,7 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
 
 [[gnu::cold]] GONIO_INLINE void write_direction_pairs(const std::filesystem::path& path,
                                                       std::span<const direction_pair> pairs) {
-  const auto rounded = [](double angle) { return detail::shortest(std::round(degrees(angle) * 1e9) / 1e9 + 0.0); };
+  const auto rounded = [](double angle) { return shortest(std::round(degrees(angle) * 1e9) / 1e9 + 0.0); };
   std::string text = "theta_i,phi_i,theta_o,phi_o\n";
   for (const auto& [wi, wo] : pairs)
     text += message_of({rounded(gonio::polar_angle(wi)), ",", rounded(gonio::azimuth(wi)), ",",

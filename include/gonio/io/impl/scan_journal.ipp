@@ -26,8 +26,6 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE std::uint32_t checksum(std::string_view text) { return checksum(std::as_bytes(std::span(text))); }
-
 GONIO_INLINE std::string with_checksum(std::string fields) {
   return fields + " " + std::to_string(checksum(fields)) + "\n";
 }
@@ -48,19 +46,19 @@ GONIO_INLINE std::string pose_fields(std::string text, const direction_pair& pos
   return text;
 }
 
-GONIO_INLINE std::string format_pose(const direction_pair& pose) { return pose_fields("pose", pose) + '\n'; }
+GONIO_INLINE std::string write_pose(const direction_pair& pose) { return pose_fields("pose", pose) + '\n'; }
 
-GONIO_INLINE std::string format_added_pose(const direction_pair& pose) {
+GONIO_INLINE std::string write_added_pose(const direction_pair& pose) {
   return with_checksum(pose_fields("added_pose", pose));
 }
 
-GONIO_INLINE std::string format_scan_header(const scan_subject& subject, std::span<const direction_pair> poses,
-                                            std::uint16_t largest_count) {
+GONIO_INLINE std::string write_scan_header(const scan_subject& subject, std::span<const direction_pair> poses,
+                                           std::uint16_t largest_count) {
   for (const std::string& text : {subject.sample, subject.setup})
     if (text.empty() || trimmed(text) != text || has_control_characters(text))
-      gonio::refuse({"what a scan measures is told in one line of text, not in ", detail::quoted(text)});
+      gonio::refuse({"what a scan measures is told in one line of text, not in ", in_quotes(text)});
   std::string pose_lines;
-  for (const direction_pair& pose : poses) pose_lines += format_pose(pose);
+  for (const direction_pair& pose : poses) pose_lines += write_pose(pose);
   return "# gonio scan: what lies in the machine, how it is measured, with which seed; the poses' number and "
          "checksum;\n"
          "# wi and wo of each pose; number, frames, times, pixels, counts and checksum of each reading\n"
@@ -71,7 +69,7 @@ GONIO_INLINE std::string format_scan_header(const scan_subject& subject, std::sp
          std::to_string(checksum(pose_lines)) + '\n' + pose_lines;
 }
 
-GONIO_INLINE std::string format_reading(std::size_t pose, const capture::reading& taken) {
+GONIO_INLINE std::string write_reading(std::size_t pose, const capture::reading& taken) {
   std::string fields = "reading " + std::to_string(pose) + ' ' + std::to_string(taken.frames.size());
   for (const double time : taken.times) fields += ' ' + shortest(time);
   fields += ' ' + std::to_string(taken.frames.front().rows());
@@ -92,8 +90,8 @@ GONIO_INLINE std::size_t number_reader::next_whole(double most, const std::strin
   return static_cast<std::size_t>(value);
 }
 
-GONIO_INLINE capture::reading parse_reading(number_reader& numbers, std::uint16_t largest_count,
-                                            const text_place& place) {
+GONIO_INLINE capture::reading read_reading(number_reader& numbers, std::uint16_t largest_count,
+                                           const text_place& place) {
   capture::reading taken;
   const std::size_t frames = numbers.next_whole(1000, "the number of frames");
   for (std::size_t i = 0; i < frames; ++i) {
@@ -120,7 +118,7 @@ GONIO_INLINE bool is_pose(const direction_pair& pose) {
   return is_above(pose.wi) && is_above(pose.wo);
 }
 
-GONIO_INLINE direction_pair parse_pose(const text_rule& rule, std::size_t numbers, const text_place& place) {
+GONIO_INLINE direction_pair read_pose(const text_rule& rule, std::size_t numbers, const text_place& place) {
   require_numbers(rule, {numbers}, place);
   const direction_pair pose{direction::Map(rule.numbers.data()), direction::Map(rule.numbers.data() + 3)};
   if (!is_pose(pose)) place.refuse("a pose is two unit vectors above the horizon");
@@ -135,12 +133,12 @@ GONIO_INLINE bool apply_subject_line(std::string_view line, const text_place& pl
   std::uint64_t number = 0;
   const auto [end, failed] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   const std::string_view text = trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
-  if (failed != std::errc()) place.refuse({quoted(name), " takes a whole number first"});
+  if (failed != std::errc()) place.refuse({in_quotes(name), " takes a whole number first"});
   if (text.empty() != (name == "seed"))
-    place.refuse({quoted(name), name == "seed" ? " takes no text" : " needs a text"});
-  if (has_control_characters(text)) place.refuse({quoted(name), " has characters that are no text"});
+    place.refuse({in_quotes(name), name == "seed" ? " takes no text" : " needs a text"});
+  if (has_control_characters(text)) place.refuse({in_quotes(name), " has characters that are no text"});
   bool& has = name == "sample" ? before.has_sample : name == "setup" ? before.has_setup : before.has_seed;
-  if (has) place.refuse({quoted(name), " is told a second time"});
+  if (has) place.refuse({in_quotes(name), " is told a second time"});
   has = true;
   if (name == "seed") {
     before.subject.seed = number;
@@ -157,7 +155,7 @@ GONIO_INLINE bool apply_subject_line(std::string_view line, const text_place& pl
 GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan,
                                   scan_lines& before) {
   if (apply_subject_line(line, place, before)) return;
-  const text_rule rule = parse_rule(line, place);
+  const text_rule rule = read_rule(line, place);
   number_reader numbers(rule, place);
   if (rule.name == "largest_count") {
     require_numbers(rule, {1}, place);
@@ -169,13 +167,13 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
   } else if (rule.name == "pose") {
     if (before.has_reading) place.refuse("a pose after the first reading");
     if (scan.poses.size() > scan.planned) place.refuse("a pose of the plan after one that was added");
-    scan.poses.push_back(parse_pose(rule, 6, place));
+    scan.poses.push_back(read_pose(rule, 6, place));
     scan.readings.emplace_back();
     ++scan.planned;
     before.pose_lines.append(line).push_back('\n');
   } else if (rule.name == "added_pose") {
     if (!has_checksum(line)) place.refuse("the checksum is wrong, the line is damaged");
-    scan.poses.push_back(parse_pose(rule, 7, place));
+    scan.poses.push_back(read_pose(rule, 7, place));
     scan.readings.emplace_back();
   } else if (rule.name == "reading") {
     if (!has_checksum(line)) place.refuse("the checksum is wrong, the line is damaged");
@@ -183,10 +181,10 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
     if (pose >= scan.poses.size())
       place.refuse("pose " + std::to_string(pose) + " of " + std::to_string(scan.poses.size()));
     if (scan.readings[pose]) place.refuse("pose " + std::to_string(pose) + " is read a second time");
-    scan.readings[pose] = parse_reading(numbers, scan.largest_count, place);
+    scan.readings[pose] = read_reading(numbers, scan.largest_count, place);
     before.has_reading = true;
   } else {
-    place.refuse(quoted(rule.name) +
+    place.refuse(in_quotes(rule.name) +
                  " is unknown, expected sample, setup, seed, largest_count, plan, pose, added_pose or reading");
   }
 }
@@ -220,38 +218,38 @@ namespace gonio::io {
 
 GONIO_INLINE std::uint32_t checksum_of_file(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  return detail::checksum(bytes);
+  return checksum(bytes);
 }
 
-GONIO_INLINE recorded_scan parse_scan(std::string_view text, const std::string& name) {
+GONIO_INLINE recorded_scan read_scan(std::string_view text, const std::string& name) {
   recorded_scan scan;
-  detail::text_place place{name};
+  text_place place{name};
   detail::scan_lines before;
-  detail::for_each_line(detail::whole_lines(text), place,
-                        [&](std::string_view line) { detail::apply_scan_line(line, place, scan, before); });
+  for_each_line(detail::whole_lines(text), place,
+                [&](std::string_view line) { detail::apply_scan_line(line, place, scan, before); });
   detail::finish_scan(scan, before, name);
   return scan;
 }
 
 GONIO_INLINE recorded_scan read_scan(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  return parse_scan(detail::as_text(bytes), path.string());
+  return read_scan(as_text(bytes), path.string());
 }
 
 GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const scan_subject& subject,
                                         std::span<const direction_pair> poses, std::uint16_t largest_count)
     : path_(path) {
   if (poses.empty()) gonio::refuse({path.string(), ": a scan needs a pose, and there is none"});
-  const std::string header = detail::format_scan_header(subject, poses, largest_count);
+  const std::string header = detail::write_scan_header(subject, poses, largest_count);
   open();
   auto bytes = read_bytes(path);
-  if (bytes.size() < header.size() && header.starts_with(detail::as_text(bytes))) {
+  if (bytes.size() < header.size() && header.starts_with(as_text(bytes))) {
     // A new file, or one whose process was killed before it had written all of the same head.
     write(std::string_view(header).substr(bytes.size()));
     bytes = read_bytes(path);
   }
-  const std::string_view text = detail::as_text(bytes);
-  scan_ = parse_scan(text, path.string());
+  const std::string_view text = as_text(bytes);
+  scan_ = read_scan(text, path.string());
   require_same(subject, poses, largest_count);
   // The next line must not be joined to what a killed process left of its last.
   if (::ftruncate(file_.get(), static_cast<off_t>(detail::whole_lines(text).size())) != 0) fail();
@@ -259,20 +257,20 @@ GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const
 
 GONIO_INLINE void scan_journal::add(std::size_t pose, const capture::reading& taken) {
   if (has(pose)) gonio::refuse({path_.string(), ": pose ", pose, " is read already"});
-  write(detail::format_reading(pose, taken));
+  write(detail::write_reading(pose, taken));
   scan_.readings[pose] = taken;
 }
 
 GONIO_INLINE void scan_journal::add_pose(const direction_pair& pose) {
   if (!detail::is_pose(pose)) gonio::refuse({path_.string(), ": a pose is two unit vectors above the horizon"});
-  write(detail::format_added_pose(pose));
+  write(detail::write_added_pose(pose));
   scan_.poses.push_back(pose);
   scan_.readings.emplace_back();
 }
 
 GONIO_INLINE void scan_journal::open() {
   // Without O_NONBLOCK, opening a pipe that nobody reads from would wait forever.
-  file_ = detail::descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666));
+  file_ = descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666));
   if (!file_.is_open()) fail();
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return;
   if (errno == EWOULDBLOCK) gonio::refuse({path_.string(), ": another process is scanning into this file"});

@@ -48,7 +48,7 @@ struct scratch_materials::state {
   std::vector<double> wavelengths;   ///< of the first one
   std::vector<cell_matrix> held;     ///< the last ones, not in the file
   std::vector<part> parts;
-  detail::descriptor file;
+  descriptor file;
   std::uint64_t size = 0;
 
   /// Columns of the tables that are in memory.
@@ -88,8 +88,8 @@ struct scratch_materials::state {
       const block range{begin, std::min(rows_of_all, begin + at_once)};
       gather(range, rows.topRows(range.size()));
       const auto bytes = std::as_bytes(std::span(rows.data(), static_cast<std::size_t>(range.size() * columns)));
-      if (!detail::write_all(file, bytes))
-        detail::refuse_file(folder, {"cannot hold a scratch file of the tables: ", detail::system_reason(errno)});
+      if (!write_all(file, bytes))
+        refuse_file(folder, {"cannot hold a scratch file of the tables: ", system_reason(errno)});
       size += bytes.size();
     }
     held.clear();
@@ -102,8 +102,8 @@ struct scratch_materials::state {
       const auto bytes = std::as_writable_bytes(std::span(rows));
       const std::uint64_t offset = each.offset + sizeof(float) * static_cast<std::uint64_t>(range.begin) *
                                                      static_cast<std::uint64_t>(each.count);
-      if (detail::read_at(file, offset, bytes, folder) != bytes.size())
-        detail::refuse_file(folder, "the scratch file of the tables became shorter");
+      if (read_at(file, offset, bytes, folder) != bytes.size())
+        refuse_file(folder, "the scratch file of the tables became shorter");
       for (Eigen::Index row = 0; row < range.size(); ++row)
         std::copy_n(rows.data() + row * each.count, each.count, &out(row, each.first));
     }

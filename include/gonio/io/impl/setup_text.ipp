@@ -28,7 +28,7 @@ namespace gonio::io::detail {
 GONIO_INLINE setup_text::setup_text(std::string_view text, const std::string& name, std::span<const setup_entry> known)
     : name_(name), known_(known) {
   text_place place{name};
-  for_each_line(text, place, [&](std::string_view line) { add(parse_rule(line, place), place); });
+  for_each_line(text, place, [&](std::string_view line) { add(read_rule(line, place), place); });
 }
 
 GONIO_INLINE std::size_t setup_text::count(std::string_view name, std::size_t which, std::size_t smallest) const {
@@ -43,7 +43,7 @@ GONIO_INLINE std::size_t setup_text::count(std::string_view name, std::size_t wh
 GONIO_INLINE void setup_text::require(std::initializer_list<std::string_view> names) const {
   if (std::ranges::any_of(names, [&](std::string_view name) { return has(name); })) return;
   std::string missing;
-  for (const std::string_view name : names) missing += (missing.empty() ? "" : " or ") + quoted(name);
+  for (const std::string_view name : names) missing += (missing.empty() ? "" : " or ") + in_quotes(name);
   gonio::refuse({name_, ": ", missing, " is missing"});
 }
 
@@ -52,10 +52,10 @@ GONIO_INLINE void setup_text::add(text_rule rule, const text_place& place) {
   if (known == known_.end()) {
     std::string names;
     for (const setup_entry& entry : known_) names += (names.empty() ? "" : ", ") + std::string(entry.name);
-    place.refuse(quoted(rule.name) + " is unknown, expected one of " + names);
+    place.refuse(in_quotes(rule.name) + " is unknown, expected one of " + names);
   }
   if (const placed_rule* before = find(rule.name))
-    place.refuse(quoted(rule.name) + " is already in line " + std::to_string(before->place.line));
+    place.refuse(in_quotes(rule.name) + " is already in line " + std::to_string(before->place.line));
   if (known->or_numbers > 0)
     require_numbers(rule, {known->numbers, known->or_numbers}, place);
   else

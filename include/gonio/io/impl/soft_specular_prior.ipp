@@ -18,35 +18,35 @@
 namespace gonio::io::detail {
 
 /// Its length of 64 bits, and the payload of a prior.
-GONIO_INLINE void put_half(byte_writer& out, const log_relative_pca& prior) {
+GONIO_INLINE void write_half(byte_writer& out, const log_relative_pca& prior) {
   byte_writer half;
-  put_prior(half, prior);
-  out.put(std::uint64_t{half.bytes().size()});
-  out.put_bytes(half.bytes().data(), half.bytes().size());
+  write_prior(half, prior);
+  out.write(std::uint64_t{half.bytes().size()});
+  out.write_bytes(half.bytes().data(), half.bytes().size());
 }
 
-[[nodiscard]] GONIO_INLINE log_relative_pca take_half(byte_reader& in, const std::string& name) {
-  byte_reader half(in.take_bytes(in.take<std::uint64_t>()), name);
-  return take_prior(half, name);
+[[nodiscard]] GONIO_INLINE log_relative_pca read_half(byte_reader& in, const std::string& name) {
+  byte_reader half(in.read_bytes(in.read<std::uint64_t>()), name);
+  return read_prior(half, name);
 }
 
 }  // namespace gonio::io::detail
 
 namespace gonio::io {
 
-GONIO_INLINE std::vector<std::byte> encode_soft_specular_prior(const soft_specular_prior& prior) {
+GONIO_INLINE std::vector<std::byte> write_soft_specular_prior(const soft_specular_prior& prior) {
   byte_writer payload;
-  payload.put(prior.threshold());
-  detail::put_half(payload, prior.soft());
-  detail::put_half(payload, prior.specular());
-  return encode_checked(detail::soft_specular_kind, payload.bytes());
+  payload.write(prior.threshold());
+  detail::write_half(payload, prior.soft());
+  detail::write_half(payload, prior.specular());
+  return write_checked(detail::soft_specular_kind, payload.bytes());
 }
 
-GONIO_INLINE soft_specular_prior decode_soft_specular_prior(std::span<const std::byte> bytes, const std::string& name) {
-  const auto payload = decode_checked(detail::soft_specular_kind, bytes, name);
+GONIO_INLINE soft_specular_prior read_soft_specular_prior(std::span<const std::byte> bytes, const std::string& name) {
+  const auto payload = read_checked(detail::soft_specular_kind, bytes, name);
   byte_reader in(payload, name);
-  const auto threshold = in.take<double>();
-  const log_relative_pca soft = detail::take_half(in, name), specular = detail::take_half(in, name);
+  const auto threshold = in.read<double>();
+  const log_relative_pca soft = detail::read_half(in, name), specular = detail::read_half(in, name);
   if (in.left() != 0) gonio::refuse({name, ": ", in.left(), " bytes follow the specular prior"});
   return detail::naming_prior(name, [&] { return soft_specular_prior(soft, specular, threshold); });
 }
@@ -56,11 +56,11 @@ GONIO_INLINE bool is_soft_specular_prior(const std::filesystem::path& path) {
 }
 
 GONIO_INLINE void write_soft_specular_prior(const std::filesystem::path& path, const soft_specular_prior& prior) {
-  write_atomically(path, encode_soft_specular_prior(prior));
+  write_atomically(path, write_soft_specular_prior(prior));
 }
 
 GONIO_INLINE soft_specular_prior read_soft_specular_prior(const std::filesystem::path& path) {
-  return decode_soft_specular_prior(read_bytes(path), path.string());
+  return read_soft_specular_prior(read_bytes(path), path.string());
 }
 
 }  // namespace gonio::io

@@ -31,7 +31,7 @@ GONIO_INLINE void append_spectrum(const parsed_row& row, const sample_directions
 }
 
 /// The wavelengths of a file whose first row has been read.
-[[nodiscard]] GONIO_INLINE std::vector<double> wavelengths_of(const row_reader& rows, const std::string& name) {
+[[nodiscard]] GONIO_INLINE std::vector<double> wavelengths_of(const sample_rows& rows, const std::string& name) {
   if (!rows.header().wavelengths().empty()) return rows.header().wavelengths();
   if (!rows.wavelength())
     gonio::refuse(
@@ -47,15 +47,15 @@ namespace gonio::io {
                                                   const sample_reading& reading) {
   sample_reading silent = reading;
   silent.note = {};
-  detail::row_reader rows(text, name, true, silent);
+  detail::sample_rows rows(text, name, true, silent);
   return rows.next() && rows.header().wavelengths().size() > 1;
 }
 
-GONIO_INLINE spectral_sample_file parse_spectral_sample_file(std::string_view text, const std::string& name,
-                                                             const sample_reading& reading) {
+GONIO_INLINE spectral_sample_file read_spectral_sample_file(std::string_view text, const std::string& name,
+                                                            const sample_reading& reading) {
   spectral_sample_file file;
   std::vector<float> values;
-  detail::row_reader rows(text, name, true, reading);
+  detail::sample_rows rows(text, name, true, reading);
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
     if (values.empty()) file.samples.wavelengths = detail::wavelengths_of(rows, name);
@@ -74,20 +74,20 @@ GONIO_INLINE spectral_sample_file parse_spectral_sample_file(std::string_view te
 [[gnu::cold]] GONIO_INLINE spectral_sample_file read_spectral_sample_file(const std::filesystem::path& path,
                                                                           const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  return parse_spectral_sample_file(detail::as_text(bytes), path.native(), reading);
+  return read_spectral_sample_file(as_text(bytes), path.native(), reading);
 }
 
-[[gnu::cold]] GONIO_INLINE std::string format_spectral_samples(const spectral_samples& samples,
-                                                               const sample_provenance& provenance) {
+[[gnu::cold]] GONIO_INLINE std::string write_spectral_samples(const spectral_samples& samples,
+                                                              const sample_provenance& provenance) {
   std::string text = message_of({comment_lines(provenance), "# quantity: brdf\ntheta_h,theta_d,phi_d,"});
-  for (const double wavelength : samples.wavelengths) text += message_of({detail::shortest(wavelength), "nm,"});
+  for (const double wavelength : samples.wavelengths) text += message_of({shortest(wavelength), "nm,"});
   text += "weight\n";
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
     const half_difference& at = samples.directions[i].angles();
     for (const double angle : {at.theta_h, at.theta_d, fold_phi_d(at.phi_d)})
-      text += message_of({detail::shortest(degrees(angle)), ","});
-    for (const float value : samples.spectrum(i)) text += message_of({detail::shortest(double{value}), ","});
-    text += message_of({detail::shortest(samples.weight(i)), "\n"});
+      text += message_of({shortest(degrees(angle)), ","});
+    for (const float value : samples.spectrum(i)) text += message_of({shortest(double{value}), ","});
+    text += message_of({shortest(samples.weight(i)), "\n"});
   }
   return text;
 }
@@ -100,7 +100,7 @@ GONIO_INLINE spectral_sample_file parse_spectral_sample_file(std::string_view te
   } catch (const error& unusable) {
     gonio::refuse({path.native(), ": ", unusable.what()});
   }
-  detail::write_text(path, format_spectral_samples(samples, provenance));
+  detail::write_text(path, write_spectral_samples(samples, provenance));
 }
 
 }  // namespace gonio::io

@@ -38,8 +38,8 @@ GONIO_INLINE void read_sphere(const setup_text& text, sphere_setup& setup) {
 
 namespace gonio::io {
 
-GONIO_INLINE sphere_setup parse_sphere_setup(std::string_view text, const std::string& name,
-                                             const std::optional<camera_calibration>& calibration) {
+GONIO_INLINE sphere_setup read_sphere_setup(std::string_view text, const std::string& name,
+                                            const std::optional<camera_calibration>& calibration) {
   const detail::setup_text entries(text, name, detail::sphere_setup_entries);
   sphere_setup setup{.camera = detail::setup_camera(entries, calibration), .light = detail::setup_light(entries)};
   detail::read_sphere(entries, setup);
@@ -61,7 +61,7 @@ GONIO_INLINE sphere_setup parse_sphere_setup(std::string_view text, const std::s
 GONIO_INLINE sphere_setup read_sphere_setup(const std::filesystem::path& path,
                                             const std::optional<camera_calibration>& calibration) {
   const auto bytes = read_bytes(path);
-  return parse_sphere_setup(detail::as_text(bytes), path.string(), calibration);
+  return read_sphere_setup(as_text(bytes), path.string(), calibration);
 }
 
 }  // namespace gonio::io

@@ -74,49 +74,49 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
 }
 
 /// All before the first band: a multiple of 64 bytes, of which the last are a checksum of the others.
-[[nodiscard]] GONIO_INLINE std::vector<std::byte> encode_svbrdf_header(const svbrdf_header& header) {
+[[nodiscard]] GONIO_INLINE std::vector<std::byte> write_svbrdf_header(const svbrdf_header& header) {
   byte_writer own;
   for (const Eigen::Index each : {header.rows, header.columns, header.band_rows, std::ssize(header.directions),
                                   header.functions.rows(), header.functions.cols()})
-    own.put(static_cast<std::uint32_t>(each));
-  own.put(header.prior_checksum);
-  own.put(header.eta);
-  own.put_text(header.prior_source);
+    own.write(static_cast<std::uint32_t>(each));
+  own.write(header.prior_checksum);
+  own.write(header.eta);
+  own.write_text(header.prior_source);
   for (const direction_pair& pair : header.directions)
-    for (const direction* w : {&pair.wi, &pair.wo}) own.put_bytes(w->data(), 3 * sizeof(double));
-  own.put_bytes(header.functions.data(), static_cast<std::size_t>(header.functions.size()) * sizeof(float));
+    for (const direction* w : {&pair.wi, &pair.wo}) own.write_bytes(w->data(), 3 * sizeof(double));
+  own.write_bytes(header.functions.data(), static_cast<std::size_t>(header.functions.size()) * sizeof(float));
   const std::size_t used = svbrdf_start + own.bytes().size() + sizeof(std::uint32_t);
   const std::vector<std::byte> padding((64 - used % 64) % 64);
-  own.put_all(std::span<const std::byte>(padding));
+  own.write_all(std::span<const std::byte>(padding));
   byte_writer all;
-  all.put_bytes(svbrdf_kind.magic.data(), svbrdf_kind.magic.size());
-  all.put(svbrdf_kind.version);
-  all.put(static_cast<std::uint32_t>(own.bytes().size() + sizeof(std::uint32_t)));
-  all.put_all(own.bytes());
-  all.put(checksum(all.bytes()));
-  return all.take();
+  all.write_bytes(svbrdf_kind.magic.data(), svbrdf_kind.magic.size());
+  all.write(svbrdf_kind.version);
+  all.write(static_cast<std::uint32_t>(own.bytes().size() + sizeof(std::uint32_t)));
+  all.write_all(own.bytes());
+  all.write(checksum(all.bytes()));
+  return std::move(all).bytes();
 }
 
-[[nodiscard]] GONIO_INLINE svbrdf_header take_svbrdf_header(std::span<const std::byte> bytes, const std::string& name) {
+[[nodiscard]] GONIO_INLINE svbrdf_header read_svbrdf_header(std::span<const std::byte> bytes, const std::string& name) {
   byte_reader in(bytes.first(bytes.size() - sizeof(std::uint32_t)), name);
-  static_cast<void>(in.take_bytes(svbrdf_start));
+  static_cast<void>(in.read_bytes(svbrdf_start));
   svbrdf_header header;
-  header.rows = in.take<std::uint32_t>();
-  header.columns = in.take<std::uint32_t>();
-  header.band_rows = in.take<std::uint32_t>();
-  const auto count = in.take<std::uint32_t>();
-  const auto components = in.take<std::uint32_t>(), functions = in.take<std::uint32_t>();
-  header.prior_checksum = in.take<std::uint32_t>();
-  header.eta = in.take<double>();
-  header.prior_source = in.take_text();
-  const auto numbers = in.take_all<double>(6 * std::size_t{count});
+  header.rows = in.read<std::uint32_t>();
+  header.columns = in.read<std::uint32_t>();
+  header.band_rows = in.read<std::uint32_t>();
+  const auto count = in.read<std::uint32_t>();
+  const auto components = in.read<std::uint32_t>(), functions = in.read<std::uint32_t>();
+  header.prior_checksum = in.read<std::uint32_t>();
+  header.eta = in.read<double>();
+  header.prior_source = in.read_text();
+  const auto numbers = in.read_all<double>(6 * std::size_t{count});
   for (std::size_t i = 0; i < numbers.size(); i += 6)
     header.directions.push_back(
         {{numbers[i], numbers[i + 1], numbers[i + 2]}, {numbers[i + 3], numbers[i + 4], numbers[i + 5]}});
   if (components > most_svbrdf_components || functions > most_svbrdf_components)
     gonio::refuse({name, ": ", functions, " functions of ", components, " components, expected at most ",
                    most_svbrdf_components});
-  const auto weights = in.take_all<float>(std::size_t{components} * functions);
+  const auto weights = in.read_all<float>(std::size_t{components} * functions);
   header.functions = Eigen::Map<const Eigen::MatrixXf>(weights.data(), components, functions);
   require_possible(header, name);
   return header;
@@ -183,7 +183,7 @@ GONIO_INLINE std::uint32_t checksum_of(const log_relative_pca& prior) {
 }
 
 GONIO_INLINE std::uint32_t checksum_of(const svbrdf_header& header) {
-  const auto bytes = detail::encode_svbrdf_header(header);
+  const auto bytes = detail::write_svbrdf_header(header);
   std::uint32_t sum = 0;
   std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
   return sum;
@@ -202,8 +202,8 @@ GONIO_INLINE svbrdf_band as_halves(const texel_estimates& found, thread_count th
   return band;
 }
 
-GONIO_INLINE std::vector<std::byte> encode_band(const svbrdf_header& header, Eigen::Index band,
-                                                const svbrdf_band& values) {
+GONIO_INLINE std::vector<std::byte> write_band(const svbrdf_header& header, Eigen::Index band,
+                                               const svbrdf_band& values) {
   const auto texels = static_cast<std::size_t>(header.texels_of_band(band));
   const auto functions = static_cast<std::size_t>(header.functions.cols());
   if (values.weights.size() != 3 * texels * functions || values.uncertainty.size() != texels ||
@@ -212,9 +212,9 @@ GONIO_INLINE std::vector<std::byte> encode_band(const svbrdf_header& header, Eig
                    " weights, expected ", texels, " texels of ", functions, " functions"});
   byte_writer out;
   for (const auto* numbers : {&values.weights, &values.uncertainty, &values.disagreement})
-    out.put_all(std::span<const std::uint16_t>(*numbers));
-  out.put(detail::checksum(out.bytes()));
-  return out.take();
+    out.write_all(std::span<const std::uint16_t>(*numbers));
+  out.write(checksum(out.bytes()));
+  return std::move(out).bytes();
 }
 
 GONIO_INLINE Eigen::MatrixXd weights_of_texel(const svbrdf_header& header, const svbrdf_band& band,
@@ -227,11 +227,11 @@ GONIO_INLINE Eigen::MatrixXd weights_of_texel(const svbrdf_header& header, const
 // ---- writing -----------------------------------------------------------------------------------
 
 GONIO_INLINE svbrdf_writer::svbrdf_writer(const std::filesystem::path& path, const svbrdf_header& header)
-    : path_(path), target_(detail::follow_links(path)), part_(target_), header_(header) {
+    : path_(path), target_(follow_links(path)), part_(target_), header_(header) {
   part_ += ".part";
   detail::require_possible(header, path.string());
-  if (std::filesystem::is_directory(target_)) detail::refuse_file(path, "cannot be written: it is a directory");
-  const std::vector<std::byte> head = detail::encode_svbrdf_header(header);
+  if (std::filesystem::is_directory(target_)) refuse_file(path, "cannot be written: it is a directory");
+  const std::vector<std::byte> head = detail::write_svbrdf_header(header);
   head_size_ = head.size();
   open();
   resume(head);
@@ -239,9 +239,9 @@ GONIO_INLINE svbrdf_writer::svbrdf_writer(const std::filesystem::path& path, con
 
 GONIO_INLINE void svbrdf_writer::open() {
   // Without O_NONBLOCK, opening a pipe that nobody reads from would wait forever.
-  file_ = detail::descriptor(::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666));
+  file_ = descriptor(::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666));
   if (!file_.is_open()) fail();
-  static_cast<void>(detail::size_of_regular(file_, part_));
+  static_cast<void>(size_of_regular(file_, part_));
   const bool is_locked = ::flock(file_.get(), LOCK_EX | LOCK_NB) == 0;
   if (!is_locked && errno != EWOULDBLOCK) fail();
   // Another process may have finished the file, and given it its name, since it was opened.
@@ -286,7 +286,7 @@ GONIO_INLINE void svbrdf_writer::require_unfinished() const {
 
 GONIO_INLINE void svbrdf_writer::append(const svbrdf_band& values) {
   require_unfinished();
-  append(encode_band(header_, finished_, values));
+  append(write_band(header_, finished_, values));
 }
 
 GONIO_INLINE void svbrdf_writer::append(std::span<const std::byte> bytes) {
@@ -299,7 +299,7 @@ GONIO_INLINE void svbrdf_writer::append(std::span<const std::byte> bytes) {
 }
 
 GONIO_INLINE void svbrdf_writer::write(std::span<const std::byte> bytes) {
-  if (!detail::write_all(file_, bytes)) fail();
+  if (!write_all(file_, bytes)) fail();
 }
 
 GONIO_INLINE void svbrdf_writer::commit() {
@@ -310,27 +310,26 @@ GONIO_INLINE void svbrdf_writer::commit() {
 }
 
 [[gnu::cold]] GONIO_INLINE void svbrdf_writer::fail() const {
-  const std::string reason = detail::system_reason(errno);
-  if (finished_ == 0) detail::refuse_file(part_, {"cannot be written: ", reason});
-  detail::refuse_file(part_, {"cannot be written: ", reason, "; the first ", finished_, " of ", header_.bands(),
-                              " bands stay, and the same job goes on behind them"});
+  const std::string reason = system_reason(errno);
+  if (finished_ == 0) refuse_file(part_, {"cannot be written: ", reason});
+  refuse_file(part_, {"cannot be written: ", reason, "; the first ", finished_, " of ", header_.bands(),
+                      " bands stay, and the same job goes on behind them"});
 }
 
 // ---- reading -----------------------------------------------------------------------------------
 
-GONIO_INLINE svbrdf_map::svbrdf_map(const std::filesystem::path& path)
-    : path_(path), file_(detail::open_to_read(path)) {
+GONIO_INLINE svbrdf_map::svbrdf_map(const std::filesystem::path& path) : path_(path), file_(open_to_read(path)) {
   const std::string name = path.string();
-  const std::uint64_t size = detail::size_of_regular(file_, path);
+  const std::uint64_t size = size_of_regular(file_, path);
   const auto start = detail::bytes_at(file_, 0, detail::svbrdf_start, path);
   byte_reader in(start, name);
-  detail::take_kind(detail::svbrdf_kind, in, name);
-  head_size_ = detail::svbrdf_start + in.take<std::uint32_t>();
+  detail::read_kind(detail::svbrdf_kind, in, name);
+  head_size_ = detail::svbrdf_start + in.read<std::uint32_t>();
   if (head_size_ > size) gonio::refuse({name, ": truncated in its header"});
   const auto head = detail::bytes_at(file_, 0, static_cast<std::size_t>(head_size_), path);
   if (!detail::is_whole_band(head))
     gonio::refuse({name, ": the header's checksum does not match, the file is damaged"});
-  header_ = detail::take_svbrdf_header(head, name);
+  header_ = detail::read_svbrdf_header(head, name);
   const std::uint64_t expected = head_size_ + detail::bytes_before_band(header_, header_.bands());
   if (size != expected)
     gonio::refuse({name, ": has ", size, " bytes, expected ", expected, " for ", header_.columns, " x ", header_.rows,
@@ -348,9 +347,9 @@ GONIO_INLINE svbrdf_band svbrdf_map::read_band(Eigen::Index band) const {
   byte_reader in(bytes, name);
   const auto texels = static_cast<std::size_t>(header_.texels_of_band(band));
   svbrdf_band values;
-  values.weights = in.take_all<std::uint16_t>(3 * texels * static_cast<std::size_t>(header_.functions.cols()));
-  values.uncertainty = in.take_all<std::uint16_t>(texels);
-  values.disagreement = in.take_all<std::uint16_t>(texels);
+  values.weights = in.read_all<std::uint16_t>(3 * texels * static_cast<std::size_t>(header_.functions.cols()));
+  values.uncertainty = in.read_all<std::uint16_t>(texels);
+  values.disagreement = in.read_all<std::uint16_t>(texels);
   return values;
 }
 

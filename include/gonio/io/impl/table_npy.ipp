@@ -39,12 +39,12 @@ GONIO_INLINE void write_table_npy_halves(const std::filesystem::path& path, cons
   write_npy_halves(path, detail::table_as_array(table));
 }
 
-GONIO_INLINE brdf_table parse_table_npy(std::span<const std::byte> bytes, const std::string& name) {
-  const xt::xtensor<float, 4> array = parse_npy<float, 4>(bytes, name);
+GONIO_INLINE brdf_table read_table_npy(std::span<const std::byte> bytes, const std::string& name) {
+  const xt::xtensor<float, 4> array = read_npy<float, 4>(bytes, name);
   const auto& shape = array.shape();
   const auto fits = [](std::size_t extent) { return extent >= 1 && extent <= 4096; };
   if (!fits(shape[0]) || !fits(shape[1]) || !fits(shape[2]) || shape[3] != 3)
-    refuse({name, ": has shape ", detail::npy_shape_text(shape),
+    refuse({name, ": has shape ", npy_shape_text(shape),
             ", expected (theta_h, theta_d, phi_d, 3) of at most 4096 cells along each axis"});
   const auto extent = [&](std::size_t axis) { return static_cast<int>(shape[axis]); };
   brdf_table table(valid_cells(grid({extent(0), extent(1), extent(2)})));

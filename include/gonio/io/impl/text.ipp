@@ -20,13 +20,13 @@
 #include <vector>
 #include <version>
 
-namespace gonio::io::detail {
+namespace gonio::io {
 
 [[gnu::cold]] GONIO_INLINE void text_place::refuse(std::initializer_list<message_part> what) const {
   gonio::refuse({name, ", line ", line, ": ", message_of(what)});
 }
 
-[[gnu::cold]] GONIO_INLINE std::string quoted(std::string_view field) {
+[[gnu::cold]] GONIO_INLINE std::string in_quotes(std::string_view field) {
   constexpr std::size_t longest = 40;
   std::string text(field.substr(0, longest));
   for (char& c : text)
@@ -128,4 +128,4 @@ GONIO_INLINE std::string shortest(double value) {
   return {text.data(), end};
 }
 
-}  // namespace gonio::io::detail
+}  // namespace gonio::io

@@ -160,7 +160,7 @@ void copy_line(const std::byte* line, const tiff_layout& layout, bool is_grey, s
 
 namespace gonio::io {
 
-GONIO_INLINE stored_codes parse_tiff(std::span<const std::byte> bytes, const std::string& name) {
+GONIO_INLINE stored_codes read_tiff(std::span<const std::byte> bytes, const std::string& name) {
   detail::tiff_source source(bytes);
   const detail::tiff_file file = detail::open_tiff(source, name);
   const detail::tiff_layout layout = detail::layout_of(file.get(), bytes.size(), name);
@@ -184,10 +184,10 @@ GONIO_INLINE stored_codes parse_tiff(std::span<const std::byte> bytes, const std
 }
 
 GONIO_INLINE stored_codes read_tiff(const std::filesystem::path& path) {
-  return parse_tiff(read_bytes(path), path.string());
+  return read_tiff(read_bytes(path), path.string());
 }
 
-GONIO_INLINE std::optional<double> parse_tiff_exposure_time(std::span<const std::byte> bytes, const std::string& name) {
+GONIO_INLINE std::optional<double> read_tiff_exposure_time(std::span<const std::byte> bytes, const std::string& name) {
   detail::tiff_source source(bytes);
   const detail::tiff_file file = detail::open_tiff(source, name);
   toff_t offset = 0;
@@ -200,7 +200,7 @@ GONIO_INLINE std::optional<double> parse_tiff_exposure_time(std::span<const std:
 }
 
 GONIO_INLINE std::optional<double> read_tiff_exposure_time(const std::filesystem::path& path) {
-  return parse_tiff_exposure_time(read_bytes(path), path.string());
+  return read_tiff_exposure_time(read_bytes(path), path.string());
 }
 
 }  // namespace gonio::io

@@ -32,54 +32,54 @@ GONIO_INLINE direction about_specular(double theta, double phi, double radial, d
   return turned_about_normal(w, phi);
 }
 
-GONIO_INLINE sample_set zemax_bsdf_parser::read() {
+GONIO_INLINE sample_set zemax_bsdf_reader::read() {
   read_header();
   std::vector<plane> planes;
   if (!is_tristimulus_) {
-    static_cast<void>(words_.take_one_of({"Monochrome"}));
+    static_cast<void>(words_.read_one_of({"Monochrome"}));
     planes.push_back(read_plane());
   }
   for (const std::string_view channel : {"TristimulusX", "TristimulusY", "TristimulusZ"}) {
     if (!is_tristimulus_) break;
-    static_cast<void>(words_.take_one_of({channel}));
+    static_cast<void>(words_.read_one_of({channel}));
     planes.push_back(read_plane());
   }
   if (const std::string_view more = words_.peek(); !more.empty())
-    words_.place().refuse({quoted(more), " follows the data, expected the end of the file"});
+    words_.place().refuse({in_quotes(more), " follows the data, expected the end of the file"});
   return samples(planes);
 }
 
-GONIO_INLINE void zemax_bsdf_parser::read_header() {
+GONIO_INLINE void zemax_bsdf_reader::read_header() {
   constexpr std::string_view start_of_data = "the data (Monochrome or TristimulusX)";
   const auto is_data = [](std::string_view word) { return word == "Monochrome" || word.starts_with("Tristimulus"); };
   while (!is_data(words_.peek())) {
-    const std::string_view key = words_.take(start_of_data);
+    const std::string_view key = words_.read(start_of_data);
     if (key == "Source" || key == "Symmetry")
-      static_cast<void>(words_.take(key));  // the list of azimuths says what was measured
+      static_cast<void>(words_.read(key));  // the list of azimuths says what was measured
     else if (key == "SpectralContent")
-      is_tristimulus_ = words_.take_one_of({"Monochrome", "XYZ"}) == 1;
+      is_tristimulus_ = words_.read_one_of({"Monochrome", "XYZ"}) == 1;
     else if (key == "ScatterType")
       read_scatter_type();
     else if (key == "SampleRotation")
-      rotations_ = words_.take_list("SampleRotation", -360.0, 360.0);
+      rotations_ = words_.read_list("SampleRotation", -360.0, 360.0);
     else if (key == "AngleOfIncidence")
-      incidences_ = words_.take_list("AngleOfIncidence", 0.0, 90.0);
+      incidences_ = words_.read_list("AngleOfIncidence", 0.0, 90.0);
     else if (key == "ScatterAzimuth")
-      azimuths_ = words_.take_list("ScatterAzimuth", -360.0, 360.0);
+      azimuths_ = words_.read_list("ScatterAzimuth", -360.0, 360.0);
     else if (key == "ScatterRadial")
-      radials_ = words_.take_list("ScatterRadial", 0.0, 180.0);
+      radials_ = words_.read_list("ScatterRadial", 0.0, 180.0);
     else
-      words_.place().refuse({quoted(key), " is no keyword of a Zemax BSDF file"});
+      words_.place().refuse({in_quotes(key), " is no keyword of a Zemax BSDF file"});
   }
   require_lists();
 }
 
-GONIO_INLINE void zemax_bsdf_parser::read_scatter_type() {
-  if (words_.take_one_of({"BRDF", "BTDF"}) == 1)
+GONIO_INLINE void zemax_bsdf_reader::read_scatter_type() {
+  if (words_.read_one_of({"BRDF", "BTDF"}) == 1)
     words_.place().refuse("the file holds transmission (BTDF), expected a BRDF");
 }
 
-GONIO_INLINE void zemax_bsdf_parser::require_lists() const {
+GONIO_INLINE void zemax_bsdf_reader::require_lists() const {
   const auto require = [this](const std::vector<double>& list, std::string_view keyword) {
     if (list.empty()) gonio::refuse({words_.place().name, ": ", keyword, " is missing before the data"});
   };
@@ -89,22 +89,22 @@ GONIO_INLINE void zemax_bsdf_parser::require_lists() const {
   require(radials_, "ScatterRadial");
 }
 
-GONIO_INLINE zemax_bsdf_parser::plane zemax_bsdf_parser::read_plane() {
-  words_.take_if("DataBegin");
+GONIO_INLINE zemax_bsdf_reader::plane zemax_bsdf_reader::read_plane() {
+  words_.read_if("DataBegin");
   plane values;
   for (std::size_t block = 0; block < rotations_.size() * incidences_.size(); ++block) {
-    static_cast<void>(words_.take_one_of({"TIS"}));
-    static_cast<void>(words_.take_number("TIS"));
+    static_cast<void>(words_.read_one_of({"TIS"}));
+    static_cast<void>(words_.read_number("TIS"));
     for (std::size_t i = 0; i < azimuths_.size() * radials_.size(); ++i) {
-      values.push_back(words_.take_number("BRDF"));
+      values.push_back(words_.read_number("BRDF"));
       require_float_range(values.back(), words_.place());
     }
   }
-  words_.take_if("DataEnd");
+  words_.read_if("DataEnd");
   return values;
 }
 
-GONIO_INLINE sample_set zemax_bsdf_parser::samples(const std::vector<plane>& planes) const {
+GONIO_INLINE sample_set zemax_bsdf_reader::samples(const std::vector<plane>& planes) const {
   const colour_channels channels = is_tristimulus_ ? colour_channels::xyz() : colour_channels::grey();
   const std::vector<bool> are_new = are_new_azimuths(azimuths_);
   const std::size_t columns = radials_.size(), block = azimuths_.size() * columns;
@@ -122,7 +122,7 @@ GONIO_INLINE sample_set zemax_bsdf_parser::samples(const std::vector<plane>& pla
         collector.add({spherical_direction(theta, phi), wo}, {values.data(), channels.size()});
       }
   }
-  return std::move(collector).take(words_.place().name);
+  return std::move(collector).samples(words_.place().name);
 }
 
 }  // namespace gonio::io::detail
@@ -130,19 +130,19 @@ GONIO_INLINE sample_set zemax_bsdf_parser::samples(const std::vector<plane>& pla
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_zemax_bsdf(std::string_view text) {
-  detail::text_place place;
+  text_place place;
   const std::string_view first = detail::word_reader(text, place).peek();
   return first == "Source" || first == "Symmetry" || first == "SpectralContent" || first == "ScatterType";
 }
 
-GONIO_INLINE sample_set parse_zemax_bsdf(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
-  return detail::zemax_bsdf_parser(text, place).read();
+GONIO_INLINE sample_set read_zemax_bsdf(std::string_view text, const std::string& name) {
+  text_place place{name, 0};
+  return detail::zemax_bsdf_reader(text, place).read();
 }
 
 GONIO_INLINE sample_set read_zemax_bsdf(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return parse_zemax_bsdf(detail::as_text(bytes), path.string());
+  return read_zemax_bsdf(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io
