@@ -3,12 +3,12 @@
 /// taken where (JSON; docs/reference/formats.md). What was recorded elsewhere goes through the same path as what a
 /// machine measures now.
 
-#include "command_line/json.hpp"
+#include "tool/files/json.hpp"
 #include <gonio/capture/device.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/printable.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <cmath>
 #include <filesystem>

@@ -1,9 +1,9 @@
 #include "job.hpp"
 
-#include "command_line/fixed.hpp"
 #include "ranks_team.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/core/error.hpp>
-#include <gonio/io/file.hpp>
+#include <gonio/io/bytes/file.hpp>
 #include <gonio/mpi/ranks.hpp>
 
 #include <sys/resource.h>

@@ -1,6 +1,6 @@
 #include "resumable_results.hpp"
 
-#include "command_line/threads_option.hpp"
+#include "tool/options/threads_option.hpp"
 #include <gonio/core/error.hpp>
 
 #include <iterator>

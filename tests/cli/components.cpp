@@ -4,9 +4,9 @@
 #include "../json.hpp"
 #include "../synthetic_materials.hpp"
 #include "tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <doctest/doctest.h>
 

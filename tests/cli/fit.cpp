@@ -4,8 +4,8 @@
 #include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/core/direction.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>

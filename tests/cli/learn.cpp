@@ -5,9 +5,9 @@
 #include "../json.hpp"
 #include "../synthetic_materials.hpp"
 #include "tool.hpp"
-#include <gonio/io/merl.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/rgl.hpp>
 #include <gonio/model/lambert.hpp>
 
 #include <doctest/doctest.h>

@@ -4,9 +4,9 @@
 #include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/core/statistics.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 

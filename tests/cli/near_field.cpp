@@ -4,10 +4,10 @@
 #include "lab/near_field_lab.hpp"
 #include "lab/white_material.hpp"
 #include "tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/near_field_setup.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/setups/near_field_setup.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>

@@ -3,7 +3,7 @@
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "tool.hpp"
-#include <gonio/io/merl.hpp>
+#include <gonio/io/materials/merl.hpp>
 #include <gonio/model/lambert.hpp>
 #include <gonio/table/brdf_table.hpp>
 

@@ -2,12 +2,12 @@
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
-#include "command_line/report_page.hpp"
 #include "tool.hpp"
+#include "tool/pages/report_page.hpp"
 #include <gonio/core/direction.hpp>
-#include <gonio/io/gzip.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/bytes/gzip.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>

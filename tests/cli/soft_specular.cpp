@@ -4,10 +4,10 @@
 #include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/estimate/soft_specular_decomposition.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
-#include <gonio/io/soft_specular_prior.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/soft_specular_prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,11 +3,11 @@
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "tool.hpp"
-#include <gonio/io/merl.hpp>
-#include <gonio/io/rgl.hpp>
-#include <gonio/io/rgl_spectra.hpp>
-#include <gonio/io/samples.hpp>
-#include <gonio/io/spectral_samples.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/rgl.hpp>
+#include <gonio/io/materials/rgl_spectra.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/measurements/spectral_samples.hpp>
 
 #include <doctest/doctest.h>
 

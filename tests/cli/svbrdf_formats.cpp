@@ -2,9 +2,9 @@
 
 #include "svbrdf_images.hpp"
 #include "tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/table/image.hpp>
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@
 
 #if defined(GONIO_HAS_EXR)
 #include "../io/exr_of_others.hpp"
-#include <gonio/io/exr.hpp>
+#include <gonio/io/images/exr.hpp>
 #endif
 
 namespace {

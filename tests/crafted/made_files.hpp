@@ -1,9 +1,9 @@
 #pragma once
 /// Files that claim more than they hold, too large or too easily made to be kept.
 
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/checked_file.hpp>
-#include <gonio/io/gzip.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
+#include <gonio/io/bytes/gzip.hpp>
 
 #include <doctest/doctest.h>
 #include <zlib.h>

@@ -1,7 +1,7 @@
 /// Samples as ASTM E1392 has them.
 
 #include "harness.hpp"
-#include <gonio/io/astm_e1392.hpp>
+#include <gonio/io/measurements/astm_e1392.hpp>
 
 namespace {
 

@@ -1,7 +1,7 @@
 /// Files of the metrology institutes.
 
 #include "harness.hpp"
-#include <gonio/io/bird.hpp>
+#include <gonio/io/measurements/bird.hpp>
 
 namespace {
 

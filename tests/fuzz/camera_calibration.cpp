@@ -1,7 +1,7 @@
 /// Calibrations of cameras, as OpenCV writes them.
 
 #include "harness.hpp"
-#include <gonio/io/camera_calibration.hpp>
+#include <gonio/io/setups/camera_calibration.hpp>
 
 namespace {
 

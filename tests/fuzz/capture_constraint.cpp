@@ -1,7 +1,7 @@
 /// What an apparatus cannot do.
 
 #include "harness.hpp"
-#include <gonio/io/capture_constraint.hpp>
+#include <gonio/io/setups/capture_constraint.hpp>
 
 namespace {
 

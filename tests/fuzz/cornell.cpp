@@ -1,7 +1,7 @@
 /// Spectral samples.
 
 #include "harness.hpp"
-#include <gonio/io/cornell.hpp>
+#include <gonio/io/measurements/cornell.hpp>
 
 namespace {
 

@@ -1,7 +1,7 @@
 /// EXIF data of JPEG files.
 
 #include "harness.hpp"
-#include <gonio/io/exif.hpp>
+#include <gonio/io/images/exif.hpp>
 
 namespace {
 

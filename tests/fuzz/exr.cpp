@@ -1,7 +1,7 @@
 /// OpenEXR images, some rows at a time and whole.
 
 #include "harness.hpp"
-#include <gonio/io/exr.hpp>
+#include <gonio/io/images/exr.hpp>
 
 #include <algorithm>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "harness.hpp"
 
-#include <command_line/json.hpp>
+#include <tool/files/json.hpp>
 
 #include <cstdlib>
 

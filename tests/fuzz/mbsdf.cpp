@@ -1,7 +1,7 @@
 /// Measured BSDFs of MDL; what is read can be written and read again.
 
 #include "harness.hpp"
-#include <gonio/io/mbsdf.hpp>
+#include <gonio/io/materials/mbsdf.hpp>
 
 namespace {
 

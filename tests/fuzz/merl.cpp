@@ -1,7 +1,7 @@
 /// MERL tables, plain or gzip.
 
 #include "harness.hpp"
-#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
 
 namespace {
 

@@ -1,7 +1,7 @@
 /// How a near-field image was taken.
 
 #include "harness.hpp"
-#include <gonio/io/near_field_setup.hpp>
+#include <gonio/io/setups/near_field_setup.hpp>
 
 namespace {
 

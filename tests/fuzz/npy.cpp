@@ -1,7 +1,7 @@
 /// Arrays of one to three dimensions.
 
 #include "harness.hpp"
-#include <gonio/io/npy.hpp>
+#include <gonio/io/bytes/npy.hpp>
 
 namespace {
 

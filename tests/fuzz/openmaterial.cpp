@@ -1,7 +1,7 @@
 /// Tables of ASAM OpenMATERIAL 3D.
 
 #include "harness.hpp"
-#include <gonio/io/openmaterial.hpp>
+#include <gonio/io/measurements/openmaterial.hpp>
 
 namespace {
 

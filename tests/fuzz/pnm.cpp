@@ -1,7 +1,7 @@
 /// Netpbm images of counts.
 
 #include "harness.hpp"
-#include <gonio/io/pnm.hpp>
+#include <gonio/io/images/pnm.hpp>
 
 namespace {
 

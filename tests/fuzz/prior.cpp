@@ -2,9 +2,9 @@
 /// added.
 
 #include "harness.hpp"
-#include <gonio/io/checked_file.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/soft_specular_prior.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/soft_specular_prior.hpp>
 
 namespace {
 

@@ -1,7 +1,7 @@
 /// Materials of the RGL database, in RGB and in spectra; what is read of square tables can be written and read again.
 
 #include "harness.hpp"
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/rgl.hpp>
 
 namespace {
 

@@ -2,7 +2,7 @@
 /// read.
 
 #include "harness.hpp"
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <cstddef>
 #include <cstdio>

@@ -1,7 +1,7 @@
 /// Scans. Where a checksum should be, a question mark gets the right one, which fuzzers do not find.
 
 #include "harness.hpp"
-#include <gonio/io/scan_journal.hpp>
+#include <gonio/io/measurements/scan_journal.hpp>
 
 #include <zlib.h>
 

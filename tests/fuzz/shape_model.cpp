@@ -1,7 +1,7 @@
 /// Shape models: whole files, or the payload of one, to which the checksum is added.
 
 #include "harness.hpp"
-#include <gonio/io/checked_file.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
 #include <gonio/shape/io/shape_model.hpp>
 
 namespace {

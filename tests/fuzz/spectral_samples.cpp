@@ -1,7 +1,7 @@
 /// Spectral samples: what is accepted is usable but for what `require_usable` names, and what is written is read.
 
 #include "harness.hpp"
-#include <gonio/io/spectral_samples.hpp>
+#include <gonio/io/measurements/spectral_samples.hpp>
 
 #include <cstdlib>
 #include <string>

@@ -1,7 +1,7 @@
 /// How a sphere was photographed.
 
 #include "harness.hpp"
-#include <gonio/io/sphere_setup.hpp>
+#include <gonio/io/setups/sphere_setup.hpp>
 
 namespace {
 

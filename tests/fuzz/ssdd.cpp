@@ -1,7 +1,7 @@
 /// Surface scattering distribution data.
 
 #include "harness.hpp"
-#include <gonio/io/ssdd.hpp>
+#include <gonio/io/measurements/ssdd.hpp>
 
 namespace {
 

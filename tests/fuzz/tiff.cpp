@@ -1,7 +1,7 @@
 /// TIFF images of counts, and their exposure times.
 
 #include "harness.hpp"
-#include <gonio/io/tiff.hpp>
+#include <gonio/io/images/tiff.hpp>
 
 namespace {
 

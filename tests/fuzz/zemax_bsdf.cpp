@@ -1,7 +1,7 @@
 /// Zemax's tabular BSDF.
 
 #include "harness.hpp"
-#include <gonio/io/zemax_bsdf.hpp>
+#include <gonio/io/measurements/zemax_bsdf.hpp>
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include "scratch.hpp"
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/astm_e1392.hpp>
-#include <gonio/io/cornell.hpp>
+#include <gonio/io/measurements/astm_e1392.hpp>
+#include <gonio/io/measurements/cornell.hpp>
 
 #include <rapidcheck.h>
 

@@ -1,6 +1,6 @@
 #include "scratch.hpp"
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/bird.hpp>
+#include <gonio/io/measurements/bird.hpp>
 
 #include <rapidcheck.h>
 

@@ -1,5 +1,5 @@
-#include <gonio/io/camera_calibration.hpp>
-#include <gonio/io/sphere_setup.hpp>
+#include <gonio/io/setups/camera_calibration.hpp>
+#include <gonio/io/setups/sphere_setup.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include <gonio/io/capture_constraint.hpp>
+#include <gonio/io/setups/capture_constraint.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/checked_file.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/cornell.hpp>
+#include <gonio/io/measurements/cornell.hpp>
 
 #include <rapidcheck.h>
 

@@ -1,4 +1,4 @@
-#include <gonio/io/csv_dialect.hpp>
+#include <gonio/io/text/csv_dialect.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/csv_reader.hpp>
+#include <gonio/io/text/csv_reader.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include "scratch.hpp"
 #include "tiff_bytes.hpp"
-#include <gonio/io/exif.hpp>
+#include <gonio/io/images/exif.hpp>
 
 #include <doctest/doctest.h>
 

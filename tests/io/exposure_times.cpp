@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/exposure_times.hpp>
+#include <gonio/io/images/exposure_times.hpp>
 
 #include <doctest/doctest.h>
 

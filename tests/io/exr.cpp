@@ -1,6 +1,6 @@
 #include "exr_of_others.hpp"
 #include "scratch.hpp"
-#include <gonio/io/exr.hpp>
+#include <gonio/io/images/exr.hpp>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 
 #include <rapidcheck.h>
 

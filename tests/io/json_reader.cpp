@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/json_reader.hpp>
+#include <gonio/io/text/json_reader.hpp>
 
 #include <rapidcheck.h>
 

@@ -1,6 +1,6 @@
 #include "scratch.hpp"
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/mbsdf.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/materials/mbsdf.hpp>
 #include <gonio/model/ggx.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "scratch.hpp"
-#include <gonio/io/merl.hpp>
-#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
 
 #include <rapidcheck.h>
 #include <zlib.h>

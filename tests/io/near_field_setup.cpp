@@ -1,6 +1,6 @@
 #include "scratch.hpp"
-#include <gonio/io/near_field_setup.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/setups/near_field_setup.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/npy.hpp>
+#include <gonio/io/bytes/npy.hpp>
 
 #include <rapidcheck.h>
 

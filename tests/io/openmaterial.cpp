@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/openmaterial.hpp>
+#include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/model/ggx.hpp>
 #include <gonio/model/lambert.hpp>
 

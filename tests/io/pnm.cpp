@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/pnm.hpp>
+#include <gonio/io/images/pnm.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>

@@ -1,10 +1,10 @@
 #include "../synthetic_materials.hpp"
 #include "scratch.hpp"
 #include <gonio/basis/learn_streamed_pca.hpp>
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/checked_file.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/quantise.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
+#include <gonio/io/bytes/quantise.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 #include "../synthetic_materials.hpp"
-#include <gonio/io/gzip.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/prior_payload.hpp>
+#include <gonio/io/bytes/gzip.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/prior_payload.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include "scratch.hpp"
 #include <gonio/core/direction.hpp>
-#include <gonio/io/reference_reflectance.hpp>
+#include <gonio/io/measurements/reference_reflectance.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include "../json.hpp"
 #include "scratch.hpp"
-#include <gonio/io/renderer_material.hpp>
+#include <gonio/io/materials/renderer_material.hpp>
 #include <gonio/model/fresnel.hpp>
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 #include "scratch.hpp"
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/merl_gzip.hpp>
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/rgl.hpp>
 #include <gonio/model/ggx.hpp>
 #include <gonio/model/lambert.hpp>
 

@@ -1,4 +1,4 @@
-#include <gonio/io/rules.hpp>
+#include <gonio/io/text/rules.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include "scratch.hpp"
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/sample_collector.hpp>
+#include <gonio/io/measurements/sample_collector.hpp>
 
 #include <array>
 #include <limits>

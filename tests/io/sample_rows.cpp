@@ -1,6 +1,6 @@
 #include "sample_text.hpp"
-#include <gonio/io/sample_provenance.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/sample_provenance.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 

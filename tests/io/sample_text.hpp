@@ -2,7 +2,7 @@
 // What the tests of samples as text share.
 
 #include "scratch.hpp"
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <initializer_list>
 #include <string>

@@ -1,7 +1,7 @@
 #include "sample_text.hpp"
 #include "scratch.hpp"
-#include <gonio/io/samples.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <rapidcheck.h>
 

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/scan_journal.hpp>
+#include <gonio/io/measurements/scan_journal.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>

@@ -1,10 +1,10 @@
 #include "../synthetic_materials.hpp"
 #include "scratch.hpp"
 #include <gonio/estimate/soft_specular_decomposition.hpp>
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/checked_file.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/soft_specular_prior.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/soft_specular_prior.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include "scratch.hpp"
-#include <gonio/io/samples.hpp>
-#include <gonio/io/spectral_samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/measurements/spectral_samples.hpp>
 
 #include <rapidcheck.h>
 

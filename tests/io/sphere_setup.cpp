@@ -1,4 +1,4 @@
-#include <gonio/io/sphere_setup.hpp>
+#include <gonio/io/setups/sphere_setup.hpp>
 
 #include <doctest/doctest.h>
 

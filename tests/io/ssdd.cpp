@@ -1,6 +1,6 @@
 #include "scratch.hpp"
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/ssdd.hpp>
+#include <gonio/io/measurements/ssdd.hpp>
 
 #include <rapidcheck.h>
 

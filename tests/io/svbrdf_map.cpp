@@ -1,6 +1,6 @@
 #include "../synthetic_materials.hpp"
 #include "scratch.hpp"
-#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
 
 #include <doctest/doctest.h>
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/table_npy.hpp>
+#include <gonio/io/materials/table_npy.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/text.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <rapidcheck.h>
 

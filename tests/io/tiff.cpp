@@ -1,6 +1,6 @@
 #include "scratch.hpp"
 #include "tiff_bytes.hpp"
-#include <gonio/io/tiff.hpp>
+#include <gonio/io/images/tiff.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/words.hpp>
+#include <gonio/io/text/words.hpp>
 
 using gonio::io::text_place;
 using gonio::io::detail::word_reader;

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/zemax_bsdf.hpp>
+#include <gonio/io/measurements/zemax_bsdf.hpp>
 
 #include <rapidcheck.h>
 

@@ -1,6 +1,6 @@
 #include "../io/scratch.hpp"
 #include "synthetic_scan.hpp"
-#include <gonio/io/scan_journal.hpp>
+#include <gonio/io/measurements/scan_journal.hpp>
 
 #include <doctest/doctest.h>
 #include <lab/gantry.hpp>

@@ -4,7 +4,7 @@
 #include "papers_tool.hpp"
 #include "synthetic_networks.hpp"
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 

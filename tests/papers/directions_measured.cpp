@@ -4,8 +4,8 @@
 #include "../json.hpp"
 #include "papers_tool.hpp"
 #include "synthetic_networks.hpp"
-#include <gonio/io/merl.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/networks.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,8 +3,8 @@
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "papers_tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/render/environment_map.hpp>
 

@@ -1,17 +1,17 @@
 /// gonio-papers nielsen-test-materials: Nielsen et al. 2015, section 6, on surrogates of their materials.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/mean_errors.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/nielsen2015/few_samples.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <iostream>
 #include <memory>

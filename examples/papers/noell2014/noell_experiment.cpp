@@ -1,20 +1,20 @@
 #include "papers/noell2014/noell_experiment.hpp"
 
-#include "command_line/json.hpp"
-#include "command_line/scattered_samples.hpp"
 #include "papers/noell2014/noell_measures.hpp"
+#include "papers/noell2014/planned_decomposition.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/scattered_samples.hpp"
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/planned_decomposition.hpp>
-#include <gonio/estimate/pull_push.hpp>
-#include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/networks.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/interpolate/pull_push.hpp>
+#include <gonio/io/materials/networks.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>
+#include <gonio/robust/robust_reconstruction.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <algorithm>
@@ -95,7 +95,7 @@ struct combinations_under {
   made_on_demand<gonio::measured<Metric>> materials;
   made_on_demand<gonio::rbf<Metric>> radial_functions;
   std::map<case_key, Eigen::MatrixXd> radial_weights;  // found beforehand
-  std::map<std::pair<double, std::uint64_t>, gonio::planned_decomposition<Metric>> plans;
+  std::map<std::pair<double, std::uint64_t>, papers::planned_decomposition<Metric>> plans;
 };
 
 }  // namespace

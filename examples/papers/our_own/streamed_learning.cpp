@@ -1,17 +1,17 @@
 /// gonio-papers streamed-learning: time and memory of learning from many materials that are not held, and how far the
 /// result is from what learning in memory, or from all at once, gives.
 
-#include "command_line/fixed.hpp"
-#include "command_line/prior_option.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/random_materials.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/basis/add_materials.hpp>
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/learn_streamed_pca.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/scratch_materials.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/scratch_materials.hpp>
 #include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/product.hpp>
 

@@ -3,7 +3,7 @@
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/io/npy.hpp>
+#include <gonio/io/bytes/npy.hpp>
 #include <gonio/model/adaptive_brdf.hpp>
 
 #include <Eigen/Core>

@@ -1,13 +1,13 @@
 /// Where to measure.
 
 #include "arrays.hpp"
-#include "command_line/design_search.hpp"
 #include "subjects.hpp"
+#include "tool/options/design_search.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
-#include <gonio/io/capture_constraint.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/setups/capture_constraint.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

@@ -5,7 +5,6 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
-#include <gonio/estimate/outlier_weights.hpp>
 #include <gonio/estimate/sample_regions.hpp>
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 #pragma once
 /// The reader of PLY files, ascii and binary of either byte order. Turk, "The PLY Polygon File Format", 1994.
 
-#include <gonio/io/text.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/shape/io/mesh_parts.hpp>
 
 #include <string_view>

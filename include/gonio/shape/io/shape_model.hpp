@@ -1,7 +1,7 @@
 #pragma once
 /// An active shape model as a file; the format is described in docs/reference/formats.md.
 
-#include <gonio/io/checked_file.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
 #include <gonio/shape/shape_model.hpp>
 
 #include <cstddef>

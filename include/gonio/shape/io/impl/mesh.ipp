@@ -3,9 +3,9 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/rgb.hpp>
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/file.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/shape/io/mesh.hpp>
 #include <gonio/shape/io/obj.hpp>
 #include <gonio/shape/io/ply.hpp>

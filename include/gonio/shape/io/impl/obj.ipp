@@ -2,7 +2,7 @@
 /// Bodies of shape/io/obj.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/shape/io/mesh_parts.hpp>
 #include <gonio/shape/io/obj.hpp>
 

@@ -3,8 +3,8 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/shape/io/mesh_parts.hpp>
 #include <gonio/shape/io/ply.hpp>
 

@@ -4,10 +4,10 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/rotation.hpp>
-#include <gonio/io/file.hpp>
-#include <gonio/io/rules.hpp>
-#include <gonio/io/setup_text.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/setups/setup_text.hpp>
+#include <gonio/io/text/rules.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/io/pose.hpp>
 

@@ -2,7 +2,7 @@
 /// Bodies of shape/io/shape_model.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/io/checked_file.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
 #include <gonio/shape/io/shape_model.hpp>
 #include <gonio/shape/shape_model.hpp>
 
