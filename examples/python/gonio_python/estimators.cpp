@@ -88,8 +88,12 @@ void add_prior(py::module_& m) {
         return gonio::io::read_prior(file);
       },
       py::arg("path") = py::none(), "Reads a prior; without a path, the one that ships with the package.");
-  m.def("write_prior", &gonio::io::write_prior, py::arg("path"), py::arg("prior"),
-        py::call_guard<py::gil_scoped_release>(), "Writes a prior.");
+  m.def(
+      "write_prior",
+      [](const std::filesystem::path& path, const gonio::log_relative_pca& prior) {
+        gonio::io::write_prior(path, prior);
+      },
+      py::arg("path"), py::arg("prior"), py::call_guard<py::gil_scoped_release>(), "Writes a prior.");
 }
 
 py::object report_of(const fitted_pca& fit) {

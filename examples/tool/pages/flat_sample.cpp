@@ -33,7 +33,7 @@ class flat_sample::lit_from_afar {
     for (Eigen::Index c = 0; c < 3; ++c) {
       double mapped = offset_;
       for (Eigen::Index i = 0; i < row_.size(); ++i) mapped += row_[i] * double{gonio::from_half(*weights++)};
-      value[c] = std::max(prior_.metric().inverse(mapped, at_), 0.0);
+      value[c] = gonio::reflectance_of(prior_.metric(), mapped, at_);
     }
     return std::numbers::pi * value * irradiance_;
   }

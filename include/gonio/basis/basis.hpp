@@ -221,11 +221,11 @@ template <basis Basis>
 /// The same at many locations: locations x size().
 template <basis Basis>
 [[nodiscard]] Eigen::MatrixXd rows_at(const Basis& functions, std::span<const location> at) {
-  Eigen::MatrixXd rows(std::ssize(at), functions.size());
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const Eigen::RowVectorXd row = row_at(functions, at[i]);
-    for (Eigen::Index k = 0; k < row.size(); ++k) rows(i, k) = row[k];
-  }
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> contiguous(std::ssize(at), functions.size());
+  read_rows_at(functions, at, contiguous);
+  Eigen::MatrixXd rows(contiguous.rows(), contiguous.cols());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    for (Eigen::Index k = 0; k < rows.cols(); ++k) rows(i, k) = contiguous(i, k);
   return rows;
 }
 

@@ -39,7 +39,7 @@ template <error_metric Metric>
           const Eigen::Index cell = range.begin + i;
           const location at = locate_cell(prior.cells(), cell);
           for (Eigen::Index j = 0; j < values.cols(); ++j)
-            values(i, j) = std::max(prior.metric().inverse(values(i, j) + prior.offset(cell), at), 0.0);
+            values(i, j) = reflectance_of(prior.metric(), values(i, j) + prior.offset(cell), at);
           for (Eigen::Index m = 0; m < count; ++m)
             for (Eigen::Index c = 0; c < 3; ++c) {
               double sum = 0.0;

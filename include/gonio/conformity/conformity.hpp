@@ -181,7 +181,7 @@ template <error_metric Metric>
     each.value = both.values.row(each.number).transpose().array();
     each.expected = each.value;
     for (Eigen::Index c = 0; c < each.value.size(); ++c)
-      each.expected[c] = std::max(metric.inverse(metric.forward(each.value[c], at) - each.difference[c], at), 0.0);
+      each.expected[c] = reflectance_of(metric, metric.forward(each.value[c], at) - each.difference[c], at);
   }
   return found;
 }

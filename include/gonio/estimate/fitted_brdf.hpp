@@ -132,8 +132,7 @@ class fitted_brdf {
 
   [[nodiscard]] rgb reflectance(const rgb& y, const location& at) const noexcept {
     const auto& metric = basis_.metric();
-    return {std::max(metric.inverse(y.x(), at), 0.0), std::max(metric.inverse(y.y(), at), 0.0),
-            std::max(metric.inverse(y.z(), at), 0.0)};
+    return {reflectance_of(metric, y.x(), at), reflectance_of(metric, y.y(), at), reflectance_of(metric, y.z(), at)};
   }
 
   Basis basis_;

@@ -53,7 +53,7 @@ class fitted_spectra {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return Eigen::ArrayXd::Zero(bands());
     const location at = locate(basis_.cells(), to_half_difference(wi, wo));
     Eigen::ArrayXd spectrum = (row_at(basis_, at) * found_.weights).transpose().array() + offset_at(basis_, at);
-    for (double& value : spectrum) value = std::max(basis_.metric().inverse(value, at), 0.0);
+    for (double& value : spectrum) value = reflectance_of(basis_.metric(), value, at);
     return spectrum;
   }
 

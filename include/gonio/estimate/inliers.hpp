@@ -9,12 +9,10 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/estimate/basis_equations.hpp>
-#include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/out_of_gamut.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/sample_process.hpp>
 #include <gonio/estimate/scaled_likelihood.hpp>
-#include <gonio/estimate/values_at.hpp>
 #include <gonio/solve/product.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
@@ -117,8 +115,8 @@ class inlier_rounds {
     Eigen::VectorXd weights = weights_by(nearest(samples));
     for (int round = 0; round < rounds; ++round) {
       const auto equations = basis_equations<pca<Metric>>::of_mapped(prior_, weighted(mapped, {weights, {}}), threads_);
-      weights = weights_by(
-          values_at(fitted_brdf(prior_, equations.solve(solver_)), prior_.cells(), samples.locations, threads_));
+      const Eigen::MatrixXd coefficients = equations.solve(solver_).weights.transpose();
+      weights = weights_by(materials_at(samples.locations, coefficients).template cast<float>().transpose());
     }
     return weights;
   }
@@ -154,7 +152,7 @@ class inlier_rounds {
     return estimates;
   }
 
-  /// The reflectance of materials, given their coefficients in rows, at locations: locations x materials.
+  /// The reflectance of materials, or of channels, given their coefficients in rows, at locations: locations x rows.
   [[nodiscard]] Eigen::MatrixXd materials_at(const std::vector<location>& locations,
                                              const Eigen::MatrixXd& coefficients) const {
     const Eigen::MatrixXd functions_by_material = coefficients.transpose();
@@ -168,7 +166,7 @@ class inlier_rounds {
             const location& at = here[i];
             const double offset = offset_at(prior_, at);
             for (Eigen::Index j = 0; j < mapped.cols(); ++j)
-              values(range.begin + i, j) = std::max(prior_.metric().inverse(mapped(i, j) + offset, at), 0.0);
+              values(range.begin + i, j) = reflectance_of(prior_.metric(), mapped(i, j) + offset, at);
           }
         },
         threads_);
@@ -199,7 +197,7 @@ template <error_metric Metric>
                         .deviation = others.deviation[i],
                         .probability = wrong[i].probability};
     for (Eigen::Index c = 0; c < 3; ++c)
-      out.predicted[c] = std::max(prior.metric().inverse(others.mean(i, c) + offset, at), 0.0);
+      out.predicted[c] = reflectance_of(prior.metric(), others.mean(i, c) + offset, at);
     told.push_back(out);
   }
   return told;

@@ -44,7 +44,7 @@ template <basis Basis>
       locations.size(), 1024,
       [&](Eigen::Index i) {
         const auto& metric = functions.metric();
-        const double value = std::max(metric.inverse(offset_at(functions, locations[i]), locations[i]), 0.0);
+        const double value = reflectance_of(metric, offset_at(functions, locations[i]), locations[i]);
         const double exact = metric.forward(value, locations[i]);
         double sum = 0.0, squares = 0.0;
         for (const double z : quantiles) {

@@ -134,7 +134,7 @@ class reconstructed {
     const auto moved = [&](double by) {
       rgb other;
       for (Eigen::Index c = 0; c < 3; ++c)
-        other[c] = std::max(prior_.metric().inverse(prior_.metric().forward(value[c], at) + by, at), 0.0);
+        other[c] = reflectance_of(prior_.metric(), prior_.metric().forward(value[c], at) + by, at);
       return other;
     };
     return {moved(-reach), moved(reach)};
@@ -194,7 +194,7 @@ class reconstructed {
                            .disagreement = disagreement[i],
                            .rejected = found_.weights[i] < 0.5};
       for (Eigen::Index c = 0; c < 3; ++c)
-        each.predicted[c] = std::max(prior_.metric().inverse(others.mean(i, c) + offset, at), 0.0);
+        each.predicted[c] = reflectance_of(prior_.metric(), others.mean(i, c) + offset, at);
       told.push_back(each);
     }
     return told;

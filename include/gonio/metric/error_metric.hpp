@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <span>
@@ -57,6 +58,12 @@ concept error_metric = requires(const Metric& metric, double value, Eigen::Index
   { metric.forward(value, at) } -> std::convertible_to<double>;
   { metric.inverse(value, at) } -> std::convertible_to<double>;
 };
+
+/// The reflectance of a mapped value: `inverse`, but never negative, as no reflectance is.
+template <error_metric Metric, class Where>
+[[nodiscard]] double reflectance_of(const Metric& metric, double mapped, const Where& where) noexcept {
+  return std::max(double{metric.inverse(mapped, where)}, 0.0);
+}
 
 /// A metric that also knows the derivative of `forward` by the reflectance, `slope(rho)`, wherever that is: finite and
 /// positive for every finite rho. Fits that are not linear need it.

@@ -79,7 +79,7 @@ void unmap_at_cells(const Metric& metric, const valid_cells& cells, Eigen::Index
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
       const location at = locate_cell(cells, first + i);
       for (Eigen::Index j = 0; j < values.cols(); ++j)
-        values(i, j) = static_cast<float>(std::max(metric.inverse(values(i, j), at), 0.0));
+        values(i, j) = static_cast<float>(reflectance_of(metric, values(i, j), at));
     }
   }
 }

@@ -84,7 +84,7 @@ class nearest_material {
                                    const location& at) const {
     const double mapped = interpolate(
         at, [&](Eigen::Index cell) { return double{functions.row(cell)[material]}; }, 0.0);
-    return std::max(materials_.metric().inverse(mapped, at), 0.0);
+    return reflectance_of(materials_.metric(), mapped, at);
   }
 
   /// Samples of one channel as a mixture sees them.
