@@ -14,7 +14,6 @@
 #include <gonio/estimate/out_of_gamut.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/sample_process.hpp>
-#include <gonio/estimate/values_at.hpp>
 #include <gonio/solve/product.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
@@ -100,6 +99,11 @@ namespace detail {
 
 [[nodiscard]] inliers weighed_inliers(Eigen::VectorXd weights);
 
+/// The first three numbers of a row.
+[[nodiscard]] inline rgb first_three(const Eigen::MatrixXd& values, Eigen::Index row) {
+  return {values(row, 0), values(row, 1), values(row, 2)};
+}
+
 /// The rounds of weighting samples and fitting components again, and the start: the nearest material of the prior.
 template <error_metric Metric>
 class inlier_rounds {
@@ -117,13 +121,26 @@ class inlier_rounds {
     Eigen::VectorXd weights = weights_by(nearest(samples));
     for (int round = 0; round < rounds; ++round) {
       const auto equations = basis_equations<pca<Metric>>::of_mapped(prior_, weighted(mapped, {weights, {}}), threads_);
-      weights = weights_by(
-          values_at(fitted_brdf(prior_, equations.solve(solver_)), prior_.cells(), samples.locations, threads_));
+      weights = weights_by(values_of(fitted_brdf(prior_, equations.solve(solver_)), samples.locations));
     }
     return weights;
   }
 
  private:
+  /// What a fit is at locations on its own cells: `values_at` would compile tables for other cells.
+  [[nodiscard]] channel_values values_of(const fitted_brdf<pca<Metric>>& fit,
+                                         const std::vector<location>& locations) const {
+    channel_values values(3, std::ssize(locations));
+    for_each_index(
+        values.cols(), 256,
+        [&](Eigen::Index i) {
+          const rgb value = fit.at(locations[i]);
+          for (Eigen::Index c = 0; c < 3; ++c) values(c, i) = static_cast<float>(value[c]);
+        },
+        threads_);
+    return values;
+  }
+
   /// For each channel the material of the prior, brightened or darkened, under which the samples are most likely a
   /// mixture of inliers and outliers: its reflectance at them. As `nearest_material`, but no table is expanded.
   [[nodiscard]] channel_values nearest(const located_samples& samples) const {
@@ -194,7 +211,7 @@ template <error_metric Metric>
     const location& at = samples.locations[numbers[i]];
     const double offset = offset_at(prior, at);
     outlying_sample out{.number = numbers[i],
-                        .measured = samples.values.row(numbers[i]).template head<3>().transpose().array(),
+                        .measured = first_three(samples.values, numbers[i]),
                         .predicted = rgb::Zero(),
                         .deviation = others.deviation[i],
                         .probability = wrong[i].probability};

@@ -42,28 +42,31 @@ using discrepancy_places = Eigen::Matrix<double, 4, Eigen::Dynamic>;
   Eigen::Index column = 0;
   for (const half_difference& each : angles) {
     places.col(column) = discrepancy_place(each, lengths);
-    if (!places.col(column).allFinite()) refuse({"centre ", column + 1, " of a discrepancy is not finite"});
+    if (!std::isfinite(places.col(column).sum())) refuse({"centre ", column + 1, " of a discrepancy is not finite"});
     ++column;
   }
   return places;
 }
 
-/// k of one place with the last ones of others, a row each: as many as `out` has.
-template <class Column>
-inline void covariances_with(const Eigen::Vector4d& place, const Eigen::ArrayX4d& others, Column&& out) {
-  const auto last = others.bottomRows(out.size());
-  out = (-0.5 * ((last.col(0) - place[0]).square() + (last.col(1) - place[1]).square() +
-                 (last.col(2) - place[2]).square() + (last.col(3) - place[3]).square()))
-            .exp();
+/// k of one place with others, from number `begin` on.
+GONIO_INLINE void covariances_with(const double* place, const discrepancy_places& others, Eigen::Index begin,
+                                   double* out) {
+  const Eigen::Index count = others.cols() - begin;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    double sum = 0.0;
+    for (Eigen::Index c = 0; c < 4; ++c) sum += (others(c, begin + i) - place[c]) * (others(c, begin + i) - place[c]);
+    out[i] = -0.5 * sum;
+  }
+  Eigen::Map<Eigen::ArrayXd> numbers(out, count);
+  numbers = numbers.exp();
 }
 
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd covariance_of(const discrepancy_places& places) {
   const Eigen::Index n = places.cols();
-  const Eigen::ArrayX4d rows = places.transpose();
   Eigen::MatrixXd all(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    covariances_with(places.col(j), rows, all.col(j).tail(n - j));
-    all.row(j).tail(n - j) = all.col(j).tail(n - j).transpose();
+    covariances_with(&places(0, j), places, j, &all(j, j));
+    for (Eigen::Index i = j + 1; i < n; ++i) all(j, i) = all(i, j);
   }
   return all;
 }
@@ -88,9 +91,9 @@ GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(std::span<const half_differe
                                                     std::span<const half_difference> others,
                                                     const correlation_lengths& lengths) {
   const detail::discrepancy_places places = detail::places_of(others, lengths);
-  const Eigen::ArrayX4d rows = detail::places_of(angles, lengths).transpose();
-  Eigen::MatrixXd all(rows.rows(), places.cols());
-  for (Eigen::Index j = 0; j < all.cols(); ++j) detail::covariances_with(places.col(j), rows, all.col(j));
+  const detail::discrepancy_places rows = detail::places_of(angles, lengths);
+  Eigen::MatrixXd all(rows.cols(), places.cols());
+  for (Eigen::Index j = 0; j < all.cols(); ++j) detail::covariances_with(&places(0, j), rows, 0, &all(0, j));
   return all;
 }
 
@@ -123,10 +126,10 @@ GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, dou
 }
 
 GONIO_INLINE void discrepancy_functions::read(std::span<const half_difference> angles, row_block out) const {
-  const Eigen::ArrayX4d centres = shared_->places.transpose();
   Eigen::MatrixXd columns(size(), std::ssize(angles));
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    detail::covariances_with(detail::discrepancy_place(angles[i], shared_->lengths), centres, columns.col(i));
+    detail::covariances_with(detail::discrepancy_place(angles[i], shared_->lengths).data(), shared_->places, 0,
+                             &columns(0, i));
   if (shared_->factors) columns = std::sqrt(shared_->amplitude) * shared_->factors->solve_lower(columns);
   out = columns.transpose();
 }
@@ -149,7 +152,8 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
     const double place = detail::discrepancy_place({over.theta_h(i), 0.0, 0.0}, lengths)[0];
     for (Eigen::Index centre = 0; centre < size(); ++centre) {
       const double along = shared_->places(0, centre) - place;
-      by_height.row(centre).segment<3>(3 * i) = detail::squared_exponential(along * along) * centre_weights.row(centre);
+      const double factor = detail::squared_exponential(along * along);
+      for (int c = 0; c < 3; ++c) by_height(centre, 3 * i + c) = factor * centre_weights(centre, c);
     }
   }
   // The part of theta_d and phi_d, a slice of the grid at a time.
@@ -158,21 +162,22 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
       rows, 1,
       [&](Eigen::Index row) {
         const int j = static_cast<int>(row);
-        Eigen::ArrayX4d places(columns, 4);
+        detail::discrepancy_places places(4, columns);
         for (int k = 0; k < columns; ++k)
-          places.row(k) = detail::discrepancy_place({0.0, over.theta_d(j), over.phi_d(k)}, lengths);
+          places.col(k) = detail::discrepancy_place({0.0, over.theta_d(j), over.phi_d(k)}, lengths);
         Eigen::MatrixXd slice(columns, size());
         for (Eigen::Index centre = 0; centre < size(); ++centre) {
           Eigen::Vector4d beside = shared_->places.col(centre);
           beside[0] = 0.0;  // theta_h has its own factor
-          detail::covariances_with(beside, places, slice.col(centre));
+          detail::covariances_with(beside.data(), places, 0, &slice(0, centre));
         }
         const Eigen::MatrixXd values = product(slice, by_height);
         for (int i = 0; i < heights; ++i)
           for (int k = 0; k < columns; ++k) {
             const Eigen::Index linear = over.linear({i, j, k});
             if (!cells.contains(linear)) continue;
-            field.col(cells.representative(linear)) = values.row(k).segment<3>(3 * i).transpose().array().cast<float>();
+            for (int c = 0; c < 3; ++c)
+              field(c, cells.representative(linear)) = static_cast<float>(values(k, 3 * i + c));
           }
       },
       threads);
