@@ -29,6 +29,17 @@ namespace detail {
   return std::exp(-0.5 * squared_distance);
 }
 
+[[nodiscard]] inline double squared_distance(const double* one, const double* other) noexcept {
+  double sum = 0.0;
+  for (Eigen::Index c = 0; c < 4; ++c) sum += (one[c] - other[c]) * (one[c] - other[c]);
+  return sum;
+}
+
+/// k of two places.
+[[nodiscard]] inline double covariance(const double* one, const double* other) noexcept {
+  return squared_exponential(squared_distance(one, other));
+}
+
 using discrepancy_places = Eigen::Matrix<double, 4, Eigen::Dynamic>;
 
 /// Where angles are, a column each. Throws gonio::error if one is not finite, or for impossible lengths.
@@ -52,11 +63,7 @@ using discrepancy_places = Eigen::Matrix<double, 4, Eigen::Dynamic>;
 GONIO_INLINE void covariances_with(const double* place, const discrepancy_places& others, Eigen::Index begin,
                                    double* out) {
   const Eigen::Index count = others.cols() - begin;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    double sum = 0.0;
-    for (Eigen::Index c = 0; c < 4; ++c) sum += (others(c, begin + i) - place[c]) * (others(c, begin + i) - place[c]);
-    out[i] = -0.5 * sum;
-  }
+  for (Eigen::Index i = 0; i < count; ++i) out[i] = -0.5 * squared_distance(&others(0, begin + i), place);
   Eigen::Map<Eigen::ArrayXd> numbers(out, count);
   numbers = numbers.exp();
 }
@@ -83,7 +90,7 @@ GONIO_INLINE Eigen::VectorXd discrepancy_covariance(std::span<const half_differe
   const Eigen::Vector4d here = detail::discrepancy_place(place, lengths);
   Eigen::VectorXd with(std::ssize(angles));
   for (Eigen::Index i = 0; i < with.size(); ++i)
-    with[i] = detail::squared_exponential((detail::discrepancy_place(angles[i], lengths) - here).squaredNorm());
+    with[i] = detail::covariance(detail::discrepancy_place(angles[i], lengths).data(), here.data());
   return with;
 }
 
@@ -120,8 +127,7 @@ GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_d
 GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, double* out) const noexcept {
   const Eigen::Vector4d here = detail::discrepancy_place(angles, shared_->lengths);
   const double scale = std::sqrt(shared_->amplitude);
-  for (Eigen::Index i = 0; i < size(); ++i)
-    out[i] = scale * detail::squared_exponential((shared_->places.col(i) - here).squaredNorm());
+  for (Eigen::Index i = 0; i < size(); ++i) out[i] = scale * detail::covariance(&shared_->places(0, i), here.data());
   if (shared_->factors) shared_->factors->solve_lower_in_place(out);
 }
 

@@ -84,7 +84,10 @@ GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measu
         weights.size(), detail::samples_at_once, [&](Eigen::Index i) { weights[i] = weigh(mixture, found, i); },
         threads);
   }
-  return weights.transpose().replicate<3, 1>();
+  channel_values each(3, weights.size());
+  for (Eigen::Index i = 0; i < weights.size(); ++i)
+    for (Eigen::Index c = 0; c < 3; ++c) each(c, i) = weights[i];
+  return each;
 }
 
 GONIO_INLINE outlier_mixture automatic_weights::mixture(const channel_values& measured,
