@@ -17,7 +17,7 @@ print shares.py --before "$older/bench/bench_render_lookup_table" bench_render_l
   --benchmark_min_time=0.2
 print shares.py --before "$older/bench/bench_estimate_decomposition" bench_estimate_decomposition --benchmark_min_time=0.2
 print shares.py --before "$older/bench/bench_solve_gram" bench_solve_gram
-print shares.py --before "$older/bench/bench_estimate_correction" bench_estimate_correction \
+print shares.py --before "$older/bench/bench_robust_correction" bench_robust_correction \
   '--benchmark_filter=round|basis|eigen|read'
 print shares.py --before "$older/bench/bench_design_greedy_search" bench_design_greedy_search \
   '--benchmark_filter=sweep|read|product|set_up'

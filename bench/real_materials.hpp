@@ -3,8 +3,8 @@
 /// at hand, else what the shipped prior remembers of them, on its own cells.
 
 #include <gonio/basis/expand_materials.hpp>
-#include <gonio/io/networks.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/networks.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <filesystem>
 #include <utility>

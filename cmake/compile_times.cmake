@@ -79,7 +79,8 @@ header_row("`gonio/gonio.hpp`, -O0" 400 900 gonio/gonio.hpp)
 if(GUARD)
   return()
 endif()
-foreach(module IN ITEMS core solve table metric basis estimate design model capture evaluate io render shape)
+foreach(module IN ITEMS core solve table metric basis estimate robust interpolate conformity texels
+    design model capture evaluate io render shape)
   header_row("`gonio/${module}.hpp`, -O0" 600 900 gonio/${module}.hpp)
 endforeach()
 row("the path tracer, header-only, -O2" 400 900 "${source}/examples/learn/path_tracer.cpp"

@@ -3,7 +3,6 @@
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/impl/angular_error.ipp>
-#include <gonio/estimate/impl/conformity.ipp>
 #include <gonio/estimate/impl/fitted_spectra.ipp>
 #include <gonio/estimate/impl/highlight_contrast.ipp>
 #include <gonio/estimate/impl/inliers.ipp>
@@ -11,18 +10,13 @@
 #include <gonio/estimate/impl/leave_one_material_out_error.ipp>
 #include <gonio/estimate/impl/located_samples.ipp>
 #include <gonio/estimate/impl/mapped_noise.ipp>
-#include <gonio/estimate/impl/nearest_material.ipp>
 #include <gonio/estimate/impl/out_of_gamut.ipp>
 #include <gonio/estimate/impl/outlier_mixture.ipp>
-#include <gonio/estimate/impl/outlier_weights.ipp>
-#include <gonio/estimate/impl/pull_push.ipp>
 #include <gonio/estimate/impl/reconstructed.ipp>
 #include <gonio/estimate/impl/sample_process.ipp>
 #include <gonio/estimate/impl/sample_regions.ipp>
-#include <gonio/estimate/impl/scattered_options.ipp>
+#include <gonio/estimate/impl/scaled_likelihood.ipp>
 #include <gonio/estimate/impl/soft_specular_decomposition.ipp>
-#include <gonio/estimate/impl/texel_decomposition.ipp>
-#include <gonio/estimate/impl/texel_metric.ipp>
 
 namespace gonio {
 

@@ -1,3 +1,3 @@
-// The bodies of io/exif.hpp, which need libexif.
+// The bodies of io/images/exif.hpp, which need libexif.
 
-#include <gonio/io/impl/exif.ipp>
+#include <gonio/io/images/impl/exif.ipp>

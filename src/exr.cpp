@@ -1,3 +1,3 @@
-// The bodies of io/exr.hpp, which need OpenEXR.
+// The bodies of io/images/exr.hpp, which need OpenEXR.
 
-#include <gonio/io/impl/exr.ipp>
+#include <gonio/io/images/impl/exr.ipp>

@@ -1,3 +1,3 @@
-// The bodies of io/image.hpp, which need stb.
+// The bodies of io/images/image.hpp, which need stb.
 
-#include <gonio/io/impl/image.ipp>
+#include <gonio/io/images/impl/image.ipp>

@@ -1,3 +1,3 @@
-// The bodies of estimate/scattered_brdf.hpp, which need nanoflann.
+// The bodies of interpolate/scattered_brdf.hpp, which need nanoflann.
 
-#include <gonio/estimate/impl/scattered_brdf.ipp>
+#include <gonio/interpolate/impl/scattered_brdf.ipp>

@@ -1,3 +1,3 @@
-// The bodies of io/tiff.hpp, which need libtiff.
+// The bodies of io/images/tiff.hpp, which need libtiff.
 
-#include <gonio/io/impl/tiff.ipp>
+#include <gonio/io/images/impl/tiff.ipp>

@@ -34,7 +34,7 @@ golden_columns golden_csv(const std::string& name) {
   return columns;
 }
 
-nlohmann::json parse_json(const std::string& text) { return nlohmann::json::parse(text); }
+nlohmann::json read_json(const std::string& text) { return nlohmann::json::parse(text); }
 
 nlohmann::json golden_json(const std::string& name) {
   std::ifstream file = open(name);

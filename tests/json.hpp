@@ -6,7 +6,7 @@
 #include <string>
 
 /// Throws nlohmann::json::parse_error if it is none.
-[[nodiscard]] nlohmann::json parse_json(const std::string& text);
+[[nodiscard]] nlohmann::json read_json(const std::string& text);
 
 /// A file of tests/data.
 [[nodiscard]] nlohmann::json golden_json(const std::string& name);

@@ -5,7 +5,7 @@
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/solve/tikhonov.hpp>
 

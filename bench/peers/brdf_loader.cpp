@@ -4,7 +4,7 @@
 /// file; and gonio's table of the same material.
 
 #include "scattered_pairs.hpp"
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/rgl.hpp>
 #include <gonio/render/lookup_table.hpp>
 
 #define POWITACQ_IMPLEMENTATION 1

@@ -2,7 +2,7 @@
 /// github.com/jdupuy/dj_brdf), which reads the file that gonio wrote.
 
 #include "scattered_pairs.hpp"
-#include <gonio/io/merl.hpp>
+#include <gonio/io/materials/merl.hpp>
 #include <gonio/render/lookup_table.hpp>
 
 // It prints what it thinks of directions, from the loop.

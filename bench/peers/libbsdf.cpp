@@ -5,8 +5,8 @@
 
 #include "scattered_pairs.hpp"
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/rgl.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/model/fit_model.hpp>
 #include <gonio/render/lookup_table.hpp>

@@ -5,8 +5,8 @@
 
 #include "../../tests/render/paired_draws_sphere.hpp"
 #include <gonio/core/error.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
 #include <gonio/render/sampled_sphere.hpp>

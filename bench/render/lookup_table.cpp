@@ -5,7 +5,7 @@
 /// limit. Counters: bytes are the memory of a material.
 
 #include "../limit.hpp"
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/render.hpp>
 
 #include <benchmark/benchmark.h>

@@ -4,7 +4,7 @@
 
 #include "../real_materials.hpp"
 #include <gonio/basis/measured.hpp>
-#include <gonio/io/npy.hpp>
+#include <gonio/io/bytes/npy.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/solve/nnls.hpp>
 #include <gonio/solve/quadratic_program.hpp>

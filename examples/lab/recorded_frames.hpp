@@ -3,12 +3,12 @@
 /// taken where (JSON; docs/reference/formats.md). What was recorded elsewhere goes through the same path as what a
 /// machine measures now.
 
-#include "command_line/json.hpp"
+#include "tool/files/json.hpp"
 #include <gonio/capture/device.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/printable.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -28,13 +28,13 @@ class recorded_frames {
   explicit recorded_frames(const std::filesystem::path& manifest)
       : folder_(manifest.parent_path()), name_(manifest.string()) {
     const auto bytes = gonio::io::read_bytes(manifest);
-    const auto text = cli::json::parse(std::string(gonio::io::detail::as_text(bytes)));
+    const auto text = cli::json::read(std::string(gonio::io::as_text(bytes)));
     if (!text.is_object())
       gonio::refuse({name_, ": is not a JSON object, of at most ", cli::json::most_values,
                      " values and nested at most ", cli::json::deepest, " deep"});
     largest_count_ = static_cast<std::uint16_t>(whole(text, "largest_count", 65535));
     if (largest_count_ == 0) gonio::refuse(name_ + ": 'largest_count' must be positive");
-    if (text.contains("window")) window_ = parse_window(text["window"]);
+    if (text.contains("window")) window_ = read_window(text["window"]);
     if (!text.contains("frames") || !text["frames"].is_array() || text["frames"].empty())
       gonio::refuse(name_ + ": 'frames' must be a list with a frame at least");
     for (const auto& each : text["frames"].elements()) add(each);
@@ -89,7 +89,7 @@ class recorded_frames {
     return gonio::printable(object.dump().substr(0, 120));
   }
 
-  [[nodiscard]] window parse_window(const cli::json& given) const {
+  [[nodiscard]] window read_window(const cli::json& given) const {
     if (!given.is_object()) gonio::refuse(name_ + ": 'window' must have column, row, columns and rows");
     const window parsed{whole(given, "column", 1e6), whole(given, "row", 1e6), whole(given, "columns", 1e6),
                         whole(given, "rows", 1e6)};

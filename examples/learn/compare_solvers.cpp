@@ -2,8 +2,8 @@
 
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/comparison.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/solve/choose_eta.hpp>
 #include <gonio/solve/lasso.hpp>

@@ -1,6 +1,6 @@
 /// What a renderer does with a BRDF: look it up, and draw directions towards the light by its importance.
 
-#include <gonio/io/merl.hpp>
+#include <gonio/io/materials/merl.hpp>
 #include <gonio/render.hpp>
 
 #include <cstdio>

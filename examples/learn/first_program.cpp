@@ -1,7 +1,7 @@
 #include <gonio/estimate/reconstruction.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 int main() {
   const auto prior = gonio::io::read_prior("materials.prior");

@@ -1,6 +1,6 @@
 /// A Lambertian lobe and a GGX lobe fitted to 20 samples.
 
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/model/fit_model.hpp>
 

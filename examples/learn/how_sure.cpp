@@ -1,8 +1,8 @@
 /// 20 measurements, one of them wrong: which one, what the paint is in other directions, and how sure that is.
 
 #include <gonio/estimate/reconstruction.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <cstdio>
 

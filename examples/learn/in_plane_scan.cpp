@@ -2,7 +2,7 @@
 /// normal to grazing on the other side. The instrument gives the BRDF times the cosine of the light's angle.
 
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/solve/tikhonov.hpp>
 

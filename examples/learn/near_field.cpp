@@ -5,8 +5,8 @@
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/evaluate/comparison.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/solve/tikhonov.hpp>
 

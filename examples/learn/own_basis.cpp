@@ -1,7 +1,7 @@
 /// A basis of your own: a constant and two lobes about the half vector, computed wherever they are asked for.
 
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/solve/nnls.hpp>
 

@@ -3,8 +3,8 @@
 
 #include <gonio/capture/calibration.hpp>
 #include <gonio/capture/scan.hpp>
-#include <gonio/io/samples.hpp>
-#include <gonio/io/scan_journal.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/measurements/scan_journal.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/model/formula_materials.hpp>

@@ -2,8 +2,8 @@
 /// gonio::tikhonov finds.
 
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <cstdio>

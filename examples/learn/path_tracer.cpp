@@ -10,8 +10,8 @@
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/render.hpp>
 #include <gonio/render/environment_sampler.hpp>
 #include <gonio/solve/tikhonov.hpp>

@@ -4,12 +4,12 @@
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/model/formula_materials.hpp>
+#include <gonio/robust/robust_reconstruction.hpp>
 #include <gonio/solve/nnls.hpp>
 
 #include <cstdio>

@@ -3,10 +3,10 @@
 
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/fitted_spectra.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/rgl_spectra.hpp>
-#include <gonio/io/samples.hpp>
-#include <gonio/io/spectral_samples.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/rgl_spectra.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/measurements/spectral_samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/solve/tikhonov.hpp>
 

@@ -1,6 +1,6 @@
 /// A table as an array of xtensor: changed in place, looked at along its angles, written for numpy and read back.
 
-#include <gonio/io/npy.hpp>
+#include <gonio/io/bytes/npy.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/table/tensor_view.hpp>
 

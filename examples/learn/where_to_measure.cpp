@@ -5,7 +5,7 @@
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <cstdio>
 

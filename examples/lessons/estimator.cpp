@@ -8,7 +8,7 @@
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/prior_payload.hpp>
+#include <gonio/io/materials/prior_payload.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
@@ -88,7 +88,7 @@ PAGE_CALLS(buffer_size) Eigen::Index buffer_size() { return std::ssize(buffer); 
 /// Finds: the inflated payload of a prior's file, of so many bytes.
 PAGE_CALLS(take_prior) void take_prior(std::size_t bytes) {
   gonio::io::byte_reader in(std::as_bytes(std::span(buffer)).first(bytes), "the prior of the page");
-  prior = gonio::io::take_prior(in, "the prior of the page");
+  prior = gonio::io::read_prior(in, "the prior of the page");
   first_components = prior->truncated(shown_components);
 }
 

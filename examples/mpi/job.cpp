@@ -1,9 +1,9 @@
 #include "job.hpp"
 
-#include "command_line/fixed.hpp"
 #include "ranks_team.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/core/error.hpp>
-#include <gonio/io/file.hpp>
+#include <gonio/io/bytes/file.hpp>
 #include <gonio/mpi/ranks.hpp>
 
 #include <sys/resource.h>
@@ -81,9 +81,9 @@ rank_cost cost_of(const gonio::mpi::ranks& ranks) {
 
 /// "rank 1 sent 12 messages, 3456789 bytes; 12.3 s of processor time, 0.4 s of it in MPI", a line for each.
 void print_traffic(const gonio::mpi::ranks& ranks) {
-  const auto all = ranks.gather(gonio::mpi::detail::bytes_of(cost_of(ranks)));
+  const auto all = ranks.gather(gonio::mpi::bytes_of(cost_of(ranks)));
   for (std::size_t rank = 0; rank < all.size(); ++rank) {
-    const auto cost = gonio::mpi::detail::number_of<rank_cost>(all[rank]);
+    const auto cost = gonio::mpi::number_of<rank_cost>(all[rank]);
     std::cout << "rank " << rank << " sent " << cost.sent.messages << " messages, " << cost.sent.bytes << " bytes; "
               << fixed(cost.processor_seconds, 2) << " s of processor time, " << fixed(cost.sent.processor_seconds, 2)
               << " s of it in MPI\n";

@@ -1,8 +1,8 @@
 #pragma once
 /// Programs whose subcommands are done by the ranks of an MPI job.
 
-#include "command_line/command.hpp"
-#include "command_line/team.hpp"
+#include "tool/options/command.hpp"
+#include "tool/options/team.hpp"
 
 #include <functional>
 #include <string>

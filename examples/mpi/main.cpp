@@ -1,7 +1,7 @@
 /// `gonio-mpi`: the long subcommands of the tool on the ranks of an MPI job.
 
-#include "cli/commands.hpp"
 #include "job.hpp"
+#include "tool/commands/commands.hpp"
 
 int main(int argc, char** argv) {
   return cli::run_in_ranks(

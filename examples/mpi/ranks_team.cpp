@@ -94,7 +94,7 @@ gonio::shared_groups ranks_team::groups() const {
 }
 
 Eigen::Index ranks_team::number_of_writer(Eigen::Index number) const {
-  return gonio::mpi::detail::number_of<Eigen::Index>(ranks_.broadcast(gonio::mpi::detail::bytes_of(number)));
+  return gonio::mpi::number_of<Eigen::Index>(ranks_.broadcast(gonio::mpi::bytes_of(number)));
 }
 
 std::optional<team::part> ranks_team::compute_in_turn(std::size_t turn, const std::function<part()>& compute) const {

@@ -1,7 +1,7 @@
 #pragma once
 /// The ranks of an MPI job as the processes that do a command's work.
 
-#include "command_line/team.hpp"
+#include "tool/options/team.hpp"
 #include <gonio/mpi/ranks.hpp>
 
 #include <cstdint>

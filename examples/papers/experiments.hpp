@@ -1,8 +1,8 @@
 #pragma once
 /// The experiments of `gonio-papers`, one file each.
 
-#include "command_line/command.hpp"
-#include "command_line/team.hpp"
+#include "tool/options/command.hpp"
+#include "tool/options/team.hpp"
 
 namespace papers {
 

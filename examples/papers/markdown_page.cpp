@@ -1,9 +1,9 @@
 #include "papers/markdown_page.hpp"
 
-#include "command_line/fixed.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/io/file.hpp>
+#include <gonio/io/bytes/file.hpp>
 
 #include <array>
 #include <charconv>

@@ -1,7 +1,7 @@
 #include "papers/mean_errors.hpp"
 
-#include "command_line/measures_as_json.hpp"
 #include "papers/material_result.hpp"
+#include "tool/pages/measures_as_json.hpp"
 
 namespace papers {
 

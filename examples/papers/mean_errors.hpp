@@ -1,9 +1,9 @@
 #pragma once
 /// How materials came out, as JSON.
 
-#include "command_line/json.hpp"
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
+#include "tool/files/json.hpp"
 
 #include <span>
 

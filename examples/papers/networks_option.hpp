@@ -1,9 +1,9 @@
 #pragma once
 /// Which materials an experiment studies, and from how many measurements.
 
-#include "command_line/thinning.hpp"
 #include "papers/experiments.hpp"
-#include <gonio/io/networks.hpp>
+#include "tool/options/thinning.hpp"
+#include <gonio/io/materials/networks.hpp>
 
 #include <filesystem>
 #include <vector>

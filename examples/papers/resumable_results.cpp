@@ -1,6 +1,6 @@
 #include "resumable_results.hpp"
 
-#include "command_line/threads_option.hpp"
+#include "tool/options/threads_option.hpp"
 #include <gonio/core/error.hpp>
 
 #include <iterator>
@@ -44,7 +44,7 @@ resumable_results::resumable_results(const resumable_options& options)
   std::istringstream lines(processes_.text_of_writer(std::move(earlier)));
   for (std::string line; std::getline(lines, line);) {
     // A run that was killed may have left half a line.
-    const json entry = json::parse(line);
+    const json entry = json::read(line);
     if (entry.is_object() && entry.contains("key") && entry.contains("result"))
       results_.insert_or_assign(entry["key"].dump(), entry["result"]);
   }
@@ -66,7 +66,7 @@ const json& resumable_results::once(const json& key, std::size_t turn, const std
     });
     if (!done) return nothing;
     if (!is_own(turn)) {
-      const json entry = json::parse(cli::text_of(*done));
+      const json entry = json::read(cli::text_of(*done));
       if (entry["key"].dump() != key.dump())
         gonio::refuse("the processes do different work: do they read different inputs?");
       result = entry["result"];

@@ -1,10 +1,10 @@
 #pragma once
 /// Results of a long experiment that survive its end, and that several processes share.
 
-#include "command_line/command.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/team.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/command.hpp"
+#include "tool/options/team.hpp"
+#include "tool/pages/progress_bar.hpp"
 
 #include <cstddef>
 #include <filesystem>

@@ -9,7 +9,7 @@ function compared_directions() {
   return data.check.directions.map((each) => {
     const off_by = each.mapped_difference.map((difference, c) => difference / each.mapped_deviation[c]);
     const worst = off_by.reduce((best, value, c) => (Math.abs(value) > Math.abs(off_by[best]) ? c : best), 0);
-    return { ...each, channel: ["red", "green", "blue"][worst], residual: off_by[worst], difference: relative(each.mapped_difference[worst]),
+    return { ...each, channel: data.check.channels[worst], residual: off_by[worst], difference: relative(each.mapped_difference[worst]),
       deviation: relative(each.mapped_deviation[worst]), grazing: Math.max(each.theta_i, each.theta_o),
       disagrees: each.adjusted_p_value < data.check.false_alarms };
   });
@@ -23,7 +23,7 @@ function check_answer() {
   const { check } = data, all = compared_directions(), differing = all.filter(is_off);
   const verdict = element("div", { className: check.conforms ? "agree" : "disagree" });
   const shift = check.shift.map(signed_percent);
-  verdict.append(paragraph(`In all directions together: red ${shift[0]}, green ${shift[1]}, blue ${shift[2]} (${probability(check.shift_p_value)}).`));
+  verdict.append(paragraph(`In all directions together: ${check.channels.map((name, channel) => `${name} ${shift[channel]}`.trim()).join(", ")} (${probability(check.shift_p_value)}).`));
   for (const each of differing.sort((a, b) => a.adjusted_p_value - b.adjusted_p_value).slice(0, 6))
     verdict.append(paragraph(`\u2715 Sample ${each.sample} (${where(each)}): ${signed_percent(each.difference)} in ${each.channel}, ${probability(each.adjusted_p_value)}.`));
   if (!differing.length) verdict.append(paragraph("No single direction differs."));

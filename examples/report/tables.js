@@ -1,4 +1,4 @@
-// The data of the page, and what its tables (docs/reference/formats.md, examples/cli/viewer_table.cpp) say of a pair of
+// The data of the page, and what its tables (docs/reference/formats.md, examples/tool/pages/viewer_table.cpp) say of a pair of
 // directions above a surface.
 "use strict";
 const data = JSON.parse(document.getElementById("data").textContent);

@@ -6,7 +6,6 @@
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/combine.hpp>
 #include <gonio/basis/component_variance.hpp>
-#include <gonio/basis/correction.hpp>
 #include <gonio/basis/discrepancy.hpp>
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/joined.hpp>

@@ -1,12 +1,8 @@
 #pragma once
-/// All of `estimate/` but scattered_brdf.hpp, which needs nanoflann: from samples to a BRDF.
+/// All of `estimate/`, the heart: from samples to a BRDF on a basis.
 
 #include <gonio/estimate/angular_error.hpp>
 #include <gonio/estimate/basis_equations.hpp>
-#include <gonio/estimate/completed_table.hpp>
-#include <gonio/estimate/conformity.hpp>
-#include <gonio/estimate/corrected_brdf.hpp>
-#include <gonio/estimate/correction_iteration.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/decomposition_parts.hpp>
 #include <gonio/estimate/errors_in_variables_decomposition.hpp>
@@ -18,25 +14,16 @@
 #include <gonio/estimate/inliers.hpp>
 #include <gonio/estimate/learn_streamed_soft_specular.hpp>
 #include <gonio/estimate/leave_one_material_out_error.hpp>
-#include <gonio/estimate/leave_one_out.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
-#include <gonio/estimate/nearest_material.hpp>
 #include <gonio/estimate/out_of_gamut.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
-#include <gonio/estimate/outlier_weights.hpp>
-#include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
-#include <gonio/estimate/pull_push.hpp>
 #include <gonio/estimate/reconstructed.hpp>
 #include <gonio/estimate/reconstruction.hpp>
-#include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/estimate/sample_process.hpp>
 #include <gonio/estimate/sample_regions.hpp>
-#include <gonio/estimate/sampled_functions.hpp>
-#include <gonio/estimate/scattered_options.hpp>
+#include <gonio/estimate/scaled_likelihood.hpp>
 #include <gonio/estimate/soft_or_specular.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>
-#include <gonio/estimate/texel_decomposition.hpp>
-#include <gonio/estimate/texel_metric.hpp>
 #include <gonio/estimate/values_at.hpp>

@@ -3,6 +3,6 @@
 /// module; a header costs what it names.
 
 #include <gonio/estimate/reconstruction.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>

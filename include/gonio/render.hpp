@@ -18,4 +18,4 @@
 #include <gonio/render/lookup_table.hpp>
 #include <gonio/render/merl_view.hpp>
 #include <gonio/render/padded_grid.hpp>
-#include <gonio/render/texel_brdf.hpp>
+#include <gonio/texels/texel_brdf.hpp>

@@ -2,7 +2,7 @@
 
 #include "lab/near_field_lab.hpp"
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/solve/tikhonov.hpp>
 

@@ -3,7 +3,7 @@
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "tool.hpp"
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -63,7 +63,7 @@ TEST_CASE("gonio check: alike, shifted, and wrong in one direction") {
 
   const auto result = gonio_tool("check " + spot + " --json --reference " + good);
   REQUIRE(result.exit_code == 1);
-  const auto told = parse_json(result.output);
+  const auto told = read_json(result.output);
   CHECK(told["conforms"] == false);
   CHECK(told["worst_sample"] == 4);
   CHECK(told["predicted"] == 0);

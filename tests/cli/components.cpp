@@ -4,9 +4,9 @@
 #include "../json.hpp"
 #include "../synthetic_materials.hpp"
 #include "tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <doctest/doctest.h>
 
@@ -40,14 +40,14 @@ double redness(const gonio::image& figure, std::size_t slice, double x, double y
 TEST_CASE("the weights of a material given by hand give its table, byte for byte") {
   const scratch::folder folder;
   const auto at = [&](const char* name) { return (folder / name).string(); };
-  const auto facts = parse_json(gonio_tool("info --json " + shipped + " --weights-of blue-rubber").output);
+  const auto facts = read_json(gonio_tool("info --json " + shipped + " --weights-of blue-rubber").output);
   REQUIRE(facts["weights"]["g"].size() == 100);
   run("expand --name blue-rubber -o " + at("named.binary"));
   run("expand" + weight_options(facts["weights"]) + " -o " + at("by_hand.binary"));
   CHECK(scratch::get(at("named.binary")) == scratch::get(at("by_hand.binary")));
 
   // Weights beside a name are added to the material's: the difference takes one to the other.
-  const auto other = parse_json(gonio_tool("info --json " + shipped + " --weights-of red-plastic").output);
+  const auto other = read_json(gonio_tool("info --json " + shipped + " --weights-of red-plastic").output);
   nlohmann::json difference = facts["weights"];
   for (const char* channel : {"r", "g", "b"})
     for (std::size_t j = 0; j < 100; ++j)
@@ -62,8 +62,8 @@ TEST_CASE("one list is for all channels, and counts in deviations if it is asked
   run("expand --weights 0 -o " + at("mean.binary"));
   run("expand --weights 0,-2 --in-deviations -o " + at("bright.binary"));
   const double deviation =
-      parse_json(gonio_tool("info --json --count 2 --size 8 --components " + at("c.png") + ' ' + shipped)
-                     .output)["deviations_of_weights"][1];
+      read_json(gonio_tool("info --json --count 2 --size 8 --components " + at("c.png") + ' ' + shipped)
+                    .output)["deviations_of_weights"][1];
   run("expand --weights 0," + std::to_string(-2.0 * deviation) + " -o " + at("same.binary"));
   const auto mean = gonio::io::read_merl(at("mean.binary")), bright = gonio::io::read_merl(at("bright.binary")),
              same = gonio::io::read_merl(at("same.binary"));
@@ -80,7 +80,7 @@ TEST_CASE("the figure shows what the paper says of the components") {
   const auto result = gonio_tool("info --json --count 3 --size 64 --components " + slices + " --component-spheres " +
                                  spheres + ' ' + shipped);
   REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-  const auto facts = parse_json(result.output);
+  const auto facts = read_json(result.output);
   CHECK(facts["pure_red_stands_for"].size() == 3);
   CHECK(facts["shares_of_variance"][0].get<double>() > facts["shares_of_variance"][1].get<double>());
   const gonio::image figure = gonio::io::read_png(slices);

@@ -2,11 +2,11 @@
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
-#include <gonio/io/mbsdf.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/rgl.hpp>
-#include <gonio/io/samples.hpp>
-#include <gonio/io/table_npy.hpp>
+#include <gonio/io/materials/mbsdf.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/rgl.hpp>
+#include <gonio/io/materials/table_npy.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/model/ggx.hpp>
 #include <gonio/table/brdf_table.hpp>
 

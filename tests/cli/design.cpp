@@ -4,9 +4,9 @@
 #include "../json.hpp"
 #include "../synthetic_materials.hpp"
 #include "tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/solve/default_eta.hpp>
 
 #include <doctest/doctest.h>
@@ -34,7 +34,7 @@ class drawing_board {
   [[nodiscard]] double unknown_after(const std::string& arguments, const char* output = "d.csv") const {
     const auto result = design(arguments + " --json", output);
     REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
-    return parse_json(result.output)["unknown_share"];
+    return read_json(result.output)["unknown_share"];
   }
 
   [[nodiscard]] std::vector<gonio::direction_pair> poses(const char* name) const {
@@ -69,7 +69,7 @@ TEST_CASE("designs are for materials that the prior has not seen, unless --in-sa
   const drawing_board board;
   const double out_of_sample = board.unknown_after("-n 4"), in_sample = board.unknown_after("-n 4 --in-sample");
   CHECK(in_sample < out_of_sample);
-  const auto said = parse_json(board.design("-n 4 --json", "d.csv").output);
+  const auto said = read_json(board.design("-n 4 --json", "d.csv").output);
   CHECK(said["eta"].get<double>() == gonio::default_eta);
   CHECK(said["in_sample"] == false);
 }
@@ -149,7 +149,7 @@ TEST_CASE("the next measurements by what the given ones read") {
       "theta_i,phi_i,theta_o,phi_o,r,g,b\n45,0,0,0,0.1,0.1,0.1\n30,0,30,180,1.5,1.5,1.5\n60,0,20,90,0.1,0.1,0.1\n");
   const auto result = board.design("-n 2 --json --given " + board.at("given.csv"), "next.csv");
   REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-  const auto said = parse_json(result.output);
+  const auto said = read_json(result.output);
   CHECK(said["given"] == 3);
   CHECK(said["measurements"] == 2);
   CHECK(said["median_deviation"].get<double>() > 0.0);
@@ -261,7 +261,7 @@ TEST_CASE("a plan says where light and viewer go, and draws them") {
   CHECK(is_drawn(260 - 133 - 16, 256));
 
   const auto json = gonio_tool("plan " + board.at("d.csv") + " --json");
-  const auto poses = parse_json(json.output);
+  const auto poses = read_json(json.output);
   REQUIRE(poses.size() == 2);
   CHECK(poses[1]["theta_i"] == 0.0);
   CHECK(poses[1]["phi_o"].get<double>() == doctest::Approx(90));

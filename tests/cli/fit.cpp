@@ -4,8 +4,8 @@
 #include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/core/direction.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -39,7 +39,7 @@ json fitted(const std::string& arguments) {
   const auto result = gonio_tool("fit " + arguments + " --json");
   CAPTURE(result.output);
   REQUIRE(result.exit_code == 0);
-  return parse_json(result.output);
+  return read_json(result.output);
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ TEST_CASE("a table, an image beside the measurement, and materials of renderers"
   REQUIRE(result.exit_code == 0);
   CHECK(result.output.find("ggx: colour 1.0000 1.0000 1.0000, alpha 0.1500 (slope), f0 0.0400") != std::string::npos);
   const auto compared =
-      parse_json(gonio_tool("compare " + at("fit.binary") + " " + at("paint.binary") + " --json").output);
+      read_json(gonio_tool("compare " + at("fit.binary") + " " + at("paint.binary") + " --json").output);
   CHECK(compared["delta_e_env"].get<double>() < 0.01);
   CHECK(gonio::io::read_png(at("both.png")).shape(1) == 2 * 256 + 3 * 8);
   std::string pbrt, mitsuba;

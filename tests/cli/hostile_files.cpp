@@ -4,7 +4,7 @@
 #include "../crafted/made_files.hpp"
 #include "../io/scratch.hpp"
 #include "tool.hpp"
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>

@@ -24,7 +24,7 @@ auto facts_of_file(const std::string& path) {
   const auto result = gonio_tool("info --json " + path);
   CAPTURE(result.output);
   REQUIRE(result.exit_code == 0);
-  return parse_json(result.output);
+  return read_json(result.output);
 }
 
 const std::string zemax_file =

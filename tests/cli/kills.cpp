@@ -3,7 +3,7 @@
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
-#include <gonio/io/file.hpp>
+#include <gonio/io/bytes/file.hpp>
 
 #include <doctest/doctest.h>
 #include <fcntl.h>

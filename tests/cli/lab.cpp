@@ -4,12 +4,12 @@
 #include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/capture/trajectory.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/reference_reflectance.hpp>
-#include <gonio/io/samples.hpp>
-#include <gonio/io/scan_journal.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/measurements/reference_reflectance.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/measurements/scan_journal.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -97,7 +97,7 @@ TEST_CASE("lab: a scan with all defects is calibrated by itself, and goes on whe
 
   // The whole way: what comes out is near what was in the machine.
   run("reconstruct " + room.at("samples.csv") + " -o " + room.at("estimate.binary"));
-  const auto errors = parse_json(run("compare --json " + room.at("estimate.binary") + " " + room.at("truth.binary")));
+  const auto errors = read_json(run("compare --json " + room.at("estimate.binary") + " " + room.at("truth.binary")));
   CHECK(errors["delta_e_env"].get<double>() < 10.0);
 }
 

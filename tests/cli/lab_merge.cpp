@@ -4,9 +4,9 @@
 #include "../io/tiff_bytes.hpp"
 #include "lab/photographs.hpp"
 #include "tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/pnm.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/images/pnm.hpp>
 
 #include <doctest/doctest.h>
 

@@ -5,9 +5,9 @@
 #include "../json.hpp"
 #include "../synthetic_materials.hpp"
 #include "tool.hpp"
-#include <gonio/io/merl.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/rgl.hpp>
 #include <gonio/model/lambert.hpp>
 
 #include <doctest/doctest.h>
@@ -63,7 +63,7 @@ TEST_CASE("gonio learn: the same bytes for any number of threads, memory and scr
   std::vector<Eigen::Index> by_name;  // as files come
   for (const std::string& name : read.names()) by_name.push_back(made.set().find(name));
   const auto in_memory = learn(made.set().subset(by_name), 8);
-  const auto known = gonio::io::decode_prior(gonio::io::encode_prior(in_memory), "in memory");
+  const auto known = gonio::io::read_prior(gonio::io::write_prior(in_memory), "in memory");
   // Beyond the codes of the file nothing differs, but where a code is about to change.
   const float step = known.components().cwiseAbs().maxCoeff() / 127.0f;
   CHECK((read.components() - known.components()).cwiseAbs().maxCoeff() <= 2 * step);
@@ -105,7 +105,7 @@ TEST_CASE("gonio learn --spectra: a column for each wavelength, which the prior 
   const auto prior = gonio::io::read_prior(at("one.prior"));
   CHECK(prior.wavelengths() == std::vector<double>{400.0, 500.0, 600.0, 700.0});
   CHECK(prior.coefficients().rows() == 12);
-  CHECK(parse_json(run("info --json " + at("one.prior"))).at("wavelengths_nm").size() == 4);
+  CHECK(read_json(run("info --json " + at("one.prior"))).at("wavelengths_nm").size() == 4);
   run(learn + "--wavelengths 450:75:600 -o " + at("between.prior"));
   CHECK(gonio::io::read_prior(at("between.prior")).wavelengths() == std::vector<double>{450.0, 525.0, 600.0});
 

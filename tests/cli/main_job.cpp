@@ -4,9 +4,9 @@
 #include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/core/statistics.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 
@@ -36,14 +36,14 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
 
   const auto compared = gonio_tool("compare --json " + at("estimate.binary") + " " + at("truth.binary"));
   REQUIRE(compared.exit_code == 0);
-  const auto errors = parse_json(compared.output);
+  const auto errors = read_json(compared.output);
   // Measured: 0.244, 3.26 and 4.25. The mean material, which is what --eta 1e18 gives, has 1.16, 52.0 and 48.9.
   CHECK(errors["mapped_rms"].get<double>() < 0.3);
   CHECK(errors["delta_e_env"].get<double>() < 5.0);
   CHECK(errors["delta_e_lights"].get<double>() < 6.0);
   CHECK(errors["channels"]["peak_ratio"].size() == 3);
 
-  const auto self = parse_json(gonio_tool("compare --json " + at("truth.binary") + " " + at("truth.binary")).output);
+  const auto self = read_json(gonio_tool("compare --json " + at("truth.binary") + " " + at("truth.binary")).output);
   CHECK(self["mapped_rms"] == 0.0);
   CHECK(self["delta_e_env"] == 0.0);
   CHECK(self["peak_ratio"] == 1.0);
@@ -53,7 +53,7 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
   gonio::io::write_hdr(at("sky.hdr"), gonio::uniform_image(8, 16, gonio::rgb(1.0, 2.0, 3.0)));
   const std::string under = "compare --environment " + at("sky.hdr") + " ";
   const auto natural =
-      parse_json(gonio_tool(under + "--json " + at("estimate.binary") + " " + at("truth.binary")).output);
+      read_json(gonio_tool(under + "--json " + at("estimate.binary") + " " + at("truth.binary")).output);
   CHECK(natural["delta_e_natural"].get<double>() > 0.0);
   CHECK(natural["delta_e_natural"].get<double>() < 5.0);
   CHECK(gonio_tool(under + at("truth.binary") + " " + at("truth.binary")).output.find("Delta E, natural  0.00") !=
@@ -73,7 +73,7 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
   }
   SUBCASE("info knows each kind of file") {
     const auto kind = [&](const std::string& file) {
-      return parse_json(gonio_tool("info --json " + file).output)["kind"];
+      return read_json(gonio_tool("info --json " + file).output)["kind"];
     };
     CHECK(kind(at("truth.binary")) == "MERL table");
     CHECK(kind(at("samples.csv")) == "samples");
@@ -93,7 +93,7 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     auto samples = gonio::io::read_samples(at("samples.csv"));
     const double truth = samples[5].value.y();
     samples[5].value *= 10.0;
-    scratch::put(at("wrong.csv"), gonio::io::format_samples(samples));
+    scratch::put(at("wrong.csv"), gonio::io::write_samples(samples));
     const std::string files = " --residuals " + at("residuals.csv") + " -o " + at("without.binary");
     const auto told = gonio_tool("reconstruct " + at("wrong.csv") + files);
     CHECK(told.exit_code == 0);
@@ -102,16 +102,16 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     CHECK(std::ranges::count(residuals, '\n') == 21);
     CHECK(residuals.find("\n6,") != std::string::npos);
     const std::string output = gonio_tool("reconstruct --json " + at("wrong.csv")).output;
-    const auto fit = parse_json(output.substr(output.find('{')));  // after the warning, on standard error
+    const auto fit = read_json(output.substr(output.find('{')));  // after the warning, on standard error
     REQUIRE(fit["left_out"].size() == 1);
     CHECK(fit["left_out"][0]["probability_wrong"].get<double>() > 0.75);
     CHECK(fit["left_out"][0]["sample"] == 6);
     CHECK(fit["left_out"][0]["others"][1].get<double>() == doctest::Approx(truth).epsilon(0.3));
-    CHECK(parse_json(gonio_tool("reconstruct --json " + at("samples.csv")).output)["left_out"].empty());
+    CHECK(read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output)["left_out"].empty());
     const auto kept = gonio_tool("reconstruct --no-reject " + at("wrong.csv") + " -o " + at("with.binary"));
     CHECK(kept.output.starts_with("20 samples,"));
     const auto error = [&](const char* file) {
-      return parse_json(gonio_tool("compare --json " + at(file) + ' ' + at("truth.binary")).output)["mapped_rms"]
+      return read_json(gonio_tool("compare --json " + at(file) + ' ' + at("truth.binary")).output)["mapped_rms"]
           .get<double>();
     };
     CHECK(error("without.binary") < 0.7 * error("with.binary"));
@@ -120,7 +120,7 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     const auto known = [&](const std::string& noise) {
       const auto result = gonio_tool("reconstruct --json " + at("samples.csv") + noise);
       REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-      return parse_json(result.output);
+      return read_json(result.output);
     };
     const auto fit = known(" --uncertainty " + at("known.binary"));
     CHECK(fit["known_to"].get<double>() < fit["known_to_beyond_80_degrees"].get<double>());
@@ -141,19 +141,19 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     CHECK(lightness(" --noise 0.3") < lightness(""));
   }
   SUBCASE("reconstruct says how the fit went") {
-    const auto fit = parse_json(gonio_tool("reconstruct --json " + at("samples.csv")).output);
+    const auto fit = read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output);
     CHECK(fit["samples"] == 20);
     CHECK(fit["kkt_residual"][0].get<double>() < 1e-9);
     const auto eta = [&](const std::string& noise) {
       const auto result = gonio_tool("reconstruct --json --discrepancy 0 " + at("samples.csv") + noise);
       REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-      return parse_json(result.output)["eta"].get<double>();
+      return read_json(result.output)["eta"].get<double>();
     };
     CHECK(eta(" --noise 0") < eta(" --noise 0.1"));
     CHECK(eta(" --noise 0.1") < eta(" --noise 0.3"));
     CHECK(eta("") >= eta(" --noise 0"));
     CHECK(eta("") <= eta(" --noise 0.3"));
-    CHECK_FALSE(parse_json(gonio_tool("reconstruct --json --eta 40 " + at("samples.csv")).output).contains("eta"));
+    CHECK_FALSE(read_json(gonio_tool("reconstruct --json --eta 40 " + at("samples.csv")).output).contains("eta"));
   }
 }
 
@@ -169,15 +169,15 @@ TEST_CASE("learning from a folder of tables") {
   const auto weight = [&](const std::string& arguments) {
     const auto made = gonio_tool("learn --merl " + folder.path().string() + " --components 4 -o " + prior + arguments);
     REQUIRE_MESSAGE(made.exit_code == 0, made.output);
-    return parse_json(gonio_tool("info --json " + prior).output)["cosine_weight"];
+    return read_json(gonio_tool("info --json " + prior).output)["cosine_weight"];
   };
   CHECK(weight(" --cosine-weight larger") == "larger");
   CHECK(weight("") == "product");
-  CHECK(parse_json(gonio_tool("info --json " + prior).output)["components"] == 4);
+  CHECK(read_json(gonio_tool("info --json " + prior).output)["components"] == 4);
   const auto without =
       gonio_tool("learn --merl " + folder.path().string() + " --exclude gold --components 2 -o " + prior);
   CHECK(without.exit_code == 0);
-  CHECK(parse_json(gonio_tool("info --json " + prior).output)["names"] == nlohmann::json{"grey", "red"});
+  CHECK(read_json(gonio_tool("info --json " + prior).output)["names"] == nlohmann::json{"grey", "red"});
   const auto unknown = gonio_tool("learn --merl " + folder.path().string() + " --exclude silver -o " + prior);
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.output.find("'silver'") != std::string::npos);
@@ -193,9 +193,9 @@ TEST_CASE("learning from tables and materials of the RGL database together") {
   const std::string learn =
       "learn --components 3 -o " + prior + " --merl " + folder.path().string() + " --rgl " + (folder / "rgl").string();
   run(learn);
-  CHECK(parse_json(gonio_tool("info --json " + prior).output)["names"] == nlohmann::json{"grey", "red", "paint"});
+  CHECK(read_json(gonio_tool("info --json " + prior).output)["names"] == nlohmann::json{"grey", "red", "paint"});
   run(learn + " --exclude red");
-  CHECK(parse_json(gonio_tool("info --json " + prior).output)["names"] == nlohmann::json{"grey", "paint"});
+  CHECK(read_json(gonio_tool("info --json " + prior).output)["names"] == nlohmann::json{"grey", "paint"});
   std::filesystem::copy(folder / "rgl/paint.bsdf", folder / "rgl/grey.bsdf");
   const auto twice = gonio_tool(learn);
   CHECK(twice.exit_code == 2);
@@ -211,7 +211,7 @@ TEST_CASE("every metric and solver of the linear method reconstructs, and says h
     const auto result = gonio_tool("reconstruct " + at("samples.csv") + " --method linear --exclude red-plastic " +
                                    options + " --json -o " + at("estimate.binary"));
     REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
-    const auto fit = parse_json(result.output.substr(result.output.find('{')));  // after the warning
+    const auto fit = read_json(result.output.substr(result.output.find('{')));  // after the warning
     for (const double kkt_residual : fit["kkt_residual"]) CHECK(kkt_residual <= 1e-9);
     return fit;
   };
@@ -225,7 +225,7 @@ TEST_CASE("every metric and solver of the linear method reconstructs, and says h
   CHECK(own["non_zero_weights"] == qp["non_zero_weights"]);
   CHECK(own["mapped_residual_rms"][0].get<double>() == doctest::Approx(qp["mapped_residual_rms"][0].get<double>()));
   const auto compared =
-      parse_json(gonio_tool("compare --json " + at("estimate.binary") + " " + at("truth.binary")).output);
+      read_json(gonio_tool("compare --json " + at("estimate.binary") + " " + at("truth.binary")).output);
   CHECK(compared["delta_e_env"].get<double>() < 15.0);
 }
 
@@ -262,7 +262,7 @@ class corrected_plastic {
     const auto result =
         gonio_tool("reconstruct " + at("samples.csv") + " " + options + " --json -o " + at("out.binary"));
     REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
-    return parse_json(result.output.substr(result.output.find('{')));  // after the warnings
+    return read_json(result.output.substr(result.output.find('{')));  // after the warnings
   }
 
   [[nodiscard]] double error() const {

@@ -2,7 +2,7 @@
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,9 +3,9 @@
 #include "../io/scratch.hpp"
 #include "lab/sphere_lab.hpp"
 #include "tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/samples.hpp>
-#include <gonio/io/sphere_setup.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/setups/sphere_setup.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/shape/io/mesh.hpp>
 

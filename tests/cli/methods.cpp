@@ -85,7 +85,7 @@ TEST_CASE("the nearest samples need no prior, and take none") {
     MESSAGE("skipped: no nanoflann");
     return;
   }
-  CHECK(parse_json(first.output.substr(first.output.find('{')))["neighbours"] == 16);
+  CHECK(read_json(first.output.substr(first.output.find('{')))["neighbours"] == 16);
   const auto mean = scratch::get(forty.at("out.binary"));
   CHECK(contains(forty.reconstruct("--method scattered"), "is usually 2.1 times as far off as --method pca"));
   CHECK(contains(forty.reconstruct("--method scattered --neighbours 1"), "40 samples, the nearest counts"));
@@ -111,12 +111,12 @@ TEST_CASE("of many samples outliers count less, unless all are to be kept") {
               .exit_code == 0);
   const auto error = [&](const std::string& options) {
     static_cast<void>(paint.reconstruct(options));
-    return parse_json(gonio_tool("compare --json " + paint.at("out.binary") + ' ' + paint.at("truth.binary"))
-                          .output)["mapped_rms"]
+    return read_json(gonio_tool("compare --json " + paint.at("out.binary") + ' ' + paint.at("truth.binary"))
+                         .output)["mapped_rms"]
         .get<double>();
   };
   CHECK(error("") < 0.3 * error("--no-reject"));
-  const auto fit = parse_json(paint.reconstruct("--json"));
+  const auto fit = read_json(paint.reconstruct("--json"));
   CHECK(fit["outliers"].get<double>() > 0.1);
   CHECK(fit["outliers"].get<double>() < 0.35);
   CHECK(fit["down_weighted"].get<double>() > 0.1);

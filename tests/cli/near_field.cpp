@@ -4,10 +4,10 @@
 #include "lab/near_field_lab.hpp"
 #include "lab/white_material.hpp"
 #include "tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/near_field_setup.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/setups/near_field_setup.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -28,7 +28,7 @@ class two_shots {
   two_shots() {
     for (const auto& [name, text] : {std::pair{"first", first}, std::pair{"second", second}}) {
       scratch::put(at(name) + ".txt", text);
-      const auto setup = gonio::io::parse_near_field_setup(text, name);
+      const auto setup = gonio::io::read_near_field_setup(text, name);
       gonio::io::write_hdr(at(name) + ".hdr", lab::photograph(paint, {.radius = 0.5}, setup));
     }
   }
@@ -75,7 +75,7 @@ TEST_CASE("images become samples of the paint, and these a table") {
 TEST_CASE("light and camera that are off are found, and samples are where they were") {
   const two_shots shots;
   for (const auto& [name, text, seed] : {std::tuple{"first", first, 1u}, std::tuple{"second", second, 2u}}) {
-    const auto setup = gonio::io::parse_near_field_setup(text, name);
+    const auto setup = gonio::io::read_near_field_setup(text, name);
     gonio::io::write_hdr(shots.at(name) + ".hdr", lab::photograph(shots.paint, {.radius = 0.5}, setup,
                                                                   {.misalignment = gonio::radians(1.0)}, seed));
   }
@@ -146,7 +146,7 @@ TEST_CASE("two materials in one image get a file each, and a map of where they a
   const two_shots shots;
   const gonio::model::formula_brdf other = gonio::model::formula_material("blue-rubber");
   for (const auto& [name, text] : {std::pair{"first", first}, std::pair{"second", second}}) {
-    const auto setup = gonio::io::parse_near_field_setup(text, name);
+    const auto setup = gonio::io::read_near_field_setup(text, name);
     gonio::image image = gonio::io::read_hdr(shots.at(name) + ".hdr");
     const gonio::image patch = lab::photograph(other, {.radius = 0.5}, setup);
     for (std::size_t row = 0; row < 40; ++row)
@@ -179,7 +179,7 @@ TEST_CASE("two materials in one image were under one light: one pose for both") 
   const two_shots shots;
   const gonio::model::formula_brdf other = gonio::model::formula_material("blue-rubber");
   for (const auto& [name, text, seed] : {std::tuple{"first", first, 1u}, std::tuple{"second", second, 2u}}) {
-    const auto setup = gonio::io::parse_near_field_setup(text, name);
+    const auto setup = gonio::io::read_near_field_setup(text, name);
     const lab::near_field_defects defects{.misalignment = gonio::radians(1.0)};
     gonio::image image = lab::photograph(shots.paint, {.radius = 0.5}, setup, defects, seed);
     const gonio::image patch = lab::photograph(other, {.radius = 0.5}, setup, defects, seed);
@@ -210,7 +210,7 @@ TEST_CASE("a white image and a calibration make samples of images by an uneven l
   const std::string pose = "position 0.7 0.1 0.6\ntarget 0 0 0\n", lens = "distortion -0.2 0.05 0.001 0.002\n";
   const std::string scene = "lamp 1 1 3\nintensity 30 20 10\nregion 0.2\nwhite_reflectance 0.9\n";
   const auto setup =
-      gonio::io::parse_near_field_setup("size 48 40\nfocal_length 95 100\n" + lens + pose + scene, "lamp");
+      gonio::io::read_near_field_setup("size 48 40\nfocal_length 95 100\n" + lens + pose + scene, "lamp");
   scratch::put(shots.at("lamp.txt"), pose + "lamp 1 1 3\nregion 0.2\nwhite_reflectance 0.9\n");
   scratch::put(shots.at("camera.yml"),
                "%YAML:1.0\n---\nimage_width: 48\nimage_height: 40\ncamera_matrix: !!opencv-matrix\n   rows: 3\n"

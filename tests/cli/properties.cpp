@@ -3,7 +3,7 @@
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "tool.hpp"
-#include <gonio/io/merl.hpp>
+#include <gonio/io/materials/merl.hpp>
 #include <gonio/model/lambert.hpp>
 #include <gonio/table/brdf_table.hpp>
 
@@ -22,7 +22,7 @@ namespace {
 auto properties(const std::filesystem::path& file, const std::string& options = "") {
   const auto result = gonio_tool("properties --json " + file.string() + options);
   REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-  return parse_json(result.output);
+  return read_json(result.output);
 }
 
 gonio::brdf_table grey_table(double albedo) {

@@ -2,10 +2,10 @@
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
-#include <gonio/io/exr.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/npy.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/exr.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/render/slice.hpp>
 

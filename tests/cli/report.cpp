@@ -2,12 +2,12 @@
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
-#include "command_line/report_page.hpp"
 #include "tool.hpp"
+#include "tool/pages/report_page.hpp"
 #include <gonio/core/direction.hpp>
-#include <gonio/io/gzip.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/bytes/gzip.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -96,7 +96,7 @@ TEST_CASE("gonio report: text is escaped") {
   CHECK(cli::escape_html("a<b> & \"c\" 'd'") == "a&lt;b&gt; &amp; &quot;c&quot; &#39;d&#39;");
   CHECK(cli::escape_script(R"(["</script>","<!--<script>"])") == R"(["<\/script>","\u003c!--<script>"])");
   const cli::json texts{"</script><!-- </ <\\/ <", "@STYLE@"};
-  CHECK(cli::json::parse(cli::escape_script(texts.dump())) == texts);
+  CHECK(cli::json::read(cli::escape_script(texts.dump())) == texts);
 }
 
 TEST_CASE("gonio report: bytes as a URL") {
@@ -115,10 +115,10 @@ TEST_CASE("gonio report: an in-plane scan with a wrong sample") {
   const page_files files;
   const std::string page = files.page_of("scan.csv", in_plane_scan("# instrument: arm\n", true), "--noise 0.02");
   CHECK(page.size() < 4'000'000);
-  const auto data = parse_json(data_text(page));
+  const auto data = read_json(data_text(page));
   CHECK(data["name"] == "scan");
   CHECK(data["count"] == 15);
-  CHECK(data["worst"] == parse_json("[7]"));
+  CHECK(data["worst"] == read_json("[7]"));
   CHECK(data["details"]["left_out"][0]["sample"] == 7);
   REQUIRE(data["samples"].size() == 15);
   CHECK(data["samples"][6]["disagrees"] == true);
@@ -150,11 +150,11 @@ TEST_CASE("gonio report: an in-plane scan with a wrong sample") {
 
 TEST_CASE("gonio report: the viewer's table is that of gonio reconstruct, within a quarter of a percent") {
   const page_files files;
-  const auto data = parse_json(data_text(files.page_of("scan.csv", in_plane_scan("", true), "--noise 0.02")));
+  const auto data = read_json(data_text(files.page_of("scan.csv", in_plane_scan("", true), "--noise 0.02")));
   run("reconstruct '" + files.path("scan.csv") + "' --noise 0.02 -o '" + files.path("scan.binary") + "'");
   const gonio::brdf_table table = gonio::io::read_merl(files.folder / "scan.binary");
   const auto& packed = data["viewer"]["table"];
-  CHECK(packed["grid"] == parse_json("[90,90,180]"));
+  CHECK(packed["grid"] == read_json("[90,90,180]"));
   CHECK(packed["offset"] == 0.5);
   const Eigen::Index cells = packed["cells"].get<Eigen::Index>(), count = 3 * cells;
   REQUIRE(cells == table.cells().size());
@@ -174,7 +174,7 @@ TEST_CASE("gonio report: the viewer's table is that of gonio reconstruct, within
   CHECK(worst < 0.00245);
   CHECK(worst > 0.0015);
   const auto& known = data["viewer"]["uncertainty"];
-  CHECK(known["grid"] == parse_json("[45,45,90]"));
+  CHECK(known["grid"] == read_json("[45,45,90]"));
   const auto levels =
       gonio::io::decompress_bytes(from_base64(known["codes"].get<std::string>()), 45 * 45 * 90, "codes");
   // Near the sample at 20 degrees, which fits, it is what the sample is told to be known to.
@@ -187,7 +187,7 @@ TEST_CASE("gonio report: the viewer's table is that of gonio reconstruct, within
   CHECK(0.001 * std::pow(10.0, 4.0 * level) == doctest::Approx(sample["known_to"].get<double>()).epsilon(0.2));
   CHECK(data["viewer"]["exposure"].get<double>() > 0.0);
   CHECK_FALSE(data["viewer"].contains("truth"));
-  const auto with = parse_json(data_text(
+  const auto with = read_json(data_text(
       files.page_of("scan.csv", in_plane_scan("", true), "--noise 0.02 --truth '" + files.path("scan.binary") + "'")));
   CHECK(with["viewer"]["truth"]["codes"] == packed["codes"]);
   CHECK(with["viewer"]["table"]["codes"] == packed["codes"]);
@@ -223,7 +223,7 @@ TEST_CASE("gonio report: text of files and of the command line is text in the pa
   CHECK(page.find("<title>&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;@DATA@</title>") != std::string::npos);
   CHECK(data_text(page).find("<\\/script>") != std::string::npos);
   CHECK(data_text(page).find("<!--") == std::string::npos);
-  const auto data = parse_json(data_text(page));
+  const auto data = read_json(data_text(page));
   CHECK(data["name"] == evil + "@DATA@");
   CHECK(data["record"].dump().find("<b>&.csv") != std::string::npos);
 }
@@ -231,7 +231,7 @@ TEST_CASE("gonio report: text of files and of the command line is text in the pa
 TEST_CASE("gonio report: one sample") {
   const page_files files;
   const std::string page = files.page_of("one.csv", "theta_h,theta_d,phi_d,r,g,b\n9,12,69,0.2,0.1,0.1\n");
-  const auto data = parse_json(data_text(page));
+  const auto data = read_json(data_text(page));
   CHECK(data["count"] == 1);
   CHECK(data["worst"].empty());
   REQUIRE(data["scans"].size() == 3);  // of the fit alone
@@ -253,7 +253,7 @@ TEST_CASE("gonio report: of many samples some are shown, the worst among them") 
   run("report '" + files.path("many.csv") + "' --noise 0.02 -o '" + files.path("page.html") + "'");
   const std::string page = scratch::get(files.folder / "page.html");
   CHECK(page.size() < 4'000'000);
-  const auto data = parse_json(data_text(page));
+  const auto data = read_json(data_text(page));
   CHECK(data["count"] == 1100);
   CHECK(data["worst"].size() == 12);
   CHECK(data["samples"].size() >= 1000);
@@ -290,13 +290,13 @@ TEST_CASE("--report: pages of reconstruct, check, design and fit") {
   const auto data_of = [&](const std::string& arguments) {
     run(arguments + " --report '" + files.path("page.html") + "'");
     const std::string page = scratch::get(files.folder / "page.html");
-    return parse_json(data_text(page));
+    return read_json(data_text(page));
   };
   const std::string ref = files.path("ref.csv"), part = files.path("part.csv"), out = " -o " + files.path("out");
 
   // The page of reconstruct is that of report, but for the command.
   auto fit = data_of("reconstruct " + part + " --noise 0.02" + out + ".binary");
-  auto report = parse_json(data_text(files.page_of("part.csv", in_plane_scan("", true), "--noise 0.02")));
+  auto report = read_json(data_text(files.page_of("part.csv", in_plane_scan("", true), "--noise 0.02")));
   CHECK(fit["kind"] == "reconstruct");
   CHECK(fit["record"][0][1].get<std::string>().find("gonio reconstruct ") == 0);
   fit.erase("record");
@@ -306,7 +306,7 @@ TEST_CASE("--report: pages of reconstruct, check, design and fit") {
   const auto told = gonio_tool("check " + part + " --reference " + ref + " --noise 0.02 --json --report '" +
                                files.path("check.html") + "'");
   CHECK(told.exit_code == 1);  // it differs
-  auto check = parse_json(data_text(scratch::get(files.folder / "check.html")));
+  auto check = read_json(data_text(scratch::get(files.folder / "check.html")));
   CHECK(check["kind"] == "check");
   CHECK(check["name"] == "part beside ref");
   CHECK(check["check"]["worst_sample"] == 7);

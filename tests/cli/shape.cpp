@@ -70,7 +70,7 @@ gonio::shape::triangle_mesh with_hole(const gonio::shape::triangle_mesh& mesh, E
 
 TEST_CASE("shape demo: what is known of ears fills a hole better than a smooth surface") {
   const auto& made = demonstrated();
-  const auto report = parse_json(made.report);
+  const auto report = read_json(made.report);
   CHECK(report["shapes"] == 40);
   REQUIRE(report["held_out"].size() == 1);
   const auto& ways = report["held_out"][0];
@@ -194,7 +194,7 @@ TEST_CASE("shape recover: how sure the recovered vertices are, from shapes that 
 }
 
 TEST_CASE("shape grow: what a model that grows makes of scans, good ones and others") {
-  const auto report = parse_json(run_shape("grow --scans 6 --defects 0.3 --json"));
+  const auto report = read_json(run_shape("grow --scans 6 --defects 0.3 --json"));
   CHECK(report["good"].get<int>() + report["defective"].get<int>() == 6);
   CHECK(report["defective"] >= 1);
   CHECK(report["accepted_good"] >= 1);

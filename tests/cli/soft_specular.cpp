@@ -4,10 +4,10 @@
 #include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/estimate/soft_specular_decomposition.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
-#include <gonio/io/soft_specular_prior.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/soft_specular_prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 
@@ -34,7 +34,7 @@ TEST_CASE("two priors are learned, and the samples choose one") {
   REQUIRE_MESSAGE(learned.exit_code == 0, learned.output);
   CHECK(learned.output.find("kept 4 components of 2 soft of 5 materials of tables: ") != std::string::npos);
   CHECK(learned.output.find("kept 4 components of 3 specular of 5 materials of tables: ") != std::string::npos);
-  const auto facts = parse_json(gonio_tool("info --json " + split).output);
+  const auto facts = read_json(gonio_tool("info --json " + split).output);
   CHECK(facts["kind"] == "soft and specular prior");
   CHECK(facts["soft"]["names"] == nlohmann::json{"blue-rubber", "grey-lambertian"});
   CHECK(facts["specular"]["materials"] == 3);
@@ -49,7 +49,7 @@ TEST_CASE("two priors are learned, and the samples choose one") {
     const auto result = gonio_tool("reconstruct --json --method soft-specular " + at("s.csv") + " --prior " + split +
                                    " -o " + at("out.binary") + options);
     REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-    const auto fit = parse_json(result.output.substr(result.output.find('{')));  // after the warnings
+    const auto fit = read_json(result.output.substr(result.output.find('{')));  // after the warnings
     CHECK(fit["kind"] == kind);
     CHECK((fit["contrast"] < fit["threshold"]) == (kind == "soft"));
     return fit["eta"].get<double>();

@@ -3,11 +3,11 @@
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "tool.hpp"
-#include <gonio/io/merl.hpp>
-#include <gonio/io/rgl.hpp>
-#include <gonio/io/rgl_spectra.hpp>
-#include <gonio/io/samples.hpp>
-#include <gonio/io/spectral_samples.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/rgl.hpp>
+#include <gonio/io/materials/rgl_spectra.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/measurements/spectral_samples.hpp>
 
 #include <doctest/doctest.h>
 
@@ -47,14 +47,14 @@ class measured_files {
 TEST_CASE("each wavelength is reconstructed, and written as spectra or as their colours") {
   const measured_files files;
   const auto told =
-      parse_json(run("reconstruct " + files.at("spectra.csv") + " --spectra --json -o " + files.at("a.bsdf")));
+      read_json(run("reconstruct " + files.at("spectra.csv") + " --spectra --json -o " + files.at("a.bsdf")));
   CHECK(told["wavelengths_nm"].size() == 5);
   CHECK(told["mapped_residual_rms"].size() == 5);
   CHECK(told["illuminant"] == "D65");
   const auto material = gonio::io::read_rgl(files.at("a.bsdf"));
   REQUIRE(material.spectra);
   CHECK(material.spectra->wavelengths == std::vector<double>{420, 480, 540, 600, 660});
-  CHECK(parse_json(run("info --json " + files.at("a.bsdf")))["wavelengths_nm"].size() == 5);
+  CHECK(read_json(run("info --json " + files.at("a.bsdf")))["wavelengths_nm"].size() == 5);
 
   CHECK(run("reconstruct " + files.at("spectra.csv") + " --spectra -o " + files.at("d65.binary"))
             .find("5 wavelengths from 420 to 660 nm") != std::string::npos);
@@ -86,8 +86,47 @@ TEST_CASE("without --spectra, spectra are their colours wherever samples are rea
   run("reconstruct " + files.at("colours.csv") + " -o " + files.at("from_colours.binary"));
   CHECK(scratch::get(files.at("from_spectra.binary")) == scratch::get(files.at("from_colours.binary")));
   CHECK(scratch::get(files.at("from_spectra.binary")) == scratch::get(files.at("from_d65.binary")));
-  const auto facts = parse_json(run("info --json " + files.at("spectra.csv")));
+  const auto facts = read_json(run("info --json " + files.at("spectra.csv")));
   CHECK(facts["samples"] == 18);
+}
+
+TEST_CASE("a .bsdf has the wavelengths of a file that names them, with --spectra and without") {
+  const measured_files files;
+  run("reconstruct " + files.at("spectra.csv") + " -o " + files.at("default.bsdf"));
+  run("reconstruct " + files.at("spectra.csv") + " --spectra -o " + files.at("asked.bsdf"));
+  REQUIRE(gonio::io::read_rgl(files.at("default.bsdf")).spectra);
+  run("reconstruct " + files.at("spectra.csv") + " --illuminant A -o " + files.at("lamplit.bsdf"));
+  CHECK(!gonio::io::read_rgl(files.at("lamplit.bsdf")).spectra);  // colours were asked for
+}
+
+TEST_CASE("wavelengths that nobody sees are fitted and checked as such, and never made grey") {
+  const measured_files files;
+  const auto near_infrared = measured_paint({905, 1064, 1550});
+  gonio::io::write_spectral_samples(files.at("nir.csv"), near_infrared);
+  const auto told = parse_json(run("reconstruct " + files.at("nir.csv") + " --json -o " + files.at("nir.bsdf")));
+  CHECK(told["wavelengths_nm"].size() == 3);
+  for (const char* command :
+       {"reconstruct NIR -o OUT.binary", "reconstruct NIR --spectra -o OUT.binary",
+        "reconstruct NIR --spectra -o OUT.bsdf --image OUT.png", "fit NIR --model ggx", "properties NIR",
+        "design --given NIR -n 1 -o OUT.csv", "report NIR --noise 0.02 -o OUT.html", "convert NIR OUT.csv"}) {
+    std::string line = command;
+    line.replace(line.find("NIR"), 3, files.at("nir.csv"));
+    for (std::size_t out = line.find("OUT"); out != std::string::npos; out = line.find("OUT"))
+      line.replace(out, 3, files.at("written"));
+    CAPTURE(line);
+    refuses(line, {"visible"});
+  }
+
+  auto part = near_infrared;
+  const std::string checked = "check " + files.at("part.csv") + " --reference " + files.at("nir.csv") + " --noise 0.02";
+  gonio::io::write_spectral_samples(files.at("part.csv"), part);
+  CHECK(run(checked).find("no difference found") != std::string::npos);
+  part.values.col(2) *= 3.0f;
+  gonio::io::write_spectral_samples(files.at("part.csv"), part);
+  const auto [exit_code, differs] = gonio_tool(checked);
+  CHECK(exit_code == 1);
+  CHECK(differs.find("905 nm +0.0 %, 1064 nm +0.0 %, 1550 nm +200.0 %") != std::string::npos);
+  CHECK(differs.find("(1550 nm, p = ") != std::string::npos);
 }
 
 TEST_CASE("interpolated spectra are those of three wavelengths at a time, which are the method's own colours") {
@@ -114,7 +153,7 @@ TEST_CASE("interpolated spectra are those of three wavelengths at a time, which 
 TEST_CASE("one wavelength is reconstructed as it is, with --spectra and without") {
   const measured_files files;
   const auto told =
-      parse_json(run("reconstruct " + files.at("laser.csv") + " --spectra --json -o " + files.at("spectral.binary")));
+      read_json(run("reconstruct " + files.at("laser.csv") + " --spectra --json -o " + files.at("spectral.binary")));
   CHECK(told["wavelength_nm"] == 633.0);
   CHECK(told["wavelengths_nm"].size() == 1);
   run("reconstruct " + files.at("laser.csv") + " -o " + files.at("grey.binary"));

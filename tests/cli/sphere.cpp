@@ -4,10 +4,10 @@
 #include "lab/sphere_lab.hpp"
 #include "tool.hpp"
 #include <gonio/capture/known_surface.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/samples.hpp>
-#include <gonio/io/sphere_setup.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/setups/sphere_setup.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>

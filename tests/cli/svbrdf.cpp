@@ -5,9 +5,9 @@
 #include <gonio/core/half.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/table/image.hpp>
 

@@ -2,9 +2,9 @@
 
 #include "svbrdf_images.hpp"
 #include "tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/table/image.hpp>
 
 #include <doctest/doctest.h>
@@ -14,13 +14,13 @@
 
 #if defined(GONIO_HAS_EXR)
 #include "../io/exr_of_others.hpp"
-#include <gonio/io/exr.hpp>
+#include <gonio/io/images/exr.hpp>
 #endif
 
 namespace {
 
 /// A list of the images whose files have this extension.
-void put_list(const images_folder& given, const std::string& extension, const std::string& more = "") {
+void write_list(const images_folder& given, const std::string& extension, const std::string& more = "") {
   std::string list = "{\"quantity\": \"brdf\", " + more + "\"images\": [";
   for (std::size_t i = 0; i < given.angles.size(); ++i)
     list += (i > 0 ? "," : "") + given.entry("image-" + std::to_string(i) + extension, i);
@@ -39,7 +39,7 @@ TEST_CASE("svbrdf: images of Radiance HDR make the same map as their values in a
     gonio::io::write_hdr(file_of(given, i, ".hdr"), given.images[i]);
     given.replace(i, gonio::io::read_hdr(file_of(given, i, ".hdr")));
   }
-  put_list(given, ".hdr");
+  write_list(given, ".hdr");
   run(given.command("expected.gsv"));
   run(given.command("map.gsv", "images.hdr.json") + " --threads 2");
   CHECK(scratch::get(given.folder / "map.gsv") == scratch::get(given.folder / "expected.gsv"));
@@ -64,7 +64,7 @@ TEST_CASE("svbrdf: images of OpenEXR make the same map as their values in arrays
   const images_folder given;
   for (std::size_t i = 0; i < given.images.size(); ++i)
     gonio::io::write_exr(file_of(given, i, ".exr"), given.images[i]);
-  put_list(given, ".exr");
+  write_list(given, ".exr");
   run(given.command("expected.gsv"));
   run(given.command("map.gsv", "images.exr.json") + " --threads 2");
   CHECK(scratch::get(given.folder / "map.gsv") == scratch::get(given.folder / "expected.gsv"));
@@ -92,10 +92,10 @@ TEST_CASE("svbrdf: texels of OpenEXR images that are not numbers are refused or 
     put_lines(file, image, Imf::PIZ_COMPRESSION);
     given.replace(i, image);
   }
-  put_list(given, ".exr");
+  write_list(given, ".exr");
   refuses(given.command("map.gsv", "images.exr.json"), {"image-1.exr", "row 50, column 7", "not a finite number"});
-  put_list(given, ".exr", "\"invalid\": \"skip\", ");
-  put_list(given, ".npy", "\"invalid\": \"skip\", ");
+  write_list(given, ".exr", "\"invalid\": \"skip\", ");
+  write_list(given, ".npy", "\"invalid\": \"skip\", ");
   run(given.command("map.gsv", "images.exr.json"));
   run(given.command("expected.gsv", "images.npy.json"));
   CHECK(scratch::get(given.folder / "map.gsv") == scratch::get(given.folder / "expected.gsv"));

@@ -4,8 +4,8 @@
 #include "../io/scratch.hpp"
 #include "../synthetic_materials.hpp"
 #include <gonio/core/direction.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <array>
 #include <cstddef>

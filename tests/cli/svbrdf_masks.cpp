@@ -2,9 +2,9 @@
 
 #include "svbrdf_images.hpp"
 #include "tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/table/image.hpp>
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@
 namespace {
 
 /// A list of all images, with more that it says.
-void put_list(const images_folder& given, const std::string& name, const std::string& more) {
+void write_list(const images_folder& given, const std::string& name, const std::string& more) {
   const std::string list = scratch::get(given.folder / "images.json");
   scratch::put(given.folder / name, "{" + more + "," + list.substr(1));
 }
@@ -42,7 +42,7 @@ TEST_CASE("svbrdf: texels beside the mask have no material, and all others are a
   const images_folder given;
   run(given.command("whole.gsv"));
   gonio::io::write_png(given.folder / "mask.png", mask_of());
-  put_list(given, "masked.json", "\"mask\": \"mask.png\"");
+  write_list(given, "masked.json", "\"mask\": \"mask.png\"");
   // What is there does not matter, not even whether it is a number.
   auto image = given.images[2];
   image(45, 7, 1) = std::numeric_limits<float>::quiet_NaN();
@@ -91,8 +91,8 @@ TEST_CASE("svbrdf: texels with values that are not finite are skipped where the 
   image = given.images[0];
   image(2, 3, 2) = -std::numeric_limits<float>::infinity();
   given.replace(0, image);
-  put_list(given, "skip.json", "\"invalid\": \"skip\"");
-  put_list(given, "refuse.json", "\"invalid\": \"refuse\"");
+  write_list(given, "skip.json", "\"invalid\": \"skip\"");
+  write_list(given, "refuse.json", "\"invalid\": \"refuse\"");
   refuses(given.command("map.gsv", "refuse.json"), {"image-0.npy", "row 2, column 3", "\"invalid\": \"skip\""});
   run(given.command("map.gsv", "skip.json"));
   const gonio::io::svbrdf_map map(given.folder / "map.gsv");
@@ -108,13 +108,13 @@ TEST_CASE("svbrdf: texels with values that are not finite are skipped where the 
 TEST_CASE("svbrdf: masks that do not fit, and lists that say something else, are refused") {
   const images_folder given;
   gonio::io::write_png(given.folder / "mask.png", gonio::uniform_image(70, 374, gonio::rgb::Ones()));
-  put_list(given, "list.json", "\"mask\": \"mask.png\"");
+  write_list(given, "list.json", "\"mask\": \"mask.png\"");
   refuses(given.command("map.gsv", "list.json"), {"mask.png: has 374 x 70 pixels", "375 x 70"});
-  put_list(given, "list.json", "\"mask\": \"absent.png\"");
+  write_list(given, "list.json", "\"mask\": \"absent.png\"");
   refuses(given.command("map.gsv", "list.json"), {"absent.png", "No such file"});
-  put_list(given, "list.json", "\"mask\": 3");
+  write_list(given, "list.json", "\"mask\": 3");
   refuses(given.command("map.gsv", "list.json"), {"list.json", "'mask'"});
-  put_list(given, "list.json", "\"invalid\": \"zero\"");
+  write_list(given, "list.json", "\"invalid\": \"zero\"");
   refuses(given.command("map.gsv", "list.json"), {"list.json", "'invalid'", "zero"});
   CHECK(!scratch::fs::exists(given.folder / "map.gsv.part"));
 }

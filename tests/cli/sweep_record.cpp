@@ -1,6 +1,6 @@
 /// The sweeps of a search that was interrupted.
 
-#include "command_line/sweep_record.hpp"
+#include "tool/files/sweep_record.hpp"
 
 #include "../io/scratch.hpp"
 

@@ -4,10 +4,10 @@
 #include "tool.hpp"
 #include <gonio/core/half.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/npy.hpp>
-#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/render/false_colour.hpp>
 #include <gonio/table/image.hpp>
 

@@ -15,6 +15,7 @@ TEST_CASE("quantiles and medians are those of the sorted numbers") {
     std::ranges::sort(sorted);
     const double share = 0.01 * *rc::gen::inRange(0, 101);
     const auto at = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1));
+    RC_ASSERT(gonio::nth_smallest(numbers, at) == sorted[at]);
     RC_ASSERT(gonio::quantile(numbers, share) == sorted[at]);
     const std::size_t middle = sorted.size() / 2;
     RC_ASSERT(gonio::upper_median(numbers) == sorted[middle]);

@@ -1,9 +1,9 @@
 #pragma once
 /// Files that claim more than they hold, too large or too easily made to be kept.
 
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/checked_file.hpp>
-#include <gonio/io/gzip.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
+#include <gonio/io/bytes/gzip.hpp>
 
 #include <doctest/doctest.h>
 #include <zlib.h>
@@ -57,8 +57,8 @@ inline void append(byte_vector& file, std::span<const std::byte> more) {
 
 [[nodiscard]] inline byte_vector merl_header(std::initializer_list<std::int32_t> extents) {
   gonio::io::byte_writer header;
-  for (const std::int32_t extent : extents) header.put(extent);
-  return header.take();
+  for (const std::int32_t extent : extents) header.write(extent);
+  return std::move(header).bytes();
 }
 
 /// A checked file whose payload is these bytes and so many zeros.
@@ -69,13 +69,13 @@ inline void append(byte_vector& file, std::span<const std::byte> more) {
   for (std::uint64_t left = zeros; left > 0; left -= std::min<std::uint64_t>(left, none.size()))
     sum = crc32_z(sum, none.data(), static_cast<z_size_t>(std::min<std::uint64_t>(left, none.size())));
   gonio::io::byte_writer file;
-  file.put_bytes(magic.data(), magic.size());
-  file.put(std::uint32_t{1});
-  file.put(std::uint64_t{begin.size() + zeros});
-  file.put(static_cast<std::uint32_t>(sum));
+  file.write_bytes(magic.data(), magic.size());
+  file.write(std::uint32_t{1});
+  file.write(std::uint64_t{begin.size() + zeros});
+  file.write(static_cast<std::uint32_t>(sum));
   const byte_vector payload = deflated(begin, zeros, MAX_WBITS);
-  file.put_bytes(payload.data(), payload.size());
-  return file.take();
+  file.write_bytes(payload.data(), payload.size());
+  return std::move(file).bytes();
 }
 
 struct prior_claims {
@@ -86,11 +86,11 @@ struct prior_claims {
 
 [[nodiscard]] inline byte_vector prior_payload(const prior_claims& claims) {
   gonio::io::byte_writer out;
-  for (const std::uint32_t number : {claims.theta_h, claims.theta_d, claims.phi_d, 0u}) out.put(number);
-  out.put(claims.minimum_cosine);
-  out.put(claims.components);
-  out.put(claims.materials);
-  return out.take();
+  for (const std::uint32_t number : {claims.theta_h, claims.theta_d, claims.phi_d, 0u}) out.write(number);
+  out.write(claims.minimum_cosine);
+  out.write(claims.components);
+  out.write(claims.materials);
+  return std::move(out).bytes();
 }
 
 [[nodiscard]] inline byte_vector prior_of(const prior_claims& claims, std::uint64_t zeros) {
@@ -100,7 +100,7 @@ struct prior_claims {
 [[nodiscard]] inline byte_vector shapes_of(std::initializer_list<std::uint32_t> vertices_triangles_components_shapes,
                                            std::uint64_t zeros) {
   gonio::io::byte_writer out;
-  for (const std::uint32_t number : vertices_triangles_components_shapes) out.put(number);
+  for (const std::uint32_t number : vertices_triangles_components_shapes) out.write(number);
   return checked_file("gonio-shapes", out.bytes(), zeros);
 }
 

@@ -139,7 +139,7 @@ TEST_CASE("the chosen eta is the best of a dense scan, and grows with the noise"
     for (const double noise : {0.0, 0.1, 0.3, 1.0}) {
       const double eta = gonio::eta_of_noise(prior, samples, noise);
       const auto error = error_of(prior, cells, noise);
-      const Eigen::VectorXd scan = gonio::detail::geometric(1e-7 * error.largest(), 1e2 * error.largest(), 501);
+      const Eigen::VectorXd scan = gonio::geometric_sequence(1e-7 * error.largest(), 1e2 * error.largest(), 501);
       CHECK(at_one_eta(error, eta) <= 1.001 * error(scan).minCoeff());
       CHECK(eta >= smaller);
       smaller = eta;
@@ -167,7 +167,7 @@ TEST_CASE("without a stated noise eta is what cross-validation chooses among the
     }
     const auto problem = gonio::basis_equations(prior, gonio::locate_samples(prior.cells(), samples)).problem();
     const auto criterion = gonio::eta_criterion::generalised_cross_validation;
-    const Eigen::VectorXd scan = gonio::detail::geometric(range.lowest, range.highest, 301);
+    const Eigen::VectorXd scan = gonio::geometric_sequence(range.lowest, range.highest, 301);
     CHECK(gonio::cross_validate(problem, criterion, Eigen::VectorXd::Constant(1, eta))[0] <=
           1.001 * gonio::cross_validate(problem, criterion, scan).minCoeff());
   }

@@ -64,10 +64,6 @@ void check_like_grey(const Estimator& estimator) {
 
 gonio::measured<gonio::log> materials() { return {synthetic_materials(cells(), 8), gonio::log{}}; }
 
-}  // namespace spectra_test
-
-using namespace spectra_test;
-
 TEST_CASE("each wavelength is fitted by components as a grey material") {
   check_like_grey(gonio::decomposition{prior(), gonio::tikhonov{0.1}});
   check_like_grey(gonio::decomposition{prior(), gonio::lasso{1e-3}});
@@ -125,3 +121,5 @@ TEST_CASE("a sample of weight zero takes no part in spectra") {
   samples.values.row(3).setConstant(1e3f);
   CHECK(gonio::fit_spectra(estimator, samples).weights() == without.weights());
 }
+
+}  // namespace spectra_test

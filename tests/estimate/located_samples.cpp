@@ -1,8 +1,8 @@
 #include "../synthetic_materials.hpp"
-#include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/values_at.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/interpolate/completed_table.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>

@@ -1,9 +1,9 @@
 #include "../synthetic_materials.hpp"
 #include <gonio/basis/measured.hpp>
-#include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/soft_or_specular.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/interpolate/completed_table.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/solve/nnls.hpp>
 #include <gonio/solve/tikhonov.hpp>

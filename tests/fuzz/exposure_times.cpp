@@ -1,7 +1,7 @@
 /// Tables of exposure times.
 
 #include "harness.hpp"
-#include <gonio/io/exposure_times.hpp>
+#include <gonio/io/images/exposure_times.hpp>
 
 namespace {
 

@@ -1,7 +1,7 @@
 /// OpenEXR images, some rows at a time and whole.
 
 #include "harness.hpp"
-#include <gonio/io/exr.hpp>
+#include <gonio/io/images/exr.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -26,7 +26,7 @@ void read(fuzz::input bytes) {
     // The other refuses NaN, too, and this one large tiles.
     if (!fuzz::fault_of(refusal).empty()) throw;
   }
-  static_cast<void>(gonio::io::parse_exr(bytes, fuzz::bytes_name));
+  static_cast<void>(gonio::io::read_exr(bytes, fuzz::bytes_name));
 }
 
 const fuzz::registered harness("exr", &read);

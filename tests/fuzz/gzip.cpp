@@ -1,7 +1,7 @@
 /// gzip files of any content, their beginnings, and zlib streams whose size is in their first two bytes.
 
 #include "harness.hpp"
-#include <gonio/io/gzip.hpp>
+#include <gonio/io/bytes/gzip.hpp>
 
 namespace {
 

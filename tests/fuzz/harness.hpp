@@ -4,6 +4,8 @@
 
 #include <gonio/core/error.hpp>
 #include <gonio/core/printable.hpp>
+#include <gonio/table/sample_set.hpp>
+#include <gonio/table/spectral_samples.hpp>
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -45,14 +47,14 @@ inline const std::string bytes_name = "fuzzed.file";
 }
 
 /// Reads a text by both ends of a reader, for colours and for spectra: either may take what the other refuses.
-template <class Colours, class Spectra>
-void read_both(input bytes, const Colours& parse_colours, const Spectra& parse_spectra) {
+inline void read_both(input bytes, gonio::sample_set (*colours)(std::string_view, const std::string&),
+                      gonio::spectral_samples (*spectra)(std::string_view, const std::string&)) {
   try {
-    static_cast<void>(parse_spectra(text_of(bytes), bytes_name));
+    static_cast<void>(spectra(text_of(bytes), bytes_name));
   } catch (const gonio::error&) {
     // Colours need no wavelengths.
   }
-  static_cast<void>(parse_colours(text_of(bytes), bytes_name));
+  static_cast<void>(colours(text_of(bytes), bytes_name));
 }
 
 /// The bytes as a file that is nowhere on a disk, for readers that take a path.

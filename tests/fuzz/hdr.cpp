@@ -1,7 +1,7 @@
 /// Radiance HDR images.
 
 #include "harness.hpp"
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include "harness.hpp"
 
-#include <command_line/image_list.hpp>
+#include <tool/files/image_list.hpp>
 
 namespace {
 

@@ -2,16 +2,16 @@
 
 #include "harness.hpp"
 
-#include <command_line/json.hpp>
+#include <tool/files/json.hpp>
 
 #include <cstdlib>
 
 namespace {
 
 void read(fuzz::input bytes) {
-  const cli::json value = cli::json::parse(std::string(fuzz::text_of(bytes)));
+  const cli::json value = cli::json::read(std::string(fuzz::text_of(bytes)));
   const std::string text = value.dump();
-  if (cli::json::parse(text).dump() != text) std::abort();
+  if (cli::json::read(text).dump() != text) std::abort();
 }
 
 const fuzz::registered harness("json", &read);

@@ -1,11 +1,11 @@
 /// MERL tables, plain or gzip.
 
 #include "harness.hpp"
-#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
 
 namespace {
 
-void read(fuzz::input bytes) { static_cast<void>(gonio::io::parse_merl_any(bytes, fuzz::bytes_name)); }
+void read(fuzz::input bytes) { static_cast<void>(gonio::io::read_merl_any(bytes, fuzz::bytes_name)); }
 
 const fuzz::registered harness("merl", &read);
 

@@ -1,7 +1,7 @@
 /// Networks: their names, a zero byte, and the array.
 
 #include "harness.hpp"
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 
 namespace {
 

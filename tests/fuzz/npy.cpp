@@ -1,7 +1,7 @@
 /// Arrays of one to three dimensions.
 
 #include "harness.hpp"
-#include <gonio/io/npy.hpp>
+#include <gonio/io/bytes/npy.hpp>
 
 namespace {
 
@@ -18,10 +18,10 @@ bool accepts(Act&& act) {
 }
 
 void read(fuzz::input bytes) {
-  using gonio::io::parse_npy;
-  if (accepts([&] { return parse_npy<float, 1>(bytes, fuzz::bytes_name); })) return;
-  if (accepts([&] { return parse_npy<double, 2>(bytes, fuzz::bytes_name); })) return;
-  static_cast<void>(parse_npy<float, 3>(bytes, fuzz::bytes_name));
+  using gonio::io::read_npy;
+  if (accepts([&] { return read_npy<float, 1>(bytes, fuzz::bytes_name); })) return;
+  if (accepts([&] { return read_npy<double, 2>(bytes, fuzz::bytes_name); })) return;
+  static_cast<void>(read_npy<float, 3>(bytes, fuzz::bytes_name));
 }
 
 const fuzz::registered harness("npy", &read);

@@ -1,13 +1,13 @@
 /// Tables of ASAM OpenMATERIAL 3D.
 
 #include "harness.hpp"
-#include <gonio/io/openmaterial.hpp>
+#include <gonio/io/measurements/openmaterial.hpp>
 
 namespace {
 
 void read(fuzz::input bytes) {
   static_cast<void>(gonio::io::looks_like_openmaterial(fuzz::text_of(bytes)));
-  fuzz::read_both(bytes, gonio::io::parse_openmaterial, gonio::io::parse_openmaterial_spectra);
+  fuzz::read_both(bytes, gonio::io::read_openmaterial, gonio::io::read_openmaterial_spectra);
 }
 
 const fuzz::registered harness("openmaterial", &read);

@@ -1,7 +1,7 @@
 /// PNG files, as images and as codes. Checksums that are wrong are put right, which fuzzers cannot.
 
 #include "harness.hpp"
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 
 #include <zlib.h>
 

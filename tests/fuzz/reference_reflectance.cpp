@@ -1,7 +1,7 @@
 /// The reflectance of a white reference by angles: what is accepted is a factor wherever the table covers.
 
 #include "harness.hpp"
-#include <gonio/io/reference_reflectance.hpp>
+#include <gonio/io/measurements/reference_reflectance.hpp>
 
 #include <cstdlib>
 

@@ -2,7 +2,7 @@
 /// read.
 
 #include "harness.hpp"
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <cstddef>
 #include <cstdio>
@@ -50,8 +50,8 @@ void read(fuzz::input bytes) {
   const answer plain = ask([&] { return gonio::io::read_samples(file.path()); });
   const auto given = gonio::io::read_sample_file(
       file.path(), {.columns = {}, .quantity = plain.refusal ? percent : none, .note = check_note});
-  const std::string text = gonio::io::format_samples(given.samples, given.provenance);
-  const auto again = gonio::io::parse_sample_file(text, fuzz::bytes_name);
+  const std::string text = gonio::io::write_samples(given.samples, given.provenance);
+  const auto again = gonio::io::read_sample_file(text, fuzz::bytes_name);
   if (again.samples.size() != given.samples.size()) std::abort();
   if (comment_lines(again.provenance) != comment_lines(given.provenance)) std::abort();
 }

@@ -1,7 +1,7 @@
 /// Scans. Where a checksum should be, a question mark gets the right one, which fuzzers do not find.
 
 #include "harness.hpp"
-#include <gonio/io/scan_journal.hpp>
+#include <gonio/io/measurements/scan_journal.hpp>
 
 #include <zlib.h>
 
@@ -48,7 +48,7 @@ std::string with_checksums(std::string_view text) {
 }
 
 void read(fuzz::input bytes) {
-  static_cast<void>(gonio::io::parse_scan(with_checksums(fuzz::text_of(bytes)), fuzz::bytes_name));
+  static_cast<void>(gonio::io::read_scan(with_checksums(fuzz::text_of(bytes)), fuzz::bytes_name));
 }
 
 const fuzz::registered harness("scan_journal", &read);

@@ -1,11 +1,11 @@
 /// Surface scattering distribution data.
 
 #include "harness.hpp"
-#include <gonio/io/ssdd.hpp>
+#include <gonio/io/measurements/ssdd.hpp>
 
 namespace {
 
-void read(fuzz::input bytes) { fuzz::read_both(bytes, gonio::io::parse_ssdd, gonio::io::parse_ssdd_spectra); }
+void read(fuzz::input bytes) { fuzz::read_both(bytes, gonio::io::read_ssdd, gonio::io::read_ssdd_spectra); }
 
 const fuzz::registered harness("ssdd", &read);
 

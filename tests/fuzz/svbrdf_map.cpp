@@ -2,7 +2,7 @@
 /// they are.
 
 #include "harness.hpp"
-#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
 
 #include <zlib.h>
 

@@ -1,7 +1,7 @@
 #include "scratch.hpp"
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/astm_e1392.hpp>
-#include <gonio/io/cornell.hpp>
+#include <gonio/io/measurements/astm_e1392.hpp>
+#include <gonio/io/measurements/cornell.hpp>
 
 #include <rapidcheck.h>
 
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-using gonio::io::parse_astm_e1392;
+using gonio::io::read_astm_e1392;
 using scratch::check_refused;
 
 namespace {
@@ -18,15 +18,15 @@ const std::string astm_start = "KEY VALUE\r\nSAMPLE made up\r\nNUM_POINTS 2\r\nV
 
 void check_astm_refused(const std::string& text, std::initializer_list<std::string> words) {
   CAPTURE(text);
-  check_refused([&] { return parse_astm_e1392(text, "paint.astm"); }, {"paint.astm"});
-  check_refused([&] { return parse_astm_e1392(text, "paint.astm"); }, words);
+  check_refused([&] { return read_astm_e1392(text, "paint.astm"); }, {"paint.astm"});
+  check_refused([&] { return read_astm_e1392(text, "paint.astm"); }, words);
 }
 
 }  // namespace
 
 TEST_CASE("ASTM: directions in radians, red, green and blue as they are") {
   const auto samples =
-      parse_astm_e1392(astm_start + "R,G,B\r\n0.5,0,0.25,3.1,.1,.2,-.3\r\n\r\n0.5, 1, 0.25, -1.5, 1, 2, 3\n", "x");
+      read_astm_e1392(astm_start + "R,G,B\r\n0.5,0,0.25,3.1,.1,.2,-.3\r\n\r\n0.5, 1, 0.25, -1.5, 1, 2, 3\n", "x");
   REQUIRE(samples.size() == 2);
   const auto& [wi, wo] = samples[0].directions.pair();
   CHECK(gonio::polar_angle(wi) == doctest::Approx(0.5));
@@ -38,7 +38,7 @@ TEST_CASE("ASTM: directions in radians, red, green and blue as they are") {
 
 TEST_CASE("ASTM: what the columns are is read from their names") {
   const auto first = [](const std::string& columns, const std::string& row) {
-    const auto samples = parse_astm_e1392("VARS " + columns + "\n" + row + "\n", "x");
+    const auto samples = read_astm_e1392("VARS " + columns + "\n" + row + "\n", "x");
     REQUIRE(samples.size() == 1);
     return samples[0];
   };
@@ -49,16 +49,15 @@ TEST_CASE("ASTM: what the columns are is read from their names") {
   const gonio::rgb colour = gonio::spectral_colour(wavelengths)(values);
   CHECK((first("theta_i,phi_i,theta_s,phi_s,450nm,550nm,650nm", "0.5,0,0.25,3,.1,.2,.4").value == colour).all());
   const std::string text = astm_start + "450nm,550nm\n0.5,0,0.25,3,.1,.2\n0.5,0,0.5,3,.3,.4\n";
-  const auto spectra = gonio::io::parse_astm_e1392_spectra(text, "x");
+  const auto spectra = gonio::io::read_astm_e1392_spectra(text, "x");
   CHECK(spectra.wavelengths == std::vector{450.0, 550.0});
   CHECK(spectra.values(1, 1) == 0.4f);
   CHECK(gonio::polar_angle(spectra.directions[1].pair().wo) == doctest::Approx(0.5));
-  const auto laser = gonio::io::parse_astm_e1392_spectra(astm_start + "633nm\n0.5,0,0.25,3,.1\n0.5,0,0.5,3,.1\n", "x");
+  const auto laser = gonio::io::read_astm_e1392_spectra(astm_start + "633nm\n0.5,0,0.25,3,.1\n0.5,0,0.5,3,.1\n", "x");
   CHECK(laser.wavelengths == std::vector{633.0});
   check_refused(
       [&] {
-        return gonio::io::parse_astm_e1392_spectra(astm_start + "BRDF\n0.5,0,0.25,3,.1\n0.5,0,0.5,3,.1\n",
-                                                   "paint.astm");
+        return gonio::io::read_astm_e1392_spectra(astm_start + "BRDF\n0.5,0,0.25,3,.1\n0.5,0,0.5,3,.1\n", "paint.astm");
       },
       {"paint.astm", "no spectra"});
   const auto other_order = first("BRDF,phi_s,theta_s,phi_i,theta_i", ".7,3,0.25,0,0.5");
@@ -73,7 +72,7 @@ TEST_CASE("ASTM: such a file is told by its line of names") {
 }
 
 TEST_CASE("ASTM: grazing directions are no samples") {
-  CHECK(parse_astm_e1392(astm_start + "BRDF\n0.5,0,1.5708,3,.1\n0.5,0,1.5,3,.1\n", "x").size() == 1);
+  CHECK(read_astm_e1392(astm_start + "BRDF\n0.5,0,1.5708,3,.1\n0.5,0,1.5,3,.1\n", "x").size() == 1);
 }
 
 TEST_CASE("ASTM: what is no such file is refused") {
@@ -102,7 +101,7 @@ TEST_CASE("ASTM: any text is read or refused") {
   CHECK(rc::check([] {
     const auto text = *rc::gen::container<std::string>(rc::gen::elementOf(std::string("0123456789.-,e \nVARS")));
     try {
-      for (const gonio::sample& s : parse_astm_e1392(astm_start + "BRDF\n" + text, "x"))
+      for (const gonio::sample& s : read_astm_e1392(astm_start + "BRDF\n" + text, "x"))
         RC_ASSERT(s.value.isFinite().all());
     } catch (const gonio::error&) {
     }
@@ -128,7 +127,7 @@ TEST_CASE("ASTM: a shared paint, its numbers moved from Cornell's other format, 
   for (std::size_t i = count + 1; i < numbers.size(); ++i)
     rows += numbers[i] + ((i - count) % (count + 4) == 0 ? "\n" : ",");
   const auto expected = gonio::io::read_cornell(path);
-  const auto samples = parse_astm_e1392(header + "\n" + rows, "garnet_red.astm");
+  const auto samples = read_astm_e1392(header + "\n" + rows, "garnet_red.astm");
   REQUIRE(samples.size() == expected.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     CHECK((samples[i].value == expected[i].value).all());

@@ -1,12 +1,12 @@
 #include "scratch.hpp"
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/bird.hpp>
+#include <gonio/io/measurements/bird.hpp>
 
 #include <rapidcheck.h>
 
 #include <array>
 
-using gonio::io::parse_bird;
+using gonio::io::read_bird;
 using scratch::check_refused;
 
 namespace {
@@ -35,14 +35,14 @@ std::string three_of(const std::string& more, const std::string& brdf = variable
 
 void check_bird_refused(const std::string& text, std::initializer_list<std::string> words) {
   CAPTURE(text);
-  check_refused([&] { return parse_bird(text, "tile.json"); }, {"tile.json"});
-  check_refused([&] { return parse_bird(text, "tile.json"); }, words);
+  check_refused([&] { return read_bird(text, "tile.json"); }, {"tile.json"});
+  check_refused([&] { return read_bird(text, "tile.json"); }, words);
 }
 
 }  // namespace
 
 TEST_CASE("BiRD: repeats are averaged, directions are degrees or radians") {
-  const auto samples = parse_bird(three_of(""), "tile.json");
+  const auto samples = read_bird(three_of(""), "tile.json");
   REQUIRE(samples.size() == 2);
   const auto& [wi, wo] = samples[0].directions.pair();
   CHECK(gonio::degrees(gonio::polar_angle(wi)) == doctest::Approx(30.0));
@@ -51,10 +51,10 @@ TEST_CASE("BiRD: repeats are averaged, directions are degrees or radians") {
   CHECK(samples[0].value.y() == doctest::Approx(0.2));
   CHECK((samples[1].value == 0.5).all());
   CHECK(samples[0].weight == 1.0);
-  const auto radians = parse_bird(bird_file(variable("theta_i", "rad", "0.5") + "," + variable("phi_i", "rad", "0") +
-                                            "," + variable("theta_r", "rad", "0.25") + "," +
-                                            variable("phi_r", "rad", "3") + "," + variable("BRDF", "1/sr", "1")),
-                                  "tile.json");
+  const auto radians = read_bird(bird_file(variable("theta_i", "rad", "0.5") + "," + variable("phi_i", "rad", "0") +
+                                           "," + variable("theta_r", "rad", "0.25") + "," +
+                                           variable("phi_r", "rad", "3") + "," + variable("BRDF", "1/sr", "1")),
+                                 "tile.json");
   CHECK(gonio::polar_angle(radians[0].directions.pair().wi) == doctest::Approx(0.5));
 }
 
@@ -68,21 +68,21 @@ TEST_CASE("BiRD: wavelengths at one direction are its spectrum, in whatever orde
   const gonio::rgb expected = gonio::spectral_colour(wavelengths)(values);
   for (const std::string& given :
        {variable("wavelength_i", "nm", "550,450,650"), variable("wavelength_r", "\xCE\xBCm", "0.55,0.45,0.65")}) {
-    const auto samples = parse_bird(at_one_direction("45,45,45", given, "0.2,0.1,0.4"), "x");
+    const auto samples = read_bird(at_one_direction("45,45,45", given, "0.2,0.1,0.4"), "x");
     REQUIRE(samples.size() == 1);
     CHECK((samples[0].value - expected).abs().maxCoeff() < 1e-9);
-    const auto spectra = gonio::io::parse_bird_spectra(at_one_direction("45,45,45", given, "0.2,0.1,0.4"), "x");
+    const auto spectra = gonio::io::read_bird_spectra(at_one_direction("45,45,45", given, "0.2,0.1,0.4"), "x");
     REQUIRE(spectra.size() == 1);
     CHECK(spectra.wavelengths == std::vector<double>(wavelengths.begin(), wavelengths.end()));
     CHECK(spectra.values(0, 2) == 0.4f);
   }
-  check_refused([&] { return gonio::io::parse_bird_spectra(three_of(""), "tile.json"); }, {"tile.json", "no spectra"});
+  check_refused([&] { return gonio::io::read_bird_spectra(three_of(""), "tile.json"); }, {"tile.json", "no spectra"});
   check_refused(
       [&] {
-        return gonio::io::parse_bird_spectra(three_of(variable("wavelength_i", "nm", "450,550,450")), "tile.json");
+        return gonio::io::read_bird_spectra(three_of(variable("wavelength_i", "nm", "450,550,450")), "tile.json");
       },
       {"tile.json", "other wavelengths"});
-  const auto laser = parse_bird(at_one_direction("45", variable("wavelength_i", "nm", "1064"), "0.2"), "x");
+  const auto laser = read_bird(at_one_direction("45", variable("wavelength_i", "nm", "1064"), "0.2"), "x");
   CHECK((laser[0].value == 0.2).all());
   check_bird_refused(at_one_direction("45,45", variable("wavelength_i", "nm", "1000,1064"), "0.2,0.1"),
                      {"fewer than two"});
@@ -91,7 +91,7 @@ TEST_CASE("BiRD: wavelengths at one direction are its spectrum, in whatever orde
 TEST_CASE("BiRD: states of illumination must average to unpolarised light") {
   const auto states = [](const std::string& values) { return "\"polarization_i\":{\"values\":[" + values + "]}"; };
   for (const std::string& fine : {states("\"s\",\"p\",\"u\""), states("[1,1,0,0],[1,-1,0,0],[1,0,0,0]")})
-    CHECK(parse_bird(three_of(fine), "x")[0].value.y() == doctest::Approx(0.2));
+    CHECK(read_bird(three_of(fine), "x")[0].value.y() == doctest::Approx(0.2));
   check_bird_refused(three_of(states("\"s\",\"s\",\"u\"")), {"theta_i 30", "theta_r 60", "s and p alike"});
   check_bird_refused(three_of(states("\"s\",\"p\",\"p\"")), {"theta_i 0", "s and p alike"});
   check_bird_refused(three_of(states("\"s\",\"p\",\"x\"")), {"'x'", "Stokes"});
@@ -106,7 +106,7 @@ TEST_CASE("BiRD: states of illumination must average to unpolarised light") {
 
 TEST_CASE("BiRD: weights are by relative uncertainty, that of the median being 1") {
   const auto weights = [](const std::string& more, const std::string& brdf = variable("BRDF", "sr^-1", "0.1,0.3,0.5")) {
-    const auto samples = parse_bird(three_of(more, brdf), "x");
+    const auto samples = read_bird(three_of(more, brdf), "x");
     return std::array{samples[0].weight[0], samples[1].weight[0]};
   };
   // 1 and 2 percent: the median is 1.5.
@@ -148,7 +148,7 @@ TEST_CASE("BiRD: what is no such file is refused") {
       three_of(variable("wavelength_i", "nm", "500,500,500") + "," + variable("wavelength_r", "nm", "600,600,600")),
       {"fluorescence"});
   check_bird_refused(three_of("\"adhoc_variables\":{\"heat\":{\"values\":[20,20,30]}}"), {"'heat' changes"});
-  CHECK(parse_bird(three_of("\"adhoc_variables\":{\"heat\":{\"unit\":\"K\",\"values\":[20,20,20]}}"), "x").size() == 2);
+  CHECK(read_bird(three_of("\"adhoc_variables\":{\"heat\":{\"unit\":\"K\",\"values\":[20,20,20]}}"), "x").size() == 2);
   const auto at = [](const std::string& theta, const std::string& unit, const std::string& phi) {
     return bird_file(variable("theta_i", unit, theta) + "," + variable("phi_i", unit, phi) + "," +
                      variable("theta_r", unit, "1") + "," + variable("phi_r", unit, "1") + "," +
@@ -170,7 +170,7 @@ TEST_CASE("BiRD: a damaged file is read or refused") {
     for (int i = 0; i < 3; ++i)
       text[*rc::gen::inRange<std::size_t>(0, text.size())] = *rc::gen::elementOf(std::string("0123456789.-,:{}[]\"e"));
     try {
-      for (const gonio::sample& s : parse_bird(text, "x")) {
+      for (const gonio::sample& s : read_bird(text, "x")) {
         RC_ASSERT(s.value.isFinite().all());
         RC_ASSERT(s.weight[0] >= 0.01 && s.weight[0] <= 100.0);
       }

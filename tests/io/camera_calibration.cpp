@@ -1,11 +1,11 @@
-#include <gonio/io/camera_calibration.hpp>
-#include <gonio/io/sphere_setup.hpp>
+#include <gonio/io/setups/camera_calibration.hpp>
+#include <gonio/io/setups/sphere_setup.hpp>
 
 #include <doctest/doctest.h>
 
 #include <string>
 
-using gonio::io::parse_camera_calibration;
+using gonio::io::read_camera_calibration;
 
 namespace {
 
@@ -30,7 +30,7 @@ std::string changed(std::string text, const std::string& from, const std::string
 void refuses_calibration(const std::string& text, const std::string& why) {
   CAPTURE(why);
   try {
-    static_cast<void>(parse_camera_calibration(text, "camera.yml"));
+    static_cast<void>(read_camera_calibration(text, "camera.yml"));
     FAIL("was not refused");
   } catch (const gonio::error& refusal) {
     CAPTURE(refusal.what());
@@ -42,7 +42,7 @@ void refuses_calibration(const std::string& text, const std::string& why) {
 
 TEST_CASE("OpenCV's calibrations are read, YAML and XML") {
   for (const std::string& text : {calibration_yaml, calibration_xml}) {
-    const auto found = parse_camera_calibration(text, "camera");
+    const auto found = read_camera_calibration(text, "camera");
     CHECK(found.intrinsics.columns == 640);
     CHECK(found.intrinsics.rows == 480);
     CHECK(found.intrinsics.focal_length_x == 530.0);
@@ -56,12 +56,12 @@ TEST_CASE("OpenCV's calibrations are read, YAML and XML") {
 }
 
 TEST_CASE("a set-up takes its camera from a calibration, or says it itself") {
-  const auto calibration = parse_camera_calibration(calibration_yaml, "camera.yml");
+  const auto calibration = read_camera_calibration(calibration_yaml, "camera.yml");
   const std::string pose = "position 0 0 12\ntarget 0 0 0\nup 0 1 0\nlamp 3 4 5\n";
-  const auto setup = gonio::io::parse_sphere_setup(pose, "setup.txt", calibration);
+  const auto setup = gonio::io::read_sphere_setup(pose, "setup.txt", calibration);
   CHECK(setup.camera.intrinsics().columns == 640);
   CHECK(setup.camera.distortion().k1 == -0.28);
-  CHECK_THROWS_AS(gonio::io::parse_sphere_setup(pose + "size 640 480\n", "setup.txt", calibration), gonio::error);
+  CHECK_THROWS_AS(gonio::io::read_sphere_setup(pose + "size 640 480\n", "setup.txt", calibration), gonio::error);
 }
 
 TEST_CASE("bad calibrations are refused") {

@@ -1,12 +1,12 @@
-#include <gonio/io/capture_constraint.hpp>
+#include <gonio/io/setups/capture_constraint.hpp>
 
 #include <doctest/doctest.h>
 
 using gonio::degrees;
-using gonio::io::parse_capture_constraint;
+using gonio::io::read_capture_constraint;
 
 TEST_CASE("every rule is read") {
-  const auto constraint = parse_capture_constraint(
+  const auto constraint = read_capture_constraint(
       "# an arc\nlight 0 75\nviewer 5 80.5\n\n separation 15 # of the arms\nlight_step 7.5 0.25\r\nforbid 60 90 70 "
       "90\nforbid 0 5 0 5\n",
       "arc.txt");
@@ -18,12 +18,12 @@ TEST_CASE("every rule is read") {
   CHECK(degrees(constraint.light_tolerance) == doctest::Approx(0.25));
   REQUIRE(constraint.forbidden.size() == 2);
   CHECK(degrees(constraint.forbidden[0].viewer.smallest) == doctest::Approx(70));
-  CHECK(parse_capture_constraint("", "nothing").is_none());
+  CHECK(read_capture_constraint("", "nothing").is_none());
 }
 
 TEST_CASE("what is no rule is refused with its file and line") {
   const auto refused = [](const char* text, const char* why) {
-    CHECK_THROWS_WITH_AS(static_cast<void>(parse_capture_constraint(text, "arc.txt")), doctest::Contains(why),
+    CHECK_THROWS_WITH_AS(static_cast<void>(read_capture_constraint(text, "arc.txt")), doctest::Contains(why),
                          gonio::error);
   };
   refused("light 0 75\nlamp 3\n", "arc.txt, line 2: 'lamp' is no rule");
@@ -43,12 +43,12 @@ TEST_CASE("what is no rule is refused with its file and line") {
 }
 
 TEST_CASE("a single angle has a tolerance, a range has one if it is said") {
-  const auto one = parse_capture_constraint("light 45 45\nviewer 10 60\n", "arc.txt");
+  const auto one = read_capture_constraint("light 45 45\nviewer 10 60\n", "arc.txt");
   CHECK(degrees(one.light.smallest) == doctest::Approx(44.5));
   CHECK(degrees(one.light.largest) == doctest::Approx(45.5));
   CHECK(degrees(one.viewer.largest) == doctest::Approx(60));
   CHECK_FALSE(one.plane_tolerance);
-  const auto wide = parse_capture_constraint("light 45 45 2\nviewer 10 60 1\nin_plane\n", "arc.txt");
+  const auto wide = read_capture_constraint("light 45 45 2\nviewer 10 60 1\nin_plane\n", "arc.txt");
   CHECK(degrees(wide.light.largest) == doctest::Approx(47));
   CHECK(degrees(wide.viewer.smallest) == doctest::Approx(9));
   REQUIRE(wide.plane_tolerance);

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/checked_file.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
@@ -19,10 +19,10 @@ constexpr io::checked_file_kind recipe_kind{"gonio-recipe", 3, "recipe"};
 constexpr std::size_t recipe_version_at = recipe_kind.magic.size(), recipe_size_at = recipe_version_at + 4,
                       recipe_checksum_at = recipe_size_at + 8, recipe_data_at = recipe_checksum_at + 4;
 
-std::vector<std::byte> recipe() { return io::encode_checked(recipe_kind, scratch::bytes_of("flour, water, and salt")); }
+std::vector<std::byte> recipe() { return io::write_checked(recipe_kind, scratch::bytes_of("flour, water, and salt")); }
 
 void check_recipe_refused(std::span<const std::byte> bytes, const std::string& words) {
-  scratch::check_refused([&] { return io::decode_checked(recipe_kind, bytes, "bread.recipe"); },
+  scratch::check_refused([&] { return io::read_checked(recipe_kind, bytes, "bread.recipe"); },
                          {"bread.recipe: ", words});
 }
 
@@ -31,29 +31,29 @@ void check_recipe_refused(std::span<const std::byte> bytes, const std::string& w
 TEST_CASE("checked file: any payload comes back, the empty one too") {
   rc::check([](const std::vector<std::uint8_t>& payload) {
     const auto bytes = std::as_bytes(std::span(payload));
-    const auto back = io::decode_checked(recipe_kind, io::encode_checked(recipe_kind, bytes), "x");
+    const auto back = io::read_checked(recipe_kind, io::write_checked(recipe_kind, bytes), "x");
     RC_ASSERT(std::ranges::equal(back, bytes));
   });
-  CHECK(io::decode_checked(recipe_kind, io::encode_checked(recipe_kind, {}), "x").empty());
+  CHECK(io::read_checked(recipe_kind, io::write_checked(recipe_kind, {}), "x").empty());
 }
 
 TEST_CASE("checked file: the layout is the documented one") {
   const auto file = recipe();
   io::byte_reader in(file, "x");
-  CHECK(std::ranges::equal(in.take_bytes(recipe_kind.magic.size()), scratch::bytes_of("gonio-recipe")));
-  CHECK(in.take<std::uint32_t>() == 3);
-  CHECK(in.take<std::uint64_t>() == 22);
-  CHECK(in.take<std::uint32_t>() == io::detail::checksum(scratch::bytes_of("flour, water, and salt")));
-  CHECK(in.take<std::uint8_t>() == 0x78);  // a zlib stream of the usual window
+  CHECK(std::ranges::equal(in.read_bytes(recipe_kind.magic.size()), scratch::bytes_of("gonio-recipe")));
+  CHECK(in.read<std::uint32_t>() == 3);
+  CHECK(in.read<std::uint64_t>() == 22);
+  CHECK(in.read<std::uint32_t>() == io::checksum(scratch::bytes_of("flour, water, and salt")));
+  CHECK(in.read<std::uint8_t>() == 0x78);  // a zlib stream of the usual window
   // CRC-32's check value.
-  CHECK(io::detail::checksum(scratch::bytes_of("123456789")) == 0xcbf43926u);
+  CHECK(io::checksum(scratch::bytes_of("123456789")) == 0xcbf43926u);
 }
 
 TEST_CASE("checked file: another kind, and nothing at all") {
   const std::string other = "not a gonio recipe (it does not start with 'gonio-recipe')";
   check_recipe_refused({}, other);
   check_recipe_refused(scratch::bytes_of("gonio-recip"), other);
-  check_recipe_refused(io::encode_checked({"gonio-sketch", 3, "sketch"}, {}), other);
+  check_recipe_refused(io::write_checked({"gonio-sketch", 3, "sketch"}, {}), other);
 }
 
 TEST_CASE("checked file: another version") {
@@ -81,11 +81,11 @@ TEST_CASE("checked file: a size that is not believable, and ones that lie") {
 TEST_CASE("checked file: a payload that shrinks more than readers believe comes back all the same") {
   std::vector<std::byte> payload(std::size_t{20} << 20);
   payload[7'000'000] = std::byte{9};
-  const auto file = io::encode_checked(recipe_kind, payload);
+  const auto file = io::write_checked(recipe_kind, payload);
   CHECK(file.size() > payload.size() / 9);
-  CHECK(io::decode_checked(recipe_kind, file, "x") == payload);
+  CHECK(io::read_checked(recipe_kind, file, "x") == payload);
   payload.resize(std::size_t{8} << 20);
-  CHECK(io::encode_checked(recipe_kind, payload).size() < 10'000);
+  CHECK(io::write_checked(recipe_kind, payload).size() < 10'000);
 }
 
 TEST_CASE("checked file: a checksum that does not match") {
@@ -113,7 +113,7 @@ TEST_CASE("checked file: a flipped bit is refused, but for those that deflate do
     damaged[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
     CAPTURE(bit);
     try {
-      const auto back = io::decode_checked(recipe_kind, damaged, "bread.recipe");
+      const auto back = io::read_checked(recipe_kind, damaged, "bread.recipe");
       CHECK(back == payload);
       CHECK(bit / 8 >= recipe_data_at);
       ++unused;

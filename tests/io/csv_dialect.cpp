@@ -1,4 +1,4 @@
-#include <gonio/io/csv_dialect.hpp>
+#include <gonio/io/text/csv_dialect.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
@@ -9,7 +9,6 @@
 
 using gonio::io::csv_dialect;
 using gonio::io::dialect_of;
-namespace detail = gonio::io::detail;
 
 TEST_CASE("the separator is the one that stands most often in the header line, outside of quotes") {
   CHECK(dialect_of("a,b,c").separator == ',');
@@ -29,7 +28,7 @@ TEST_CASE("the separator is the one that stands most often in the header line, o
 TEST_CASE("fields of a line, with quotes and without") {
   const auto fields = [](std::string_view line, char separator) {
     std::vector<std::string_view> found;
-    const char* wrong = detail::split_fields(line, {separator}, found);
+    const char* wrong = csv_dialect{separator}.split(line, found);
     if (wrong != nullptr) return std::vector<std::string_view>{"wrong: ", wrong};
     return found;
   };
@@ -55,7 +54,7 @@ TEST_CASE("quoted fields come back as they were") {
     std::string line;
     for (const std::string& text : texts) line += (line.empty() ? "\"" : std::string(1, separator) + '"') + text + '"';
     std::vector<std::string_view> found;
-    RC_ASSERT(detail::split_fields(line, {separator}, found) == nullptr);
+    RC_ASSERT(csv_dialect{separator}.split(line, found) == nullptr);
     RC_ASSERT(found.size() == texts.size());
     for (std::size_t i = 0; i < texts.size(); ++i) {
       const std::size_t begin = texts[i].find_first_not_of(" \t");
@@ -69,25 +68,25 @@ TEST_CASE("quoted fields come back as they were") {
 TEST_CASE("the first decimal mark is that of all numbers") {
   double value = 0.0;
   csv_dialect german{';'};
-  CHECK(detail::read_number("12", german, value) == nullptr);
+  CHECK(german.read_number("12", value) == nullptr);
   CHECK(german.decimal_mark == '?');
-  CHECK(detail::read_number("-1,25e-1", german, value) == nullptr);
+  CHECK(german.read_number("-1,25e-1", value) == nullptr);
   CHECK(value == -0.125);
   CHECK(german == csv_dialect{';', ','});
-  CHECK(detail::read_number("+7", german, value) == nullptr);
+  CHECK(german.read_number("+7", value) == nullptr);
   CHECK(value == 7.0);
   for (const char* wrong : {"1.5", "1,5,5", "1.234,5", "1,234.5", ",", "", "x", "nan", "1,5x"}) {
     CAPTURE(wrong);
-    CHECK(detail::read_number(wrong, german, value) != nullptr);
+    CHECK(german.read_number(wrong, value) != nullptr);
   }
   csv_dialect english{';'};
-  CHECK(detail::read_number("1.5", english, value) == nullptr);
+  CHECK(english.read_number("1.5", value) == nullptr);
   CHECK(english.decimal_mark == '.');
   for (const char* wrong : {"1,5", "1.5.5", "1,234.5", "inf"}) {
     CAPTURE(wrong);
-    CHECK(detail::read_number(wrong, english, value) != nullptr);
+    CHECK(english.read_number(wrong, value) != nullptr);
   }
   csv_dialect unknown{';'};
-  CHECK(detail::read_number("1,x", unknown, value) != nullptr);
+  CHECK(unknown.read_number("1,x", value) != nullptr);
   CHECK(unknown.decimal_mark == '?');  // what is no number shows nothing
 }

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/exposure_times.hpp>
+#include <gonio/io/images/exposure_times.hpp>
 
 #include <doctest/doctest.h>
 
@@ -30,11 +30,13 @@ TEST_CASE("exposure times: other names say none") {
 
 TEST_CASE("exposure times: a table") {
   const scratch::folder here;
-  scratch::put(here / "times.csv", "# of Monday\nfile,seconds\na.png, 0.5\n b, c.png ,1/250\n");
+  scratch::put(here / "times.csv", "# of Monday\nfile,seconds\na.png, 0.5\n\"b, c.png\" ,1/250\n");
   const auto times = read_exposure_times(here / "times.csv");
   CHECK(times.size() == 2);
   CHECK(times.at("a.png") == 0.5);
   CHECK(times.at("b, c.png") == 1.0 / 250.0);
+  scratch::put(here / "german.csv", "file;seconds\na.png;0,5\nb, c.png;1/250\n");
+  CHECK(read_exposure_times(here / "german.csv") == times);
 }
 
 TEST_CASE("exposure times: bad tables are refused") {
@@ -46,10 +48,11 @@ TEST_CASE("exposure times: bad tables are refused") {
   refuses("", "has no exposure time");
   refuses("file,seconds\n", "has no exposure time");
   refuses("a.png,0.5\n", "line 1: expected the header");
-  refuses("file,seconds\na.png\n", "line 2: expected two fields");
+  refuses("file,seconds\na.png\n", "line 2: 1 field, expected 2");
   for (const char* seconds : {"0", "-1", "nan", "inf", "1/0", "1/", "x", ""})
     refuses(std::string("file,seconds\na.png,") + seconds, "line 2: expected a file and a positive number");
   refuses("file,seconds\n,1\n", "expected a file");
+  refuses("file,seconds\nb, c.png,1\n", "line 2: 3 fields, expected 2");
   refuses("file,seconds\na.png,1\na.png,2\n", "line 3: the file 'a.png' is there twice");
   scratch::check_refuses_non_files([](const auto& path) { return read_exposure_times(path); });
 }

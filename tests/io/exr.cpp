@@ -1,6 +1,6 @@
 #include "exr_of_others.hpp"
 #include "scratch.hpp"
-#include <gonio/io/exr.hpp>
+#include <gonio/io/images/exr.hpp>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -129,18 +129,18 @@ TEST_CASE("OpenEXR rows: damaged files are read or refused") {
 
 TEST_CASE("OpenEXR: what was written is read, bit for bit") {
   const gonio::image picture = unusual_image();
-  CHECK(gonio::io::parse_exr(written_exr(picture), "a.exr") == picture);
+  CHECK(gonio::io::read_exr(written_exr(picture), "a.exr") == picture);
   rc::check("images of any size come back", [] {
     const auto rows = *rc::gen::inRange<std::size_t>(1, 40), columns = *rc::gen::inRange<std::size_t>(1, 40);
     gonio::image some = gonio::uniform_image(rows, columns);
     for (float& value : some) value = static_cast<float>(*rc::gen::inRange(-1000000, 1000000)) / 7.0f;
-    RC_ASSERT(gonio::io::parse_exr(written_exr(some), "a.exr") == some);
+    RC_ASSERT(gonio::io::read_exr(written_exr(some), "a.exr") == some);
   });
 }
 
 TEST_CASE("OpenEXR: bad files and images are refused") {
   const std::vector<std::byte> whole = written_exr(unusual_image());
-  const auto parse = [](std::span<const std::byte> bytes) { return gonio::io::parse_exr(bytes, "a.exr"); };
+  const auto parse = [](std::span<const std::byte> bytes) { return gonio::io::read_exr(bytes, "a.exr"); };
   check_refused([&] { return parse(scratch::bytes_of("no image")); }, {"a.exr", "cannot be decoded as OpenEXR"});
   check_refused([&] { return parse(std::span(whole).first(60)); }, {"a.exr"});
   check_refused([&] { return parse(std::span(whole).first(whole.size() - 5)); }, {"a.exr"});
@@ -183,5 +183,5 @@ TEST_CASE("OpenEXR: bad files and images are refused") {
 
 TEST_CASE("OpenEXR: damaged files are read or refused") {
   scratch::check_survives_damage(written_exr(unusual_image()), 2000,
-                                 [](auto bytes) { return gonio::io::parse_exr(bytes, "a.exr"); });
+                                 [](auto bytes) { return gonio::io::read_exr(bytes, "a.exr"); });
 }

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/file.hpp>
+#include <gonio/io/bytes/file.hpp>
 
 #include <sched.h>
 #include <sys/mount.h>

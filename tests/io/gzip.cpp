@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/gzip.hpp>
+#include <gonio/io/bytes/gzip.hpp>
 
 #include <rapidcheck.h>
 

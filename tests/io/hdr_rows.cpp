@@ -1,6 +1,6 @@
 #include "scratch.hpp"
-#include <gonio/io/hdr_rows.hpp>
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/hdr_rows.hpp>
+#include <gonio/io/images/image.hpp>
 
 #include <doctest/doctest.h>
 

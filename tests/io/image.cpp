@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 
 #include <rapidcheck.h>
 
@@ -80,11 +80,11 @@ TEST_CASE("PNG holds sRGB, rounded and clipped") {
 TEST_CASE("a PNG in memory has the bytes of the file") {
   const scratch::folder here;
   write_png(here / "a.png", gradient(20, 30));
-  const auto bytes = gonio::io::encode_png(gradient(20, 30), "gradient");
+  const auto bytes = gonio::io::write_png(gradient(20, 30), "gradient");
   CHECK(scratch::get(here / "a.png") == std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   image picture = gradient(2, 2);
   picture(0, 0, 0) = std::numeric_limits<float>::quiet_NaN();
-  check_refused([&] { return gonio::io::encode_png(picture, "gradient"); }, {"gradient: pixel", "nan"});
+  check_refused([&] { return gonio::io::write_png(picture, "gradient"); }, {"gradient: pixel", "nan"});
 }
 
 TEST_CASE("what a PNG holds is written again in the same bytes") {

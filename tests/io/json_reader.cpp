@@ -1,10 +1,10 @@
 #include "scratch.hpp"
-#include <gonio/io/json_reader.hpp>
+#include <gonio/io/text/json_reader.hpp>
 
 #include <rapidcheck.h>
 
+using gonio::io::text_place;
 using gonio::io::detail::json_reader;
-using gonio::io::detail::text_place;
 using scratch::check_refused;
 
 namespace {
@@ -35,12 +35,12 @@ TEST_CASE("JSON: values are taken in the file's order, others skipped") {
   REQUIRE(json.next_key() == "a");
   json.open_array("a");
   std::vector<double> numbers;
-  while (json.next_element()) numbers.push_back(json.take_number("a"));
+  while (json.next_element()) numbers.push_back(json.read_number("a"));
   CHECK(numbers == std::vector<double>{1.0, -25.0, 3.0});
   REQUIRE(json.next_key() == "b");
   CHECK(json.skip() == "{\"c\":[[],{}],\"d\":null}");
   REQUIRE(json.next_key() == "e");
-  CHECK(json.take_string("e") == "x\n\xC2\xB0");
+  CHECK(json.read_string("e") == "x\n\xC2\xB0");
   CHECK_FALSE(json.next_key());
   json.finish();
 }
@@ -48,7 +48,7 @@ TEST_CASE("JSON: values are taken in the file's order, others skipped") {
 TEST_CASE("JSON: escapes become UTF-8") {
   const auto string_of = [](const std::string& text) {
     text_place place{"file.json", 0};
-    return json_reader(text, place).take_string("text");
+    return json_reader(text, place).read_string("text");
   };
   CHECK(string_of(R"("\"\\\/\b\f\r\t")") == "\"\\/\b\f\r\t");
   CHECK(string_of(R"("\u0041\u03bc\u20ac")") == "A\xCE\xBC\xE2\x82\xAC");

@@ -1,6 +1,6 @@
 #include "scratch.hpp"
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/mbsdf.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/materials/mbsdf.hpp>
 #include <gonio/model/ggx.hpp>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <vector>
 
 using gonio::io::mbsdf_material;
-using gonio::io::parse_mbsdf;
+using gonio::io::read_mbsdf;
 using scratch::bytes_of;
 using scratch::check_refused;
 
@@ -21,17 +21,17 @@ const std::string magic = "NVIDIA ARC MBSDF V1\n";
 /// A block with the values 0, 1, 2, ...
 std::string block(const std::string& ident, std::uint32_t type, std::uint32_t polar, std::uint32_t azimuth) {
   gonio::io::byte_writer writer;
-  writer.put_bytes(ident.data(), ident.size());
-  writer.put('\n');
-  writer.put(type);
-  writer.put(polar);
-  writer.put(azimuth);
+  writer.write_bytes(ident.data(), ident.size());
+  writer.write('\n');
+  writer.write(type);
+  writer.write(polar);
+  writer.write(azimuth);
   const std::uint32_t count = polar * polar * azimuth * (type == 0 ? 1 : 3);
-  for (std::uint32_t i = 0; i < count; ++i) writer.put(static_cast<float>(i));
+  for (std::uint32_t i = 0; i < count; ++i) writer.write(static_cast<float>(i));
   return {reinterpret_cast<const char*>(writer.bytes().data()), writer.bytes().size()};
 }
 
-mbsdf_material parsed(const std::string& content) { return parse_mbsdf(bytes_of(content), "paint.mbsdf"); }
+mbsdf_material parsed(const std::string& content) { return read_mbsdf(bytes_of(content), "paint.mbsdf"); }
 
 void check_mbsdf_refused(const std::string& content, std::initializer_list<std::string> words) {
   check_refused([&] { return parsed(content); }, {"paint.mbsdf"});
@@ -83,9 +83,9 @@ TEST_CASE("MBSDF: what was written is read again, byte for byte") {
 
 TEST_CASE("MBSDF: keys must be words, and letters that are not ASCII are not written") {
   mbsdf_material material{{{1, 1}, {0.5f}}, {{"two words", "x"}}};
-  check_refused([&] { return gonio::io::serialise_mbsdf(material); }, {"two words"});
+  check_refused([&] { return gonio::io::write_mbsdf(material); }, {"two words"});
   material.metadata = {{"name", "gr\xC3\xBCn\t"}};
-  CHECK(parse_mbsdf(gonio::io::serialise_mbsdf(material), "t").metadata.at("name") == "gr??n?");
+  CHECK(read_mbsdf(gonio::io::write_mbsdf(material), "t").metadata.at("name") == "gr??n?");
 }
 
 TEST_CASE("MBSDF: what is no such file is refused") {
@@ -115,5 +115,5 @@ TEST_CASE("MBSDF: damaged files are refused or read, and crash nothing") {
   const std::string both =
       magic + "name=\"x\"\n" + block("MBSDF_DATA_REFLECTION=", 1, 2, 3) + block("MBSDF_DATA_TRANSMISSION=", 0, 2, 2);
   scratch::check_survives_damage(bytes_of(both), 3000,
-                                 [](std::span<const std::byte> bytes) { return parse_mbsdf(bytes, "t"); });
+                                 [](std::span<const std::byte> bytes) { return read_mbsdf(bytes, "t"); });
 }

@@ -1,6 +1,6 @@
 #include "scratch.hpp"
-#include <gonio/io/merl.hpp>
-#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
 
 #include <rapidcheck.h>
 #include <zlib.h>
@@ -9,7 +9,6 @@ using gonio::cell_anchor;
 using gonio::grid_extents;
 using gonio::io::infer_convention;
 using gonio::io::merl_options;
-using gonio::io::parse_merl;
 using gonio::io::read_merl;
 using gonio::io::read_merl_any;
 using gonio::io::table_convention;
@@ -49,7 +48,7 @@ TEST_CASE("values, planes and scales are MERL's") {
   // A plane a channel, phi_d fastest: the value of a cell says where it stood.
   std::vector<double> values(3 * 5 * 4 * 6);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i);
-  const auto table = parse_merl(merl_bytes({5, 4, 6}, values), "x");
+  const auto table = read_merl(merl_bytes({5, 4, 6}, values), "x");
   const auto& cells = table.cells();
   CHECK(cells.grid().extents() == small);
   CHECK(cells.grid().anchor() == cell_anchor::centre);
@@ -106,7 +105,7 @@ TEST_CASE("cells below the horizon are written as -1 and ignored when read") {
     planes[linear] = std::numeric_limits<double>::quiet_NaN();
   }
   CHECK(marked == 120 - table.cells().size());
-  const auto again = parse_merl(merl_bytes({5, 4, 6}, planes), "x");
+  const auto again = read_merl(merl_bytes({5, 4, 6}, planes), "x");
   CHECK(again.cells() == table.cells());
   CHECK(std::ranges::equal(again.values(), table.values()));
 }
@@ -173,19 +172,19 @@ TEST_CASE("a convention can be forced, and cells shared") {
   const auto bytes = small_bytes();
   const gonio::valid_cells corner(gonio::grid(small, cell_anchor::lower_corner), 0.1);
   const merl_options forced{table_convention{cell_anchor::lower_corner, 0.1}, {}};
-  CHECK(parse_merl(bytes, "x", forced).cells() == corner);
-  CHECK(parse_merl(bytes, "x").cells() == gonio::valid_cells(gonio::grid(small)));
+  CHECK(read_merl(bytes, "x", forced).cells() == corner);
+  CHECK(read_merl(bytes, "x").cells() == gonio::valid_cells(gonio::grid(small)));
   // Sharing changes nothing but memory: cells of another convention are not taken.
-  CHECK(parse_merl(bytes, "x", {{}, corner}).cells() == gonio::valid_cells(gonio::grid(small)));
-  CHECK(parse_merl(bytes, "x", {forced.convention, corner}).cells() == corner);
+  CHECK(read_merl(bytes, "x", {{}, corner}).cells() == gonio::valid_cells(gonio::grid(small)));
+  CHECK(read_merl(bytes, "x", {forced.convention, corner}).cells() == corner);
 }
 
 TEST_CASE("bad MERL files are refused") {
   scratch::check_refuses_non_files([](const auto& path) { return read_merl(path); });
   scratch::check_refuses_non_files([](const auto& path) { return read_merl_any(path); });
   const auto refused = [](const std::vector<std::byte>& bytes, std::initializer_list<std::string> words) {
-    check_refused([&] { return parse_merl(bytes, "a.binary"); }, words);
-    check_refused([&] { return parse_merl(bytes, "a.binary"); }, {"a.binary: "});
+    check_refused([&] { return read_merl(bytes, "a.binary"); }, words);
+    check_refused([&] { return read_merl(bytes, "a.binary"); }, {"a.binary: "});
   };
   const auto valid = small_bytes();
   for (const std::size_t size : {0u, 1u, 11u})
@@ -213,7 +212,7 @@ TEST_CASE("NaN and infinity in a valid cell are refused") {
     values[120 + 6 * 4 + 6 + 2] = bad;
     check_refused(
         [&] {
-          return parse_merl(merl_bytes({5, 4, 6}, values), "a.binary");
+          return read_merl(merl_bytes({5, 4, 6}, values), "a.binary");
         },
         {"a.binary: ", "green", "theta_h 1", "theta_d 1", "phi_d 2", "expected a finite number"});
   }
@@ -239,10 +238,10 @@ TEST_CASE("damaged MERL files are read or refused") {
   const scratch::folder here;
   write_merl(here / "a", numbered_table(gonio::valid_cells(gonio::grid(small))));
   const auto plain = gonio::io::read_bytes(here / "a");
-  scratch::check_survives_damage(plain, 2000, [](auto bytes) { return parse_merl(bytes, "x"); });
+  scratch::check_survives_damage(plain, 2000, [](auto bytes) { return read_merl(bytes, "x"); });
   compress_file(here / "a", here / "b");
   scratch::check_survives_damage(gonio::io::read_bytes(here / "b"), 2000,
-                                 [](auto bytes) { return gonio::io::parse_merl_any(bytes, "x"); });
+                                 [](auto bytes) { return gonio::io::read_merl_any(bytes, "x"); });
 }
 
 TEST_CASE("compressed and plain files are told apart by content") {

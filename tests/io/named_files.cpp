@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/named_files.hpp>
+#include <gonio/io/text/named_files.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,13 +1,13 @@
 #include "scratch.hpp"
-#include <gonio/io/near_field_setup.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/setups/near_field_setup.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <doctest/doctest.h>
 
 #include <string>
 #include <variant>
 
-using gonio::io::parse_near_field_setup;
+using gonio::io::read_near_field_setup;
 
 namespace {
 
@@ -33,7 +33,7 @@ std::string with(const std::string& line, const std::string& other) {
 }  // namespace
 
 TEST_CASE("every entry is read") {
-  const auto setup = parse_near_field_setup(complete, "first.txt");
+  const auto setup = read_near_field_setup(complete, "first.txt");
   const auto& intrinsics = setup.camera.intrinsics();
   CHECK(intrinsics.columns == 640);
   CHECK(intrinsics.rows == 480);
@@ -61,7 +61,7 @@ TEST_CASE("every entry is read") {
 }
 
 TEST_CASE("what is left out is what the documentation says") {
-  const auto setup = parse_near_field_setup(smallest, "first.txt");
+  const auto setup = read_near_field_setup(smallest, "first.txt");
   CHECK(setup.camera.intrinsics().focal_length_y == 10.0);
   CHECK(setup.camera.intrinsics().principal_x == 4.0);
   CHECK(setup.camera.intrinsics().principal_y == 3.0);
@@ -71,13 +71,13 @@ TEST_CASE("what is left out is what the documentation says") {
   CHECK_FALSE(setup.window);
   CHECK_FALSE(setup.saturation);
   CHECK(setup.block == 1);
-  const auto windowed = parse_near_field_setup(with("region 1", "window 0 0 8 6\nirradiance 2"), "first.txt");
+  const auto windowed = read_near_field_setup(with("region 1", "window 0 0 8 6\nirradiance 2"), "first.txt");
   CHECK_FALSE(windowed.disc);
   CHECK((light_of(windowed).irradiance == 2.0).all());
 }
 
 TEST_CASE("a rotation is the camera's axes, row by row") {
-  const auto setup = parse_near_field_setup(with("target 0 0 0", "rotation 0 1 0  1 0 0  0 0 -1"), "first.txt");
+  const auto setup = read_near_field_setup(with("target 0 0 0", "rotation 0 1 0  1 0 0  0 0 -1"), "first.txt");
   CHECK(setup.camera.pinhole().rotation().row(0) == Eigen::RowVector3d(0.0, 1.0, 0.0));
   CHECK(setup.camera.pinhole().rotation().row(1) == Eigen::RowVector3d(1.0, 0.0, 0.0));
   CHECK(setup.camera.ray_through(4.0, 3.0).towards == gonio::direction(0.0, 0.0, -1.0));
@@ -85,8 +85,8 @@ TEST_CASE("a rotation is the camera's axes, row by row") {
 
 TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
   const auto refused = [](const std::string& text, std::initializer_list<std::string> words) {
-    scratch::check_refused([&] { return parse_near_field_setup(text, "first.txt"); }, words);
-    scratch::check_refused([&] { return parse_near_field_setup(text, "first.txt"); }, {"first.txt"});
+    scratch::check_refused([&] { return read_near_field_setup(text, "first.txt"); }, words);
+    scratch::check_refused([&] { return read_near_field_setup(text, "first.txt"); }, {"first.txt"});
   };
   refused(smallest + "lamps 3\n", {"line 7", "'lamps' is unknown", "light_angles"});
   refused(smallest + "size 8 6\n", {"line 7", "'size' is already in line 1"});
@@ -126,33 +126,33 @@ TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
 
 TEST_CASE("a lens, a lamp and a white reference are read as those of a sphere") {
   const auto setup =
-      parse_near_field_setup(with("light 0 0 2",
-                                  "lamp 3 4 5\nintensity 2\ndistortion -0.2 0.05 0.001 0.002\nwhite_reflectance 0.98\n"
-                                  "white_plane 0 0 -1 0 0 1"),
-                             "first.txt");
+      read_near_field_setup(with("light 0 0 2",
+                                 "lamp 3 4 5\nintensity 2\ndistortion -0.2 0.05 0.001 0.002\nwhite_reflectance 0.98\n"
+                                 "white_plane 0 0 -1 0 0 1"),
+                            "first.txt");
   const auto& lamp = std::get<gonio::capture::point_lamp>(setup.light);
   CHECK(lamp.position == Eigen::Vector3d(3.0, 4.0, 5.0));
   CHECK((lamp.intensity == 2.0).all());
   CHECK(setup.camera.distortion().k2 == 0.05);
   CHECK(setup.white_reflectance == 0.98);
   CHECK(setup.white_plane->point.z() == -1.0);
-  const auto wide = parse_near_field_setup(with("focal_length 10", "field_of_view 90"), "first.txt");
+  const auto wide = read_near_field_setup(with("focal_length 10", "field_of_view 90"), "first.txt");
   CHECK(wide.camera.intrinsics().focal_length_x == doctest::Approx(4.0));
 }
 
 TEST_CASE("with a calibration a set-up says neither size nor lens") {
   const gonio::io::camera_calibration calibration{gonio::camera_intrinsics::square(40, 0.5), {.k1 = -0.1}};
   const std::string bare = "position 0 1 1\ntarget 0 0 0\nlight 0 0 2\nregion 1\n";
-  const auto setup = parse_near_field_setup(bare, "first.txt", calibration);
+  const auto setup = read_near_field_setup(bare, "first.txt", calibration);
   CHECK(setup.camera.intrinsics().columns == 40);
   CHECK(setup.camera.distortion().k1 == -0.1);
-  scratch::check_refused([&] { return parse_near_field_setup(smallest, "first.txt", calibration); },
+  scratch::check_refused([&] { return read_near_field_setup(smallest, "first.txt", calibration); },
                          {"line 1", "'size'", "the calibration says it already"});
 }
 
 TEST_CASE("what is missing is named") {
   const auto missing = [](const std::string& line, const std::string& name) {
-    scratch::check_refused([&] { return parse_near_field_setup(with(line, ""), "first.txt"); },
+    scratch::check_refused([&] { return read_near_field_setup(with(line, ""), "first.txt"); },
                            {"first.txt: " + name + " is missing"});
   };
   missing("size 8 6", "'size'");
@@ -169,6 +169,6 @@ TEST_CASE("files are read, and what is no file or damaged is refused") {
   CHECK(gonio::io::read_near_field_setup(here / "first.txt").block == 4);
   scratch::check_refuses_non_files([](const auto& path) { return gonio::io::read_near_field_setup(path); });
   scratch::check_survives_damage(scratch::bytes_of(complete), 2000, [](std::span<const std::byte> bytes) {
-    return parse_near_field_setup(gonio::io::detail::as_text(bytes), "damaged.txt");
+    return read_near_field_setup(gonio::io::as_text(bytes), "damaged.txt");
   });
 }

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 
 using gonio::io::read_networks;
 using scratch::check_refused;

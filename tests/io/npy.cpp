@@ -1,9 +1,8 @@
 #include "scratch.hpp"
-#include <gonio/io/npy.hpp>
+#include <gonio/io/bytes/npy.hpp>
 
 #include <rapidcheck.h>
 
-using gonio::io::parse_npy;
 using gonio::io::read_npy;
 using gonio::io::write_npy;
 using scratch::bytes_of;
@@ -34,8 +33,8 @@ bool same(const A& a, const B& b) {
 
 void check_text_refused(const std::string& text, std::initializer_list<std::string> words) {
   CAPTURE(text);
-  check_refused([&] { return parse_npy<float, 2>(bytes_of(text), "a.npy"); }, {"a.npy: "});
-  check_refused([&] { return parse_npy<float, 2>(bytes_of(text), "a.npy"); }, words);
+  check_refused([&] { return read_npy<float, 2>(bytes_of(text), "a.npy"); }, {"a.npy: "});
+  check_refused([&] { return read_npy<float, 2>(bytes_of(text), "a.npy"); }, words);
 }
 
 }  // namespace
@@ -104,15 +103,15 @@ TEST_CASE("the other type is converted") {
 
 TEST_CASE("headers are read in every form that numpy allows") {
   const auto reads = [](const std::string& text) {
-    return same(parse_npy<float, 2>(bytes_of(text), "x"), xt::xtensor<float, 2>({{1.f, 2.f, 3.f}, {4.f, 5.f, 6.f}}));
+    return same(read_npy<float, 2>(bytes_of(text), "x"), xt::xtensor<float, 2>({{1.f, 2.f, 3.f}, {4.f, 5.f, 6.f}}));
   };
   for (const char version : {char{1}, char{2}, char{3}}) CHECK(reads(npy(dictionary, six, version)));
   CHECK(reads(npy("{'shape':(2,3),'descr':'<f4','fortran_order':False}", six)));
   CHECK(reads(npy("{\"descr\": \"<f4\", \"fortran_order\": False, \"shape\": (2, 3,), }     \n", six)));
   const auto scalar = bytes_of(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (), }\n", raw<float>({7})));
-  CHECK(parse_npy<float, 0>(scalar, "x")() == 7.0f);
+  CHECK(read_npy<float, 0>(scalar, "x")() == 7.0f);
   const auto empty = bytes_of(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (3, 0), }\n", ""));
-  CHECK(parse_npy<float, 2>(empty, "x").size() == 0);
+  CHECK(read_npy<float, 2>(empty, "x").size() == 0);
 }
 
 TEST_CASE("bad npy files are refused") {
@@ -167,21 +166,21 @@ TEST_CASE("bad npy files are refused") {
 
 TEST_CASE("damaged npy files are read or refused") {
   scratch::check_survives_damage(bytes_of(npy(dictionary, six)), 5000,
-                                 [](auto bytes) { return parse_npy<double, 2>(bytes, "x"); });
+                                 [](auto bytes) { return read_npy<double, 2>(bytes, "x"); });
 }
 
 TEST_CASE("npy: half floats are read and written, rounded to the nearest") {
   const std::string halves = "{'descr': '<f2', 'fortran_order': False, 'shape': (6,), }\n";
   // numpy.array([1, -2, 65504, 2**-24, 0.1, 2**-14], dtype='<f2').tobytes()
   const std::string bytes("\x00\x3c\x00\xc0\xff\x7b\x01\x00\x66\x2e\x00\x04", 12);
-  const auto array = parse_npy<float, 1>(bytes_of(npy(halves, bytes)), "a.npy");
+  const auto array = read_npy<float, 1>(bytes_of(npy(halves, bytes)), "a.npy");
   CHECK(array(0) == 1.0f);
   CHECK(array(1) == -2.0f);
   CHECK(array(2) == 65504.0f);
   CHECK(array(3) == 0x1p-24f);
   CHECK(array(4) == 0.0999755859375f);
   CHECK(array(5) == 0x1p-14f);
-  CHECK(parse_npy<double, 1>(bytes_of(npy(halves, bytes)), "a.npy")(4) == 0.0999755859375);
+  CHECK(read_npy<double, 1>(bytes_of(npy(halves, bytes)), "a.npy")(4) == 0.0999755859375);
   int other = 0;
   for (std::uint32_t bits = 0; bits < 0x10000; ++bits) {
     const float value = gonio::from_half(static_cast<std::uint16_t>(bits));

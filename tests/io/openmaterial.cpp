@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/openmaterial.hpp>
+#include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/model/ggx.hpp>
 #include <gonio/model/lambert.hpp>
 
@@ -9,8 +9,8 @@
 
 using gonio::degrees;
 using gonio::rgb;
-using gonio::io::format_openmaterial;
-using gonio::io::parse_openmaterial;
+using gonio::io::read_openmaterial;
+using gonio::io::write_openmaterial;
 using scratch::check_refused;
 
 namespace {
@@ -22,12 +22,12 @@ std::string file_of(const std::string& rows) {
          rows + "\n]}}\n";
 }
 
-gonio::sample_set parsed(const std::string& rows) { return parse_openmaterial(file_of(rows), "asphalt_brdf.xompt"); }
+gonio::sample_set parsed(const std::string& rows) { return read_openmaterial(file_of(rows), "asphalt_brdf.xompt"); }
 
 void check_xompt_refused(const std::string& text, std::initializer_list<std::string> words) {
   CAPTURE(text);
-  check_refused([&] { return parse_openmaterial(text, "asphalt_brdf.xompt"); }, {"asphalt_brdf.xompt"});
-  check_refused([&] { return parse_openmaterial(text, "asphalt_brdf.xompt"); }, words);
+  check_refused([&] { return read_openmaterial(text, "asphalt_brdf.xompt"); }, {"asphalt_brdf.xompt"});
+  check_refused([&] { return read_openmaterial(text, "asphalt_brdf.xompt"); }, words);
 }
 
 /// The same value everywhere, which is below zero.
@@ -63,7 +63,7 @@ TEST_CASE("OpenMATERIAL: wavelengths in metres make a colour, in whatever order"
   CHECK((flat[0].value - 0.3).abs().maxCoeff() < 1e-6);
   const auto red = parsed("[6.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.1], [4.5e-7, 0.4, 0.2, 0, 0.1]");
   CHECK(red[0].value[0] > 1.5 * red[0].value[2]);
-  const auto spectra = gonio::io::parse_openmaterial_spectra(
+  const auto spectra = gonio::io::read_openmaterial_spectra(
       file_of("[6.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.1]"), "red_brdf.xompt");
   REQUIRE(spectra.bands() == 2);
   CHECK(spectra.wavelengths[0] == doctest::Approx(550.0));
@@ -72,12 +72,12 @@ TEST_CASE("OpenMATERIAL: wavelengths in metres make a colour, in whatever order"
 
 TEST_CASE("OpenMATERIAL: a table that is written has the colours of its material") {
   const gonio::model::ggx gold{.alpha = 0.5, .f0 = rgb(0.9, 0.6, 0.3)};
-  const std::string text = format_openmaterial(gold, {.name = "gold \"leaf\""}, {6, 8});
+  const std::string text = write_openmaterial(gold, {.name = "gold \"leaf\""}, {6, 8});
   CHECK(gonio::io::looks_like_openmaterial(text.substr(0, 1000)));
   for (const char* words : {"\"name\": \"gold \\\"leaf\\\"\"", "without the cosine", "\"license\": \"NOASSERTION\"",
                             "\"wavelengths\": [380e-9, 400e-9,", "[380e-9, 1.570796, 1.570796, 6.283185, "})
     CHECK_MESSAGE(text.find(words) != std::string::npos, words);
-  const auto samples = parse_openmaterial(text, "gold_brdf.xompt");
+  const auto samples = read_openmaterial(text, "gold_brdf.xompt");
   CHECK(samples.size() == 1 + 5 + 5 + 5 * 5 * 8);
   double worst = 0.0;
   for (const auto& each : samples) {
@@ -85,7 +85,7 @@ TEST_CASE("OpenMATERIAL: a table that is written has the colours of its material
     worst = std::max(worst, (each.value / gold(pair.wi, pair.wo) - 1.0).abs().maxCoeff());
   }
   CHECK(worst < 0.02);  // renderers' spectra are linear between wavelengths, ours of samples are trapezoids
-  CHECK(format_openmaterial(gold, {.name = "gold \"leaf\""}, {6, 8}, gonio::thread_count{3}) == text);
+  CHECK(write_openmaterial(gold, {.name = "gold \"leaf\""}, {6, 8}, gonio::thread_count{3}) == text);
 }
 
 TEST_CASE("OpenMATERIAL: identifiers follow from name and numbers") {
@@ -94,18 +94,18 @@ TEST_CASE("OpenMATERIAL: identifiers follow from name and numbers") {
     const std::size_t at = text.find("\"uuid\": \"") + 9;
     return text.substr(at, text.find('"', at) - at);
   };
-  const std::string one = uuid(format_openmaterial(grey, {.name = "a"}, {2, 2}));
+  const std::string one = uuid(write_openmaterial(grey, {.name = "a"}, {2, 2}));
   REQUIRE(one.size() == 36);
   CHECK(one[8] == '-');
   CHECK(one[14] == '8');
   CHECK(std::string("89ab").find(one[19]) != std::string::npos);
-  CHECK(uuid(format_openmaterial(grey, {.name = "a"}, {2, 2})) == one);
-  CHECK(uuid(format_openmaterial(grey, {.name = "b"}, {2, 2})) != one);
-  CHECK(uuid(format_openmaterial(white, {.name = "a"}, {2, 2})) != one);
+  CHECK(uuid(write_openmaterial(grey, {.name = "a"}, {2, 2})) == one);
+  CHECK(uuid(write_openmaterial(grey, {.name = "b"}, {2, 2})) != one);
+  CHECK(uuid(write_openmaterial(white, {.name = "a"}, {2, 2})) != one);
 }
 
 TEST_CASE("OpenMATERIAL: the schema has no negative values, and names end as materials refer to them") {
-  const std::string text = format_openmaterial(negative_brdf{}, {}, {1, 1});
+  const std::string text = write_openmaterial(negative_brdf{}, {}, {1, 1});
   CHECK(text.find(", -") == std::string::npos);
   CHECK(text.find(", 0]") != std::string::npos);
   const scratch::folder here;
@@ -114,8 +114,8 @@ TEST_CASE("OpenMATERIAL: the schema has no negative values, and names end as mat
   check_refused([&] { return gonio::io::write_openmaterial(here / "t.xompt", text), 0; }, {"t.xompt", "_brdf.xompt"});
   CHECK(here.entries() == 1);
   const gonio::model::lambertian grey{.albedo = rgb::Constant(0.5)};
-  check_refused([&] { return format_openmaterial(grey, {}, {61, 1}); }, {"1 to 60", "61"});
-  check_refused([&] { return format_openmaterial(grey, {}, {1, 0}); }, {"1 to 120"});
+  check_refused([&] { return write_openmaterial(grey, {}, {61, 1}); }, {"1 to 60", "61"});
+  check_refused([&] { return write_openmaterial(grey, {}, {1, 0}); }, {"1 to 120"});
 }
 
 TEST_CASE("OpenMATERIAL: what is no such file is refused by its line") {

@@ -1,17 +1,17 @@
 #include "scratch.hpp"
-#include <gonio/io/pnm.hpp>
+#include <gonio/io/images/pnm.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
 using gonio::stored_codes;
-using gonio::io::parse_pnm;
+using gonio::io::read_pnm;
 using scratch::bytes_of;
 using scratch::check_refused;
 
 namespace {
 
-stored_codes parsed(const std::string& text) { return parse_pnm(bytes_of(text), "some.ppm"); }
+stored_codes parsed(const std::string& text) { return read_pnm(bytes_of(text), "some.ppm"); }
 
 }  // namespace
 
@@ -77,5 +77,5 @@ TEST_CASE("Netpbm: bad files are refused") {
 TEST_CASE("Netpbm: damaged files are read or refused") {
   std::string file = "P6\n3 2\n4095\n";
   for (int i = 0; i < 18; ++i) file += {static_cast<char>(i % 16), static_cast<char>(7 * i)};
-  scratch::check_survives_damage(bytes_of(file), 2000, [](auto bytes) { return parse_pnm(bytes, "some.ppm"); });
+  scratch::check_survives_damage(bytes_of(file), 2000, [](auto bytes) { return read_pnm(bytes, "some.ppm"); });
 }

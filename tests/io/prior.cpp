@@ -1,10 +1,10 @@
 #include "../synthetic_materials.hpp"
 #include "scratch.hpp"
 #include <gonio/basis/learn_streamed_pca.hpp>
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/checked_file.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/quantise.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
+#include <gonio/io/bytes/quantise.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ gonio::log_relative_pca small_prior() {
 
 std::string refusal(std::span<const std::byte> bytes) {
   try {
-    static_cast<void>(io::decode_prior(bytes, "x.prior"));
+    static_cast<void>(io::read_prior(bytes, "x.prior"));
   } catch (const gonio::error& error) {
     return error.what();
   }
@@ -32,7 +32,7 @@ std::string refusal(std::span<const std::byte> bytes) {
 }  // namespace
 
 TEST_CASE("a prior comes back with the errors of its quantisation and no others") {
-  const auto prior = small_prior(), back = io::decode_prior(io::encode_prior(prior), "x");
+  const auto prior = small_prior(), back = io::read_prior(io::write_prior(prior), "x");
   CHECK(back.cells() == prior.cells());
   CHECK(back.names() == prior.names());
   CHECK(back.source() == prior.source());
@@ -54,12 +54,12 @@ TEST_CASE("a prior keeps the cosine weight of its metric; the bytes of one with 
   const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5);
   const auto metric = gonio::log_relative::to_median_of(set);
   const auto encode = [&](gonio::cosine_weighting weighting) {
-    return io::encode_prior(gonio::learn_pca(set, metric.weighted_by(weighting), 8));
+    return io::write_prior(gonio::learn_pca(set, metric.weighted_by(weighting), 8));
   };
   const auto product = encode(gonio::cosine_weighting::product), larger = encode(gonio::cosine_weighting::larger);
-  CHECK(product == io::encode_prior(gonio::learn_pca(set, metric, 8)));
-  CHECK(io::decode_prior(product, "x").metric().weighting() == gonio::cosine_weighting::product);
-  const auto back = io::decode_prior(larger, "x");
+  CHECK(product == io::write_prior(gonio::learn_pca(set, metric, 8)));
+  CHECK(io::read_prior(product, "x").metric().weighting() == gonio::cosine_weighting::product);
+  const auto back = io::read_prior(larger, "x");
   CHECK(back.metric().weighting() == gonio::cosine_weighting::larger);
   const auto at = gonio::locate(back.cells(), {0.3, 0.4, 0.5});
   CHECK(back.metric().cosine_weight(at.cosine) == std::max(at.cosine.i, at.cosine.o));
@@ -70,17 +70,17 @@ TEST_CASE(
   const std::vector<double> wavelengths{405.0, 532.0, 633.0, 780.0, 1064.0};
   const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5);
   const auto prior = gonio::learn_streamed_pca(at_wavelengths(set, wavelengths), {.components = 8}).prior;
-  const auto bytes = io::encode_prior(prior), colours = io::encode_prior(learn(set, 8));
+  const auto bytes = io::write_prior(prior), colours = io::write_prior(learn(set, 8));
   CHECK(bytes[9] == std::byte{2});
   CHECK(colours[9] == std::byte{1});
-  const auto back = io::decode_prior(bytes, "x");
+  const auto back = io::read_prior(bytes, "x");
   CHECK(back.wavelengths() == wavelengths);
   CHECK(back.channels() == 5);
   CHECK(back.names() == prior.names());
   CHECK(back.coefficients() == prior.coefficients());
-  CHECK(io::decode_prior(colours, "x").wavelengths().empty());
+  CHECK(io::read_prior(colours, "x").wavelengths().empty());
   try {
-    static_cast<void>(io::decode_checked({"gonio-pca", 1, "prior"}, bytes, "x.prior"));  // as older programs do
+    static_cast<void>(io::read_checked({"gonio-pca", 1, "prior"}, bytes, "x.prior"));  // as older programs do
     FAIL("an older program reads it");
   } catch (const gonio::error& refusal) {
     CHECK(std::string(refusal.what()) == "x.prior: prior format version 2, this program reads version 1");
@@ -90,16 +90,16 @@ TEST_CASE(
 TEST_CASE("wavelengths that a file cannot have are refused") {
   const auto refusal_of = [](std::uint32_t count, double second) {
     io::byte_writer payload;
-    for (int axis = 0; axis < 3; ++axis) payload.put(std::uint32_t{4});
-    payload.put(std::uint32_t{4});  // wavelengths
-    payload.put(0.0);
-    payload.put(std::uint32_t{1});  // a component of a material
-    payload.put(std::uint32_t{1});
-    payload.put(count);
-    payload.put(500.0);
-    payload.put(second);
-    for (int i = 0; i < 1000; ++i) payload.put(std::uint64_t{0});
-    return refusal(io::encode_checked({"gonio-pca", 2, "prior"}, payload.bytes()));
+    for (int axis = 0; axis < 3; ++axis) payload.write(std::uint32_t{4});
+    payload.write(std::uint32_t{4});  // wavelengths
+    payload.write(0.0);
+    payload.write(std::uint32_t{1});  // a component of a material
+    payload.write(std::uint32_t{1});
+    payload.write(count);
+    payload.write(500.0);
+    payload.write(second);
+    for (int i = 0; i < 1000; ++i) payload.write(std::uint64_t{0});
+    return refusal(io::write_checked({"gonio-pca", 2, "prior"}, payload.bytes()));
   };
   CHECK(refusal_of(0, 600.0).find("cannot hold 0 wavelengths") != std::string::npos);
   CHECK(refusal_of(0xffffffff, 600.0).find("cannot hold 4294967295 wavelengths") != std::string::npos);
@@ -109,12 +109,12 @@ TEST_CASE("wavelengths that a file cannot have are refused") {
 }
 
 TEST_CASE("what was read is written with the same bytes") {
-  const auto once = io::encode_prior(small_prior());
-  const auto back = io::decode_prior(once, "x");
-  const auto twice = io::encode_prior(back);
+  const auto once = io::write_prior(small_prior());
+  const auto back = io::read_prior(once, "x");
+  const auto twice = io::write_prior(back);
   // The codes are the same; only the exponential and logarithm of the reference may round.
-  CHECK(io::decode_prior(twice, "x").components() == back.components());
-  CHECK(io::decode_prior(twice, "x").mean() == back.mean());
+  CHECK(io::read_prior(twice, "x").components() == back.components());
+  CHECK(io::read_prior(twice, "x").mean() == back.mean());
 }
 
 TEST_CASE("the quantised column knows constants and extremes") {
@@ -125,14 +125,14 @@ TEST_CASE("the quantised column knows constants and extremes") {
   CHECK(io::dequantise(span, 0) == -1.0f);
   CHECK(io::dequantise(span, 1) == doctest::Approx(7.0f));
   io::byte_writer out;
-  io::put_quantised(out, span);
+  io::write_quantised(out, span);
   io::byte_reader in(out.bytes(), "x");
-  CHECK(io::take_quantised<std::uint16_t>(in, 2).codes == span.codes);
+  CHECK(io::read_quantised<std::uint16_t>(in, 2).codes == span.codes);
   CHECK(in.left() == 0);
 }
 
 TEST_CASE("damaged priors are refused with what is wrong") {
-  const auto whole = io::encode_prior(small_prior());
+  const auto whole = io::write_prior(small_prior());
   CHECK(refusal({}).find("not a gonio prior") != std::string::npos);
   CHECK(refusal(std::span(whole).first(5)).find("not a gonio prior") != std::string::npos);
   for (const std::size_t length :
@@ -152,7 +152,7 @@ TEST_CASE("damaged priors are refused with what is wrong") {
 }
 
 TEST_CASE("any flipped byte is noticed, or is padding of the compressed stream") {
-  const auto whole = io::encode_prior(small_prior());
+  const auto whole = io::write_prior(small_prior());
   std::mt19937 generator(3);
   int noticed = 0;
   for (int i = 0; i < 200; ++i) {
@@ -162,7 +162,7 @@ TEST_CASE("any flipped byte is noticed, or is padding of the compressed stream")
     CAPTURE(place);
     // The last bits of a deflated stream are not read: a prior that is not refused is the one that was written.
     if (refusal(damaged).empty())
-      CHECK(io::encode_prior(io::decode_prior(damaged, "x")) == io::encode_prior(io::decode_prior(whole, "x")));
+      CHECK(io::write_prior(io::read_prior(damaged, "x")) == io::write_prior(io::read_prior(whole, "x")));
     else
       ++noticed;
   }
@@ -174,17 +174,17 @@ TEST_CASE("a payload with a right checksum but impossible contents is refused") 
   const auto encode = [](auto&& fill) {
     io::byte_writer payload;
     fill(payload);
-    return io::encode_checked(io::checked_file_kind{"gonio-pca", 1, "prior"}, payload.bytes());
+    return io::write_checked(io::checked_file_kind{"gonio-pca", 1, "prior"}, payload.bytes());
   };
   const auto header = [](io::byte_writer& out, std::uint32_t extent, std::uint32_t anchor, std::uint32_t components,
                          int padding = 100) {
-    for (int axis = 0; axis < 3; ++axis) out.put(extent);
-    out.put(anchor);
-    out.put(0.0);
-    out.put(components);
-    out.put(std::uint32_t{2});
-    out.put(1.0);
-    for (int i = 0; i < padding; ++i) out.put(std::uint64_t{0});
+    for (int axis = 0; axis < 3; ++axis) out.write(extent);
+    out.write(anchor);
+    out.write(0.0);
+    out.write(components);
+    out.write(std::uint32_t{2});
+    out.write(1.0);
+    for (int i = 0; i < padding; ++i) out.write(std::uint64_t{0});
   };
   CHECK(refusal(encode([&](auto& out) { header(out, 0, 0, 3); })).find("extent") != std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 0xffffffff, 0, 3); })).find("extent") != std::string::npos);

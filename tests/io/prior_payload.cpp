@@ -1,7 +1,7 @@
 #include "../synthetic_materials.hpp"
-#include <gonio/io/gzip.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/prior_payload.hpp>
+#include <gonio/io/bytes/gzip.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/prior_payload.hpp>
 
 #include <doctest/doctest.h>
 
@@ -19,18 +19,18 @@ gonio::log_relative_pca small_prior() {
 
 std::vector<std::byte> payload_of(const gonio::log_relative_pca& prior) {
   io::byte_writer out;
-  io::put_prior(out, prior);
-  return out.take();
+  io::write_prior(out, prior);
+  return std::move(out).bytes();
 }
 
 }  // namespace
 
 TEST_CASE("the payload of a prior's file is what follows its first 25 bytes, inflated") {
   const auto prior = small_prior();
-  const auto payload = payload_of(prior), file = io::encode_prior(prior);
+  const auto payload = payload_of(prior), file = io::write_prior(prior);
   CHECK(io::decompress_bytes(std::span(file).subspan(25), payload.size(), "x") == payload);
   io::byte_reader in(payload, "x");
-  const auto back = io::take_prior(in, "x"), read = io::decode_prior(file, "x");
+  const auto back = io::read_prior(in, "x"), read = io::read_prior(file, "x");
   CHECK(back.components() == read.components());
   CHECK(back.mean() == read.mean());
   CHECK(back.names() == read.names());
@@ -41,7 +41,7 @@ TEST_CASE("a payload that is too short or too long is refused") {
   const auto refusal = [](std::span<const std::byte> bytes) -> std::string {
     io::byte_reader in(bytes, "a page");
     try {
-      static_cast<void>(io::take_prior(in, "a page"));
+      static_cast<void>(io::read_prior(in, "a page"));
     } catch (const gonio::error& error) {
       return error.what();
     }

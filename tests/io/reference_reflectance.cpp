@@ -1,6 +1,6 @@
 #include "scratch.hpp"
 #include <gonio/core/direction.hpp>
-#include <gonio/io/reference_reflectance.hpp>
+#include <gonio/io/measurements/reference_reflectance.hpp>
 
 #include <doctest/doctest.h>
 
@@ -34,6 +34,14 @@ TEST_CASE("reference reflectance: columns in any order, for one or both angles, 
   CHECK(((by_both.at(pair_at(50, 0)) - gonio::rgb(0.7, 0.8, 0.9)).abs() < 1e-9).all());
 }
 
+TEST_CASE("reference reflectance: any dialect, and angles and factors with their units") {
+  const scratch::folder here;
+  const auto german = read(here, "\xEF\xBB\xBF\"# Wei\xC3\x9F\";;\nTheta_I [rad];factor (%);\n0;99;\n;;\n1,5;90,5;\n");
+  CHECK(german.at(pair_at(gonio::degrees(0.75), 70)).y() == doctest::Approx(0.9475));
+  const auto blanks = read(here, "theta_i theta_o_deg factor\n0 0 0.9\n0 60 0.8\n");
+  CHECK(blanks.at(pair_at(0, 30)).y() == doctest::Approx(0.85));
+}
+
 TEST_CASE("reference reflectance: the example is what its comment says") {
   const auto table = read_reference_reflectance(std::string(GONIO_SOURCE_DIR) + "/examples/data/white-by-formula.csv");
   for (int theta = 0; theta <= 90; theta += 10) {
@@ -56,7 +64,9 @@ TEST_CASE("reference reflectance: bad tables are refused") {
   refuses("theta_i,factor,factor_r\n", "factors are given in two ways");
   refuses("theta_i,reflectance\n", "column 'reflectance' is unknown");
   refuses("theta_i,factor,theta_i\n", "column 'theta_i' appears twice");
-  refuses("theta_i,factor\n0\n", "line 2: 1 fields, expected 2");
+  refuses("theta_i,factor\n0\n", "line 2: 1 field, expected 2");
+  refuses("theta_i,factor [nm]\n", "column 'factor [nm]' is unknown");
+  refuses("theta_i;factor\n0;0,9\n80;0.8\n", "line 3: column factor: '0.8' has a decimal point");
   refuses("theta_i,factor\n0,nan\n", "line 2: column factor: 'nan' is not finite");
   refuses("theta_i,factor\n0,white\n", "line 2: column factor: 'white' is not a number");
   refuses("theta_i,factor\n0,0.9\n0,0.9\n", "expected angles that ascend");

@@ -1,6 +1,6 @@
 #include "../json.hpp"
 #include "scratch.hpp"
-#include <gonio/io/renderer_material.hpp>
+#include <gonio/io/materials/renderer_material.hpp>
 #include <gonio/model/fresnel.hpp>
 
 #include <doctest/doctest.h>
@@ -71,10 +71,10 @@ TEST_CASE("the same of Mitsuba: the sum of both lobes") {
         "    <string name=\"distribution\" value=\"beckmann\"/>\n"
         "    <float name=\"alpha\" value=\"0.25\"/>\n"
         "    <spectrum name=\"eta\" value=\"" +
-            gonio::io::detail::shortest(interface.index) +
+            gonio::io::shortest(interface.index) +
             "\"/>\n"
             "    <spectrum name=\"k\" value=\"" +
-            gonio::io::detail::shortest(interface.extinction) +
+            gonio::io::shortest(interface.extinction) +
             "\"/>\n"
             "    <spectrum type=\"srgb\" name=\"specular_reflectance\">\n"
             "      <rgb name=\"color\" value=\"4, 2, 1\"/>\n"
@@ -115,7 +115,7 @@ TEST_CASE("renderers without colours above 1 get the highlight's brightness in i
 TEST_CASE("a base that is not seen beside the highlight makes no dielectric") {
   const analytic_brdf gold({{lobe_kind::of<gonio::model::lambert_shape>(), {0.003, 0.001, 0.0}, {}},
                             {lobe_kind::of<gonio::model::ggx_shape>(), {1.0, 0.75, 0.5}, {0.25, 0.75}}});
-  CHECK(parse_json(gonio::io::gltf_material(gold))["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] == 1);
+  CHECK(read_json(gonio::io::gltf_material(gold))["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] == 1);
   CHECK(gonio::io::materialx_material(gold).find("\"base_metalness\" type=\"float\" value=\"1\"") != std::string::npos);
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("the same of glTF") {
   // A highlight brighter than all light: the factor is 1, the colour has the rest.
   analytic_brdf bright({{lobe_kind::of<gonio::model::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
                         {lobe_kind::of<gonio::model::ggx_shape>(), {2.0, 1.0, 0.5}, {0.25, 0.25}}});
-  const auto document = parse_json(gonio::io::gltf_material(bright));
+  const auto document = read_json(gonio::io::gltf_material(bright));
   const auto& material = document["materials"][0];
   CHECK(document["extensionsUsed"].size() == 2);
   CHECK(material["pbrMetallicRoughness"]["metallicFactor"] == 0);

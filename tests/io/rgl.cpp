@@ -1,7 +1,7 @@
 #include "scratch.hpp"
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/merl_gzip.hpp>
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/rgl.hpp>
 #include <gonio/model/ggx.hpp>
 #include <gonio/model/lambert.hpp>
 
@@ -12,7 +12,6 @@
 #include <random>
 #include <set>
 
-using gonio::io::parse_rgl;
 using gonio::io::read_rgl;
 using scratch::check_refused;
 
@@ -72,7 +71,7 @@ std::string container(const fields& arrays) {
   return head + body;
 }
 
-gonio::io::rgl_material parsed(const std::string& text) { return parse_rgl(scratch::bytes_of(text), "file"); }
+gonio::io::rgl_material parsed(const std::string& text) { return read_rgl(scratch::bytes_of(text), "file"); }
 
 }  // namespace
 
@@ -116,20 +115,20 @@ TEST_CASE("what is written of a material is read again, number for number") {
   arrays["spectra"] = floats({1, 3, 3, 2, 2}, [](std::uint64_t i) { return 0.01 * static_cast<double>(i); });
   for (const std::string& text : {container(small_material()), container(arrays)}) {
     const gonio::io::rgl_material before = parsed(text);
-    const std::vector<std::byte> bytes = gonio::io::serialise_rgl(before);
-    const gonio::io::rgl_material after = parse_rgl(bytes, "again");
+    const std::vector<std::byte> bytes = gonio::io::write_rgl(before);
+    const gonio::io::rgl_material after = read_rgl(bytes, "again");
     CHECK(after.description == before.description);
     CHECK(after.spectra.has_value() == before.spectra.has_value());
     if (before.spectra) CHECK(after.spectra->values.values == before.spectra->values.values);
     CHECK(after.material.parts().reflectance.values == before.material.parts().reflectance.values);
     CHECK(after.material.parts().normals.values == before.material.parts().normals.values);
     CHECK(after.material.parts().projected_area.values == before.material.parts().projected_area.values);
-    CHECK(gonio::io::serialise_rgl(after) == bytes);
+    CHECK(gonio::io::write_rgl(after) == bytes);
   }
 }
 
 TEST_CASE("a written file has the arrays that Mitsuba and pbrt want, with their types and shapes") {
-  const std::vector<std::byte> bytes = gonio::io::serialise_rgl(parsed(container(small_material())));
+  const std::vector<std::byte> bytes = gonio::io::write_rgl(parsed(container(small_material())));
   const auto found = gonio::io::detail::tensor_fields(bytes, "written");
   const std::map<std::string, std::pair<int, std::vector<std::uint64_t>>> expected{
       {"description", {1, {5}}},      {"phi_i", {10, {1}}},
@@ -179,7 +178,7 @@ TEST_CASE("a BRDF is written and read again within half a per cent of its peak")
 TEST_CASE("a material in RGB is written in spectra of the same colours") {
   gonio::io::rgl_material material = parsed(container(small_material()));
   material.spectra = gonio::io::upsampled_spectra(material.material);
-  const gonio::io::rgl_material again = parse_rgl(gonio::io::serialise_rgl(material), "again");
+  const gonio::io::rgl_material again = read_rgl(gonio::io::write_rgl(material), "again");
   REQUIRE(again.spectra);
   CHECK(again.spectra->wavelengths.size() == 20);
   CHECK(*std::ranges::min_element(again.spectra->values.values) > -1e-6f);
@@ -192,10 +191,10 @@ TEST_CASE("a material in RGB is written in spectra of the same colours") {
 TEST_CASE("materials that no renderer reads are not written") {
   gonio::io::rgl_material material = parsed(container(small_material()));
   material.spectra = gonio::io::rgl_spectra{{400.0, 500.0}, {5, 2, 2, std::vector<float>(20)}};
-  check_refused([&] { return gonio::io::serialise_rgl(material); }, {"spectra need 6 tables", "not 5"});
+  check_refused([&] { return gonio::io::write_rgl(material); }, {"spectra need 6 tables", "not 5"});
   fields arrays = small_material();
   arrays["rgb"] = floats({1, 3, 3, 2, 3}, [](std::uint64_t) { return 1.0; });
-  check_refused([&] { return gonio::io::serialise_rgl(parsed(container(arrays))); }, {"square", "2 x 3"});
+  check_refused([&] { return gonio::io::write_rgl(parsed(container(arrays))); }, {"square", "2 x 3"});
 }
 
 TEST_CASE("of two azimuths of the light, the first is read") {
@@ -224,7 +223,7 @@ TEST_CASE("bad files of the RGL database are refused") {
   };
   refused([&](fields& all) { spectral(all, {1, 3, 3, 2, 2}, 500.0); }, {"file: ", "need 6 tables", "not 9"});
   refused([&](fields& all) { spectral(all, {1, 3, 2, 0, 0}, 500.0); }, {"file: ", "at least 2 x 2", "0 x 0"});
-  refused([&](fields& all) { spectral(all, {1, 3, 2, 2, 2}, 9000.0); }, {"file: ", "no visible wavelength"});
+  refused([&](fields& all) { spectral(all, {1, 3, 2, 2, 2}, 9000.0); }, {"file: ", "is visible: they have no colour"});
   refused([&](fields& all) { spectral(all, {1, 3, 2, 2, 2}, 500.0), all.erase("wavelengths"); }, {"'wavelengths'"});
   refused([](fields& all) { all["jacobian"] = {1, {1}, std::string("\0", 1)}; }, {"'jacobian' is not 1"});
   refused([](fields& all) { all["phi_i"] = all["theta_i"]; }, {"anisotropic", "3 azimuths"});
@@ -250,7 +249,7 @@ TEST_CASE("damaged files of the RGL database are read or refused") {
   spectral.erase("rgb");
   for (const std::string& text : {container(small_material()), container(spectral)})
     scratch::check_survives_damage(scratch::bytes_of(text), 3000,
-                                   [](std::span<const std::byte> bytes) { return parse_rgl(bytes, "file"); });
+                                   [](std::span<const std::byte> bytes) { return read_rgl(bytes, "file"); });
 }
 
 namespace {
@@ -379,7 +378,7 @@ TEST_CASE("the files of the database are evaluated as by an evaluation of their 
     }
     // Written and read again it is the same.
     const gonio::io::rgl_material whole = read_rgl(path);
-    const auto again = parse_rgl(gonio::io::serialise_rgl(whole), "again").material;
+    const auto again = read_rgl(gonio::io::write_rgl(whole), "again").material;
     CHECK(again.parts().reflectance.values == whole.material.parts().reflectance.values);
     const gonio::direction up(0, 0, 1), side(0.6, 0, 0.8);
     CHECK((again(up, side) / whole.material(up, side) - 1.0).abs().maxCoeff() < 1e-6);

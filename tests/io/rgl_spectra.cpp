@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/rgl_spectra.hpp>
+#include <gonio/io/materials/rgl_spectra.hpp>
 #include <gonio/model/ggx.hpp>
 #include <gonio/model/lambert.hpp>
 

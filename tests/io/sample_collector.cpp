@@ -1,6 +1,6 @@
 #include "scratch.hpp"
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/sample_collector.hpp>
+#include <gonio/io/measurements/sample_collector.hpp>
 
 #include <array>
 #include <limits>
@@ -42,9 +42,9 @@ TEST_CASE("what is at the horizon or below is no sample") {
   collector.add({up, gonio::spherical_direction(gonio::radians(90.0), 0.0)}, one);
   collector.add({gonio::spherical_direction(gonio::radians(100.0), 0.0), up}, one);
   sample_collector none = collector;
-  check_refused([&] { return std::move(none).take("empty.table"); }, {"empty.table", "no sample above the horizon"});
+  check_refused([&] { return std::move(none).samples("empty.table"); }, {"empty.table", "no sample above the horizon"});
   collector.add({up, gonio::spherical_direction(gonio::radians(89.9), 0.0)}, one, 0.5);
-  const auto samples = std::move(collector).take("one.table");
+  const auto samples = std::move(collector).samples("one.table");
   REQUIRE(samples.size() == 1);
   CHECK(samples[0].weight == 0.5);
 }
@@ -57,11 +57,11 @@ TEST_CASE("spectra are kept beside the colours that they make") {
   collector.add({aside, up}, std::array{0.2, 0.2, 0.2}, 0.5);
   collector.use_wavelengths(std::array{450.0, 550.0, 650.0});
   const sample_collector both = collector;
-  const auto spectra = sample_collector(both).take_spectra("two.table");
+  const auto spectra = sample_collector(both).spectra("two.table");
   CHECK(spectra.wavelengths == std::vector{450.0, 550.0, 650.0});
   CHECK(spectra.weights == std::vector{1.0, 0.5});
   CHECK(spectra.values(0, 2) == 0.4f);
-  const auto colours = sample_collector(both).take("two.table");
+  const auto colours = sample_collector(both).samples("two.table");
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK(spectra.colours()[i].value.isApprox(colours[i].value, 1e-6));
     CHECK(spectra.directions[i].pair().wi == colours[i].directions.pair().wi);
@@ -69,8 +69,8 @@ TEST_CASE("spectra are kept beside the colours that they make") {
   // Other wavelengths in the next pair of directions make colours, but no table of spectra.
   collector.use_wavelengths(std::array{450.0, 550.0});
   collector.add({up, up}, std::array{0.1, 0.1});
-  CHECK(sample_collector(collector).take("three.table").size() == 3);
-  check_refused([&] { return std::move(collector).take_spectra("three.table"); },
+  CHECK(sample_collector(collector).samples("three.table").size() == 3);
+  check_refused([&] { return std::move(collector).spectra("three.table"); },
                 {"three.table", "other wavelengths", "the same in all"});
 }
 
@@ -78,15 +78,15 @@ TEST_CASE("invisible spectra are spectra, and no colours; colours are no spectra
   const gonio::direction up{0.0, 0.0, 1.0};
   sample_collector infrared(colour_channels::spectrum(std::array{600.0, 1000.0}));
   infrared.add({up, up}, std::array{0.1, 0.2});
-  CHECK(sample_collector(infrared).take_spectra("ir.table").values(0, 1) == 0.2f);
-  check_refused([&] { return std::move(infrared).take("ir.table"); }, {"ir.table", "fewer than two", "visible"});
+  CHECK(sample_collector(infrared).spectra("ir.table").values(0, 1) == 0.2f);
+  check_refused([&] { return std::move(infrared).samples("ir.table"); }, {"ir.table", "fewer than two", "visible"});
   sample_collector rgb(colour_channels::linear_rgb());
   rgb.add({up, up}, std::array{0.1, 0.2, 0.3});
-  check_refused([&] { return std::move(rgb).take_spectra("rgb.table"); }, {"rgb.table", "no spectra"});
+  check_refused([&] { return std::move(rgb).spectra("rgb.table"); }, {"rgb.table", "no spectra"});
 }
 
 TEST_CASE("what no float holds is refused") {
-  const gonio::io::detail::text_place place{"large.table", 7};
+  const gonio::io::text_place place{"large.table", 7};
   gonio::io::detail::require_float_range(-3e38, place);
   check_refused(
       [&] {

@@ -1,17 +1,17 @@
 #include "sample_text.hpp"
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 
 #include <string>
 #include <vector>
 
-using gonio::io::parse_samples;
+using gonio::io::read_samples;
 using scratch::check_refused;
 using scratch::check_text_refused;
 
 TEST_CASE("angles in radians, if their columns say so") {
-  const auto samples = parse_samples("theta_h [rad],theta_d (radians),phi_d_rad,r,g,b\n0.5,0.25,1,1,1,1\n", "x");
+  const auto samples = read_samples("theta_h [rad],theta_d (radians),phi_d_rad,r,g,b\n0.5,0.25,1,1,1,1\n", "x");
   CHECK(samples[0].angles().theta_h == doctest::Approx(0.5));
   CHECK(samples[0].angles().theta_d == doctest::Approx(0.25));
   CHECK(samples[0].angles().phi_d == doctest::Approx(1.0));
@@ -23,10 +23,10 @@ TEST_CASE("what is ignored or assumed is noted") {
   std::vector<std::string> notes;
   const gonio::io::sample_reading reading{
       .columns = {}, .quantity = {}, .note = [&](const std::string& sentence) { notes.push_back(sentence); }};
-  (void)parse_samples("theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n", "paint.csv", reading);
+  (void)read_samples("theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n", "paint.csv", reading);
   CHECK(notes.empty());
-  (void)parse_samples("theta_h,theta_d,phi_d,r,g,b,Temperature,wieght\n1,2,3,1,1,1,20 C,1\n", "paint.csv", reading);
-  (void)parse_samples("theta_i,theta_o,r,g,b\n30,-30,1,1,1\n", "paint.csv", reading);
+  (void)read_samples("theta_h,theta_d,phi_d,r,g,b,Temperature,wieght\n1,2,3,1,1,1,20 C,1\n", "paint.csv", reading);
+  (void)read_samples("theta_i,theta_o,r,g,b\n30,-30,1,1,1\n", "paint.csv", reading);
   REQUIRE(notes.size() == 2);
   CHECK(notes[0] == "paint.csv: columns 'Temperature', 'wieght' (is it weight?) are ignored");
   CHECK(
@@ -38,15 +38,15 @@ TEST_CASE("columns under names of their own") {
   const gonio::io::sample_reading named{.columns = {{"theta_o", "winkel"}, {"value", "Y (D65)"}},
                                         .quantity = gonio::io::sample_quantity::brdf,
                                         .note = {}};
-  const auto samples = parse_samples("theta_i;phi_i;Winkel [deg];phi_o;Y (D65)\n0;0;60;0;0,5\n", "x", named);
+  const auto samples = read_samples("theta_i;phi_i;Winkel [deg];phi_o;Y (D65)\n0;0;60;0;0,5\n", "x", named);
   CHECK(samples[0].directions.pair().wo.z() == doctest::Approx(0.5));
   CHECK(samples[0].value[2] == 0.5);
   // The column that was theta_o otherwise is ignored.
-  const auto both = parse_samples("theta_i;phi_i;Winkel;theta_o;phi_o;Y (D65)\n0;0;60;1;0;0,5\n", "x", named);
+  const auto both = read_samples("theta_i;phi_i;Winkel;theta_o;phi_o;Y (D65)\n0;0;60;1;0;0,5\n", "x", named);
   CHECK(both[0].directions.pair().wo.z() == doctest::Approx(0.5));
-  check_refused([&] { return parse_samples("theta_i,phi_i,angle,phi_o,Y (D65)\n0,0,60,0,1\n", "x", named); },
+  check_refused([&] { return read_samples("theta_i,phi_i,angle,phi_o,Y (D65)\n0,0,60,0,1\n", "x", named); },
                 {"no column 'winkel' to be theta_o", "looks comma-separated", "'angle'"});
   const gonio::io::sample_reading wrong{.columns = {{"theta", "Winkel"}}, .quantity = {}, .note = {}};
-  check_refused([&] { return parse_samples("theta_h,theta_d,phi_d,r,g,b\n1,2,3,4,5,6\n", "x", wrong); },
+  check_refused([&] { return read_samples("theta_h,theta_d,phi_d,r,g,b\n1,2,3,4,5,6\n", "x", wrong); },
                 {"samples have no column 'theta'", "'Winkel'"});
 }

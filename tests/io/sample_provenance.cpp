@@ -1,4 +1,4 @@
-#include <gonio/io/sample_provenance.hpp>
+#include <gonio/io/measurements/sample_provenance.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include "sample_text.hpp"
-#include <gonio/io/sample_quantity.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/sample_quantity.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 
@@ -12,8 +12,8 @@
 #include <utility>
 
 using gonio::radians;
-using gonio::io::parse_samples;
 using gonio::io::quantity_named;
+using gonio::io::read_samples;
 using gonio::io::sample_quantity;
 using scratch::check_refused;
 using scratch::check_text_refused;
@@ -47,9 +47,9 @@ TEST_CASE("a white diffuser is 1 / pi in every quantity") {
 
 TEST_CASE("every quantity becomes a BRDF, as option, comment, column, name, unit and percent sign") {
   const double f = 0.2, cosine = std::cos(radians(60)), pi = std::numbers::pi;
-  const auto number = [](double value) { return gonio::io::detail::shortest(value); };
+  const auto number = [](double value) { return gonio::io::shortest(value); };
   const auto read = [](const std::string& text, std::optional<sample_quantity> quantity = {}) {
-    const auto file = gonio::io::parse_sample_file(text, "x", {.columns = {}, .quantity = quantity, .note = {}});
+    const auto file = gonio::io::read_sample_file(text, "x", {.columns = {}, .quantity = quantity, .note = {}});
     CHECK((file.samples[0].value == file.samples[0].value[0]).all());
     return file.samples[0].value[0];
   };
@@ -100,8 +100,8 @@ TEST_CASE("a file and its reader agree on what the numbers are, or are refused")
   check_text_refused("theta_h,theta_d,phi_d,r,g,b\n1%,2,3,4,4,4\n", {"line 2", "theta_h", "'1%' is not a number"});
   check_refused(
       [&] {
-        return parse_samples("# quantity: percent\n" + grey, "x",
-                             {.columns = {}, .quantity = sample_quantity::brdf, .note = {}});
+        return read_samples("# quantity: percent\n" + grey, "x",
+                            {.columns = {}, .quantity = sample_quantity::brdf, .note = {}});
       },
       {"brdf by what is asked for (--quantity)", "percent by the comment in line 1"});
   check_text_refused("theta_h,theta_d,phi_d,value,r,g,b\n1,2,3,4,4,4,4\n", {"line 1", "two ways", "r,g,b or value"});

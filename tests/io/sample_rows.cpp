@@ -1,6 +1,6 @@
 #include "sample_text.hpp"
-#include <gonio/io/sample_provenance.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/sample_provenance.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 using gonio::degrees;
-using gonio::io::parse_samples;
+using gonio::io::read_samples;
 using scratch::check_text_refused;
 
 namespace {
@@ -18,7 +18,7 @@ const std::string half_header = "theta_h,theta_d,phi_d,r,g,b\n";
 }  // namespace
 
 TEST_CASE("the same samples in every dialect") {
-  const auto expected = parse_samples(
+  const auto expected = read_samples(
       "theta_i,phi_i,theta_o,phi_o,r,g,b,weight\n30.5,0,45,180.25,0.1,-0.2,3e-1,1\n10,20,60,90,1,2,3,0.5\n", "x");
   for (const std::string text :
        {// spreadsheets of countries with decimal commas
@@ -52,7 +52,7 @@ TEST_CASE("the same samples in every dialect") {
         "theta_i\tphi_i\ttheta_o\tphi_o\tr\tg\tb\tweight\tremark\n30.5\t0\t45\t180.25\t0.1\t-0.2\t3e-1\t1\t\n"
         "10\t20\t60\t90\t1\t2\t3\t0.5\tsecond\n"}) {
     CAPTURE(text);
-    const auto samples = parse_samples(text, "x");
+    const auto samples = read_samples(text, "x");
     REQUIRE(samples.size() == expected.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
       CHECK((samples[i].value == expected[i].value).all());
@@ -64,10 +64,10 @@ TEST_CASE("the same samples in every dialect") {
 }
 
 TEST_CASE("without azimuths the signs of an in-plane scan tell the sides apart") {
-  const auto samples = parse_samples("theta_i,theta_o,value\n# quantity: brdf\n45,-45,2\n45,20,1\n", "x");
+  const auto samples = read_samples("theta_i,theta_o,value\n# quantity: brdf\n45,-45,2\n45,20,1\n", "x");
   CHECK(samples[0].angles().theta_h == doctest::Approx(0.0));  // the mirror direction
   CHECK(degrees(samples[1].angles().theta_d) == doctest::Approx(12.5));
-  CHECK(parse_samples("theta_i,theta_o,r,g,b\n0,45,1,1,1\n30,0,1,1,1\n", "x").size() == 2);  // no sides to tell apart
+  CHECK(read_samples("theta_i,theta_o,r,g,b\n0,45,1,1,1\n30,0,1,1,1\n", "x").size() == 2);  // no sides to tell apart
   check_text_refused("theta_i,theta_o,r,g,b\n0,45,1,1,1\n45,20,1,1,1\n45,45,1,1,1\n",
                      {"line 3", "which sides", "phi_i and phi_o"});
   check_text_refused("theta_i,theta_o,phi_0,r,g,b\n45,-45,0,1,1,1\n", {"'phi_i' is missing", "perhaps it is 'phi_0'"});
@@ -76,7 +76,7 @@ TEST_CASE("without azimuths the signs of an in-plane scan tell the sides apart")
 }
 
 TEST_CASE("one wavelength, and what a file says of its measurements") {
-  const auto file = gonio::io::parse_sample_file(
+  const auto file = gonio::io::read_sample_file(
       "# Instrument: GON 360: arm 2\n#date:2026-11-25\n# conditions: 23 C\n# conditions: dry\n# other: x\n"
       "theta_i,phi_i,theta_o,phi_o,wavelength [nm],BRDF [1/sr]\n10,0,60,0,633,0.25\n10,0,50,0,633,0.5\n",
       "x");
@@ -84,7 +84,7 @@ TEST_CASE("one wavelength, and what a file says of its measurements") {
   CHECK(file.quantity == gonio::io::sample_quantity::brdf);
   CHECK(file.provenance == gonio::io::sample_provenance{"GON 360: arm 2", "2026-11-25", "23 C; dry"});
   CHECK((file.samples[1].value == 0.5).all());
-  CHECK(gonio::io::format_samples(file.samples, file.provenance)
+  CHECK(gonio::io::write_samples(file.samples, file.provenance)
             .starts_with("# instrument: GON 360: arm 2\n# date: 2026-11-25\n# conditions: 23 C; dry\ntheta_h,"));
   const std::string two = "theta_h,theta_d,phi_d,wavelength,brdf\n1,2,3,550,1\n1,2,3,";
   check_text_refused(two + "650,1\n", {"line 3", "650 nm, but 550 nm above", "more than one wavelength"});
@@ -93,7 +93,7 @@ TEST_CASE("one wavelength, and what a file says of its measurements") {
 }
 
 TEST_CASE("a number sign in quotes begins a comment only above the header line") {
-  const auto samples = parse_samples(
+  const auto samples = read_samples(
       "\"# measured\";;\n\"#\";theta_h;theta_d;phi_d;brdf\n\"#1\";1;2;3;4\n\"# 2\";1;2;3;5\n#3;1;2;3;6\n", "x");
   REQUIRE(samples.size() == 2);
   CHECK(samples[1].value[0] == 5.0);

@@ -2,7 +2,7 @@
 // What the tests of samples as text share.
 
 #include "scratch.hpp"
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <initializer_list>
 #include <string>
@@ -12,8 +12,8 @@ namespace scratch {
 /// Checks that a text is refused as samples, in a sentence that names it and has these words.
 inline void check_text_refused(const std::string& text, std::initializer_list<std::string> words) {
   CAPTURE(text);
-  check_refused([&] { return gonio::io::parse_samples(text, "paint.csv"); }, {"paint.csv"});
-  check_refused([&] { return gonio::io::parse_samples(text, "paint.csv"); }, words);
+  check_refused([&] { return gonio::io::read_samples(text, "paint.csv"); }, {"paint.csv"});
+  check_refused([&] { return gonio::io::read_samples(text, "paint.csv"); }, words);
 }
 
 }  // namespace scratch

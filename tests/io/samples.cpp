@@ -1,7 +1,7 @@
 #include "sample_text.hpp"
 #include "scratch.hpp"
-#include <gonio/io/samples.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <rapidcheck.h>
 
@@ -9,7 +9,6 @@
 
 using gonio::degrees;
 using gonio::radians;
-using gonio::io::parse_samples;
 using gonio::io::read_directions;
 using gonio::io::read_samples;
 using gonio::io::write_samples;
@@ -22,9 +21,15 @@ const std::string header = "theta_h,theta_d,phi_d,r,g,b\n";
 
 }  // namespace
 
+TEST_CASE("directions alone: no column of values, in any dialect") {
+  using gonio::io::has_directions_alone;
+  CHECK(has_directions_alone("theta_i;phi_i;theta_o;phi_o\n10,5;0;20;180\n", "a.csv"));
+  CHECK(!has_directions_alone("theta_i,phi_i,theta_o,phi_o,r,g,b\n10,0,20,180,1,1,1\n", "a.csv"));
+}
+
 TEST_CASE("half and difference angles are read in degrees") {
   const auto samples =
-      parse_samples("theta_h,theta_d,phi_d,r,g,b,weight\n10,20,30,0.1,-0.2,3e-1,2\n5,60,340,1,2,3,0\n", "x");
+      read_samples("theta_h,theta_d,phi_d,r,g,b,weight\n10,20,30,0.1,-0.2,3e-1,2\n5,60,340,1,2,3,0\n", "x");
   REQUIRE(samples.size() == 2);
   CHECK(samples[0].angles().theta_h == radians(10));
   CHECK(samples[0].angles().theta_d == radians(20));
@@ -37,7 +42,7 @@ TEST_CASE("half and difference angles are read in degrees") {
 
 TEST_CASE("a weight for each channel") {
   const std::string columns = "weight_g,theta_h,theta_d,phi_d,r,g,b,weight_r,weight_b\n";
-  const auto samples = parse_samples(columns + "0.5,10,20,30,1,2,3,2,0\n", "x");
+  const auto samples = read_samples(columns + "0.5,10,20,30,1,2,3,2,0\n", "x");
   CHECK(samples[0].weight == gonio::channel_weights(gonio::rgb(2.0, 0.5, 0.0)));
   check_text_refused(columns + "0.5,10,20,30,1,2,3,2,-1\n", {"line 2", "weight_b", "-1", "negative"});
   check_text_refused("theta_h,theta_d,phi_d,r,g,b,weight_r,weight_b\n1,2,3,1,1,1,1,1\n", {"weight_g", "missing"});
@@ -50,8 +55,7 @@ TEST_CASE("all three ways to give directions agree") {
   const gonio::direction wo = gonio::spherical_direction(radians(50), radians(200));
   const gonio::half_difference expected = gonio::to_half_difference(wi, wo);
   const auto vector_text = [](const gonio::direction& w) {
-    return gonio::io::detail::shortest(w.x()) + "," + gonio::io::detail::shortest(w.y()) + "," +
-           gonio::io::detail::shortest(w.z());
+    return gonio::io::shortest(w.x()) + "," + gonio::io::shortest(w.y()) + "," + gonio::io::shortest(w.z());
   };
   for (const std::string& text :
        {std::string("theta_i,phi_i,theta_o,phi_o,r,g,b\n30,40,50,200,1,1,1\n"),
@@ -61,7 +65,7 @@ TEST_CASE("all three ways to give directions agree") {
         "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,r,g,b\n" + vector_text(1.0009 * wi) + "," + vector_text(0.9991 * wo) +
             ",1,1,1\n"}) {
     CAPTURE(text);
-    const auto samples = parse_samples(text, "x");
+    const auto samples = read_samples(text, "x");
     REQUIRE(samples.size() == 1);
     CHECK(samples[0].angles().theta_h == doctest::Approx(expected.theta_h).epsilon(1e-12));
     CHECK(samples[0].angles().theta_d == doctest::Approx(expected.theta_d).epsilon(1e-12));
@@ -71,7 +75,7 @@ TEST_CASE("all three ways to give directions agree") {
 }
 
 TEST_CASE("columns may stand in any order, among blanks, comments and either line ends") {
-  const auto samples = parse_samples(
+  const auto samples = read_samples(
       "\xEF\xBB\xBF# measured on a Thursday\r\n\r\n b , weight,\tr, g ,phi_d, theta_d , theta_h\r\n"
       "  # another\r\n 3 ,4, +1 ,2,30,20,10\r\n   \r\n3,4,1,2,30,20,10",
       "x");
@@ -273,6 +277,6 @@ TEST_CASE("damaged CSV files are read or refused") {
         std::string(
             "# quantity: percent\n\"theta_i [deg]\";theta_o;value;quantity;x\n1,5;-2;\"3,5\";percent;\"a\"\"\"\n")})
     scratch::check_survives_damage(scratch::bytes_of(text), 5000, [](std::span<const std::byte> bytes) {
-      return parse_samples({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "x");
+      return read_samples({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "x");
     });
 }

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/scan_journal.hpp>
+#include <gonio/io/measurements/scan_journal.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
@@ -43,7 +43,7 @@ bool same(const reading& a, const reading& b) {
 
 std::string text_of(const std::filesystem::path& path) {
   const auto bytes = io::read_bytes(path);
-  return std::string(io::detail::as_text(bytes));
+  return std::string(io::as_text(bytes));
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {
@@ -137,7 +137,7 @@ TEST_CASE("scan journal: what is damaged, or another scan's, is refused and left
   refuses(whole + second, "pose 1 is read a second time");
   refuses(whole + "pose 1 0 0 0 0 1\n", "a pose after the first reading");
   refuses(whole + "temperature 3\n", "'temperature' is unknown");
-  CHECK_THROWS_WITH_AS((void)io::parse_scan("", "a"), Contains("largest_count is missing"), gonio::error);
+  CHECK_THROWS_WITH_AS((void)io::read_scan("", "a"), Contains("largest_count is missing"), gonio::error);
   refuses("largest_count 70000\n", "is 70000");
   refuses("largest_count 255\n", "there is no pose");
   refuses("largest_count 255\npose 0 0 2 0 0 1\n", "two unit vectors");

@@ -1,8 +1,8 @@
 #include "../synthetic_materials.hpp"
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_streamed_pca.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/scratch_materials.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/scratch_materials.hpp>
 
 #include <doctest/doctest.h>
 

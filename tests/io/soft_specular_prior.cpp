@@ -1,10 +1,10 @@
 #include "../synthetic_materials.hpp"
 #include "scratch.hpp"
 #include <gonio/estimate/soft_specular_decomposition.hpp>
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/checked_file.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/soft_specular_prior.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/soft_specular_prior.hpp>
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ gonio::soft_specular_prior small_split(unsigned seed = 7) {
 
 std::string refusal(std::span<const std::byte> bytes) {
   try {
-    static_cast<void>(io::decode_soft_specular_prior(bytes, "x.prior"));
+    static_cast<void>(io::read_soft_specular_prior(bytes, "x.prior"));
   } catch (const gonio::error& error) {
     return error.what();
   }
@@ -31,30 +31,30 @@ std::string refusal(std::span<const std::byte> bytes) {
 
 /// The payload of a plain prior.
 std::vector<std::byte> payload_of(const gonio::log_relative_pca& prior) {
-  return io::decode_checked({"gonio-pca", 1, "prior"}, io::encode_prior(prior), "x");
+  return io::read_checked({"gonio-pca", 1, "prior"}, io::write_prior(prior), "x");
 }
 
 /// A file of a threshold and two payloads with a right checksum; `lie` is added to the first length.
 std::vector<std::byte> file_of(double threshold, std::span<const std::byte> soft, std::span<const std::byte> specular,
                                std::uint64_t lie = 0, std::size_t trailing = 0) {
   io::byte_writer out;
-  out.put(threshold);
+  out.write(threshold);
   for (const auto& half : {soft, specular}) {
-    out.put(std::uint64_t{half.size()} + (half.data() == soft.data() ? lie : 0));
-    out.put_bytes(half.data(), half.size());
+    out.write(std::uint64_t{half.size()} + (half.data() == soft.data() ? lie : 0));
+    out.write_bytes(half.data(), half.size());
   }
-  for (std::size_t i = 0; i < trailing; ++i) out.put('x');
-  return io::encode_checked({"gonio-split", 1, "soft and specular prior"}, out.bytes());
+  for (std::size_t i = 0; i < trailing; ++i) out.write('x');
+  return io::write_checked({"gonio-split", 1, "soft and specular prior"}, out.bytes());
 }
 
 }  // namespace
 
 TEST_CASE("two priors come back as each would from a file of its own, and the threshold exactly") {
   const auto prior = small_split();
-  const auto back = io::decode_soft_specular_prior(io::encode_soft_specular_prior(prior), "x");
+  const auto back = io::read_soft_specular_prior(io::write_soft_specular_prior(prior), "x");
   CHECK(back.threshold() == prior.threshold());
   const auto same = [](const gonio::log_relative_pca& read, const gonio::log_relative_pca& written) {
-    const auto alone = io::decode_prior(io::encode_prior(written), "x");
+    const auto alone = io::read_prior(io::write_prior(written), "x");
     CHECK(read.names() == written.names());
     CHECK(read.source() == "seven");
     CHECK(read.components() == alone.components());
@@ -64,12 +64,12 @@ TEST_CASE("two priors come back as each would from a file of its own, and the th
   };
   same(back.soft(), prior.soft());
   same(back.specular(), prior.specular());
-  CHECK(io::encode_soft_specular_prior(prior) ==
+  CHECK(io::write_soft_specular_prior(prior) ==
         file_of(prior.threshold(), payload_of(prior.soft()), payload_of(prior.specular())));
 }
 
 TEST_CASE("damaged files of two priors are refused with what is wrong") {
-  const auto whole = io::encode_soft_specular_prior(small_split());
+  const auto whole = io::write_soft_specular_prior(small_split());
   CHECK(refusal({}).find("not a gonio soft and specular prior") != std::string::npos);
   for (const std::size_t length :
        {std::size_t{5}, std::size_t{12}, std::size_t{20}, whole.size() / 2, whole.size() - 1})

@@ -1,6 +1,6 @@
 #include "scratch.hpp"
-#include <gonio/io/samples.hpp>
-#include <gonio/io/spectral_samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/measurements/spectral_samples.hpp>
 
 #include <rapidcheck.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 using gonio::io::names_wavelengths;
-using gonio::io::parse_spectral_sample_file;
+using gonio::io::read_spectral_sample_file;
 using scratch::check_refused;
 
 namespace {
@@ -19,8 +19,8 @@ const std::string angles = "theta_i,phi_i,theta_o,phi_o,", at = "30,0,40,180,";
 
 void check_text_refused(const std::string& text, std::initializer_list<std::string> words) {
   CAPTURE(text);
-  check_refused([&] { return parse_spectral_sample_file(text, "paint.csv"); }, {"paint.csv"});
-  check_refused([&] { return parse_spectral_sample_file(text, "paint.csv"); }, words);
+  check_refused([&] { return read_spectral_sample_file(text, "paint.csv"); }, {"paint.csv"});
+  check_refused([&] { return read_spectral_sample_file(text, "paint.csv"); }, words);
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ TEST_CASE("columns called by their wavelengths are spectra, however instruments 
     CAPTURE(columns);
     const std::string text = "# quantity: brdf\n" + angles + columns + "\n" + at + ".1,.2,-.3\n" + at + "1,2,3\n";
     CHECK(names_wavelengths(text, "x"));
-    const auto file = parse_spectral_sample_file(text, "x");
+    const auto file = read_spectral_sample_file(text, "x");
     CHECK(file.samples.wavelengths == expected);
     REQUIRE(file.samples.size() == 2);
     CHECK(file.samples.values(0, 2) == -0.3f);
@@ -44,7 +44,7 @@ TEST_CASE("columns called by their wavelengths are spectra, however instruments 
 }
 
 TEST_CASE("spectra may be stated in any quantity, in any dialect, with weights and other columns among them") {
-  const auto file = parse_spectral_sample_file(
+  const auto file = read_spectral_sample_file(
       "# instrument: arm\n# quantity: "
       "percent\ntheta_i;theta_o;phi_i;phi_o;weight;500nm;600nm\n10;20;0;90;0,5;31,4;100\n",
       "x");
@@ -53,20 +53,20 @@ TEST_CASE("spectra may be stated in any quantity, in any dialect, with weights a
   CHECK(file.samples.weight(0) == 0.5);
   CHECK(file.quantity == gonio::io::sample_quantity::percent);
   const std::string commas = "# quantity: brdf\ntheta_h;theta_d;phi_d;632,8 nm\n10;20;30;0,5\n";
-  CHECK(parse_spectral_sample_file(commas, "x").samples.wavelengths == std::vector<double>{632.8});
+  CHECK(read_spectral_sample_file(commas, "x").samples.wavelengths == std::vector<double>{632.8});
   CHECK(file.provenance.instrument == "arm");
 }
 
 TEST_CASE("one wavelength is one channel, as it is") {
   const std::string laser = "# quantity: brdf\n" + angles + "633nm\n" + at + "0.25\n";
   CHECK_FALSE(names_wavelengths(laser, "x"));
-  const auto file = parse_spectral_sample_file(laser, "x");
+  const auto file = read_spectral_sample_file(laser, "x");
   CHECK(file.samples.wavelengths == std::vector<double>{633.0});
-  const auto grey = gonio::io::parse_sample_file(laser, "x");
+  const auto grey = gonio::io::read_sample_file(laser, "x");
   CHECK(grey.wavelength == 633.0);
   CHECK((grey.samples.front().value == 0.25).all());
   const std::string beside = "# quantity: brdf\n" + angles + "wavelength,value\n" + at + "633,0.25\n";
-  CHECK(parse_spectral_sample_file(beside, "x").samples.wavelengths == file.samples.wavelengths);
+  CHECK(read_spectral_sample_file(beside, "x").samples.wavelengths == file.samples.wavelengths);
 }
 
 TEST_CASE("what are no spectra is refused") {
@@ -86,7 +86,7 @@ TEST_CASE("what are no spectra is refused") {
   check_text_refused(brdf + angles + "400nm,500nm\n", {"no samples"});
   check_text_refused(angles + "r,g,b\n" + at + "1,2,3\n", {"names no wavelengths", "400nm"});
   check_text_refused(brdf + angles + "value\n" + at + "1\n", {"names no wavelengths"});
-  check_refused([&] { return gonio::io::parse_samples(brdf + angles + "400nm,500nm\n" + at + "1,2\n", "x"); },
+  check_refused([&] { return gonio::io::read_samples(brdf + angles + "400nm,500nm\n" + at + "1,2\n", "x"); },
                 {"2 columns of wavelengths"});
   // Small numbers are no wavelengths: such columns are ignored as before.
   check_text_refused(brdf + angles + "1,2\n" + at + "1,2\n", {"'r' is missing", "as 400nm"});
@@ -122,7 +122,7 @@ TEST_CASE("any text of spectra is read or refused") {
   CHECK(rc::check([&] {
     const auto text = *rc::gen::container<std::string>(rc::gen::elementOf(std::string("0123456789.-+e,;\n#nmw")));
     try {
-      const auto file = parse_spectral_sample_file("# quantity: brdf\n" + angles + text, "x");
+      const auto file = read_spectral_sample_file("# quantity: brdf\n" + angles + text, "x");
       gonio::require_usable(file.samples);
     } catch (const gonio::error&) {
     }

@@ -1,4 +1,4 @@
-#include <gonio/io/sphere_setup.hpp>
+#include <gonio/io/setups/sphere_setup.hpp>
 
 #include <doctest/doctest.h>
 
@@ -6,8 +6,8 @@
 #include <string>
 #include <variant>
 
-using gonio::io::parse_camera_calibration;
-using gonio::io::parse_sphere_setup;
+using gonio::io::read_camera_calibration;
+using gonio::io::read_sphere_setup;
 
 namespace {
 
@@ -18,7 +18,7 @@ void refuses_setup(const std::string& text, const std::string& why) {
   CAPTURE(text);
   CAPTURE(why);
   try {
-    static_cast<void>(parse_sphere_setup(text, "setup.txt"));
+    static_cast<void>(read_sphere_setup(text, "setup.txt"));
     FAIL("was not refused");
   } catch (const gonio::error& refusal) {
     CAPTURE(refusal.what());
@@ -29,10 +29,10 @@ void refuses_setup(const std::string& text, const std::string& why) {
 }  // namespace
 
 TEST_CASE("a set-up of a sphere is read") {
-  const auto setup = parse_sphere_setup(sphere_lens + sphere_pose +
-                                            "distortion -0.2 0.05 0.001 0.002\nlamp 3 4 5\nintensity 2\nsphere 0.5\n"
-                                            "white_reflectance 0.98\nwhite_plane 0 0 -1 0 0 1\nsaturation 9\n",
-                                        "setup.txt");
+  const auto setup = read_sphere_setup(sphere_lens + sphere_pose +
+                                           "distortion -0.2 0.05 0.001 0.002\nlamp 3 4 5\nintensity 2\nsphere 0.5\n"
+                                           "white_reflectance 0.98\nwhite_plane 0 0 -1 0 0 1\nsaturation 9\n",
+                                       "setup.txt");
   CHECK(setup.camera.distortion().k2 == 0.05);
   CHECK(setup.camera.distortion().p2 == 0.002);
   CHECK(setup.camera.intrinsics().focal_length_x == doctest::Approx(32.0 / std::tan(gonio::radians(10.0))));
@@ -46,7 +46,7 @@ TEST_CASE("a set-up of a sphere is read") {
 
 TEST_CASE("bad set-ups of a sphere are refused") {
   const std::string good = sphere_lens + sphere_pose + "lamp 3 4 5\n";
-  CHECK_NOTHROW(parse_sphere_setup(good, "setup.txt"));
+  CHECK_NOTHROW(read_sphere_setup(good, "setup.txt"));
   refuses_setup(sphere_lens + sphere_pose, "'light' or 'light_angles' or 'lamp' is missing");
   refuses_setup("size 64 48\n" + sphere_pose + "lamp 1 2 3\n", "'focal_length' or 'field_of_view' is missing");
   refuses_setup(good + "light 0 0 1\n", "where the light is");

@@ -1,13 +1,13 @@
 #include "scratch.hpp"
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/ssdd.hpp>
+#include <gonio/io/measurements/ssdd.hpp>
 
 #include <rapidcheck.h>
 
 #include <array>
 
 using gonio::degrees;
-using gonio::io::parse_ssdd;
+using gonio::io::read_ssdd;
 using scratch::check_refused;
 
 namespace {
@@ -27,8 +27,8 @@ std::string spherical_file() {
 
 void check_ssdd_refused(const std::string& text, std::initializer_list<std::string> words) {
   CAPTURE(text);
-  check_refused([&] { return parse_ssdd(text, "metal.ssdd"); }, {"metal.ssdd"});
-  check_refused([&] { return parse_ssdd(text, "metal.ssdd"); }, words);
+  check_refused([&] { return read_ssdd(text, "metal.ssdd"); }, {"metal.ssdd"});
+  check_refused([&] { return read_ssdd(text, "metal.ssdd"); }, words);
 }
 
 void check_angles(const gonio::sample& s, double theta_i, double theta_o, double value) {
@@ -40,7 +40,7 @@ void check_angles(const gonio::sample& s, double theta_i, double theta_o, double
 }  // namespace
 
 TEST_CASE("SSDD: the first list varies fastest, each direction is read once, and none at the horizon") {
-  const auto samples = parse_ssdd(spherical_file(), "metal.ssdd");
+  const auto samples = read_ssdd(spherical_file(), "metal.ssdd");
   REQUIRE(samples.size() == 6);
   check_angles(samples[0], 0.0, 0.0, 1.0);
   check_angles(samples[1], 40.0, 0.0, 2.0);
@@ -52,17 +52,17 @@ TEST_CASE("SSDD: the first list varies fastest, each direction is read once, and
 }
 
 TEST_CASE("SSDD: angles about the specular direction, and half and difference angles") {
-  const auto specular = parse_ssdd(
+  const auto specular = read_ssdd(
       ssdd_start + brdf_block("monochrome", "specular_coordinate_system", small_lists) + numbers_to_18, "metal.ssdd");
   REQUIRE(specular.size() == 6);
   check_angles(specular[1], 40.0, 40.0, 2.0);
   check_angles(specular[3], 40.0, 10.0, 5.0);
   check_angles(specular[5], 40.0, 70.0, 11.0);
-  const auto half = parse_ssdd(ssdd_start +
-                                   brdf_block("monochrome", "half_difference_coordinate_system",
-                                              "PARAM0_LIST 20\nPARAM1_LIST 0 90\nPARAM2_LIST 30\nPARAM3_LIST 90\n") +
-                                   "ascii\n1\n2\n",
-                               "metal.ssdd");
+  const auto half = read_ssdd(ssdd_start +
+                                  brdf_block("monochrome", "half_difference_coordinate_system",
+                                             "PARAM0_LIST 20\nPARAM1_LIST 0 90\nPARAM2_LIST 30\nPARAM3_LIST 90\n") +
+                                  "ascii\n1\n2\n",
+                              "metal.ssdd");
   REQUIRE(half.size() == 2);
   for (const gonio::sample& s : half) {
     CHECK(degrees(s.angles().theta_h) == doctest::Approx(20.0));
@@ -75,7 +75,7 @@ TEST_CASE("SSDD: colours, as text and in binary, and blocks that are passed over
   const std::string one = "PARAM0_LIST 10\nPARAM2_LIST 20\nPARAM3_LIST 30\n";
   const auto colour_of = [&](const std::string& model, const std::string& more, const std::string& data) {
     const auto samples =
-        parse_ssdd(ssdd_start + brdf_block(model, "spherical_coordinate_system", one + more) + data, "metal.ssdd");
+        read_ssdd(ssdd_start + brdf_block(model, "spherical_coordinate_system", one + more) + data, "metal.ssdd");
     REQUIRE(samples.size() == 1);
     return samples[0].value;
   };
@@ -87,12 +87,12 @@ TEST_CASE("SSDD: colours, as text and in binary, and blocks that are passed over
   const std::string spectral =
       ssdd_start + brdf_block("spectrum", "spherical_coordinate_system", one + "WAVELENGTH_LIST 450 550 650\n") +
       "ascii\n.1 .2 .4";
-  const auto spectra = gonio::io::parse_ssdd_spectra(spectral, "metal.ssdd");
+  const auto spectra = gonio::io::read_ssdd_spectra(spectral, "metal.ssdd");
   CHECK(spectra.wavelengths == std::vector<double>(wavelengths.begin(), wavelengths.end()));
   CHECK(spectra.values(0, 2) == 0.4f);
   check_refused(
       [&] {
-        return gonio::io::parse_ssdd_spectra(
+        return gonio::io::read_ssdd_spectra(
             ssdd_start + brdf_block("rgb", "spherical_coordinate_system", one) + "ascii\n1 2 3", "metal.ssdd");
       },
       {"metal.ssdd", "no spectra"});
@@ -156,7 +156,7 @@ TEST_CASE("SSDD: a damaged file is read or refused") {
     for (int i = 0; i < 3; ++i)
       text[*rc::gen::inRange<std::size_t>(0, text.size())] = *rc::gen::elementOf(std::string("0123456789.-# \ne"));
     try {
-      for (const gonio::sample& s : parse_ssdd(text, "x")) RC_ASSERT(s.value.isFinite().all());
+      for (const gonio::sample& s : read_ssdd(text, "x")) RC_ASSERT(s.value.isFinite().all());
     } catch (const gonio::error&) {
     }
   }));

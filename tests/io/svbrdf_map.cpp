@@ -1,6 +1,6 @@
 #include "../synthetic_materials.hpp"
 #include "scratch.hpp"
-#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -118,8 +118,8 @@ TEST_CASE("map of a spatially varying BRDF: an interrupted job goes on, wherever
     const svbrdf_writer writer(here / "cut.gsv", header);
     CHECK(writer.finished() > 0);
     CHECK(writer.finished() < header.bands());
-    CHECK(writer.has_written(0, io::encode_band(header, 0, band_of(header, 0))));
-    CHECK(!writer.has_written(0, io::encode_band(header, 0, band_of(header, 1))));
+    CHECK(writer.has_written(0, io::write_band(header, 0, band_of(header, 0))));
+    CHECK(!writer.has_written(0, io::write_band(header, 0, band_of(header, 1))));
   }
   write_bands(here / "cut.gsv", header, header.bands());
   CHECK(scratch::get(here / "cut.gsv") == whole);
@@ -141,7 +141,7 @@ TEST_CASE("map of a spatially varying BRDF: another job's file, a second writer 
   scratch::check_refused([&] { writer.commit(); }, {"1 of 3 bands"});
   scratch::check_refused([&] { writer.append(io::as_halves(estimates(3, 4, 1))); }, {"band 1 of 3 texels", "8"});
   scratch::check_refused([&] { writer.append(io::as_halves(estimates(8, 5, 1))); }, {"120 weights", "4 functions"});
-  auto bytes = io::encode_band(header, 1, band_of(header, 1));
+  auto bytes = io::write_band(header, 1, band_of(header, 1));
   bytes[5] ^= std::byte{1};
   scratch::check_refused([&] { writer.append(bytes); }, {"map.gsv", "band 1 is damaged"});
   bytes.pop_back();

@@ -2,8 +2,8 @@
 /// Files of spectra for tests.
 
 #include "../synthetic_materials.hpp"
-#include <gonio/io/rgl.hpp>
-#include <gonio/io/rgl_spectra.hpp>
+#include <gonio/io/materials/rgl.hpp>
+#include <gonio/io/materials/rgl_spectra.hpp>
 #include <gonio/table/spectral_table.hpp>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/table_npy.hpp>
+#include <gonio/io/materials/table_npy.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ TEST_CASE("an array is read as the table that it was written of") {
   for (std::size_t i = 0; i < table.values().size(); ++i) table.values()[i] = 0.25f * static_cast<float>(i);
   gonio::io::write_table_npy(folder / "t.npy", table);
   const auto parse = [](const auto& path) {
-    return gonio::io::parse_table_npy(gonio::io::read_bytes(path), path.string());
+    return gonio::io::read_table_npy(gonio::io::read_bytes(path), path.string());
   };
   const gonio::brdf_table again = parse(folder / "t.npy");
   CHECK(again.cells() == table.cells());
@@ -61,7 +61,7 @@ TEST_CASE("a table as half floats takes half the room, and each value 11 bits") 
   for (std::size_t i = 0; i < table.values().size(); ++i) table.values()[i] = 0.1f * static_cast<float>(i);
   gonio::io::write_table_npy_halves(folder / "h.npy", table);
   CHECK(std::filesystem::file_size(folder / "h.npy") == 128 + 2 * 3 * 8 * 5 * 6);
-  const auto again = gonio::io::parse_table_npy(gonio::io::read_bytes(folder / "h.npy"), "h.npy");
+  const auto again = gonio::io::read_table_npy(gonio::io::read_bytes(folder / "h.npy"), "h.npy");
   for (std::size_t i = 0; i < table.values().size(); ++i)
     CHECK(std::abs(again.values()[i] - table.values()[i]) <= 0x1p-11f * table.values()[i]);
   table.values()[4] = 1e5f;

@@ -1,34 +1,39 @@
 #include "scratch.hpp"
-#include <gonio/io/text.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <rapidcheck.h>
 
 #include <charconv>
 #include <cmath>
 
-namespace detail = gonio::io::detail;
+using gonio::io::for_each_line;
+using gonio::io::in_quotes;
+using gonio::io::read_by_strtod;
+using gonio::io::read_number;
+using gonio::io::shortest;
+using gonio::io::text_place;
 using scratch::check_refused;
 
 TEST_CASE("lines: without blanks, comments and a byte order mark, and counted") {
-  detail::text_place place{"a file"};
+  text_place place{"a file"};
   std::vector<std::pair<Eigen::Index, std::string>> lines;
-  detail::for_each_line("\xEF\xBB\xBFone\r\n\n# no\n  \t\n two  2 \n#\nlast", place,
-                        [&](std::string_view line) { lines.emplace_back(place.line, line); });
+  for_each_line("\xEF\xBB\xBFone\r\n\n# no\n  \t\n two  2 \n#\nlast", place,
+                [&](std::string_view line) { lines.emplace_back(place.line, line); });
   const decltype(lines) expected{{1, "one"}, {5, "two  2"}, {7, "last"}};
   CHECK(lines == expected);
   check_refused([&]() -> int { place.refuse("is wrong"); }, {"a file, line 7: is wrong"});
 }
 
 TEST_CASE("numbers read back as they were written") {
-  const detail::text_place place{"a file", 3};
+  const text_place place{"a file", 3};
   const auto parse = [&](std::string_view field) {
-    return detail::parse_number(field, place, [] { return std::string("depth"); });
+    return read_number(field, place, [] { return std::string("depth"); });
   };
   CHECK(parse("+1.5") == 1.5);
   CHECK(parse("-2e3") == -2000.0);
-  CHECK(rc::check([&](double value) { RC_ASSERT(parse(detail::shortest(value)) == value); }));
+  CHECK(rc::check([&](double value) { RC_ASSERT(parse(shortest(value)) == value); }));
   for (const char* wrong : {"", "+", "+-1", "1,5", "1 2", "x", "0x10", "nan", "inf", "1e999"})
-    check_refused([&] { return parse(wrong); }, {"a file, line 3: depth", detail::quoted(wrong)});
+    check_refused([&] { return parse(wrong); }, {"a file, line 3: depth", in_quotes(wrong)});
 }
 
 TEST_CASE("numbers by strtod: the same as by from_chars, whatever the field") {
@@ -36,8 +41,8 @@ TEST_CASE("numbers by strtod: the same as by from_chars, whatever the field") {
     double expected = -7.0, value = -7.0;
     const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), expected);
     const std::errc failed = end == field.data() + field.size() ? status : std::errc::invalid_argument;
-    CHECK_MESSAGE(detail::read_by_strtod(field, value) == failed, detail::quoted(field));
-    if (failed == std::errc() && !std::isnan(expected)) CHECK_MESSAGE(value == expected, detail::quoted(field));
+    CHECK_MESSAGE(read_by_strtod(field, value) == failed, in_quotes(field));
+    if (failed == std::errc() && !std::isnan(expected)) CHECK_MESSAGE(value == expected, in_quotes(field));
   };
   for (const char* field :
        {"0",    "-0.0", "1.",       ".5",  "-.5e-3", "1e5", "1E+05", "1e999", "-1e999", "1e-999", "4.9e-324",
@@ -45,13 +50,13 @@ TEST_CASE("numbers by strtod: the same as by from_chars, whatever the field") {
         "0x10", "1p3",  "1e",       "e1",  ".",      "-",   "1,5",   "infin", "1.5.2"})
     same(field);
   same(std::string("1\0", 2));
-  CHECK(rc::check([&](double value) { same(detail::shortest(value)); }));
+  CHECK(rc::check([&](double value) { same(shortest(value)); }));
   const auto any_field = rc::gen::container<std::string>(rc::gen::elementOf(std::string("0123456789.eE+-infax ")));
   CHECK(rc::check([&] { same(*any_field); }));
 }
 
 TEST_CASE("quotes: short and printable") {
-  CHECK(detail::quoted("plain") == "'plain'");
-  CHECK(detail::quoted("a\x01\xff z") == "'a?? z'");
-  CHECK(detail::quoted(std::string(100, 'x')) == "'" + std::string(40, 'x') + "...'");
+  CHECK(in_quotes("plain") == "'plain'");
+  CHECK(in_quotes("a\x01\xff z") == "'a?? z'");
+  CHECK(in_quotes(std::string(100, 'x')) == "'" + std::string(40, 'x') + "...'");
 }

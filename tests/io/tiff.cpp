@@ -1,19 +1,19 @@
 #include "scratch.hpp"
 #include "tiff_bytes.hpp"
-#include <gonio/io/tiff.hpp>
+#include <gonio/io/images/tiff.hpp>
 
 #include <doctest/doctest.h>
 
 #include <cstdint>
 
-using gonio::io::parse_tiff;
-using gonio::io::parse_tiff_exposure_time;
+using gonio::io::read_tiff;
+using gonio::io::read_tiff_exposure_time;
 using scratch::check_refused;
 
 TEST_CASE("TIFF: counts of 8 and 16 bits, of one channel and of three, are read") {
   tiff_bytes::image picture{.columns = 2, .rows = 2, .bits = 16, .channels = 3};
   picture.samples = {1, 2, 3, 400, 500, 600, 7, 8, 9, 65535, 0, 256};
-  const auto codes = parse_tiff(tiff_bytes::of(picture), "a.tif");
+  const auto codes = read_tiff(tiff_bytes::of(picture), "a.tif");
   CHECK(codes.columns == 2);
   CHECK(codes.rows == 2);
   CHECK(codes.largest == 65535);
@@ -21,40 +21,40 @@ TEST_CASE("TIFF: counts of 8 and 16 bits, of one channel and of three, are read"
 
   tiff_bytes::image grey{.columns = 3, .rows = 1, .bits = 8, .channels = 1, .meaning = 1};
   grey.samples = {0, 128, 255};
-  const auto grey_codes = parse_tiff(tiff_bytes::of(grey), "a.tif");
+  const auto grey_codes = read_tiff(tiff_bytes::of(grey), "a.tif");
   CHECK(grey_codes.largest == 255);
   CHECK(grey_codes.values == std::vector<std::uint16_t>{0, 0, 0, 128, 128, 128, 255, 255, 255});
 
   // A fourth channel does not count.
   tiff_bytes::image with_alpha{.columns = 1, .rows = 1, .bits = 8, .channels = 4};
   with_alpha.samples = {1, 2, 3, 4};
-  CHECK(parse_tiff(tiff_bytes::of(with_alpha), "a.tif").values == std::vector<std::uint16_t>{1, 2, 3});
+  CHECK(read_tiff(tiff_bytes::of(with_alpha), "a.tif").values == std::vector<std::uint16_t>{1, 2, 3});
 }
 
 TEST_CASE("TIFF: the exposure time is that of the EXIF data, if there is any") {
   tiff_bytes::image picture{.columns = 1, .rows = 1, .bits = 16, .channels = 3};
   picture.samples = {1, 2, 3};
-  CHECK_FALSE(parse_tiff_exposure_time(tiff_bytes::of(picture), "a.tif"));
+  CHECK_FALSE(read_tiff_exposure_time(tiff_bytes::of(picture), "a.tif"));
   picture.exposure = {1, 250};
-  CHECK(*parse_tiff_exposure_time(tiff_bytes::of(picture), "a.tif") == doctest::Approx(0.004));
-  CHECK(parse_tiff(tiff_bytes::of(picture), "a.tif").values.size() == 3);
+  CHECK(*read_tiff_exposure_time(tiff_bytes::of(picture), "a.tif") == doctest::Approx(0.004));
+  CHECK(read_tiff(tiff_bytes::of(picture), "a.tif").values.size() == 3);
   for (const auto& absurd : {std::pair<std::uint32_t, std::uint32_t>{0, 1}, {1, 0}, {4000000000u, 1}}) {
     picture.exposure = absurd;
-    check_refused([&] { return parse_tiff_exposure_time(tiff_bytes::of(picture), "a.tif"); },
+    check_refused([&] { return read_tiff_exposure_time(tiff_bytes::of(picture), "a.tif"); },
                   {"a.tif: an exposure time of", "expected from 1e-07 s to a day"});
   }
-  check_refused([] { return parse_tiff_exposure_time(scratch::bytes_of("no image"), "a.tif"); }, {"a.tif", "no TIFF"});
+  check_refused([] { return read_tiff_exposure_time(scratch::bytes_of("no image"), "a.tif"); }, {"a.tif", "no TIFF"});
 }
 
 TEST_CASE("TIFF: what is not supported is refused by its name") {
   tiff_bytes::image good{.columns = 2, .rows = 1, .bits = 16, .channels = 3};
   good.samples = {1, 2, 3, 4, 5, 6};
-  CHECK_NOTHROW(parse_tiff(tiff_bytes::of(good), "a.tif"));
+  CHECK_NOTHROW(read_tiff(tiff_bytes::of(good), "a.tif"));
   const auto refused = [&](const auto& change, std::initializer_list<std::string> words) {
     tiff_bytes::image bad = good;
     change(bad);
-    check_refused([&] { return parse_tiff(tiff_bytes::of(bad), "a.tif"); }, words);
-    check_refused([&] { return parse_tiff(tiff_bytes::of(bad), "a.tif"); }, {"a.tif: "});
+    check_refused([&] { return read_tiff(tiff_bytes::of(bad), "a.tif"); }, words);
+    check_refused([&] { return read_tiff(tiff_bytes::of(bad), "a.tif"); }, {"a.tif: "});
   };
   refused([](auto& p) { p.bits = 1; }, {"has 1 bits a sample, expected 8 or 16"});
   refused([](auto& p) { p.bits = 32; }, {"has 32 bits a sample"});
@@ -77,14 +77,14 @@ TEST_CASE("TIFF: files that are cut or damaged are refused or read, never worse"
   const std::vector<std::byte> whole = tiff_bytes::of(picture);
   // The last four bytes say that there is no other image.
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    if (size + 4 < whole.size()) CHECK_THROWS_AS(parse_tiff(std::span(whole).first(size), "a.tif"), gonio::error);
+    if (size + 4 < whole.size()) CHECK_THROWS_AS(read_tiff(std::span(whole).first(size), "a.tif"), gonio::error);
     try {
-      static_cast<void>(parse_tiff_exposure_time(std::span(whole).first(size), "a.tif"));
+      static_cast<void>(read_tiff_exposure_time(std::span(whole).first(size), "a.tif"));
     } catch (const gonio::error&) {
     }
   }
   scratch::check_survives_damage(whole, 2000, [](std::span<const std::byte> bytes) {
-    return parse_tiff(bytes, "damaged.tif").values.size() + parse_tiff_exposure_time(bytes, "damaged.tif").has_value();
+    return read_tiff(bytes, "damaged.tif").values.size() + read_tiff_exposure_time(bytes, "damaged.tif").has_value();
   });
   const scratch::folder here;
   scratch::check_refuses_non_files([](const auto& path) { return gonio::io::read_tiff(path); });

@@ -1,5 +1,5 @@
 #include "scratch.hpp"
-#include <gonio/io/zemax_bsdf.hpp>
+#include <gonio/io/measurements/zemax_bsdf.hpp>
 
 #include <rapidcheck.h>
 
@@ -10,7 +10,7 @@
 
 using gonio::degrees;
 using gonio::radians;
-using gonio::io::parse_zemax_bsdf;
+using gonio::io::read_zemax_bsdf;
 using scratch::check_refused;
 
 namespace {
@@ -39,8 +39,8 @@ const std::string small_file = zemax_header("Monochrome") + zemax_blocks("Monoch
 
 void check_zemax_refused(const std::string& text, std::initializer_list<std::string> words) {
   CAPTURE(text);
-  check_refused([&] { return parse_zemax_bsdf(text, "vinyl.bsdf"); }, {"vinyl.bsdf"});
-  check_refused([&] { return parse_zemax_bsdf(text, "vinyl.bsdf"); }, words);
+  check_refused([&] { return read_zemax_bsdf(text, "vinyl.bsdf"); }, {"vinyl.bsdf"});
+  check_refused([&] { return read_zemax_bsdf(text, "vinyl.bsdf"); }, words);
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -52,7 +52,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }  // namespace
 
 TEST_CASE("Zemax: angles are counted about the specular direction, from the normal") {
-  const auto samples = parse_zemax_bsdf(small_file, "vinyl.bsdf");
+  const auto samples = read_zemax_bsdf(small_file, "vinyl.bsdf");
   // Seven directions for normal incidence; at 40 degrees azimuth 180 leads to 70 and to 100 degrees, below the horizon.
   REQUIRE(samples.size() == 13);
   const auto check = [](const gonio::sample& s, double theta_i, double theta_o, double value) {
@@ -78,9 +78,9 @@ TEST_CASE("Zemax: angles are counted about the specular direction, from the norm
 }
 
 TEST_CASE("Zemax: three planes of CIE XYZ become linear Rec. 709") {
-  const auto samples = parse_zemax_bsdf(zemax_header("XYZ") + zemax_blocks("TristimulusX", 1) +
-                                            zemax_blocks("TristimulusY", 3) + zemax_blocks("TristimulusZ", 5),
-                                        "vinyl.bsdf");
+  const auto samples = read_zemax_bsdf(zemax_header("XYZ") + zemax_blocks("TristimulusX", 1) +
+                                           zemax_blocks("TristimulusY", 3) + zemax_blocks("TristimulusZ", 5),
+                                       "vinyl.bsdf");
   REQUIRE(samples.size() == 13);
   CHECK((samples[1].value - gonio::from_xyz({2.0, 4.0, 6.0})).abs().maxCoeff() < 1e-12);
 }
@@ -90,7 +90,7 @@ TEST_CASE("Zemax: azimuth 360 is azimuth 0, and the sample's rotation turns both
       "SpectralContent Monochrome ScatterType BRDF SampleRotation 1 90 AngleOfIncidence 1 40 ScatterAzimuth 3 0 180 "
       "360 "
       "ScatterRadial 1 10\nMonochrome TIS 0 1 2 3";
-  const auto samples = parse_zemax_bsdf(text, "x");
+  const auto samples = read_zemax_bsdf(text, "x");
   REQUIRE(samples.size() == 2);
   CHECK((samples[0].value == 1.0).all());
   CHECK(samples[0].directions.pair().wi.y() == doctest::Approx(std::sin(radians(40.0))));

@@ -1,6 +1,6 @@
 #include "../io/scratch.hpp"
 #include "synthetic_scan.hpp"
-#include <gonio/io/scan_journal.hpp>
+#include <gonio/io/measurements/scan_journal.hpp>
 
 #include <doctest/doctest.h>
 #include <lab/gantry.hpp>
@@ -27,7 +27,7 @@ class slow_gantry : public lab::gantry {
   }
 
  private:
-  gonio::io::detail::descriptor log_;
+  gonio::io::descriptor log_;
 };
 
 void scan_into(const std::filesystem::path& journal_path, const std::filesystem::path& log,
@@ -63,7 +63,7 @@ void scan_and_kill(const std::filesystem::path& journal, const std::filesystem::
 
 std::string text_of(const std::filesystem::path& path) {
   const auto bytes = gonio::io::read_bytes(path);
-  return std::string(gonio::io::detail::as_text(bytes));
+  return std::string(gonio::io::as_text(bytes));
 }
 
 /// Does a scan's file hold all of its plan? A process may be killed before it has written it down.

@@ -11,22 +11,34 @@ set(edges
   "table      -> core"
   "metric     -> table"
   "basis      -> metric solve"
-  "estimate   -> basis"
-  "estimate/scattered_brdf.hpp -> estimate core/k_d_tree.hpp" # apart, because it needs nanoflann
+  "estimate/estimator.hpp -> table" # the concept, which needs no basis
+  "estimate   -> basis estimate/estimator.hpp"
+  "interpolate -> metric estimate/estimator.hpp"
+  "interpolate/scattered_brdf.hpp -> interpolate core/k_d_tree.hpp" # apart, because it needs nanoflann
+  "robust     -> estimate interpolate"
+  "conformity -> estimate"
   "design     -> estimate"
   "model      -> table solve metric"
   "capture    -> table solve"
   "render     -> table"
+  "texels/texel_brdf.hpp -> render" # apart, because a renderer needs it
+  "texels     -> estimate texels/texel_brdf.hpp"
   "evaluate   -> estimate render design"
   "shape      -> estimate render core/k_d_tree.hpp"
-  "io         -> design capture model render"
-  "io/image.hpp -> io" # apart, because it needs stb
-  "io/exr.hpp -> io" # apart, because it needs OpenEXR
-  "io/tiff.hpp -> io" # libtiff
-  "io/exif.hpp -> io" # libexif
+  "io/bytes   -> core"
+  "io/text    -> io/bytes"
+  "io/measurements -> io/text capture model"
+  "io/materials -> io/text model texels"
+  "io/images  -> io/text render"
+  "io/setups  -> io/text capture design"
+  "io         -> io/measurements io/materials io/images io/setups"
+  "io/images/image.hpp -> io/images" # apart, because it needs stb
+  "io/images/exr.hpp -> io/images" # apart, because it needs OpenEXR
+  "io/images/tiff.hpp -> io/images" # libtiff
+  "io/images/exif.hpp -> io/images" # libexif
   "shape/io   -> io shape"
   "mpi        -> core" # apart, because it needs MPI
-  "render.hpp -> render"
+  "render.hpp -> render texels/texel_brdf.hpp"
   "shape.hpp  -> shape/io"
   "mpi.hpp    -> mpi"
   "core.hpp -> core" # all of a module each
@@ -35,6 +47,10 @@ set(edges
   "metric.hpp -> metric"
   "basis.hpp -> basis"
   "estimate.hpp -> estimate"
+  "robust.hpp -> robust"
+  "interpolate.hpp -> interpolate"
+  "conformity.hpp -> conformity"
+  "texels.hpp -> texels"
   "design.hpp -> design"
   "model.hpp -> model"
   "capture.hpp -> capture"
@@ -53,7 +69,7 @@ endforeach()
 
 # The module of a path relative to ROOT.
 function(module_of path result)
-  string(REGEX REPLACE "/impl/([a-z_]+)[.]ipp$" "/\\1.hpp" path "${path}") # a body is part of its header
+  string(REGEX REPLACE "/impl/([a-z0-9_]+)[.]ipp$" "/\\1.hpp" path "${path}") # a body is part of its header
   cmake_path(GET path PARENT_PATH folder)
   string(REGEX REPLACE "/.*" "" module "${path}")
   foreach(narrower IN ITEMS "${folder}" "${path}")
@@ -109,7 +125,7 @@ if(EXISTS "${ROOT}/gonio.hpp")
   foreach(header IN LISTS headers)
     if(header MATCHES "[.]ipp$")
       set(places "${compiled}")
-    elseif(header MATCHES "^(render/.*|io/(image|exr|tiff|exif)[.]hpp|core/k_d_tree[.]hpp|estimate/scattered_brdf[.]hpp|[a-z]+[.]hpp)$")
+    elseif(header MATCHES "^(render/.*|io/images/(image|exr|tiff|exif)[.]hpp|core/k_d_tree[.]hpp|interpolate/scattered_brdf[.]hpp|[a-z]+[.]hpp)$")
       continue()
     else()
       string(REGEX REPLACE "/.*" "" module "${header}")

@@ -1,5 +1,5 @@
 #include "../json.hpp"
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 #include <gonio/model/network_brdf.hpp>
 
 #include <doctest/doctest.h>

@@ -44,7 +44,7 @@ TEST_CASE("wavelengths that cannot make colours are refused") {
   };
   refused({500.0}, "at least two wavelengths");
   refused({500.0, 450.0, 600.0}, "wavelength 2");
-  refused({2000.0, 3000.0, 4000.0}, "no visible wavelength");
+  refused({2000.0, 3000.0, 4000.0}, "is visible: they have no colour");
 }
 
 TEST_CASE("wavelengths weighed as they are interpolated add up to white, and agree with dense ones") {

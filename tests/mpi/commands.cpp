@@ -4,8 +4,8 @@
 #include "../io/synthetic_spectra.hpp"
 #include "../run_program.hpp"
 #include "../synthetic_materials.hpp"
-#include <gonio/io/npy.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/bytes/npy.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>

@@ -58,11 +58,11 @@ TEST_CASE("ranks: what was sent is counted") {
   CHECK(sent(before).messages == (all().is_first() ? 0 : 1));
   before = all().sent();
   static_cast<void>(all().broadcast(bytes_of("nine byte")));
-  const auto counts = all().gather(mpi::detail::bytes_of(sent(before)));
+  const auto counts = all().gather(mpi::bytes_of(sent(before)));
   std::uint64_t messages = 0, bytes = 0;
   for (const auto& count : counts) {
-    messages += mpi::detail::number_of<mpi::traffic>(count).messages;
-    bytes += mpi::detail::number_of<mpi::traffic>(count).bytes;
+    messages += mpi::number_of<mpi::traffic>(count).messages;
+    bytes += mpi::number_of<mpi::traffic>(count).bytes;
   }
   if (!all().is_first()) return;
   CHECK(messages == static_cast<std::uint64_t>(all().size() - 1));

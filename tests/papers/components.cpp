@@ -4,7 +4,7 @@
 #include "../json.hpp"
 #include "papers_tool.hpp"
 #include "synthetic_networks.hpp"
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 
 #include <doctest/doctest.h>
 
@@ -18,7 +18,7 @@ TEST_CASE("components, mapped and not: shares of the variance, where they are, a
   const std::string components = "components --thin 9 20 --count 3 --networks " + at("n.npy");
   const auto printed = gonio_papers(components + " --json --size 16 --image " + at("slices.png"));
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
-  const auto result = parse_json(printed.output);
+  const auto result = read_json(printed.output);
   CHECK(result["materials"] == 6);
   CHECK(result["cells_in_peak"].get<double>() > 0.0);
   CHECK(result["cells_in_peak"].get<double>() < 0.5);

@@ -4,7 +4,7 @@
 #include "papers_tool.hpp"
 #include "synthetic_networks.hpp"
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 
@@ -43,7 +43,7 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   CHECK(again.output.find("| 5 | point-5-industry.csv |") != std::string::npos);
 
   const auto rms = [](const std::string& output) {
-    return parse_json(output)[0]["result"]["errors"]["mapped_rms"].get<double>();
+    return read_json(output)[0]["result"]["errors"]["mapped_rms"].get<double>();
   };
   const auto clean = evaluate(points + " --json"),
              defects = evaluate("-n 5 --sets published --noise 0.05 --misplaced 2 --json");
@@ -56,7 +56,7 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   const auto images =
       evaluate("--geometry near-field -n 1 --step 40 --sets expected-error --noise 0.02 --misplaced 0.5 --json");
   REQUIRE_MESSAGE(images.exit_code == 0, images.output);
-  CHECK(parse_json(images.output)[0]["result"]["samples"].get<int>() > 100);
+  CHECK(read_json(images.output)[0]["result"]["samples"].get<int>() > 100);
 
   // A set that was written is what was found.
   const std::string found = "--geometry near-field -n 1 --step 40 --sets expected-error --json";

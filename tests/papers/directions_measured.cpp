@@ -4,8 +4,8 @@
 #include "../json.hpp"
 #include "papers_tool.hpp"
 #include "synthetic_networks.hpp"
-#include <gonio/io/merl.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/networks.hpp>
 
 #include <doctest/doctest.h>
 
@@ -56,7 +56,7 @@ TEST_CASE("real measurements are reconstructed from published, optimal and rando
   CHECK(again.starts_with(kept));
   CHECK(again.find_first_not_of('\n', kept.size()) == std::string::npos);
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
-  const auto all = parse_json(printed.output);
+  const auto all = read_json(printed.output);
   REQUIRE(all["tables"].size() == 6);
   REQUIRE(all["scattered"].size() == 6);
   const auto figure = [](const nlohmann::json& rows, int count, const std::string& set, const char* key) {

@@ -18,7 +18,7 @@ TEST_CASE("chosen penalties against the best in hindsight") {
 
   const auto printed = gonio_papers(evaluate + "-n 5 --noise 0 0.3 --repetitions 2 --json");
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
-  const auto rows = parse_json(printed.output);
+  const auto rows = read_json(printed.output);
   REQUIRE(rows.size() == 4);  // two sets of directions, two noises
   for (const auto& row : rows) {
     CAPTURE(row.dump());

@@ -5,7 +5,7 @@
 #include "synthetic_networks.hpp"
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -51,7 +51,7 @@ class figures_database {
   [[nodiscard]] json draw(const std::string& arguments, const std::string& thinning = "3 5") const {
     const auto result = evaluate("figures --json --figure " + arguments, thinning);
     REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
-    return parse_json(result.output)["tables"];
+    return read_json(result.output)["tables"];
   }
 
  private:
@@ -192,7 +192,7 @@ TEST_CASE("figures 2015-8, 2015-9 and 2016-19: points and spheres") {
   const auto whole = database.evaluate("directions --sets published industry -n 5 --reconstruction-eta 40 --json");
   REQUIRE_MESSAGE(whole.exit_code == 0, whole.output);
   const json mean = eight[0]["rows"].back();
-  for (const json& set : parse_json(whole.output))
+  for (const json& set : read_json(whole.output))
     CHECK(mean[set["set"].get<std::string>()].get<double>() ==
           doctest::Approx(set["result"]["errors"]["mapped_rms"].get<double>()).epsilon(0.02));
 

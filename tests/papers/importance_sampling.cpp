@@ -3,8 +3,8 @@
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "papers_tool.hpp"
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/render/environment_map.hpp>
 
@@ -31,7 +31,7 @@ TEST_CASE("gonio-papers importance-sampling: metal gains") {
   const auto result = gonio_papers("importance-sampling " + given.table + " --environment " + given.sky +
                                    " --points 200 --draws 100 --json");
   REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-  const auto ratios = parse_json(result.output)["gold"];
+  const auto ratios = read_json(result.output)["gold"];
   for (const char* light : {"white", "formula", "sky"}) CHECK(ratios[light].get<double>() > 4.0);
   const auto table = gonio_papers("importance-sampling " + given.table + " --points 20 --draws 20");
   CHECK(table.output.find("| gold |") != std::string::npos);

@@ -17,7 +17,7 @@ TEST_CASE("a material that is a combination of others comes back, another not") 
         ((materials.values.col(c).array().log1p() + materials.values.col(9 + c).array().log1p()) * 0.5f).expm1();
   const auto metric = gonio::log_relative::to_median_of(materials);
   const gonio::appearance_metric judge(cells, 12);
-  const gonio::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}, gonio::nnls{}};
+  const papers::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}, gonio::nnls{}};
   const std::array<std::string, 2> names{"material-5", "material-1"};
   const auto results = papers::combine_others(others, names, materials, metric, judge);
   REQUIRE(results.size() == 2);

@@ -3,7 +3,7 @@
 #include "../json.hpp"
 #include "papers_tool.hpp"
 #include "synthetic_networks.hpp"
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 
 #include <doctest/doctest.h>
 
@@ -59,7 +59,7 @@ TEST_CASE("noell-table1: a row for each setting, and what is done is not done ag
   // As if it had been killed while it wrote the last one.
   const std::string kept = scratch::get(state);
   scratch::put(state, kept.substr(0, kept.size() - 20));
-  const auto rows = parse_json(database.evaluate(arguments + " --json"));
+  const auto rows = read_json(database.evaluate(arguments + " --json"));
   CHECK(lines_with(scratch::get(state), "\"result\"").size() == 13);
   REQUIRE(rows.size() == 6);
   CHECK(rows[1]["method"] == "our");
@@ -83,7 +83,7 @@ TEST_CASE("noell-table1: fewer materials to combine, and the time of an iteratio
 
   // All four others are what is combined anyway.
   const auto error = [&](const std::string& basis, std::size_t row) {
-    const auto rows = parse_json(database.evaluate(arguments + "--json " + basis));
+    const auto rows = read_json(database.evaluate(arguments + "--json " + basis));
     return rows[row]["results"][0]["delta_e_env"].get<double>();
   };
   CHECK(error("--basis 4", 1) == error("", 1));
@@ -101,7 +101,7 @@ TEST_CASE("noell-measured: a spectral measurement is judged where it was not use
   for (int i = 0; i < 60; ++i) text += std::to_string(0.02 * i) + " 0 " + std::to_string(0.6) + " 2 .1 .2 .3\n";
   scratch::put(database.at("paint.brdf"), text);
   const std::string arguments = "noell-measured --data 0.5 --samples " + database.at("paint.brdf");
-  const auto rows = parse_json(database.evaluate(arguments + " --json"));
+  const auto rows = read_json(database.evaluate(arguments + " --json"));
   REQUIRE(rows.size() == 6);
   CHECK(rows[0]["name"] == "paint");
   CHECK(rows[0]["method"] == "our");
@@ -126,7 +126,7 @@ TEST_CASE("noell-corrections: as printed and ours, by two solvers") {
 TEST_CASE("noell-table1: radial basis functions have the same error whether cases share their equations or not") {
   const synthetic_database database;
   const auto rows_of = [&](const std::string& outliers) {
-    return parse_json(
+    return read_json(
         database.evaluate("noell-table1 --materials b --methods rbf --data 2000 --json --outliers " + outliers));
   };
   const auto both = rows_of("0 0.2"), alone = rows_of("0.2");

@@ -2,7 +2,7 @@
 
 #include "papers_tool.hpp"
 #include "synthetic_networks.hpp"
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/rgl.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>

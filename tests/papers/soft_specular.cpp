@@ -48,7 +48,7 @@ TEST_CASE("one prior against a soft and a specular one") {
 
   const auto printed = database.evaluate("--counts 2 --json --eta-of-halves 40");
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
-  const auto all = parse_json(printed.output);
+  const auto all = read_json(printed.output);
   CHECK(all["soft_materials"].size() == 3);
   CHECK(all["specular_materials"].size() == 3);
   const auto& rows = all["directions"]["2"];

@@ -2,7 +2,7 @@
 
 #include "../io/scratch.hpp"
 #include "papers_tool.hpp"
-#include <gonio/io/spectral_samples.hpp>
+#include <gonio/io/measurements/spectral_samples.hpp>
 
 #include <doctest/doctest.h>
 

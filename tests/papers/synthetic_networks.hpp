@@ -2,7 +2,7 @@
 /// Networks of random weights, as the experiments read them.
 
 #include "../io/scratch.hpp"
-#include <gonio/io/npy.hpp>
+#include <gonio/io/bytes/npy.hpp>
 
 #include <random>
 #include <string>

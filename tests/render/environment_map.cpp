@@ -1,4 +1,4 @@
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 #include <gonio/model/ggx.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/render/sphere.hpp>

@@ -1,6 +1,6 @@
 #include "../sampler_checks.hpp"
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>

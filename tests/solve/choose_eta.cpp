@@ -145,7 +145,7 @@ TEST_CASE("the score of the chosen eta is within 1 % of the least on a dense sca
         CAPTURE(noise);
         const double eta = choose_eta(problem, criterion);
         const double largest = dense_reference::symmetric_eigen(problem.normal().gram()).values.maxCoeff();
-        const Eigen::VectorXd scan = gonio::detail::geometric(1e-10 * largest, 1e2 * largest, 2001);
+        const Eigen::VectorXd scan = gonio::geometric_sequence(1e-10 * largest, 1e2 * largest, 2001);
         CHECK(score(problem, criterion, eta) <= 1.01 * cross_validate(problem, criterion, scan).minCoeff() + 1e-20);
       }
 }
@@ -217,7 +217,7 @@ TEST_CASE("a choice among plausible etas is the best of these") {
       CHECK(choose_eta(problem, criterion, {3.0, 3.0}) == 3.0);
       const gonio::eta_range range{0.03 * free, 0.3 * free};
       const double eta = choose_eta(problem, criterion, range);
-      const Eigen::VectorXd scan = gonio::detail::geometric(range.lowest, range.highest, 501);
+      const Eigen::VectorXd scan = gonio::geometric_sequence(range.lowest, range.highest, 501);
       CHECK(score(problem, criterion, eta) <= 1.001 * cross_validate(problem, criterion, scan).minCoeff());
       CHECK(automatic_tikhonov(criterion, range).solve(problem).weights == tikhonov(eta).solve(problem).weights);
     }

@@ -78,3 +78,17 @@ TEST_CASE("spectral samples that are none are refused") {
   check_refused("sample 2: the weight", [](auto& s) { s.weights[1] = -1.0; });
   check_refused("sample 1: a direction", [](auto& s) { s.directions[0] = {1.5, 1.5, 0.0}; });
 }
+
+TEST_CASE("wavelengths that nobody sees have no colour, but three channels") {
+  gonio::spectral_samples samples{{905.0, 1100.0, 1300.0, 1550.0}, {}, gonio::cell_matrix(1, 4)};
+  samples.directions.push_back(gonio::half_difference{0.1, 0.2, 0.3});
+  samples.values << 0.3f, 0.5f, 0.7f, 1.1f;
+  CHECK_THROWS_WITH_AS(static_cast<void>(samples.colours()), doctest::Contains("905 to 1550 nm"), gonio::error);
+  const gonio::rgb bands = samples.in_three_channels().front().value;
+  CHECK(bands[0] == doctest::Approx(0.3));
+  CHECK(bands[1] == doctest::Approx(0.5));
+  CHECK(bands[2] == doctest::Approx(0.9));
+  // A visible wavelength among them makes a colour.
+  samples.wavelengths.front() = 550.0;
+  CHECK(samples.in_three_channels().front().value.y() == doctest::Approx(samples.colours().front().value.y()));
+}

@@ -1,7 +1,7 @@
 // measured_paint.cpp
 #include "measured_paint.hpp"
 
-#include <gonio/io/merl.hpp>
+#include <gonio/io/materials/merl.hpp>
 #include <gonio/render.hpp>
 
 measured_paint read_paint(const std::string& merl_file) {

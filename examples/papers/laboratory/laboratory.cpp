@@ -1,26 +1,26 @@
 /// gonio-papers laboratory: measured tables put into the simulated laboratory, scanned, calibrated, reconstructed,
 /// and compared with what was in the machine.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/machine_choice.hpp"
-#include "command_line/prior_option.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/reconstruct_methods.hpp"
-#include "command_line/threads_option.hpp"
 #include "lab/measure.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
 #include "papers/mean_errors.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/machine_choice.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/reconstruct_methods.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/merl_gzip.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <array>
 #include <iostream>

@@ -1,19 +1,19 @@
 /// gonio-papers models: Nielsen, Frisvad, Conradsen and Aanaes 2014, "Addressing Grazing Angle Reflections in Phong
 /// Models", on surrogates of the materials that they fit.
 
-#include "command_line/chosen_networks.hpp"
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/measures_as_json.hpp"
-#include "command_line/model_choice.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/resumable_results.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/chosen_networks.hpp"
+#include "tool/options/model_choice.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/measures_as_json.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/evaluate/appearance_metric.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 
 #include <iomanip>
 #include <iostream>

@@ -1,17 +1,17 @@
 /// gonio-papers components: Nielsen et al. 2015, Fig. 3 and 4: the first principal components of the database, of
 /// mapped reflectance and of reflectance as it is.
 
-#include "command_line/component_figure.hpp"
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/component_figure.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/component_variance.hpp>
 #include <gonio/basis/learn_pca.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/networks.hpp>
 #include <gonio/metric/lin.hpp>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 /// Nielsen et al. 2015, Fig. 8 and 9, and Xu et al. 2016, Fig. 19: points and spheres.
 
-#include "command_line/json.hpp"
 #include "papers/experiments.hpp"
 #include "papers/xu2016/figures.hpp"
+#include "tool/files/json.hpp"
 #include <gonio/core/random.hpp>
 #include <gonio/design/cell_candidates.hpp>
 #include <gonio/design/criterion_of_plan.hpp>

@@ -1,11 +1,11 @@
 /// Nielsen et al. 2015, Fig. 7 and 11: the optimal directions of points and of spheres; and what spheres of Cornell's
 /// paints would have shown (Fig. 12).
 
-#include "command_line/measurement_files.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/scattered_errors.hpp"
 #include "papers/xu2016/figures.hpp"
+#include "tool/files/measurement_files.hpp"
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/solve/tikhonov.hpp>

@@ -1,17 +1,17 @@
 /// gonio-papers nielsen-test-materials: Nielsen et al. 2015, section 6, on surrogates of their materials.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/mean_errors.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/nielsen2015/few_samples.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <iostream>
 #include <memory>
@@ -36,8 +36,8 @@ gonio::log_relative_pca as_shipped(const gonio::log_relative_pca& prior) {
   const gonio::grid_extents fine = prior.cells().grid().extents();
   const gonio::valid_cells thin(gonio::grid({fine.theta_h, fine.theta_d / 3, fine.phi_d / 5}));
   const auto encoded =
-      gonio::io::encode_prior(gonio::thin(prior.truncated(std::min<std::size_t>(60, prior.size())), thin));
-  return gonio::io::decode_prior(encoded, "the shipped form of the prior");
+      gonio::io::write_prior(gonio::thin(prior.truncated(std::min<std::size_t>(60, prior.size())), thin));
+  return gonio::io::read_prior(encoded, "the shipped form of the prior");
 }
 
 void print_row(const std::string& label, double reference, const json& full, const json* shipped) {

@@ -1,12 +1,12 @@
 #include "papers/nielsen2015/nielsen_split.hpp"
 
-#include "command_line/chosen_networks.hpp"
-#include "command_line/prior_option.hpp"
 #include "papers/networks_option.hpp"
+#include "tool/options/chosen_networks.hpp"
+#include "tool/options/prior_option.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/networks.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/materials/networks.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <utility>
 

@@ -7,7 +7,7 @@
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/design/published_directions.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 
 #include <filesystem>
 #include <optional>

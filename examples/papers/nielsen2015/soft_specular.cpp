@@ -1,16 +1,16 @@
 /// gonio-papers soft-specular: Nielsen et al. 2015, section 8: one prior against one for soft and one for specular
 /// materials.
 
-#include "command_line/chosen_networks.hpp"
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
 #include "papers/mean_errors.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/nielsen2015/few_samples.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/chosen_networks.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/soft_specular_prior.hpp>
 #include <gonio/design/published_directions.hpp>
@@ -21,7 +21,7 @@
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <functional>

@@ -1,8 +1,8 @@
 #pragma once
 /// How expressive correction functions are: Noell, Koehler and Stricker 2014, section 2, describe each by the others.
 
-#include <gonio/basis/correction.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/robust/correction.hpp>
 #include <gonio/solve/solver.hpp>
 
 #include <Eigen/Core>

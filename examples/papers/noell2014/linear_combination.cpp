@@ -2,17 +2,17 @@
 
 #include "papers/noell2014/linear_combination.hpp"
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
 #include "papers/mean_errors.hpp"
 #include "papers/networks_option.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/log_relative.hpp>
@@ -46,8 +46,8 @@ class combination_experiment {
 
   template <gonio::error_metric Metric>
   [[nodiscard]] std::vector<material_result> run(const Metric& metric) const {
-    const gonio::leave_one_out_decomposition others{gonio::measured{materials_, metric, threads_}, gonio::nnls{},
-                                                    threads_};
+    const papers::leave_one_out_decomposition others{gonio::measured{materials_, metric, threads_}, gonio::nnls{},
+                                                     threads_};
     return combine_others(others, gonio::nielsen_test_materials(), materials_, relative_, appearance_, threads_);
   }
 

@@ -3,7 +3,7 @@
 /// material as a combination of all materials but itself.
 
 #include "papers/material_result.hpp"
-#include <gonio/estimate/leave_one_out.hpp>
+#include "papers/noell2014/leave_one_out.hpp"
 #include <gonio/evaluate/appearance_metric.hpp>
 
 namespace papers {
@@ -12,7 +12,7 @@ namespace papers {
 /// materials of the basis in the same order over the same cells.
 template <gonio::error_metric Metric, gonio::normal_solver Solver, gonio::error_metric Judged>
 [[nodiscard]] std::vector<material_result> combine_others(
-    const gonio::leave_one_out_decomposition<Metric, Solver>& others, std::span<const std::string> names,
+    const papers::leave_one_out_decomposition<Metric, Solver>& others, std::span<const std::string> names,
     const gonio::material_set& truths, const Judged& metric, const gonio::appearance_metric& appearance,
     gonio::thread_count threads = {}) {
   std::vector<material_result> results;

@@ -1,9 +1,5 @@
 /// gonio-papers noell-table1, noell-table2: the benchmark of Noell, Koehler and Stricker 2014, section 3.1.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
@@ -11,6 +7,10 @@
 #include "papers/noell2014/noell_measures.hpp"
 #include "papers/noell2014/noell_tables.hpp"
 #include "papers/resumable_results.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 
 #include <algorithm>

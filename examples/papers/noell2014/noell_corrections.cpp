@@ -1,15 +1,15 @@
 /// gonio-papers noell-corrections: Noell, Koehler and Stricker 2014, section 2: is a correction function a
 /// combination of the others?
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/noell2014/correction_check.hpp"
-#include <gonio/io/networks.hpp>
+#include "tool/files/json.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
+#include <gonio/io/materials/networks.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/solve/least_squares.hpp>
 

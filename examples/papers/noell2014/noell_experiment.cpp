@@ -1,20 +1,20 @@
 #include "papers/noell2014/noell_experiment.hpp"
 
-#include "command_line/json.hpp"
-#include "command_line/scattered_samples.hpp"
 #include "papers/noell2014/noell_measures.hpp"
+#include "papers/noell2014/planned_decomposition.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/scattered_samples.hpp"
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/planned_decomposition.hpp>
-#include <gonio/estimate/pull_push.hpp>
-#include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/networks.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/interpolate/pull_push.hpp>
+#include <gonio/io/materials/networks.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>
+#include <gonio/robust/robust_reconstruction.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct method_name {
   double gamma = 0.0;
 };
 
-[[nodiscard]] std::optional<method_name> parse(const std::string& text) {
+[[nodiscard]] std::optional<method_name> read_method(const std::string& text) {
   const auto dash = text.rfind('-');
   const auto has_metric = [](const std::string& name) {
     return name == "our" || name == "printed" || name == "lc" || name == "rbf";
@@ -42,7 +42,7 @@ struct method_name {
   const std::string head = text.substr(0, dash), tail = dash == std::string::npos ? "" : text.substr(dash + 1);
   if (head == "gamma") {
     double gamma = 0.0;
-    if (!gonio::io::detail::read_number(tail, gamma) && gamma >= 0.0) return method_name{head, "log", gamma};
+    if (!gonio::io::read_number(tail, gamma) && gamma >= 0.0) return method_name{head, "log", gamma};
   }
   if (has_metric(head) && (tail == "lin" || tail == "root" || tail == "log")) return method_name{head, tail};
   return std::nullopt;
@@ -95,7 +95,7 @@ struct combinations_under {
   made_on_demand<gonio::measured<Metric>> materials;
   made_on_demand<gonio::rbf<Metric>> radial_functions;
   std::map<case_key, Eigen::MatrixXd> radial_weights;  // found beforehand
-  std::map<std::pair<double, std::uint64_t>, gonio::planned_decomposition<Metric>> plans;
+  std::map<std::pair<double, std::uint64_t>, papers::planned_decomposition<Metric>> plans;
 };
 
 }  // namespace
@@ -248,7 +248,7 @@ const gonio::material_set& noell_experiment::materials() const noexcept { return
 
 gonio::brdf_table noell_experiment::estimate(const std::string& method, const noell_case& which,
                                              const gonio::sample_set& samples) {
-  return parts_->estimate(*parse(method), which, samples).table;
+  return parts_->estimate(*read_method(method), which, samples).table;
 }
 
 gonio::measured<gonio::log> noell_experiment::materials_without(const std::string& material) {
@@ -283,7 +283,7 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
   const gonio::sample_set samples = parts_->measure(which);
 
   // What is made once for a material is no part of an iteration.
-  const method_name name = *parse(method);
+  const method_name name = *read_method(method);
   if (iterates(method))
     static_cast<void>(parts_->corrections_without(left_out(which, parts_->truths.names), name.method == "printed"));
   const auto start = std::chrono::steady_clock::now();
@@ -299,7 +299,7 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
 }
 
 void noell_experiment::prepare(const std::string& method, std::span<const noell_case> cases) {
-  const auto name = parse(method);
+  const auto name = read_method(method);
   if (name->method != "rbf") return;
   constexpr std::size_t together = 60;  // 180 right-hand sides of a million values are 1.6 GB
   for (std::size_t begin = 0; begin < cases.size(); begin += together) {
@@ -314,18 +314,20 @@ void noell_experiment::prepare(const std::string& method, std::span<const noell_
 }
 
 bool noell_experiment::iterates(const std::string& method) {
-  const std::string name = parse(method)->method;
+  const std::string name = read_method(method)->method;
   return name == "our" || name == "printed" || name == "gamma";
 }
 
-bool noell_experiment::combines(const std::string& method) { return iterates(method) || parse(method)->method == "lc"; }
+bool noell_experiment::combines(const std::string& method) {
+  return iterates(method) || read_method(method)->method == "lc";
+}
 
 std::string noell_experiment::complaint(const std::string& method) {
-  return parse(method) ? "" : "there is no method '" + method + "'";
+  return read_method(method) ? "" : "there is no method '" + method + "'";
 }
 
 std::optional<double> noell_experiment::published(const std::string& method, double data_ratio, double outlier_ratio) {
-  const auto name = parse(method);
+  const auto name = read_method(method);
   const bool table_2 = data_ratio == 1.0 && outlier_ratio == 0.0 && name->metric != "log";
   const std::size_t column = name->metric == "lin" ? 0 : 1;
   if (name->method == "our" || name->method == "printed")

@@ -1,13 +1,13 @@
 #pragma once
 /// One reconstruction of the benchmark of Noell et al. 2014: a material, its simulated measurement, a method.
 
-#include "command_line/json.hpp"
 #include "papers/experiments.hpp"
 #include "papers/noell2014/noell_tables.hpp"
-#include <gonio/basis/correction.hpp>
+#include "tool/files/json.hpp"
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/metric/log.hpp>
+#include <gonio/robust/correction.hpp>
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>
 

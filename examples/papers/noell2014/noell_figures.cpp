@@ -1,20 +1,20 @@
 /// gonio-papers noell-figures: Fig. 1 to 5 of Noell, Koehler and Stricker 2014, drawn.
 
-#include "command_line/figure_tiles.hpp"
-#include "command_line/fixed.hpp"
-#include "command_line/iteration_figure.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/noell2014/correction_check.hpp"
 #include "papers/noell2014/noell_experiment.hpp"
-#include <gonio/estimate/robust_reconstruction.hpp>
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/figure_tiles.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/iteration_figure.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/render/lighting.hpp>
+#include <gonio/robust/robust_reconstruction.hpp>
 
 #include <algorithm>
 #include <iostream>

@@ -1,19 +1,19 @@
 /// gonio-papers noell-gap: why the linear combination (LC) of Noell, Koehler and Stricker 2014, Table 1, suffers less
 /// from outliers there than here. What the paper leaves open is varied, one thing at a time.
 
-#include "command_line/fixed.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/noell2014/noell_experiment.hpp"
+#include "papers/noell2014/planned_decomposition.hpp"
 #include "papers/resumable_results.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/core/vector_kernels.hpp>
-#include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/sphere_delta_e.hpp>
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 #include <gonio/metric/place_free.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/solve/least_squares.hpp>
@@ -199,8 +199,8 @@ class gap_experiment {
   /// The combination of the other materials under ln(1 + scale rho), measured there.
   template <gonio::normal_solver Solver>
   [[nodiscard]] estimate_function combination(double scale, const Solver& solver, sampling how) const {
-    const gonio::planned_decomposition plan{gonio::measured{truths_, scaled_log{scale}, options_.threads},
-                                            locations(how), solver, options_.threads};
+    const papers::planned_decomposition plan{gonio::measured{truths_, scaled_log{scale}, options_.threads},
+                                             locations(how), solver, options_.threads};
     return [this, plan](const gonio::sample_set& samples, const noell_case& which) {
       const auto located = gonio::locate_samples(truths_.cells, samples, options_.threads);
       return plan.without({which.material}).reconstruct(located.channels()).tabulate(truths_.cells, options_.threads);

@@ -1,12 +1,12 @@
 #pragma once
 /// What judges the reconstructions of the experiments after Noell et al. 2014.
 
-#include "command_line/json.hpp"
 #include "papers/experiments.hpp"
+#include "tool/files/json.hpp"
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/sphere_delta_e.hpp>
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 #include <gonio/render/environment_map.hpp>
 
 #include <filesystem>

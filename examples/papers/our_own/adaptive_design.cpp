@@ -1,13 +1,13 @@
 /// gonio-papers adaptive-design: measured materials, whose families the prior has not seen, measured in directions that
 /// the readings so far choose, and in fixed ones.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/left_out_families.hpp"
+#include "tool/files/json.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/next_measurement.hpp>

@@ -1,20 +1,20 @@
 /// gonio-papers conformity: how often `gonio check` is wrong on measured materials whose families its prior has not
 /// seen.
 
-#include "command_line/fixed.hpp"
-#include "command_line/progress_bar.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/colour_shift.hpp"
 #include "papers/our_own/detection_rates.hpp"
 #include "papers/our_own/left_out_families.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/conformity/conformity.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/core/statistics.hpp>
-#include <gonio/estimate/conformity.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/rgl.hpp>
 
 #include <array>
 #include <functional>

@@ -1,8 +1,8 @@
 #pragma once
 /// p-values of many tests as rates: false alarms, detections, the ROC curve.
 
-#include "command_line/fixed.hpp"
 #include "papers/experiments.hpp"
+#include "tool/pages/fixed.hpp"
 
 #include <algorithm>
 #include <cmath>

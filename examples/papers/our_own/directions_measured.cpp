@@ -1,11 +1,5 @@
 /// gonio-papers directions-measured: real measurements, reconstructed from few directions that were chosen for them.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/measurement_files.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/solver_choice.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
@@ -14,6 +8,12 @@
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/scattered_errors.hpp"
 #include "papers/resumable_results.hpp"
+#include "tool/files/json.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/options/solver_choice.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/estimate/decomposition.hpp>
@@ -21,9 +21,9 @@
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/merl_directory.hpp>
-#include <gonio/io/merl_gzip.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/merl_directory.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/networks.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <iostream>

@@ -1,12 +1,12 @@
 /// gonio-papers eta: how far the chosen penalty is from the best in hindsight.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/project.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
@@ -124,7 +124,7 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
   const reconstruction_error error(prior, truths, equations_of(places).rows());
 
   // Reconstruct each material with every penalty, and with the one that each rule chooses.
-  const Eigen::VectorXd etas = gonio::detail::geometric(1e-3, 1e5, 97);
+  const Eigen::VectorXd etas = gonio::geometric_sequence(1e-3, 1e5, 97);
   Eigen::VectorXd shared = Eigen::VectorXd::Zero(etas.size());
   eta_outcome each, forty, of_noise, unknown, free;
   const std::size_t repetitions = noise > 0.0 ? options.repetitions : 1;

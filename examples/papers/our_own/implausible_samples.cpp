@@ -1,12 +1,12 @@
 /// gonio-papers implausible-samples: how often numbers that are no BRDF are noticed, and how often a BRDF is doubted.
 
-#include "command_line/fixed.hpp"
-#include "command_line/sample_warnings.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/sample_warnings.hpp"
 #include <gonio/core/random.hpp>
-#include <gonio/io/rgl.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/materials/rgl.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <algorithm>
 #include <array>

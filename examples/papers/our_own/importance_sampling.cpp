@@ -1,18 +1,18 @@
 /// gonio-papers importance-sampling: how much less light estimates vary with directions drawn by importance of the
 /// BRDF than with cosine-weighted ones.
 
-#include "command_line/chosen_networks.hpp"
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/thinning.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/chosen_networks.hpp"
+#include "tool/options/thinning.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/core/random.hpp>
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/render/environment_sampler.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>

@@ -1,12 +1,12 @@
 /// gonio-papers in-plane: what scans in the plane of incidence, the most common measurements, say of the rest of a
 /// material, and which further directions repair it.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/left_out_families.hpp"
+#include "tool/files/json.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>

@@ -1,10 +1,10 @@
 #include "left_out_families.hpp"
 
-#include "command_line/threads_option.hpp"
+#include "tool/options/threads_option.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/networks.hpp>
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/networks.hpp>
+#include <gonio/io/materials/rgl.hpp>
 
 #include <random>
 

@@ -2,11 +2,11 @@
 /// Measured materials, each judged by what is learned without its family: the protocol of
 /// docs/results/real-materials.md and real-methods.md.
 
-#include "command_line/command.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/thinning.hpp"
 #include "papers/resumable_results.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/command.hpp"
+#include "tool/options/thinning.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/evaluate/comparison.hpp>

@@ -21,7 +21,7 @@ EXAMPLES = ("carpaint_blue", "carpaint_green", "carpaint_red", "example_modules"
 
 # What the SDK's lines need around them, and the comparison.
 PROGRAM = r"""
-#include <gonio/io/mbsdf.hpp>
+#include <gonio/io/materials/mbsdf.hpp>
 
 #include <mi/base.h>
 #include <mi/math.h>

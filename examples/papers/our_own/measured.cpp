@@ -1,22 +1,22 @@
 /// gonio-papers measured-materials: tables of another database, reconstructed from random samples.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/prior_option.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
 #include "papers/mean_errors.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/merl_directory.hpp>
-#include <gonio/io/merl_gzip.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/merl_directory.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/render/exposure.hpp>
 #include <gonio/render/horizon_lookup.hpp>
 #include <gonio/render/image.hpp>

@@ -1,16 +1,16 @@
 /// gonio-papers measured-intervals: how often intervals hold in directions that were measured, but not fitted.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/measurement_files.hpp"
-#include "command_line/prior_option.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/rank_correlation.hpp"
+#include "tool/files/json.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/core/random.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/reconstruction.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 
 #include <cmath>
 #include <iostream>

@@ -1,10 +1,10 @@
 /// gonio-papers model-properties: which analytic models are reciprocal, and how much they reflect.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/measures_as_json.hpp"
-#include "command_line/model_choice.hpp"
 #include "papers/experiments.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/model_choice.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/measures_as_json.hpp"
 #include <gonio/model/physical_properties.hpp>
 
 #include <iostream>

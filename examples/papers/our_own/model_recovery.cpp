@@ -1,12 +1,12 @@
 /// gonio-papers model-recovery: do fits find the parameters that made the data, and how much noise do they pass on?
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/model_choice.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/model_choice.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 
 #include <Eigen/Cholesky>
 

@@ -2,19 +2,19 @@
 /// close by, against perfect images of radiance. The photographs are simulated: brackets of exposures by a noisy chip
 /// behind a lens that distorts and darkens, with light and camera not quite where they are said to be.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
 #include "lab/near_field_lab.hpp"
 #include "lab/photographs.hpp"
 #include "lab/white_material.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/photographed_materials.hpp"
+#include "tool/files/json.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/capture/merged_frames.hpp>
 #include <gonio/capture/near_field_image.hpp>
 #include <gonio/design/near_field_geometry.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <array>
 #include <cmath>

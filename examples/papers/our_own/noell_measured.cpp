@@ -1,23 +1,23 @@
 /// gonio-papers noell-measured: real measurements, of which the materials of a database know nothing, reconstructed
 /// by robust estimation (after Noell, Koehler and Stricker 2014) from some of their samples.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/measurement_files.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/noell2014/noell_measures.hpp"
 #include "papers/noell2014/noell_tables.hpp"
 #include "papers/our_own/scattered_errors.hpp"
+#include "tool/files/json.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/merl_directory.hpp>
-#include <gonio/io/merl_gzip.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/merl_directory.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/networks.hpp>
 #include <gonio/metric/log.hpp>
+#include <gonio/robust/robust_reconstruction.hpp>
 
 #include <iostream>
 #include <memory>

@@ -145,7 +145,7 @@ drawn draw(const vector3& wo, double u, double v, const std::vector<double>& wav
 # The comparison.
 PROGRAM = r"""
 #include <gonio/core/spectrum.hpp>
-#include <gonio/io/rgl_spectra.hpp>
+#include <gonio/io/materials/rgl_spectra.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
 /// gonio-papers real-fits: analytic models fitted to measured materials, by every way to add up errors.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/model_choice.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/thinning.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/left_out_families.hpp"
 #include "papers/resumable_results.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/model_choice.hpp"
+#include "tool/options/thinning.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/evaluate/appearance_metric.hpp>
 
 #include <iostream>

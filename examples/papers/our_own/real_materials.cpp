@@ -1,20 +1,20 @@
 /// gonio-papers real-materials: measured materials, each reconstructed by a prior that has not seen its family.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/left_out_families.hpp"
 #include "papers/our_own/rank_correlation.hpp"
+#include "tool/files/json.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 
 #include <algorithm>
 #include <iostream>

@@ -1,22 +1,22 @@
 /// gonio-papers real-methods: every method of gonio reconstruct on measured materials whose families were left out.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/scattered_samples.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/left_out_families.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/scattered_samples.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/pull_push.hpp>
 #include <gonio/estimate/reconstruction.hpp>
-#include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/interpolate/pull_push.hpp>
 #include <gonio/metric/log.hpp>
+#include <gonio/robust/robust_reconstruction.hpp>
 
 #include <iostream>
 #include <map>

@@ -1,17 +1,17 @@
 /// gonio-papers scattered-samples: how measurements are best interpolated between their neighbours, found by leaving
 /// some of them out.
 
-#include "command_line/scattered_samples.hpp"
+#include "tool/options/scattered_samples.hpp"
 
-#include "command_line/fixed.hpp"
-#include "command_line/measurement_files.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/left_out_families.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/core/parallel.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/rgl.hpp>
+#include <gonio/io/materials/rgl.hpp>
 #include <gonio/metric/log_relative.hpp>
 
 #include <algorithm>

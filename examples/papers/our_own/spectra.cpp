@@ -1,10 +1,10 @@
 /// gonio-papers spectra: spectral measurements reconstructed wavelength by wavelength, against the same as colours.
 
-#include "command_line/fixed.hpp"
-#include "command_line/measurement_files.hpp"
-#include "command_line/prior_option.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_streamed_pca.hpp>
 #include <gonio/core/random.hpp>
@@ -12,7 +12,7 @@
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/fitted_spectra.hpp>
 #include <gonio/estimate/reconstruction.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/model/smooth_spectra.hpp>
 
 #include <algorithm>

@@ -1,16 +1,16 @@
 /// gonio-papers sphere-photograph: measured materials reconstructed from simulated photographs of a sphere, against
 /// perfect samples of the same directions.
 
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
 #include "lab/sphere_lab.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/photographed_materials.hpp"
+#include "tool/files/json.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/capture/sphere_outline.hpp>
 #include <gonio/capture/surface_photograph.hpp>
 #include <gonio/design/published_directions.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <cmath>
 #include <iostream>

@@ -1,17 +1,17 @@
 /// gonio-papers streamed-learning: time and memory of learning from many materials that are not held, and how far the
 /// result is from what learning in memory, or from all at once, gives.
 
-#include "command_line/fixed.hpp"
-#include "command_line/prior_option.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/random_materials.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/basis/add_materials.hpp>
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/learn_streamed_pca.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/scratch_materials.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/scratch_materials.hpp>
 #include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/product.hpp>
 
@@ -266,7 +266,7 @@ void print_added(const streaming_experiment& given) {
     const gonio::material_rows new_rows = random_tables(old_count, given.grown, given).rows();
     const gonio::material_rows all_rows = random_tables(0, given.grown, given).rows();
     const auto old = gonio::learn_streamed_pca(old_rows, options_of(given)).prior;
-    const auto stored = gonio::io::decode_prior(gonio::io::encode_prior(old), "the prior of the others");
+    const auto stored = gonio::io::read_prior(gonio::io::write_prior(old), "the prior of the others");
     const auto exactly = gonio::add_materials(old, new_rows, options_of(given)).prior;
     gonio::streamed_pca added{old}, all{old};
     const double adding = seconds_of([&] { added = gonio::add_materials(stored, new_rows, options_of(given)); });

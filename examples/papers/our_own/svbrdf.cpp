@@ -1,25 +1,25 @@
 /// gonio-papers svbrdf: gonio svbrdf on a synthetic sample of five measured materials: time, memory, colour
 /// differences, and interruptions.
 
-#include "command_line/fixed.hpp"
-#include "command_line/prior_option.hpp"
-#include "command_line/thinning.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/svbrdf_maps.hpp"
 #include "papers/our_own/synthetic_texels.hpp"
 #include "papers/our_own/tool_process.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/thinning.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/core/half.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/estimate/texel_decomposition.hpp>
 #include <gonio/evaluate/sphere_delta_e.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/io/prior.hpp>
-#include <gonio/io/rgl.hpp>
-#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/rgl.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/render/lighting.hpp>
+#include <gonio/texels/texel_decomposition.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -1,16 +1,16 @@
 #include "papers/our_own/svbrdf_maps.hpp"
 
-#include "command_line/fixed.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/capture/k_means.hpp>
 #include <gonio/core/half.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/estimate/texel_metric.hpp>
-#include <gonio/io/file.hpp>
+#include <gonio/io/bytes/file.hpp>
 #include <gonio/render/exposure.hpp>
 #include <gonio/render/false_colour.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/render/lighting.hpp>
+#include <gonio/texels/texel_metric.hpp>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "papers/our_own/synthetic_texels.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/model/adaptive_brdf.hpp>
 #include <gonio/table/image.hpp>
 

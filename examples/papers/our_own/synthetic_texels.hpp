@@ -3,7 +3,7 @@
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/io/npy.hpp>
+#include <gonio/io/bytes/npy.hpp>
 #include <gonio/model/adaptive_brdf.hpp>
 
 #include <Eigen/Core>
@@ -48,8 +48,8 @@ class synthetic_texels {
   /// Writes an image of one direction pair (.npy), row by row; the noise is relative to the value.
   void write(const std::filesystem::path& path, Eigen::Index direction) const {
     const auto extent = static_cast<std::size_t>(size_);
-    const std::string header = gonio::io::detail::npy_header(
-        "<f4", gonio::io::detail::npy_shape_text(std::vector<std::size_t>{extent, extent, 3}));
+    const std::string header =
+        gonio::io::npy_header("<f4", gonio::io::npy_shape_text(std::vector<std::size_t>{extent, extent, 3}));
     gonio::io::write_atomically(path, [&](gonio::io::file_writer& file) {
       file.write(std::as_bytes(std::span(header)));
       std::mt19937_64 generator(seed_ * 1000 + static_cast<std::uint64_t>(direction));

@@ -1,10 +1,10 @@
 /// gonio-papers shape-poses: how far recovered ears are from the truth if the pose that they begin with is off, and
 /// held or fitted again. After "Anatomically correct surface recovery", section 2 and Algorithm 1.
 
-#include "command_line/fixed.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "synthetic/ear_study.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/core/direction.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/registration.hpp>

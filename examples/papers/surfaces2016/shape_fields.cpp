@@ -1,11 +1,11 @@
 /// gonio-papers shape-fields: holes of synthetic ears filled by a Markov random field of signed distances, beside a
 /// thin plate and our recovery. After "Anatomically correct surface recovery", section 4.
 
-#include "command_line/fixed.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/surfaces2016/distance_field.hpp"
 #include "synthetic/ear_study.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
 #include <gonio/shape/hole_filling.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/surface_distance.hpp>

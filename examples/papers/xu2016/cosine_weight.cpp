@@ -1,17 +1,17 @@
 /// gonio-papers cosine-weight: what it does to the error that Nielsen et al. 2015 weight a reflectance by the product
 /// of both cosines (Eq. 2), and Xu et al. 2016 by the larger one (section 3).
 
-#include "command_line/chosen_networks.hpp"
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/solver_choice.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/mean_errors.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/nielsen2015/few_samples.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/chosen_networks.hpp"
+#include "tool/options/solver_choice.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/test_materials.hpp>

@@ -1,11 +1,5 @@
 /// gonio-papers directions: where to measure; published sets and ours on materials that neither has seen.
 
-#include "command_line/design_search.hpp"
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/solver_choice.hpp"
-#include "command_line/threads_option.hpp"
 #include "lab/near_field_lab.hpp"
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
@@ -13,6 +7,12 @@
 #include "papers/networks_option.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/resumable_results.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/design_search.hpp"
+#include "tool/options/solver_choice.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/design_criterion.hpp>
@@ -23,7 +23,7 @@
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <iostream>

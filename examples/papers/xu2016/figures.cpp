@@ -2,18 +2,18 @@
 
 #include "papers/xu2016/figures.hpp"
 
-#include "command_line/chosen_networks.hpp"
-#include "command_line/fixed.hpp"
-#include "command_line/json.hpp"
-#include "command_line/measures_as_json.hpp"
-#include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/chosen_networks.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/measures_as_json.hpp"
+#include "tool/pages/progress_bar.hpp"
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/evaluate/test_materials.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 
 #include <iostream>
 #include <memory>

@@ -1,15 +1,15 @@
 #pragma once
 /// gonio-papers figures: the figures of Nielsen et al. 2015 and Xu et al. 2016 as tables, one function each.
 
-#include "command_line/json.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/xu2016/mapped_errors.hpp"
+#include "tool/files/json.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/design/expected_error.hpp>
 #include <gonio/design/sphere_geometry.hpp>
-#include <gonio/io/networks.hpp>
+#include <gonio/io/materials/networks.hpp>
 
 #include <cmath>
 #include <cstdint>

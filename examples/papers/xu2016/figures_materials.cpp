@@ -11,7 +11,7 @@
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 #include <gonio/render/exposure.hpp>
 #include <gonio/render/horizon_lookup.hpp>
 #include <gonio/render/image.hpp>

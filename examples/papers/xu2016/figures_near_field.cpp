@@ -1,10 +1,10 @@
 /// Xu et al. 2016, Fig. 3, 5 to 8 and 13: images of a flat sample from close by.
 
-#include "command_line/chosen_networks.hpp"
-#include "command_line/json.hpp"
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
 #include "papers/xu2016/figures.hpp"
+#include "tool/files/json.hpp"
+#include "tool/options/chosen_networks.hpp"
 #include <gonio/design/cell_candidates.hpp>
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/image_candidates.hpp>

@@ -4,7 +4,7 @@
 #include "papers/xu2016/figures.hpp"
 #include <gonio/design/near_field_geometry.hpp>
 #include <gonio/design/published_directions.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 namespace papers::figures {
 

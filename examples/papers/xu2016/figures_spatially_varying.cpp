@@ -11,8 +11,8 @@
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
-#include <gonio/io/merl_directory.hpp>
-#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/materials/merl_directory.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <algorithm>

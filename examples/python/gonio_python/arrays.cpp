@@ -66,7 +66,7 @@ direction_array::direction_array(const py::object& given, const std::string& nam
     gonio::refuse({name, " has shape ", shape_of(array_), ": expected (..., 3), unit vectors"});
   for (Eigen::Index i = 0; i < size(); ++i) {
     const double* w = data_ + 3 * i;
-    const double length = gonio::detail::norm_of(w[0], w[1], w[2]);
+    const double length = gonio::norm_of(w[0], w[1], w[2]);
     if (!(std::abs(length - 1.0) <= 1e-3))
       gonio::refuse({"vector ", i, " of ", name, " has length ", given_as(length), ": expected 1"});
   }
@@ -93,11 +93,11 @@ std::vector<gonio::sample_directions> sample_directions_of(const py::object& giv
       all.push_back(directions_of_angles(numbers, row));
     } else {
       for (int first : {0, 3})
-        if (const double length = gonio::detail::norm_of(numbers[first], numbers[first + 1], numbers[first + 2]);
+        if (const double length = gonio::norm_of(numbers[first], numbers[first + 1], numbers[first + 2]);
             !(std::abs(length - 1.0) <= 1e-3))
           gonio::refuse({row, first == 0 ? ": wi has length " : ": wo has length ", given_as(length), ", expected 1"});
       const auto unit = [&](int first) {
-        return gonio::detail::normalised({numbers[first], numbers[first + 1], numbers[first + 2]});
+        return gonio::normalised({numbers[first], numbers[first + 1], numbers[first + 2]});
       };
       all.emplace_back(gonio::direction_pair{unit(0), unit(3)});
     }

@@ -46,7 +46,7 @@ class direction_array {
   /// Without the last axis, the three coordinates.
   [[nodiscard]] extents shape() const { return {array_.shape(), array_.shape() + array_.ndim() - 1}; }
   [[nodiscard]] gonio::direction operator[](Eigen::Index i) const noexcept {
-    return gonio::detail::normalised({data_[3 * i], data_[3 * i + 1], data_[3 * i + 2]});
+    return gonio::normalised({data_[3 * i], data_[3 * i + 1], data_[3 * i + 2]});
   }
 
  private:

@@ -3,7 +3,7 @@
 
 #include "arrays.hpp"
 #include <gonio/core/brdf.hpp>
-#include <gonio/io/merl.hpp>
+#include <gonio/io/materials/merl.hpp>
 #include <gonio/table/brdf_table.hpp>
 
 #include <pybind11/stl/filesystem.h>

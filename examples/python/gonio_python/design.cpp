@@ -1,13 +1,13 @@
 /// Where to measure.
 
 #include "arrays.hpp"
-#include "command_line/design_search.hpp"
 #include "subjects.hpp"
+#include "tool/options/design_search.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
-#include <gonio/io/capture_constraint.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/setups/capture_constraint.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -32,8 +32,7 @@ struct found_design {
 
 void require_one_of(const std::string& given, const char* name, std::initializer_list<std::string_view> words) {
   if (std::ranges::count(words, std::string_view(given)) > 0) return;
-  gonio::refuse(
-      {name, " is '", given, "': expected one of ", gonio::io::detail::listed({words.begin(), words.size()}, ", ")});
+  gonio::refuse({name, " is '", given, "': expected one of ", gonio::io::listed({words.begin(), words.size()}, ", ")});
 }
 
 std::vector<gonio::direction_pair> pairs_of(const py::object& directions, const char* name) {

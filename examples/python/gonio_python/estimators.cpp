@@ -4,7 +4,7 @@
 #include "subjects.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/reconstruction.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/solve/default_eta.hpp>
 #include <gonio/solve/tikhonov.hpp>
 

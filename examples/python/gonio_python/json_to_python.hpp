@@ -1,7 +1,7 @@
 #pragma once
 /// What the tool prints as JSON, as Python's dictionaries and lists.
 
-#include "command_line/json.hpp"
+#include "tool/files/json.hpp"
 
 #include <pybind11/pybind11.h>
 

@@ -1,10 +1,10 @@
 /// Analytic models: fits of them, formula materials, and what renderers read.
 
 #include "brdf_methods.hpp"
-#include "command_line/model_choice.hpp"
 #include "json_to_python.hpp"
 #include "subjects.hpp"
-#include <gonio/io/renderer_material.hpp>
+#include "tool/options/model_choice.hpp"
+#include <gonio/io/materials/renderer_material.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <pybind11/stl.h>

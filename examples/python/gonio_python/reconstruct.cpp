@@ -1,9 +1,9 @@
 /// What `gonio reconstruct` does, by the same code: methods by name, with the tool's defaults.
 
 #include "arrays.hpp"
-#include "command_line/reconstruct_choice.hpp"
 #include "json_to_python.hpp"
 #include "subjects.hpp"
+#include "tool/options/reconstruct_choice.hpp"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

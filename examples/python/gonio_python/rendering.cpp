@@ -1,13 +1,13 @@
 /// Spheres, images as files, and how tables differ.
 
 #include "brdf_methods.hpp"
-#include "cli/images.hpp"
-#include "command_line/measures_as_json.hpp"
 #include "json_to_python.hpp"
 #include "subjects.hpp"
+#include "tool/pages/images.hpp"
+#include "tool/pages/measures_as_json.hpp"
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/model/adaptive_brdf.hpp>
 #include <gonio/model/analytic_brdf.hpp>
 #include <gonio/model/formula_materials.hpp>

@@ -1,10 +1,10 @@
 /// Measurements: arrays in, views of the library's memory out, and their files.
 
 #include "arrays.hpp"
-#include "command_line/measurement_files.hpp"
 #include "subjects.hpp"
+#include "tool/files/measurement_files.hpp"
 #include <gonio/core/error.hpp>
-#include <gonio/io/samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

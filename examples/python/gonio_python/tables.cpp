@@ -2,9 +2,9 @@
 
 #include "brdf_methods.hpp"
 #include "subjects.hpp"
-#include <gonio/io/merl_gzip.hpp>
-#include <gonio/io/rgl.hpp>
-#include <gonio/io/table_npy.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/rgl.hpp>
+#include <gonio/io/materials/table_npy.hpp>
 #include <gonio/table/tensor_view.hpp>
 
 #include <cmath>

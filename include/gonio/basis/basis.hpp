@@ -33,7 +33,7 @@ concept function_set = requires(const Basis& functions, Eigen::Index cell) {
 ///
 /// With a model of the library:
 /// ```cpp
-/// #include <gonio/io/prior.hpp>
+/// #include <gonio/io/materials/prior.hpp>
 ///
 /// #include <cstdio>
 ///

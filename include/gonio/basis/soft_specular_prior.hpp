@@ -1,7 +1,7 @@
 #pragma once
 /// Two priors in one: the principal components of soft and those of specular materials, and the contrast that parts
 /// them. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), section 8. estimate/soft_specular_decomposition.hpp learns
-/// it and estimates with it; io/soft_specular_prior.hpp has its file.
+/// it and estimates with it; io/materials/soft_specular_prior.hpp has its file.
 
 #include <gonio/basis/pca.hpp>
 

@@ -67,7 +67,7 @@ template <goniometer Machine>
 ///
 /// With a model of the library, a file:
 /// ```cpp
-/// #include <gonio/io/scan_journal.hpp>
+/// #include <gonio/io/measurements/scan_journal.hpp>
 ///
 /// #include <cstdio>
 ///

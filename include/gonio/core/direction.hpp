@@ -61,33 +61,34 @@ struct cosine_pair {
   return phi > -std::numbers::pi + 1e-12 ? phi : std::numbers::pi;
 }
 
-namespace detail {
-
 // Written out, as is whatever this header has of vectors: each kind of Eigen's expressions would cost every file that
 // includes it.
 
+/// The length of a vector.
 [[nodiscard]] inline double norm_of(double x, double y, double z) noexcept {
   return std::sqrt(x * x + (y * y + z * z));
 }
+
+/// A vector of length 1; the vector itself if it is zero.
+[[nodiscard]] inline direction normalised(const direction& w) noexcept {
+  const double length = norm_of(w.x(), w.y(), w.z());
+  return length > 0.0 ? direction(w.x() / length, w.y() / length, w.z() / length) : w;
+}
+
+namespace detail {
 
 /// a u + b v.
 [[nodiscard]] inline direction combined(double a, const direction& u, double b, const direction& v) noexcept {
   return {a * u.x() + b * v.x(), a * u.y() + b * v.y(), a * u.z() + b * v.z()};
 }
 
-/// The vector itself if it is zero.
-[[nodiscard]] inline direction normalised(const direction& w) noexcept {
-  const double length = norm_of(w.x(), w.y(), w.z());
-  return length > 0.0 ? direction(w.x() / length, w.y() / length, w.z() / length) : w;
-}
-
 }  // namespace detail
 
 /// The angle in radians between two directions of any length but zero, exact for small ones, too.
 [[nodiscard]] inline double angle_between(const direction& a, const direction& b) noexcept {
-  const direction u = detail::normalised(a), v = detail::normalised(b);
-  return 2.0 * std::atan2(detail::norm_of(u.x() - v.x(), u.y() - v.y(), u.z() - v.z()),
-                          detail::norm_of(u.x() + v.x(), u.y() + v.y(), u.z() + v.z()));
+  const direction u = normalised(a), v = normalised(b);
+  return 2.0 * std::atan2(norm_of(u.x() - v.x(), u.y() - v.y(), u.z() - v.z()),
+                          norm_of(u.x() + v.x(), u.y() + v.y(), u.z() + v.z()));
 }
 
 /// A direction turned about the normal by an azimuth, in radians.
@@ -109,7 +110,7 @@ namespace detail {
 /// surface, unless the direction is near the normal. All in radians.
 [[nodiscard]] inline direction turned(const direction& w, double angle, double side) noexcept {
   const direction across = std::abs(w.z()) < 0.9 ? direction(0.0, 0.0, 1.0) : direction(1.0, 0.0, 0.0);
-  const direction beside = detail::normalised(detail::cross_product(w, across));
+  const direction beside = normalised(detail::cross_product(w, across));
   const direction towards = detail::combined(std::cos(side), beside, std::sin(side), detail::cross_product(w, beside));
   return detail::combined(std::cos(angle), w, std::sin(angle), towards);
 }
@@ -135,7 +136,7 @@ namespace detail {
   // wi and wo lie symmetrically about h, so their sum is along h and their difference across it.
   const direction sum(wi.x() + wo.x(), wi.y() + wo.y(), wi.z() + wo.z());
   const direction difference(wi.x() - wo.x(), wi.y() - wo.y(), wi.z() - wo.z());
-  const double length = detail::norm_of(sum.x(), sum.y(), sum.z());
+  const double length = norm_of(sum.x(), sum.y(), sum.z());
   const direction h =
       length > 0.0 ? direction(sum.x() / length, sum.y() / length, sum.z() / length) : direction(0.0, 0.0, 1.0);
   const double sin_theta_h = std::hypot(h.x(), h.y());
@@ -145,7 +146,7 @@ namespace detail {
   const double along = cos_phi_h * difference.x() + sin_phi_h * difference.y();
   const double x = h.z() * along - sin_theta_h * difference.z();
   const double y = cos_phi_h * difference.y() - sin_phi_h * difference.x();
-  const double across = detail::norm_of(difference.x(), difference.y(), difference.z());
+  const double across = norm_of(difference.x(), difference.y(), difference.z());
   return {std::atan2(sin_theta_h, h.z()), std::atan2(across, length), fold_phi_d(std::atan2(y, x))};
 }
 

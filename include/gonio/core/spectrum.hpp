@@ -29,6 +29,10 @@ namespace gonio {
           lobe(1.217, 437.0, 11.8, 36.0) + lobe(0.681, 459.0, 26.0, 13.8)};
 }
 
+/// Does the observer see a wavelength in nanometres? From 360 to 830, where the standard has responses: the fits are
+/// small beyond, but not zero.
+[[nodiscard]] inline bool is_visible(double wavelength) noexcept { return wavelength >= 360.0 && wavelength <= 830.0; }
+
 /// Relative power of daylight D65 at a wavelength in nanometres, 100 at 560: linear between the standard's values every
 /// 10 nanometres from 380 to 780, constant outside.
 [[nodiscard]] inline double daylight(double wavelength) noexcept {
@@ -64,7 +68,7 @@ enum class illuminant { d65, a };
 class spectral_colour {
  public:
   /// Wavelengths in nanometres. Throws gonio::error unless there are at least two, finite and ascending, one of which
-  /// the observer sees.
+  /// the observer sees (`is_visible`).
   explicit spectral_colour(std::span<const double> wavelengths, illuminant light = illuminant::d65)
       : weights_(std::ssize(wavelengths), 3) {
     if (wavelengths.size() < 2) refuse("a spectrum needs at least two wavelengths");
@@ -73,7 +77,7 @@ class spectral_colour {
         refuse({"wavelength ", i + 1, " of a spectrum is not above the one before"});
       const double from = wavelengths[i == 0 ? 0 : i - 1],
                    to = wavelengths[std::min(i + 1, std::ssize(wavelengths) - 1)];
-      const double power = 0.5 * (to - from) * relative_power(light, wavelengths[i]);
+      const double power = is_visible(wavelengths[i]) ? 0.5 * (to - from) * relative_power(light, wavelengths[i]) : 0.0;
       const rgb matching = colour_matching(wavelengths[i]);
       for (Eigen::Index c = 0; c < 3; ++c) weights_(i, c) = power * matching[c];
     }
@@ -81,7 +85,9 @@ class spectral_colour {
     for (Eigen::Index c = 0; c < 3; ++c) {
       double white = 0.0;
       for (Eigen::Index i = 0; i < size(); ++i) white += weights_(i, c);
-      if (!(white > 0.0)) refuse("a spectrum has no visible wavelength");
+      if (!(white > 0.0))
+        refuse({"none of ", wavelengths.size(), " wavelengths, ", std::lround(wavelengths.front()), " to ",
+                std::lround(wavelengths.back()), " nm, is visible: they have no colour"});
       for (Eigen::Index i = 0; i < size(); ++i) weights_(i, c) *= wanted[c] / white;
     }
   }

@@ -12,21 +12,24 @@ namespace gonio {
 /// among them are: 1 over the normal distribution's quantile of 0.75.
 inline constexpr double deviation_by_median = 1.4826;
 
+/// The number at a position, from 0 on, when they are sorted. The smaller ones are then before it.
+template <class Numbers>
+[[nodiscard]] auto nth_smallest(Numbers&& numbers, std::ptrdiff_t position) {
+  const auto at = std::begin(numbers) + position;
+  std::nth_element(std::begin(numbers), at, std::end(numbers));
+  return *at;
+}
+
 /// The number at floor(share (n - 1)) when they are sorted: the least for a share of 0, the greatest for 1.
 template <class Numbers>
 [[nodiscard]] auto quantile(Numbers&& numbers, double share) {
-  const auto at =
-      std::begin(numbers) + static_cast<std::ptrdiff_t>(share * static_cast<double>(std::size(numbers) - 1));
-  std::nth_element(std::begin(numbers), at, std::end(numbers));
-  return *at;
+  return nth_smallest(numbers, static_cast<std::ptrdiff_t>(share * static_cast<double>(std::size(numbers) - 1)));
 }
 
 /// The number in the middle, the upper one of an even number of them.
 template <class Numbers>
 [[nodiscard]] auto upper_median(Numbers&& numbers) {
-  const auto middle = std::begin(numbers) + std::ssize(numbers) / 2;
-  std::nth_element(std::begin(numbers), middle, std::end(numbers));
-  return *middle;
+  return nth_smallest(numbers, std::ssize(numbers) / 2);
 }
 
 /// The number in the middle, or the mean of the two in the middle.

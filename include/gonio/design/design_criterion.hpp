@@ -18,7 +18,7 @@ namespace gonio::design {
 /// ```cpp
 /// #include <gonio/design/criterion_of_plan.hpp>
 /// #include <gonio/design/search.hpp>
-/// #include <gonio/io/prior.hpp>
+/// #include <gonio/io/materials/prior.hpp>
 ///
 /// #include <cstdio>
 ///

@@ -56,7 +56,7 @@ template <sweeping_objective Objective>
   Eigen::Index without_improvement = 0, position = 0;
   while (without_improvement < std::ssize(plan.candidates)) {
     capture_plan other = plan;
-    other.candidates[position] = detail::best_addition(objective, detail::all_but(plan.candidates, position));
+    other.candidates[position] = detail::best_addition(objective, detail::without(plan.candidates, position));
     other.value = objective(other.candidates);
     if (detail::improves(other.value, plan.value, 1e-6)) {
       plan = std::move(other);

@@ -33,7 +33,7 @@ namespace gonio::design {
 /// ```cpp
 /// #include <gonio/design/criterion_of_plan.hpp>
 /// #include <gonio/design/search.hpp>
-/// #include <gonio/io/prior.hpp>
+/// #include <gonio/io/materials/prior.hpp>
 ///
 /// #include <cstdio>
 ///
@@ -110,13 +110,13 @@ template <capture_geometry Geometry, class Generator>
 }
 
 /// The candidates of a plan without the one at a position.
-[[nodiscard]] std::vector<Eigen::Index> all_but(std::vector<Eigen::Index> candidates, Eigen::Index position);
+[[nodiscard]] std::vector<Eigen::Index> without(std::vector<Eigen::Index> candidates, Eigen::Index position);
 
 /// The value of a plan as a function of what is at one position; infinity for what the plan has already.
 template <plan_objective Objective>
 [[nodiscard]] auto value_of_replacement(const Objective& objective, const std::vector<Eigen::Index>& candidates,
                                         Eigen::Index position) {
-  const std::vector<Eigen::Index> others = all_but(candidates, position);
+  const std::vector<Eigen::Index> others = without(candidates, position);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if constexpr (requires { objective.beside(std::span<const Eigen::Index>(others)); }) {
     return [=, with = objective.beside(std::span<const Eigen::Index>(others))](Eigen::Index candidate) -> double {
@@ -197,7 +197,7 @@ template <capture_geometry Geometry, plan_objective Objective>
     plan.candidates.push_back(detail::another_candidate(plan.candidates, geometry, generator));
     const auto value_with = detail::value_of_replacement(objective, plan.candidates, added);
     double best = value_with(plan.candidates[added]);
-    const std::vector<Eigen::Index> others = detail::all_but(plan.candidates, added);
+    const std::vector<Eigen::Index> others = detail::without(plan.candidates, added);
     for (Eigen::Index i = 1; i < tries; ++i) {
       const Eigen::Index candidate = detail::another_candidate(others, geometry, generator);
       const double value = value_with(candidate);
@@ -226,7 +226,7 @@ template <capture_geometry Geometry, plan_objective Objective>
   std::uniform_int_distribution<Eigen::Index> any_position(0, n - 1);
   for (Eigen::Index swap = 0; swap < swaps; ++swap) {
     const Eigen::Index position = any_position(generator);
-    const std::vector<Eigen::Index> others = detail::all_but(plan.candidates, position);
+    const std::vector<Eigen::Index> others = detail::without(plan.candidates, position);
     const Eigen::Index candidate = detail::another_candidate(others, geometry, generator);
     const double value = detail::value_of_replacement(objective, plan.candidates, position)(candidate);
     if (!detail::improves(value, plan.value)) continue;

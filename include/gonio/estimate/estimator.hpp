@@ -23,8 +23,8 @@ concept tabulated_brdf = brdf<Fit> && requires(const Fit& fit, const valid_cells
 /// With a model of the library:
 /// ```cpp
 /// #include <gonio/estimate/decomposition.hpp>
-/// #include <gonio/io/prior.hpp>
-/// #include <gonio/io/samples.hpp>
+/// #include <gonio/io/materials/prior.hpp>
+/// #include <gonio/io/measurements/samples.hpp>
 /// #include <gonio/solve/tikhonov.hpp>
 ///
 /// #include <cstdio>

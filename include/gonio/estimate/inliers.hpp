@@ -10,10 +10,10 @@
 #include <gonio/core/random.hpp>
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/estimate/nearest_material.hpp>
 #include <gonio/estimate/out_of_gamut.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/sample_process.hpp>
+#include <gonio/estimate/scaled_likelihood.hpp>
 #include <gonio/solve/product.hpp>
 #include <gonio/solve/tikhonov.hpp>
 

@@ -7,7 +7,7 @@
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/statistics.hpp>
-#include <gonio/estimate/outlier_weights.hpp>
+#include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/sample_regions.hpp>
 
 #include <Eigen/Core>
@@ -191,8 +191,6 @@ struct automatic_weights {
 
   [[nodiscard]] static outlier_mixture estimate_from(const deviations& found);
 };
-
-static_assert(outlier_weighting<automatic_weights>);
 
 }  // namespace gonio
 

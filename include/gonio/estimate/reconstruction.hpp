@@ -71,7 +71,8 @@ class reconstruction {
   /// The same of samples that are located on the prior's cells.
   [[nodiscard]] result_type fit_located(located_samples samples, std::vector<Eigen::Index> numbers = {}) const;
 
-  /// Each wavelength as a grey material, all by one process. Which samples are inliers is told by their colours.
+  /// Each wavelength as a grey material, all by one process. Which samples are inliers is told by their colours, or by
+  /// three bands where no wavelength is visible (`spectral_samples::in_three_channels`).
   [[nodiscard]] spectral_result_type fit(const spectral_samples& samples, illuminant light = illuminant::d65) const;
 
   /// The process of samples that are located on the prior's cells, all of them believed.
@@ -207,7 +208,7 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located
 template <error_metric Metric>
 typename reconstruction<Metric>::spectral_result_type reconstruction<Metric>::fit(const spectral_samples& samples,
                                                                                   illuminant light) const {
-  const sample_set colours = samples.colours(light);
+  const sample_set colours = samples.in_three_channels(light);
   auto shared = std::make_shared<const located_samples>(locate_samples(cells(), colours, threads_));
   selection chosen = select(*shared);
   const located_samples spectra =

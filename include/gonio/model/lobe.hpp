@@ -69,7 +69,7 @@ struct shape_parameter {
 /// ```
 /// With a model of your own, fitted as any other is:
 /// ```cpp
-/// #include <gonio/io/samples.hpp>
+/// #include <gonio/io/measurements/samples.hpp>
 /// #include <gonio/metric/log.hpp>
 /// #include <gonio/model/fit_model.hpp>
 ///

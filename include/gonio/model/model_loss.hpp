@@ -65,7 +65,7 @@ class model_loss {
 
   /// Logarithms of those parameters whose steps are factors.
   [[nodiscard]] Eigen::VectorXd coded(std::span<const lobe_kind::values> parameters) const;
-  [[nodiscard]] std::vector<lobe_kind::values> decoded(const Eigen::VectorXd& u) const;
+  [[nodiscard]] std::vector<lobe_kind::values> parameters_of(const Eigen::VectorXd& u) const;
 
   [[nodiscard]] unknown_bounds bounds() const;
 

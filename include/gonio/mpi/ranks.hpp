@@ -87,8 +87,7 @@ class ranks {
   std::unique_ptr<state> state_;
 };
 
-namespace detail {
-
+/// A number, or a struct of numbers, as what ranks send.
 template <class Number>
 [[nodiscard]] std::vector<std::byte> bytes_of(const Number& number) {
   std::vector<std::byte> bytes(sizeof number);
@@ -96,14 +95,13 @@ template <class Number>
   return bytes;
 }
 
+/// What `bytes_of` was given.
 template <class Number>
 [[nodiscard]] Number number_of(std::span<const std::byte> bytes) {
   Number number;
   std::memcpy(&number, bytes.data(), sizeof number);
   return number;
 }
-
-}  // namespace detail
 
 }  // namespace gonio::mpi
 

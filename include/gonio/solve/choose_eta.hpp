@@ -30,10 +30,10 @@ enum class eta_criterion {
   leave_one_out,  ///< sum (r_i / (1 - h_i))^2: the weighted squared error of each row predicted from all others
 };
 
-namespace detail {
-
 /// `count` numbers from `first` to `last` with equal ratios.
-[[nodiscard]] Eigen::VectorXd geometric(double first, double last, Eigen::Index count);
+[[nodiscard]] Eigen::VectorXd geometric_sequence(double first, double last, Eigen::Index count);
+
+namespace detail {
 
 /// Where the least score is; of those that are equal but for rounding, the last.
 [[nodiscard]] Eigen::Index last_least(const Eigen::VectorXd& scores);
@@ -43,10 +43,10 @@ namespace detail {
 template <class Scores>
 [[nodiscard]] double eta_of_least(const Scores& scores, double first, double last) {
   const auto steps = std::max<Eigen::Index>(std::llround(8.0 * std::log10(last / first)), 1);
-  const Eigen::VectorXd coarse = geometric(first, last, steps + 1);
+  const Eigen::VectorXd coarse = geometric_sequence(first, last, steps + 1);
   const Eigen::Index best = last_least(scores(coarse));
-  const Eigen::VectorXd fine =
-      geometric(coarse[std::max<Eigen::Index>(best - 1, 0)], coarse[std::min<Eigen::Index>(best + 1, steps)], 31);
+  const Eigen::VectorXd fine = geometric_sequence(coarse[std::max<Eigen::Index>(best - 1, 0)],
+                                                  coarse[std::min<Eigen::Index>(best + 1, steps)], 31);
   return fine[last_least(scores(fine))];
 }
 

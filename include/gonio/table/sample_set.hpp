@@ -67,7 +67,7 @@ struct sample {
 ///
 /// With a model of the library:
 /// ```cpp
-/// #include <gonio/io/samples.hpp>
+/// #include <gonio/io/measurements/samples.hpp>
 ///
 /// #include <cstdio>
 ///
@@ -80,7 +80,7 @@ struct sample {
 /// With a model of your own, the readings of a goniometer in a plane:
 /// ```cpp
 /// #include <gonio/estimate/decomposition.hpp>
-/// #include <gonio/io/prior.hpp>
+/// #include <gonio/io/materials/prior.hpp>
 /// #include <gonio/solve/tikhonov.hpp>
 ///
 /// #include <cstdio>

@@ -37,6 +37,10 @@ struct spectral_samples {
   /// Throws gonio::error if none of several wavelengths is visible.
   [[nodiscard]] sample_set colours(illuminant light = illuminant::d65) const;
 
+  /// The measurements in three channels, for whoever looks at three: their colours or, where none of several
+  /// wavelengths is visible, the means of the lower, the middle and the upper third of the wavelengths.
+  [[nodiscard]] sample_set in_three_channels(illuminant light = illuminant::d65) const;
+
   /// Some of the measurements, by their positions.
   [[nodiscard]] spectral_samples subset(std::span<const Eigen::Index> positions) const;
 };

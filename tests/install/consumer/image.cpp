@@ -1,4 +1,4 @@
-#include <gonio/io/image.hpp>
+#include <gonio/io/images/image.hpp>
 
 int main() {
   gonio::io::write_png("white.png", gonio::uniform_image(2, 3, gonio::rgb::Ones()));

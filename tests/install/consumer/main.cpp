@@ -1,5 +1,5 @@
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/io/prior.hpp>
+#include <gonio/io/materials/prior.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <cstdio>

@@ -49,7 +49,7 @@ void check_equal(const gonio::shape::shape_model& back, const gonio::shape::shap
 }
 
 void check_fan_refused(std::span<const std::byte> bytes, const std::string& words) {
-  scratch::check_refused([&] { return io::decode_shape_model(bytes, "fan.shapes"); }, {"fan.shapes: ", words});
+  scratch::check_refused([&] { return io::read_shape_model(bytes, "fan.shapes"); }, {"fan.shapes: ", words});
 }
 
 /// What a payload says before its numbers.
@@ -64,39 +64,38 @@ std::vector<std::byte> fan_file(const fan_header& header, const gonio::shape::tr
                                 float number = 1) {
   io::byte_writer payload;
   for (const std::uint32_t count : {header.vertices, header.triangles, header.components, header.shapes})
-    payload.put(count);
-  payload.put(header.explained_variance);
-  payload.put_text("");
-  for (const std::string& name : synthetic_names(fan_shapes)) payload.put_text(name);
-  payload.put_all(std::span<const int>(triangles.data(), triangles.size()));
-  for (int k = 0; k < 2; ++k) payload.put(1.0);
+    payload.write(count);
+  payload.write(header.explained_variance);
+  payload.write_text("");
+  for (const std::string& name : synthetic_names(fan_shapes)) payload.write_text(name);
+  payload.write_all(std::span<const int>(triangles.data(), triangles.size()));
+  for (int k = 0; k < 2; ++k) payload.write(1.0);
   const int floats = fan_shapes * 2 + 3 * fan_vertices + 3 * fan_vertices * 2;
-  for (int i = 0; i < floats; ++i) payload.put(i + 1 == floats ? number : 1.0f);
-  for (std::size_t i = 0; i < header.padding; ++i) payload.put(std::byte{0});
-  return io::encode_checked(io::detail::shape_model_kind, payload.bytes());
+  for (int i = 0; i < floats; ++i) payload.write(i + 1 == floats ? number : 1.0f);
+  for (std::size_t i = 0; i < header.padding; ++i) payload.write(std::byte{0});
+  return io::write_checked(io::detail::shape_model_kind, payload.bytes());
 }
 
 }  // namespace
 
 TEST_CASE("shape model: what is written comes back exactly") {
   const gonio::shape::shape_model all = learned_fan(), few = fan_model();
-  check_equal(io::decode_shape_model(io::encode_shape_model(all), "x"), all);
-  check_equal(io::decode_shape_model(io::encode_shape_model(few), "x"), few);
+  check_equal(io::read_shape_model(io::write_shape_model(all), "x"), all);
+  check_equal(io::read_shape_model(io::write_shape_model(few), "x"), few);
   CHECK(few.basis().size() == 2);
   CHECK(few.basis().source() == "four synthetic fans");
   CHECK(few.basis().explained_variance() < 1.0);
   const Eigen::VectorXd weights = Eigen::Vector2d(0.5, -2.0);
-  CHECK(io::decode_shape_model(io::encode_shape_model(few), "x").shape(weights).vertices ==
-        few.shape(weights).vertices);
+  CHECK(io::read_shape_model(io::write_shape_model(few), "x").shape(weights).vertices == few.shape(weights).vertices);
 }
 
 TEST_CASE("shape model: what was read is written with the same bytes") {
-  const auto once = io::encode_shape_model(fan_model());
-  CHECK(io::encode_shape_model(io::decode_shape_model(once, "x")) == once);
+  const auto once = io::write_shape_model(fan_model());
+  CHECK(io::write_shape_model(io::read_shape_model(once, "x")) == once);
 }
 
 TEST_CASE("shape model: a file cut short at any byte, or longer, is refused") {
-  const auto whole = io::encode_shape_model(fan_model());
+  const auto whole = io::write_shape_model(fan_model());
   for (std::size_t length = 0; length < whole.size(); ++length) {
     CAPTURE(length);
     check_fan_refused(std::span(whole).first(length), "");
@@ -107,7 +106,7 @@ TEST_CASE("shape model: a file cut short at any byte, or longer, is refused") {
 }
 
 TEST_CASE("shape model: a flipped bit is refused, but for those that deflate does not use") {
-  const auto whole = io::encode_shape_model(fan_model());
+  const auto whole = io::write_shape_model(fan_model());
   constexpr std::size_t header = io::detail::shape_model_kind.magic.size() + 4 + 8 + 4;
   std::size_t unused = 0;
   for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
@@ -115,8 +114,8 @@ TEST_CASE("shape model: a flipped bit is refused, but for those that deflate doe
     damaged[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
     CAPTURE(bit);
     try {
-      const gonio::shape::shape_model back = io::decode_shape_model(damaged, "fan.shapes");
-      CHECK(io::encode_shape_model(back) == whole);
+      const gonio::shape::shape_model back = io::read_shape_model(damaged, "fan.shapes");
+      CHECK(io::write_shape_model(back) == whole);
       CHECK(bit / 8 >= header);
       ++unused;
     } catch (const gonio::error& refusal) {
@@ -130,7 +129,7 @@ TEST_CASE("shape model: other kinds of file and other versions are named") {
   const std::string other = "not a gonio shape model (it does not start with 'gonio-shapes')";
   check_fan_refused({}, other);
   check_fan_refused(scratch::bytes_of("gonio-prior and more"), other);
-  auto version = io::encode_shape_model(fan_model());
+  auto version = io::write_shape_model(fan_model());
   version[io::detail::shape_model_kind.magic.size()] = std::byte{77};
   check_fan_refused(version, "shape model format version 77, this program reads version 1");
 }
@@ -138,7 +137,7 @@ TEST_CASE("shape model: other kinds of file and other versions are named") {
 TEST_CASE("shape model: impossible counts are refused, with a right checksum too") {
   const gonio::shape::triangle_columns fan = fan_of(fan_vertices);
   // Without a lie it is read.
-  CHECK(io::decode_shape_model(fan_file({}, fan), "x").vertices() == fan_vertices);
+  CHECK(io::read_shape_model(fan_file({}, fan), "x").vertices() == fan_vertices);
   const auto refused = [&](const fan_header& header, const std::string& words) {
     check_fan_refused(fan_file(header, fan), words);
   };

@@ -39,10 +39,9 @@ struct contrast_image {
 GONIO_INLINE double threshold_of(std::vector<double> values, double noise) {
   constexpr double share_of_highlight = 1e-3, share_of_median = 0.05;
   const std::ptrdiff_t wrong = std::max<std::ptrdiff_t>(20, std::ssize(values) / 1000);
-  const auto bright = values.end() - 1 - std::min(wrong, std::ssize(values) - 1);
-  std::nth_element(values.begin(), bright, values.end());
-  const double least = std::max(6.0 * noise, share_of_highlight * *bright);
-  if (!(*bright > least)) gonio::refuse("no sphere is found: nothing in the image differs from its border");
+  const double bright = nth_smallest(values, std::max<std::ptrdiff_t>(std::ssize(values) - 1 - wrong, 0));
+  const double least = std::max(6.0 * noise, share_of_highlight * bright);
+  if (!(bright > least)) gonio::refuse("no sphere is found: nothing in the image differs from its border");
   std::erase_if(values, [&](double each) { return each <= least; });
   return std::max(least, share_of_median * median(std::move(values)));
 }

@@ -21,7 +21,7 @@
 
 namespace gonio::design::detail {
 
-GONIO_INLINE std::vector<Eigen::Index> all_but(std::vector<Eigen::Index> candidates, Eigen::Index position) {
+GONIO_INLINE std::vector<Eigen::Index> without(std::vector<Eigen::Index> candidates, Eigen::Index position) {
   candidates.erase(candidates.begin() + position);
   return candidates;
 }

@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/inliers.hpp>
 #include <gonio/solve/product.hpp>
@@ -206,9 +207,7 @@ GONIO_INLINE Eigen::VectorXd limit_outliers(const Eigen::VectorXd& inlier_weight
   const Eigen::Index n = inlier_weights.size();
   if (n == 0) return inlier_weights;
   const auto most = static_cast<Eigen::Index>(largest_outlier_share(n) * static_cast<double>(n));
-  std::vector<double> sorted(inlier_weights.begin(), inlier_weights.end());
-  std::nth_element(sorted.begin(), sorted.begin() + most, sorted.end());
-  const double least_inlier = sorted[most];
+  const double least_inlier = nth_smallest(std::vector<double>(inlier_weights.begin(), inlier_weights.end()), most);
   Eigen::VectorXd raised = Eigen::VectorXd::Ones(n);
   for (Eigen::Index i = 0; i < n && least_inlier > 0.0; ++i)
     raised[i] = std::min(inlier_weights[i] / least_inlier, 1.0);

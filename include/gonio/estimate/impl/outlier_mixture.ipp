@@ -5,7 +5,6 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
-#include <gonio/estimate/outlier_weights.hpp>
 #include <gonio/estimate/sample_regions.hpp>
 
 #include <Eigen/Core>
@@ -175,10 +174,8 @@ GONIO_INLINE double automatic_weights::half_of_the_good(const Eigen::ArrayXf& re
   sorted.reserve(samples.size());
   for (const Eigen::Index sample : samples) sorted.push_back(residuals[sample]);
   // Of n values, not of the n - 1 steps between them as `quantile` has it: a region may have but eight samples.
-  const auto middle =
-      sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * inlier_fraction * static_cast<double>(sorted.size()));
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return std::max(double{*middle}, 1e-6);
+  const auto middle = static_cast<std::ptrdiff_t>(0.5 * inlier_fraction * static_cast<double>(sorted.size()));
+  return std::max(double{nth_smallest(sorted, middle)}, 1e-6);
 }
 
 GONIO_INLINE outlier_mixture automatic_weights::rescaled(const outlier_mixture& mixture, double ratio) {

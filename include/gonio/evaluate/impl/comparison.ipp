@@ -2,11 +2,16 @@
 /// Bodies of evaluate/comparison.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/metric/error_metric.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace gonio {
 
@@ -21,14 +26,13 @@ GONIO_INLINE rgb highlight_peak(const brdf_table& table, double largest_theta_d)
 
   rgb peak;
   std::vector<float> values(near.size());
-  const double position = 0.999 * static_cast<double>(near.size() - 1);
-  const double below = std::floor(position);
-  const auto lower = values.begin() + static_cast<std::ptrdiff_t>(below);
+  const std::ptrdiff_t last = std::ssize(near) - 1;
+  const double position = 0.999 * static_cast<double>(last);
+  const auto below = static_cast<std::ptrdiff_t>(position);
   for (Eigen::Index channel = 0; channel < 3; ++channel) {
     for (Eigen::Index i = 0; i < std::ssize(near); ++i) values[i] = table.values()[3 * near[i] + channel];
-    std::ranges::nth_element(values, lower);
-    const double next = lower + 1 < values.end() ? *std::min_element(lower + 1, values.end()) : *lower;
-    const double percentile = *lower + (position - below) * (next - *lower);
+    const float lower = nth_smallest(values, below), next = nth_smallest(values, std::min(below + 1, last));
+    const double percentile = lower + (position - static_cast<double>(below)) * (double{next} - lower);
     peak[channel] = std::max(percentile, 0.0);
   }
   return peak;

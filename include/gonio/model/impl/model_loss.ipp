@@ -69,7 +69,7 @@ GONIO_INLINE Eigen::VectorXd model_loss::coded(std::span<const lobe_kind::values
   return u;
 }
 
-GONIO_INLINE std::vector<lobe_kind::values> model_loss::decoded(const Eigen::VectorXd& u) const {
+GONIO_INLINE std::vector<lobe_kind::values> model_loss::parameters_of(const Eigen::VectorXd& u) const {
   std::vector<lobe_kind::values> parameters(kinds_.size(), lobe_kind::values{});
   for (Eigen::Index j = 0; j < shapes(); ++j) {
     const auto [lobe, p] = owner(j);
@@ -95,7 +95,7 @@ GONIO_INLINE unknown_bounds model_loss::bounds() const {
 }
 
 GONIO_INLINE analytic_brdf model_loss::model(const Eigen::VectorXd& x) const {
-  const auto parameters = decoded(x);
+  const auto parameters = parameters_of(x);
   std::vector<analytic_lobe> all;
   for (Eigen::Index l = 0; l < lobes(); ++l)
     all.emplace_back(*kinds_[l], rgb(colours(x).row(l).transpose()), parameters[l]);
@@ -109,7 +109,7 @@ GONIO_INLINE std::vector<Eigen::MatrixXd> model_loss::products(const Eigen::Vect
 
 GONIO_INLINE Eigen::MatrixXd model_loss::products(const Eigen::VectorXd& u, Eigen::Index channel) const {
   const Eigen::Index all = lobes() + shapes() + 3;
-  const auto parameters = decoded(u);
+  const auto parameters = parameters_of(u);
   return sum_over_blocks(
       observations_.size(), block_size, Eigen::MatrixXd::Zero(all, all).eval(),
       [&](Eigen::MatrixXd& sum, block range) {
@@ -195,7 +195,7 @@ GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) cons
 GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x) const {
   const Eigen::Index count = lobes(), p = shapes(), n = p + count;
   // Decode the shapes and the colours from the unknowns.
-  const auto parameters = decoded(x);
+  const auto parameters = parameters_of(x);
   const Eigen::MatrixXd colour = colours(x);
   // Sum over the observations, for each channel, the products of its slopes by shapes and its own colours, and of those
   // with the residual.

@@ -209,7 +209,7 @@ class adaptive_tabulation {
     fill_reflectance(f_, parts_, number, parts_.reflectance);
   }
 
-  [[nodiscard]] adaptive_brdf_parts take() && { return std::move(parts_); }
+  [[nodiscard]] adaptive_brdf_parts parts() && { return std::move(parts_); }
 
  private:
   void fill_visible_normals(Eigen::Index number, const direction& wi) {
@@ -242,7 +242,7 @@ GONIO_INLINE adaptive_brdf_parts tabulated_adaptively(const brdf_function& f, co
   adaptive_tabulation tabulation(f, resolution);
   for_each_index(
       resolution.theta_i, 1, [&](Eigen::Index number) { tabulation.fill(number); }, threads);
-  return std::move(tabulation).take();
+  return std::move(tabulation).parts();
 }
 
 GONIO_INLINE unit_square_tables tabulated_over(const brdf_function& f, const adaptive_brdf_parts& normals,

@@ -11,11 +11,11 @@ GONIO_INLINE valued_candidate best_of_ranks(const ranks& ranks, valued_candidate
   const auto is_better = [](const valued_candidate& one, const valued_candidate& other) {
     return one.value < other.value || (one.value == other.value && one.number < other.number);
   };
-  for (const auto& bytes : ranks.gather(detail::bytes_of(own))) {
-    const auto other = detail::number_of<valued_candidate>(bytes);
+  for (const auto& bytes : ranks.gather(bytes_of(own))) {
+    const auto other = number_of<valued_candidate>(bytes);
     if (is_better(other, own)) own = other;
   }
-  return detail::number_of<valued_candidate>(ranks.broadcast(detail::bytes_of(own)));
+  return number_of<valued_candidate>(ranks.broadcast(bytes_of(own)));
 }
 
 }  // namespace gonio::mpi

@@ -251,10 +251,10 @@ GONIO_INLINE void ranks::together(const std::function<void()>& work) const {
 }
 
 GONIO_INLINE void ranks::agree_on(std::uint32_t checksum, std::string_view what) const {
-  const auto all = gather(detail::bytes_of(checksum));
+  const auto all = gather(bytes_of(checksum));
   const auto other = std::ranges::find_if(all, [&](const auto& each) { return each != all.front(); });
-  const auto told = broadcast(detail::bytes_of(other == all.end() ? std::ptrdiff_t{0} : other - all.begin()));
-  const auto odd = detail::number_of<std::ptrdiff_t>(told);
+  const auto told = broadcast(bytes_of(other == all.end() ? std::ptrdiff_t{0} : other - all.begin()));
+  const auto odd = number_of<std::ptrdiff_t>(told);
   if (odd == 0) return;
   together([&] { refuse({"the ranks read different inputs: rank ", odd, "'s ", what, " is not rank 0's"}); });
 }

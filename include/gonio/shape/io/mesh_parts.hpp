@@ -9,7 +9,7 @@
 namespace gonio::io::detail {
 
 /// Takes the next word off the front of a line; it is empty where the line ends.
-[[nodiscard]] std::string_view take_word(std::string_view& line) noexcept;
+[[nodiscard]] std::string_view read_word(std::string_view& line) noexcept;
 
 /// What a file held so far.
 struct mesh_parts {

@@ -10,7 +10,7 @@ namespace gonio::io::detail {
 
 /// What is in the text of an OBJ file. Throws gonio::error, which starts with `name`, for what `read_mesh` refuses of
 /// one.
-[[nodiscard]] mesh_parts parse_obj(std::string_view text, const std::string& name);
+[[nodiscard]] mesh_parts read_obj(std::string_view text, const std::string& name);
 
 }  // namespace gonio::io::detail
 

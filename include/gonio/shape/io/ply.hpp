@@ -1,7 +1,7 @@
 #pragma once
 /// The reader of PLY files, ascii and binary of either byte order. Turk, "The PLY Polygon File Format", 1994.
 
-#include <gonio/io/text.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/shape/io/mesh_parts.hpp>
 
 #include <string_view>
@@ -9,7 +9,7 @@
 namespace gonio::io::detail {
 
 /// What is in the bytes of a PLY file. Throws gonio::error, with the place, for what `read_mesh` refuses of one.
-[[nodiscard]] mesh_parts parse_ply(std::string_view text, text_place place);
+[[nodiscard]] mesh_parts read_ply(std::string_view text, text_place place);
 
 }  // namespace gonio::io::detail
 

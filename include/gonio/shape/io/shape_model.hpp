@@ -1,7 +1,7 @@
 #pragma once
 /// An active shape model as a file; the format is described in docs/reference/formats.md.
 
-#include <gonio/io/checked_file.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
 #include <gonio/shape/shape_model.hpp>
 
 #include <cstddef>
@@ -19,16 +19,16 @@ inline constexpr checked_file_kind shape_model_kind{"gonio-shapes", 1, "shape mo
 }  // namespace detail
 
 /// A model as the bytes of a file: nothing is lost.
-[[nodiscard]] std::vector<std::byte> encode_shape_model(const shape::shape_model& model);
+[[nodiscard]] std::vector<std::byte> write_shape_model(const shape::shape_model& model);
 
-/// The model in the bytes of a file. Throws gonio::error starting with `name` for what `decode_checked` refuses, counts
+/// The model in the bytes of a file. Throws gonio::error starting with `name` for what `read_checked` refuses, counts
 /// that lie, values that are not finite, and triangles that are no surface.
-[[nodiscard]] shape::shape_model decode_shape_model(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] shape::shape_model read_shape_model(std::span<const std::byte> bytes, const std::string& name);
 
 /// Writes a model. An existing file is replaced only once the new one is complete.
 void write_shape_model(const std::filesystem::path& path, const shape::shape_model& model);
 
-/// Reads a model; see decode_shape_model for what is refused.
+/// Reads a file, which is refused for the same reasons.
 [[nodiscard]] shape::shape_model read_shape_model(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -145,13 +145,6 @@ class eta_scores {
   Eigen::MatrixXd coefficients_;  // U'W^(1/2) b or V'A'Wb
 };
 
-GONIO_INLINE Eigen::VectorXd geometric(double first, double last, Eigen::Index count) {
-  const double step = std::log(last / first) / static_cast<double>(count - 1);
-  Eigen::VectorXd numbers(count);
-  for (Eigen::Index i = 0; i < count; ++i) numbers[i] = first * std::exp(step * static_cast<double>(i));
-  return numbers;
-}
-
 GONIO_INLINE Eigen::Index last_least(const Eigen::VectorXd& scores) {
   const double bound = scores.minCoeff() * (1.0 + 1e-10);
   Eigen::Index at = scores.size() - 1;
@@ -168,6 +161,13 @@ GONIO_INLINE void require_etas(const eta_range& range) {
 }  // namespace gonio::detail
 
 namespace gonio {
+
+GONIO_INLINE Eigen::VectorXd geometric_sequence(double first, double last, Eigen::Index count) {
+  const double step = std::log(last / first) / static_cast<double>(count - 1);
+  Eigen::VectorXd numbers(count);
+  for (Eigen::Index i = 0; i < count; ++i) numbers[i] = first * std::exp(step * static_cast<double>(i));
+  return numbers;
+}
 
 GONIO_INLINE Eigen::VectorXd cross_validate(const least_squares_problem& problem, eta_criterion criterion,
                                             const Eigen::VectorXd& etas) {

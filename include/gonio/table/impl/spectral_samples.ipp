@@ -5,6 +5,7 @@
 #include <gonio/core/error.hpp>
 #include <gonio/table/spectral_samples.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -25,6 +26,21 @@ GONIO_INLINE sample_set spectral_samples::colours(illuminant light) const {
   sample_set samples;
   samples.reserve(directions.size());
   for (Eigen::Index i = 0; i < size(); ++i) samples.push_back({directions[i], colour(spectrum(i)), weight(i)});
+  return samples;
+}
+
+GONIO_INLINE sample_set spectral_samples::in_three_channels(illuminant light) const {
+  if (bands() == 1 || std::ranges::any_of(wavelengths, is_visible)) return colours(light);
+  sample_set samples;
+  samples.reserve(directions.size());
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    rgb means;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const Eigen::Index first = c * bands() / 3, end = std::max((c + 1) * bands() / 3, first + 1);
+      means[c] = values.row(i).segment(first, end - first).cast<double>().mean();
+    }
+    samples.push_back({directions[i], means, weight(i)});
+  }
   return samples;
 }
 

@@ -3,9 +3,9 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/rgb.hpp>
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/file.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/shape/io/mesh.hpp>
 #include <gonio/shape/io/obj.hpp>
 #include <gonio/shape/io/ply.hpp>
@@ -30,7 +30,7 @@ enum class mesh_format { ply, obj };
   const std::string extension = path.extension().string(), lower = lower_case(extension);
   if (lower == ".ply") return mesh_format::ply;
   if (lower == ".obj") return mesh_format::obj;
-  refuse_file(path, "a mesh has the extension .ply or .obj, not " + quoted(std::string_view(extension)));
+  refuse_file(path, "a mesh has the extension .ply or .obj, not " + in_quotes(std::string_view(extension)));
 }
 
 /// What is asked of a mesh that is read or written; whether it is a surface, `mesh_topology` checks.
@@ -64,12 +64,12 @@ GONIO_INLINE void write_ply(const std::filesystem::path& path, const shape::tria
             "\nproperty list uchar int vertex_indices\nend_header\n";
   byte_writer body;
   for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
-    body.put_all(std::span<const double>(mesh.vertices.col(v).data(), 3));
-    if (!colours.empty()) body.put(srgb_codes(colours[v]));
+    body.write_all(std::span<const double>(mesh.vertices.col(v).data(), 3));
+    if (!colours.empty()) body.write(srgb_codes(colours[v]));
   }
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    body.put(std::uint8_t{3});
-    body.put_all(std::span<const std::int32_t>(mesh.triangles.col(t).data(), 3));
+    body.write(std::uint8_t{3});
+    body.write_all(std::span<const std::int32_t>(mesh.triangles.col(t).data(), 3));
   }
   write_atomically(path, [&](file_writer& file) {
     file.write(std::as_bytes(std::span(header)));
@@ -94,11 +94,11 @@ namespace gonio::io {
 GONIO_INLINE shape::triangle_mesh read_mesh(const std::filesystem::path& path) {
   const detail::mesh_format format = detail::mesh_format_of(path);
   const std::vector<std::byte> bytes = read_bytes(path);
-  if (bytes.empty()) detail::refuse_file(path, "is empty, expected a mesh");
-  const std::string_view text = detail::as_text(bytes);
+  if (bytes.empty()) refuse_file(path, "is empty, expected a mesh");
+  const std::string_view text = as_text(bytes);
   const std::string name = path.string();
   const detail::mesh_parts parts =
-      format == detail::mesh_format::ply ? detail::parse_ply(text, {name}) : detail::parse_obj(text, name);
+      format == detail::mesh_format::ply ? detail::read_ply(text, {name}) : detail::read_obj(text, name);
   const Eigen::Index vertices = parts.vertices(), triangles = parts.corners.size() / 3;
   const shape::triangle_mesh mesh{Eigen::Map<const shape::point_columns>(parts.coordinates.data(), 3, vertices),
                                   Eigen::Map<const shape::triangle_columns>(parts.corners.data(), 3, triangles)};
@@ -118,14 +118,14 @@ GONIO_INLINE void write_mesh(const std::filesystem::path& path, const shape::tri
 GONIO_INLINE void write_mesh(const std::filesystem::path& path, const shape::triangle_mesh& mesh,
                              std::span<const rgb> colours) {
   if (detail::mesh_format_of(path) != detail::mesh_format::ply)
-    detail::refuse_file(path, "an OBJ file holds no colours of vertices, expected .ply");
+    refuse_file(path, "an OBJ file holds no colours of vertices, expected .ply");
   detail::check_mesh(mesh, path);
   if (std::ssize(colours) != mesh.vertices.cols())
-    detail::refuse_file(path, std::to_string(colours.size()) + " colours were given for " +
-                                  std::to_string(mesh.vertices.cols()) + " vertices");
+    refuse_file(path, std::to_string(colours.size()) + " colours were given for " +
+                          std::to_string(mesh.vertices.cols()) + " vertices");
   const auto bad = std::ranges::find_if(colours, [](const rgb& colour) { return colour.isNaN().any(); });
   if (bad != colours.end())
-    detail::refuse_file(path, "the colour of vertex " + std::to_string(bad - colours.begin()) + " is not a number");
+    refuse_file(path, "the colour of vertex " + std::to_string(bad - colours.begin()) + " is not a number");
   detail::write_ply(path, mesh, colours);
 }
 

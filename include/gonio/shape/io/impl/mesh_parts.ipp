@@ -12,7 +12,7 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE std::string_view take_word(std::string_view& line) noexcept {
+GONIO_INLINE std::string_view read_word(std::string_view& line) noexcept {
   constexpr auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   const auto begin = std::ranges::find_if_not(line, is_blank);
   const auto end = std::ranges::find_if(begin, line.end(), is_blank);

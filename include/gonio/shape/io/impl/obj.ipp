@@ -2,7 +2,7 @@
 /// Bodies of shape/io/obj.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/shape/io/mesh_parts.hpp>
 #include <gonio/shape/io/obj.hpp>
 
@@ -17,11 +17,11 @@
 namespace gonio::io::detail {
 
 /// The lines of an OBJ of points and polygons.
-class obj_parser {
+class obj_reader {
  public:
-  obj_parser(std::string_view text, const std::string& name) : text_(text), place_{name} {}
+  obj_reader(std::string_view text, const std::string& name) : text_(text), place_{name} {}
 
-  [[nodiscard]] mesh_parts parse();
+  [[nodiscard]] mesh_parts read();
 
  private:
   void add(std::string_view line);
@@ -42,7 +42,7 @@ class obj_parser {
   std::size_t largest_ = 0, largest_line_ = 0;  // vertex number from 1, and where it is named
 };
 
-GONIO_INLINE mesh_parts obj_parser::parse() {
+GONIO_INLINE mesh_parts obj_reader::read() {
   for_each_line(text_, place_, [&](std::string_view line) { add(line.substr(0, line.find('#'))); });
   // A face may name vertices of lines that follow.
   if (largest_ > parts_.vertices()) {
@@ -52,36 +52,36 @@ GONIO_INLINE mesh_parts obj_parser::parse() {
   return std::move(parts_);
 }
 
-GONIO_INLINE void obj_parser::add(std::string_view line) {
+GONIO_INLINE void obj_reader::add(std::string_view line) {
   // What neither moves nor renumbers the vertices and polygons. Anything else may be damage.
   constexpr std::array<std::string_view, 18> ignored{"vt",     "vn",     "vp",    "l",        "p",        "o",
                                                      "g",      "s",      "mg",    "mtllib",   "lod",      "usemtl",
                                                      "maplib", "usemap", "bevel", "c_interp", "d_interp", "shadow_obj"};
-  const std::string_view keyword = take_word(line);
+  const std::string_view keyword = read_word(line);
   if (keyword == "v") return add_vertex(line);
   if (keyword == "f") return add_face(line);
   if (std::ranges::find(ignored, keyword) == ignored.end())
-    place_.refuse(quoted(keyword) + " is not known of an OBJ file of polygons");
+    place_.refuse(in_quotes(keyword) + " is not known of an OBJ file of polygons");
 }
 
-GONIO_INLINE void obj_parser::add_vertex(std::string_view line) {
+GONIO_INLINE void obj_reader::add_vertex(std::string_view line) {
   for (int axis = 0; axis < 3; ++axis)
-    parts_.coordinates.push_back(parse_number(take_word(line), place_, [] { return std::string("a coordinate"); }));
+    parts_.coordinates.push_back(read_number(read_word(line), place_, [] { return std::string("a coordinate"); }));
 }
 
-GONIO_INLINE void obj_parser::add_face(std::string_view line) {
+GONIO_INLINE void obj_reader::add_face(std::string_view line) {
   polygon_fan fan(parts_.corners);
-  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) fan.add(vertex_of(word));
+  for (std::string_view word = read_word(line); !word.empty(); word = read_word(line)) fan.add(vertex_of(word));
   if (fan.size() < 3) place_.refuse("a face has " + std::to_string(fan.size()) + " vertices, expected at least 3");
 }
 
-GONIO_INLINE int obj_parser::vertex_of(std::string_view corner) {
+GONIO_INLINE int obj_reader::vertex_of(std::string_view corner) {
   const std::string_view digits = corner.substr(0, corner.find('/'));
   long long number = 0;
   const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (failed != std::errc() || end != digits.data() + digits.size() ||
       corner.find_first_not_of("-0123456789/") != std::string_view::npos)
-    place_.refuse(quoted(corner) + ", expected a vertex of a face as v, v/vt, v//vn or v/vt/vn");
+    place_.refuse(in_quotes(corner) + ", expected a vertex of a face as v, v/vt, v//vn or v/vt/vn");
   const auto vertices = static_cast<long long>(parts_.vertices());
   if (number == 0 || number < -vertices) refuse_vertex(digits);
   if (number < 0) return static_cast<int>(vertices + number);
@@ -92,13 +92,13 @@ GONIO_INLINE int obj_parser::vertex_of(std::string_view corner) {
   return static_cast<int>(number - 1);
 }
 
-GONIO_INLINE void obj_parser::refuse_vertex(std::string_view number) const {
+GONIO_INLINE void obj_reader::refuse_vertex(std::string_view number) const {
   place_.refuse("a face names vertex " + std::string(number) + " of " + std::to_string(parts_.vertices()) +
                 ", which are counted from 1");
 }
 
-GONIO_INLINE mesh_parts parse_obj(std::string_view text, const std::string& name) {
-  return obj_parser(text, name).parse();
+GONIO_INLINE mesh_parts read_obj(std::string_view text, const std::string& name) {
+  return obj_reader(text, name).read();
 }
 
 }  // namespace gonio::io::detail

@@ -3,8 +3,8 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/bytes/byte_stream.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/shape/io/mesh_parts.hpp>
 #include <gonio/shape/io/ply.hpp>
 
@@ -28,7 +28,7 @@ namespace gonio::io::detail {
 // ---- PLY: the header --------------------------------------------------------------------------
 
 template <class Number>
-[[nodiscard]] double decode_ply(std::span<const std::byte> bytes, bool swapped) noexcept {
+[[nodiscard]] double read_ply_number(std::span<const std::byte> bytes, bool swapped) noexcept {
   std::array<std::byte, sizeof(Number)> own{};
   std::ranges::copy(bytes, own.begin());
   if (swapped) std::ranges::reverse(own);
@@ -40,18 +40,18 @@ struct ply_type {
   std::string_view name, newer_name;
   std::size_t size;
   bool whole;
-  double (*decode)(std::span<const std::byte> bytes, bool swapped) noexcept;
+  double (*read)(std::span<const std::byte> bytes, bool swapped) noexcept;
 };
 
 inline constexpr std::array<ply_type, 8> ply_types{{
-    {"char", "int8", 1, true, &decode_ply<std::int8_t>},
-    {"uchar", "uint8", 1, true, &decode_ply<std::uint8_t>},
-    {"short", "int16", 2, true, &decode_ply<std::int16_t>},
-    {"ushort", "uint16", 2, true, &decode_ply<std::uint16_t>},
-    {"int", "int32", 4, true, &decode_ply<std::int32_t>},
-    {"uint", "uint32", 4, true, &decode_ply<std::uint32_t>},
-    {"float", "float32", 4, false, &decode_ply<float>},
-    {"double", "float64", 8, false, &decode_ply<double>},
+    {"char", "int8", 1, true, &read_ply_number<std::int8_t>},
+    {"uchar", "uint8", 1, true, &read_ply_number<std::uint8_t>},
+    {"short", "int16", 2, true, &read_ply_number<std::int16_t>},
+    {"ushort", "uint16", 2, true, &read_ply_number<std::uint16_t>},
+    {"int", "int32", 4, true, &read_ply_number<std::int32_t>},
+    {"uint", "uint32", 4, true, &read_ply_number<std::uint32_t>},
+    {"float", "float32", 4, false, &read_ply_number<float>},
+    {"double", "float64", 8, false, &read_ply_number<double>},
 }};
 
 /// What a property says of a mesh. The first three index a point's coordinates.
@@ -84,11 +84,11 @@ struct ply_header {
 };
 
 /// Takes the header off the front of a PLY file.
-class ply_header_parser {
+class ply_header_reader {
  public:
-  ply_header_parser(std::string_view& text, text_place& place) : text_(text), place_(place) {}
+  ply_header_reader(std::string_view& text, text_place& place) : text_(text), place_(place) {}
 
-  [[nodiscard]] ply_header parse();
+  [[nodiscard]] ply_header read();
 
  private:
   [[nodiscard]] std::string_view next_line();
@@ -122,8 +122,8 @@ class ply_binary_rows {
       : bytes_(std::as_bytes(std::span(body)), place.name), swapped_(swapped), name_(place.name) {}
 
   void begin_row() const noexcept {}
-  [[nodiscard]] double take(const ply_type& type) { return type.decode(bytes_.take_bytes(type.size), swapped_); }
-  void skip(const ply_type& type, std::size_t count) { static_cast<void>(bytes_.take_bytes(count * type.size)); }
+  [[nodiscard]] double read(const ply_type& type) { return type.read(bytes_.read_bytes(type.size), swapped_); }
+  void skip(const ply_type& type, std::size_t count) { static_cast<void>(bytes_.read_bytes(count * type.size)); }
   void end_row() const noexcept {}
   void end() const {
     if (bytes_.left() > 0) refuse(std::to_string(bytes_.left()) + " bytes follow what its header counts");
@@ -144,41 +144,41 @@ class ply_text_rows {
   void begin_row() {
     if (!next_line()) refuse("the file is truncated or its counts are wrong");
   }
-  [[nodiscard]] double take(const ply_type&) {
-    return parse_number(take_field(), place_, [] { return std::string("a value"); });
+  [[nodiscard]] double read(const ply_type&) {
+    return read_number(read_field(), place_, [] { return std::string("a value"); });
   }
   void skip(const ply_type&, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) static_cast<void>(take_field());
+    for (std::size_t i = 0; i < count; ++i) static_cast<void>(read_field());
   }
   void end_row() const;
   void end() {
-    if (next_line()) refuse(quoted(row_) + " follows what the header counts");
+    if (next_line()) refuse(in_quotes(row_) + " follows what the header counts");
   }
   [[noreturn]] void refuse(const std::string& what) const { place_.refuse(what); }
 
  private:
   /// Goes to the next line that holds something, if there is one.
   [[nodiscard]] bool next_line();
-  [[nodiscard]] std::string_view take_field();
+  [[nodiscard]] std::string_view read_field();
 
   std::string_view left_, row_;
   text_place& place_;
 };
 
 template <class Rows>
-[[nodiscard]] std::size_t take_ply_count(const ply_property& list, Rows& rows) {
-  const double count = rows.take(*list.count);
+[[nodiscard]] std::size_t read_ply_count(const ply_property& list, Rows& rows) {
+  const double count = rows.read(*list.count);
   if (!(count >= 0.0 && count <= double{std::numeric_limits<std::uint32_t>::max()} && count == std::floor(count)))
-    rows.refuse("a list " + quoted(list.name) + " has " + shortest(count) + " values");
+    rows.refuse("a list " + in_quotes(list.name) + " has " + shortest(count) + " values");
   return static_cast<std::size_t>(count);
 }
 
 template <class Rows>
-void take_ply_face(const ply_type& type, std::size_t size, std::size_t vertices, Rows& rows, mesh_parts& parts) {
+void read_ply_face(const ply_type& type, std::size_t size, std::size_t vertices, Rows& rows, mesh_parts& parts) {
   if (size < 3) rows.refuse("a face has " + std::to_string(size) + " vertices, expected at least 3");
   polygon_fan fan(parts.corners);
   while (fan.size() < size) {
-    const double vertex = rows.take(type);
+    const double vertex = rows.read(type);
     if (!(vertex >= 0.0 && vertex < static_cast<double>(vertices) && vertex == std::floor(vertex)))
       rows.refuse("a face names vertex " + shortest(vertex) + " of a mesh of " + std::to_string(vertices));
     fan.add(static_cast<int>(vertex));
@@ -187,7 +187,7 @@ void take_ply_face(const ply_type& type, std::size_t size, std::size_t vertices,
 
 /// Nothing is allocated for rows that the file does not have, whatever its header counts.
 template <class Rows>
-[[nodiscard]] mesh_parts take_ply_elements(const ply_header& header, Rows rows) {
+[[nodiscard]] mesh_parts read_ply_elements(const ply_header& header, Rows rows) {
   mesh_parts parts;
   for (const ply_element& element : header.elements) {
     const bool is_vertex = element.name == "vertex";
@@ -195,13 +195,13 @@ template <class Rows>
     for (std::size_t row = 0; row < element.count; ++row) {
       rows.begin_row();
       for (const ply_property& property : element.properties) {
-        const std::size_t count = property.count ? take_ply_count(property, rows) : 1;
+        const std::size_t count = property.count ? read_ply_count(property, rows) : 1;
         if (property.role == ply_role::ignored)
           rows.skip(property.value, count);
         else if (property.role == ply_role::corners)
-          take_ply_face(property.value, count, header.vertices, rows, parts);
+          read_ply_face(property.value, count, header.vertices, rows, parts);
         else
-          point[static_cast<std::size_t>(property.role)] = rows.take(property.value);
+          point[static_cast<std::size_t>(property.role)] = rows.read(property.value);
       }
       rows.end_row();
       if (is_vertex) parts.coordinates.insert(parts.coordinates.end(), point.begin(), point.end());
@@ -211,7 +211,7 @@ template <class Rows>
   return parts;
 }
 
-GONIO_INLINE ply_header ply_header_parser::parse() {
+GONIO_INLINE ply_header ply_header_reader::read() {
   if (!text_.starts_with("ply")) gonio::refuse(place_.name + ": is no PLY file, expected it to begin with 'ply'");
   for (std::string_view line = next_line(); line != "end_header"; line = next_line()) add(line);
   if (!header_.encoding) place_.refuse("the header ends without a format");
@@ -219,7 +219,7 @@ GONIO_INLINE ply_header ply_header_parser::parse() {
   return header_;
 }
 
-GONIO_INLINE std::string_view ply_header_parser::next_line() {
+GONIO_INLINE std::string_view ply_header_reader::next_line() {
   ++place_.line;
   const std::size_t end = text_.find('\n');
   if (end == std::string_view::npos) place_.refuse("the file is truncated: its header has no line 'end_header'");
@@ -228,33 +228,33 @@ GONIO_INLINE std::string_view ply_header_parser::next_line() {
   return line;
 }
 
-GONIO_INLINE void ply_header_parser::add(std::string_view line) {
-  const std::string_view whole = line, keyword = take_word(line);
+GONIO_INLINE void ply_header_reader::add(std::string_view line) {
+  const std::string_view whole = line, keyword = read_word(line);
   if (keyword == "comment" || keyword == "obj_info" || (place_.line == 1 && whole == "ply")) return;
   if (keyword == "format") return set_encoding(trimmed(line));
   if (keyword == "element") return add_element(line);
   if (keyword == "property") return add_property(line);
-  place_.refuse(quoted(whole) + ", expected format, comment, element, property or end_header");
+  place_.refuse(in_quotes(whole) + ", expected format, comment, element, property or end_header");
 }
 
-GONIO_INLINE void ply_header_parser::set_encoding(std::string_view format) {
+GONIO_INLINE void ply_header_reader::set_encoding(std::string_view format) {
   if (header_.encoding) place_.refuse("the format is given twice");
   if (format == "ascii 1.0") header_.encoding = ply_encoding::ascii;
   if (format == "binary_little_endian 1.0") header_.encoding = ply_encoding::little_endian;
   if (format == "binary_big_endian 1.0") header_.encoding = ply_encoding::big_endian;
   if (!header_.encoding)
-    place_.refuse("format " + quoted(format) + ", expected ascii, binary_little_endian or binary_big_endian 1.0");
+    place_.refuse("format " + in_quotes(format) + ", expected ascii, binary_little_endian or binary_big_endian 1.0");
 }
 
-GONIO_INLINE void ply_header_parser::add_element(std::string_view line) {
-  const std::string_view name = take_word(line);
+GONIO_INLINE void ply_header_reader::add_element(std::string_view line) {
+  const std::string_view name = read_word(line);
   const std::string_view digits = trimmed(line);
   std::size_t count = 0;
   const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
   if (failed != std::errc() || end != digits.data() + digits.size())
-    place_.refuse("element " + quoted(name) + ": " + quoted(digits) + ", expected a count");
+    place_.refuse("element " + in_quotes(name) + ": " + in_quotes(digits) + ", expected a count");
   if (std::ranges::find(header_.elements, name, &ply_element::name) != header_.elements.end())
-    place_.refuse("element " + quoted(name) + " is given twice");
+    place_.refuse("element " + in_quotes(name) + " is given twice");
   header_.elements.push_back({name, count, {}});
   if (name != "vertex") return;
   if (std::cmp_greater(count, mesh_vertex_limit))
@@ -262,33 +262,33 @@ GONIO_INLINE void ply_header_parser::add_element(std::string_view line) {
   header_.vertices = count;
 }
 
-GONIO_INLINE void ply_header_parser::add_property(std::string_view line) {
+GONIO_INLINE void ply_header_reader::add_property(std::string_view line) {
   if (header_.elements.empty()) place_.refuse("a property comes before the first element");
   ply_element& element = header_.elements.back();
-  std::string_view type = take_word(line);
+  std::string_view type = read_word(line);
   std::optional<ply_type> count;
   if (type == "list") {
-    count = type_named(take_word(line));
-    type = take_word(line);
+    count = type_named(read_word(line));
+    type = read_word(line);
   }
   ply_property property{trimmed(line), count, type_named(type)};
   property.role = role_of(element, property);
   const bool must_be_whole = property.role == ply_role::corners;
   if ((count && !count->whole) || (must_be_whole && !property.value.whole))
-    place_.refuse("property " + quoted(property.name) + ": a count or vertex number must have a type of integers");
+    place_.refuse("property " + in_quotes(property.name) + ": a count or vertex number must have a type of integers");
   if (property.role != ply_role::ignored && element.has(property.role))
-    place_.refuse("property " + quoted(property.name) + " is given twice");
+    place_.refuse("property " + in_quotes(property.name) + " is given twice");
   element.properties.push_back(property);
 }
 
-GONIO_INLINE ply_type ply_header_parser::type_named(std::string_view name) const {
+GONIO_INLINE ply_type ply_header_reader::type_named(std::string_view name) const {
   const auto type = std::ranges::find_if(
       ply_types, [&](const ply_type& known) { return known.name == name || known.newer_name == name; });
-  if (type == ply_types.end()) place_.refuse(quoted(name) + " is no type that PLY has");
+  if (type == ply_types.end()) place_.refuse(in_quotes(name) + " is no type that PLY has");
   return *type;
 }
 
-GONIO_INLINE ply_role ply_header_parser::role_of(const ply_element& element, const ply_property& property) {
+GONIO_INLINE ply_role ply_header_reader::role_of(const ply_element& element, const ply_property& property) {
   const std::string_view name = property.name;
   if (element.name == "face" && property.count && (name == "vertex_indices" || name == "vertex_index"))
     return ply_role::corners;
@@ -296,9 +296,9 @@ GONIO_INLINE ply_role ply_header_parser::role_of(const ply_element& element, con
   return name == "x" ? ply_role::x : name == "y" ? ply_role::y : name == "z" ? ply_role::z : ply_role::ignored;
 }
 
-GONIO_INLINE void ply_header_parser::check(const ply_element& element) const {
+GONIO_INLINE void ply_header_reader::check(const ply_element& element) const {
   if (element.properties.empty() && element.count > 0)
-    place_.refuse("element " + quoted(element.name) + " has no properties");
+    place_.refuse("element " + in_quotes(element.name) + " has no properties");
   if (element.name == "vertex" && !(element.has(ply_role::x) && element.has(ply_role::y) && element.has(ply_role::z)))
     place_.refuse("element 'vertex' lacks a property x, y or z");
   if (element.name == "face" && !element.has(ply_role::corners))
@@ -309,7 +309,7 @@ GONIO_INLINE void ply_binary_rows::refuse(const std::string& what) const { gonio
 
 GONIO_INLINE void ply_text_rows::end_row() const {
   if (const std::string_view more = trimmed(row_); !more.empty())
-    refuse(quoted(more) + " follows the values that the header names");
+    refuse(in_quotes(more) + " follows the values that the header names");
 }
 
 GONIO_INLINE bool ply_text_rows::next_line() {
@@ -321,16 +321,16 @@ GONIO_INLINE bool ply_text_rows::next_line() {
   return !row_.empty();
 }
 
-GONIO_INLINE std::string_view ply_text_rows::take_field() {
-  const std::string_view field = take_word(row_);
+GONIO_INLINE std::string_view ply_text_rows::read_field() {
+  const std::string_view field = read_word(row_);
   if (field.empty()) refuse("the line ends before the values that the header names");
   return field;
 }
 
-GONIO_INLINE mesh_parts parse_ply(std::string_view text, text_place place) {
-  const ply_header header = ply_header_parser(text, place).parse();
-  if (header.encoding == ply_encoding::ascii) return take_ply_elements(header, ply_text_rows(text, place));
-  return take_ply_elements(header, ply_binary_rows(text, header.encoding == ply_encoding::big_endian, place));
+GONIO_INLINE mesh_parts read_ply(std::string_view text, text_place place) {
+  const ply_header header = ply_header_reader(text, place).read();
+  if (header.encoding == ply_encoding::ascii) return read_ply_elements(header, ply_text_rows(text, place));
+  return read_ply_elements(header, ply_binary_rows(text, header.encoding == ply_encoding::big_endian, place));
 }
 
 }  // namespace gonio::io::detail

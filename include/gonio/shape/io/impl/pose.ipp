@@ -4,10 +4,10 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/rotation.hpp>
-#include <gonio/io/file.hpp>
-#include <gonio/io/rules.hpp>
-#include <gonio/io/setup_text.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/setups/setup_text.hpp>
+#include <gonio/io/text/rules.hpp>
+#include <gonio/io/text/text.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/io/pose.hpp>
 
@@ -27,12 +27,12 @@ namespace gonio::io::detail {
 using pose_matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 /// Of four lines of numbers.
-[[nodiscard]] GONIO_INLINE pose_matrix parse_matrix(std::string_view text, const std::string& name) {
+[[nodiscard]] GONIO_INLINE pose_matrix read_matrix(std::string_view text, const std::string& name) {
   text_place place{name};
   std::vector<double> numbers;
   for_each_line(text, place, [&](std::string_view line) {
     const std::string named = "matrix " + std::string(line);
-    const text_rule row = parse_rule(named, place);
+    const text_rule row = read_rule(named, place);
     require_numbers(row, {4}, place);
     numbers.insert(numbers.end(), row.numbers.begin(), row.numbers.end());
   });
@@ -44,7 +44,7 @@ using pose_matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 }
 
 /// Of a rotation and a translation.
-[[nodiscard]] GONIO_INLINE pose_matrix parse_parts(std::string_view text, const std::string& name) {
+[[nodiscard]] GONIO_INLINE pose_matrix read_parts(std::string_view text, const std::string& name) {
   static constexpr std::array<setup_entry, 2> entries{{{"rotation", 9}, {"translation", 3}}};
   const setup_text parts(text, name, entries);
   pose_matrix matrix = pose_matrix::Identity();
@@ -68,10 +68,10 @@ namespace gonio::io {
 
 GONIO_INLINE shape::similarity_transform read_pose(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  const std::string_view text = detail::as_text(bytes);
+  const std::string_view text = as_text(bytes);
   const std::string name = path.native();
   const detail::pose_matrix matrix =
-      detail::has_names(text) ? detail::parse_parts(text, name) : detail::parse_matrix(text, name);
+      detail::has_names(text) ? detail::read_parts(text, name) : detail::read_matrix(text, name);
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   if (!is_rotation(rotation))
     gonio::refuse({name, ": is no rigid motion: its rotation scales, shears or mirrors by more than 0.001"});
@@ -81,9 +81,8 @@ GONIO_INLINE shape::similarity_transform read_pose(const std::filesystem::path& 
 GONIO_INLINE void write_pose(const std::filesystem::path& path, const shape::similarity_transform& pose) {
   std::string text;
   for (Eigen::Index row = 0; row < 3; ++row) {
-    for (Eigen::Index column = 0; column < 3; ++column)
-      text += detail::shortest(pose.scale * pose.rotation(row, column)) + ' ';
-    text += detail::shortest(pose.translation[row]) + '\n';
+    for (Eigen::Index column = 0; column < 3; ++column) text += shortest(pose.scale * pose.rotation(row, column)) + ' ';
+    text += shortest(pose.translation[row]) + '\n';
   }
   text += "0 0 0 1\n";
   write_atomically(path, std::as_bytes(std::span(text)));

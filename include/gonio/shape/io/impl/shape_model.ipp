@@ -2,7 +2,7 @@
 /// Bodies of shape/io/shape_model.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/io/checked_file.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
 #include <gonio/shape/io/shape_model.hpp>
 #include <gonio/shape/shape_model.hpp>
 
@@ -17,30 +17,30 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE void put_shape_model(byte_writer& out, const shape::shape_model& model) {
+GONIO_INLINE void write_shape_model(byte_writer& out, const shape::shape_model& model) {
   const shape::shape_basis& basis = model.basis();
-  out.put(static_cast<std::uint32_t>(model.vertices()));
-  out.put(static_cast<std::uint32_t>(model.triangles().cols()));
-  out.put(static_cast<std::uint32_t>(basis.size()));
-  out.put(static_cast<std::uint32_t>(basis.names().size()));
-  out.put(basis.explained_variance());
-  out.put_text(basis.source());
-  for (const std::string& name : basis.names()) out.put_text(name);
-  const auto put_matrix = [&](const auto& matrix) {
+  out.write(static_cast<std::uint32_t>(model.vertices()));
+  out.write(static_cast<std::uint32_t>(model.triangles().cols()));
+  out.write(static_cast<std::uint32_t>(basis.size()));
+  out.write(static_cast<std::uint32_t>(basis.names().size()));
+  out.write(basis.explained_variance());
+  out.write_text(basis.source());
+  for (const std::string& name : basis.names()) out.write_text(name);
+  const auto write_matrix = [&](const auto& matrix) {
     using number = typename std::remove_cvref_t<decltype(matrix)>::Scalar;
-    out.put_all(std::span<const number>(matrix.data(), matrix.size()));
+    out.write_all(std::span<const number>(matrix.data(), matrix.size()));
   };
-  put_matrix(model.triangles());
-  put_matrix(basis.singular_values());
-  put_matrix(basis.coefficients());
-  out.put_all(std::span<const float>(basis.mean()));
-  put_matrix(basis.components());
+  write_matrix(model.triangles());
+  write_matrix(basis.singular_values());
+  write_matrix(basis.coefficients());
+  out.write_all(std::span<const float>(basis.mean()));
+  write_matrix(basis.components());
 }
 
 /// A matrix of so many rows and columns, as its numbers lie in memory.
 template <class Matrix>
-[[nodiscard]] Matrix take_matrix(byte_reader& in, std::size_t rows, std::size_t columns) {
-  const auto bytes = in.take_bytes(rows * columns * sizeof(typename Matrix::Scalar));
+[[nodiscard]] Matrix read_matrix(byte_reader& in, std::size_t rows, std::size_t columns) {
+  const auto bytes = in.read_bytes(rows * columns * sizeof(typename Matrix::Scalar));
   Matrix matrix(rows, columns);
   std::ranges::copy(bytes, std::as_writable_bytes(std::span(matrix.data(), rows * columns)).begin());
   return matrix;
@@ -52,10 +52,10 @@ template <class Matrix>
          12.0 * vertices * (1.0 + components);
 }
 
-[[nodiscard]] GONIO_INLINE shape::shape_model take_shape_model(byte_reader& in, const std::string& name) {
+[[nodiscard]] GONIO_INLINE shape::shape_model read_shape_model(byte_reader& in, const std::string& name) {
   // Read the counts, and refuse those that the rest of the file cannot hold.
-  const std::size_t vertices = in.take<std::uint32_t>(), triangles = in.take<std::uint32_t>(),
-                    components = in.take<std::uint32_t>(), shapes = in.take<std::uint32_t>();
+  const std::size_t vertices = in.read<std::uint32_t>(), triangles = in.read<std::uint32_t>(),
+                    components = in.read<std::uint32_t>(), shapes = in.read<std::uint32_t>();
   if (components == 0 || components > shapes || shapes > in.left() / sizeof(std::uint32_t))
     gonio::refuse(name + ": " + std::to_string(components) + " components of " + std::to_string(shapes) +
                   " shapes are impossible");
@@ -65,15 +65,15 @@ template <class Matrix>
                    components, " components of ", shapes, " shapes of ", vertices, " vertices and ", triangles,
                    " triangles"});
   // Read the names and the matrices.
-  const auto explained_variance = in.take<double>();
-  std::string source = in.take_text();
+  const auto explained_variance = in.read<double>();
+  std::string source = in.read_text();
   std::vector<std::string> names(shapes);
-  for (std::string& shape : names) shape = in.take_text();
-  auto corners = take_matrix<shape::triangle_columns>(in, 3, triangles);
-  const auto singular_values = take_matrix<Eigen::VectorXd>(in, components, 1);
-  const auto coefficients = take_matrix<Eigen::MatrixXf>(in, shapes, components);
-  auto mean = in.take_all<float>(3 * vertices);
-  auto functions = take_matrix<cell_matrix>(in, 3 * vertices, components);
+  for (std::string& shape : names) shape = in.read_text();
+  auto corners = read_matrix<shape::triangle_columns>(in, 3, triangles);
+  const auto singular_values = read_matrix<Eigen::VectorXd>(in, components, 1);
+  const auto coefficients = read_matrix<Eigen::MatrixXf>(in, shapes, components);
+  auto mean = in.read_all<float>(3 * vertices);
+  auto functions = read_matrix<cell_matrix>(in, 3 * vertices, components);
   if (in.left() != 0) gonio::refuse(name + ": " + std::to_string(in.left()) + " bytes follow the last component");
   // Refuse values that are not finite.
   const bool finite = std::isfinite(explained_variance) && singular_values.allFinite() && coefficients.allFinite() &&
@@ -101,24 +101,24 @@ template <class Matrix>
 
 namespace gonio::io {
 
-GONIO_INLINE std::vector<std::byte> encode_shape_model(const shape::shape_model& model) {
+GONIO_INLINE std::vector<std::byte> write_shape_model(const shape::shape_model& model) {
   byte_writer payload;
-  detail::put_shape_model(payload, model);
-  return encode_checked(detail::shape_model_kind, payload.bytes());
+  detail::write_shape_model(payload, model);
+  return write_checked(detail::shape_model_kind, payload.bytes());
 }
 
-GONIO_INLINE shape::shape_model decode_shape_model(std::span<const std::byte> bytes, const std::string& name) {
-  const auto payload = decode_checked(detail::shape_model_kind, bytes, name);
+GONIO_INLINE shape::shape_model read_shape_model(std::span<const std::byte> bytes, const std::string& name) {
+  const auto payload = read_checked(detail::shape_model_kind, bytes, name);
   byte_reader in(payload, name);
-  return detail::take_shape_model(in, name);
+  return detail::read_shape_model(in, name);
 }
 
 GONIO_INLINE void write_shape_model(const std::filesystem::path& path, const shape::shape_model& model) {
-  write_atomically(path, encode_shape_model(model));
+  write_atomically(path, write_shape_model(model));
 }
 
 GONIO_INLINE shape::shape_model read_shape_model(const std::filesystem::path& path) {
-  return decode_shape_model(read_bytes(path), path.string());
+  return read_shape_model(read_bytes(path), path.string());
 }
 
 }  // namespace gonio::io

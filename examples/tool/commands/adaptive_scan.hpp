@@ -1,0 +1,48 @@
+#pragma once
+/// Which pose a scan measures next, by what it has read so far.
+
+#include "tool/options/calibration_options.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/evaluate/next_measurement.hpp>
+#include <gonio/io/measurements/scan_journal.hpp>
+
+#include <Eigen/Core>
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+namespace cli {
+
+struct adaptive_options {
+  std::filesystem::path prior, reference;
+  double until = 0.2;      ///< the median deviation, relative, at which there is enough
+  Eigen::Index most = 40;  ///< poses
+};
+
+/// The choice of the next pose of a scan. Prints how well the material is known before each.
+class adaptive_choice {
+ public:
+  /// Reads the prior and the scan of the reference. Throws gonio::error if one cannot be used, or if the reference was
+  /// measured by another camera.
+  adaptive_choice(const adaptive_options& options, const calibration_options& calibration, std::uint16_t largest_count);
+
+  /// The pose after those of a scan; nothing if the material is known well enough, or all poses are measured that may
+  /// be. Throws gonio::error if no reading can be used, or nothing is left that can be reached.
+  [[nodiscard]] std::optional<gonio::direction_pair> next(
+      const gonio::io::recorded_scan& scan,
+      const std::function<bool(const gonio::direction_pair&)>& is_reachable) const;
+
+ private:
+  adaptive_choice(const adaptive_options& options, const calibration_options& calibration,
+                  const gonio::io::recorded_scan& reference);
+
+  [[nodiscard]] gonio::sample_set samples_of(const gonio::io::recorded_scan& scan) const;
+
+  adaptive_options options_;
+  gonio::capture::calibration calibration_;
+  gonio::capture::reference_readings reference_;
+  gonio::measurement_chooser<gonio::log_relative> chooser_;
+};
+
+}  // namespace cli

@@ -1,0 +1,84 @@
+/// gonio compare: the errors of an estimate.
+
+#include "commands.hpp"
+#include "tool/files/radiance_image.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/measures_as_json.hpp"
+#include <gonio/evaluate/appearance_metric.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/sphere_delta_e.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/render/environment_map.hpp>
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace cli {
+
+namespace {
+
+struct compare_options {
+  std::filesystem::path estimate, truth, prior, environment;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// The mean difference that is seen under an environment, at the truth's own exposure, over the truth's cells.
+double delta_e_under(const std::filesystem::path& environment, const gonio::brdf_table& estimate,
+                     const gonio::brdf_table& truth, gonio::thread_count threads) {
+  const gonio::render::environment_map map(read_radiance(environment));
+  const gonio::sphere_delta_e delta_e(truth.cells(), gonio::render::environment_lighting(90, 72, map), 36,
+                                      gonio::sphere_delta_e::middle_grey, threads);
+  if (estimate.cells() == truth.cells()) return delta_e.difference(estimate, truth, threads);
+  return delta_e.difference(resample(estimate, truth.cells(), threads), truth, threads);
+}
+
+void print(const gonio::comparison& errors, std::optional<double> natural) {
+  const auto line = [](const char* what, const std::string& value) { std::cout << what << value << '\n'; };
+  line("mapped rms        ", fixed(errors.mapped_rms.mean(), 4) + "   in the prior's domain (log-relative)");
+  line("cosine rms        ",
+       fixed(errors.cosine_rms.mean(), 4) + "   sr^-1, values weighted by max(cos_i cos_o, 0.001)");
+  line("Delta E, lights   ", fixed(errors.delta_e_lights, 2) + "   CIELAB 1976, sphere under two lights");
+  line("Delta E, env      ", fixed(errors.delta_e_env, 2) + "   the same under the closed-form environment");
+  if (natural)
+    line("Delta E, natural  ",
+         fixed(*natural, 2) + "   under --environment, exposed so that the true sphere is middle grey");
+  line("peak ratio        ",
+       fixed(errors.peak_ratio.mean(), 3) + "   99.9th percentile over theta_h < 5, theta_d <= 70 degrees");
+  line("spheres: sRGB, D65, exposed so that a white Lambertian sphere has mean luminance 1", "");
+}
+
+void compare_tables(const compare_options& options) {
+  const auto truth = gonio::io::read_merl_any(options.truth);
+  const auto estimate = gonio::io::read_merl_any(options.estimate);
+  const auto prior = gonio::io::read_prior(options.prior);
+  const gonio::appearance_metric appearance(truth.cells(), 36, options.threads);
+  const auto errors = gonio::compare(estimate, truth, prior.metric(), appearance, options.threads);
+  std::optional<double> natural;
+  if (!options.environment.empty()) natural = delta_e_under(options.environment, estimate, truth, options.threads);
+  if (!options.print_json) return print(errors, natural);
+  json printed = to_json(errors);
+  if (natural) printed["delta_e_natural"] = *natural;
+  std::cout << printed.dump(2) << '\n';
+}
+
+}  // namespace
+
+void add_compare(command& app) {
+  auto command = app.add_subcommand("compare", "Measure how an estimated table differs from the truth");
+  const auto options = std::make_shared<compare_options>();
+  command.add_input("estimate", options->estimate, "Estimated table (.binary or .binary.gz)").required();
+  command.add_input("truth", options->truth, "True table (.binary or .binary.gz)").required();
+  add_prior_option(command, options->prior);
+  command.add_input("--environment", options->environment,
+                    "Latitude-longitude image of a natural light to judge under, too (.hdr, .npy or .exr)");
+  command.add_flag("--json", options->print_json, "Print the errors as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { compare_tables(*options); });
+}
+
+}  // namespace cli

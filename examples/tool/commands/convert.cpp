@@ -1,0 +1,73 @@
+/// gonio convert: a file of one kind as one of another.
+
+#include "commands.hpp"
+#include "tool/files/file_kinds.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/options/threads_option.hpp"
+#include <gonio/core/error.hpp>
+
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
+#include <string_view>
+
+namespace cli {
+
+namespace {
+
+struct convert_options {
+  std::filesystem::path input, output;
+  measurement_options reading;
+  writing how;
+};
+
+void convert(const convert_options& options) {
+  // Refused before hours of reading.
+  const file_kind& kind = written_kind(options.output);
+  const auto needs = [&](bool asked, const char* option, std::initializer_list<std::string_view> endings) {
+    if (!asked || std::ranges::find(endings, kind.extensions.front()) != endings.end()) return;
+    gonio::refuse({option, " needs an output that ends in ", *endings.begin(), endings.size() > 1 ? " or " : "",
+                   endings.size() > 1 ? *std::prev(endings.end()) : "", ", not ", options.output.native()});
+  };
+  needs(options.how.as_spectra, "--spectra", {".bsdf"});
+  needs(options.how.polar_steps != 0, "--polar-steps", {".mbsdf", ".xompt"});
+  needs(options.how.as_halves, "--half", {".npy"});
+  write_file(options.output, read_file(options.input, options.reading), options.how);
+}
+
+}  // namespace
+
+void add_convert(command& app) {
+  auto command = app.add_subcommand(
+      "convert", "Write what a file holds as a file of another kind: tables, materials for renderers, samples");
+  const auto options = std::make_shared<convert_options>();
+  command
+      .add_input("input", options->input,
+                 "Table (.binary, .binary.gz or .npy), RGL material (.bsdf), MDL measurement (.mbsdf) or samples "
+                 "(.csv, or a format of instruments), told by its first bytes or else by its name")
+      .required();
+  add_measurement_options(command, options->reading);
+  command
+      .add_output(
+          "output", options->output, {},
+          "Table (.binary or .npy), RGL material as Mitsuba and pbrt read it (.bsdf), measured BSDF of NVIDIA's "
+          "MDL (.mbsdf), table of OpenMATERIAL (_brdf.xompt), or samples (.csv)")
+      .required();
+  command.add_flag("--spectra", options->how.as_spectra,
+                   "Of a .bsdf file: write spectra, as pbrt-v4 and the spectral variants of Mitsuba want them, instead "
+                   "of RGB; of a material in RGB, smooth ones of the same colour");
+  command
+      .add_option(
+          "--polar-steps", options->how.polar_steps,
+          "Of a .mbsdf or .xompt file: steps of each polar angle from 0 to 90 degrees, and twice as many of the "
+          "azimuth, from 0 to 180 or 360. By default .xompt has 18 and 36, .mbsdf as many as a table has of "
+          "theta_d and phi_d, or 90 and 180")
+      .check(check::range(2, 360));
+  command.add_flag("--half", options->how.as_halves,
+                   "Of a .npy file: half floats, which have 11 bits and end at 65504, instead of float32");
+  add_threads_option(command, options->how.threads);
+  command.callback([options] { convert(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,299 @@
+/// `gonio design`: what to measure, so that a prior's materials are told apart best.
+
+#include "commands.hpp"
+#include "tool/files/json.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/options/design_search.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/reconstruct_choice.hpp"
+#include "tool/options/team.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/progress_bar.hpp"
+#include "tool/pages/report_data.hpp"
+#include "tool/pages/report_page.hpp"
+#include "tool/pages/sample_facts.hpp"
+#include <gonio/design/published_directions.hpp>
+#include <gonio/evaluate/next_measurement.hpp>
+#include <gonio/io/bytes/checked_file.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/setups/capture_constraint.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct design_command {
+  std::filesystem::path prior, constraint, start, given, output;
+  page_option report;
+  measurement_options reading;  ///< of --given
+  design_options design;
+  double field_of_view = 25.0, step = 5.0, angular_error = 0.0;
+  Eigen::Index published = 0;  ///< of how many measurements; 0: none
+  bool industry = false, print_json = false;
+};
+
+/// --given replaces the criterion and the search.
+void require_given_alone(const design_command& command) {
+  const design_options standard, &design = command.design;
+  if (design.geometry != standard.geometry)
+    gonio::refuse("--given needs --geometry point: samples are measured one by one");
+  if (!command.start.empty())
+    gonio::refuse("--given needs no --start: the directions of its samples are what is measured already");
+  if (design.criterion != standard.criterion || design.search != standard.search || design.eta != standard.eta ||
+      design.in_sample || design.common_shift != 0.0 || command.angular_error != 0.0)
+    gonio::refuse(
+        "--given goes with none of --criterion, --search, --eta, --in-sample, --common-shift and --misplaced: it "
+        "expects the error of the reconstruction from its samples");
+}
+
+/// The page for people. `samples` are those that were measured already.
+void write_report(const design_command& command, const std::vector<gonio::direction_pair>& poses,
+                  const std::string& sentence, const gonio::sample_set& samples) {
+  json directions = json::array(), given = json::array();
+  for (const gonio::direction_pair& pose : poses) {
+    json told = angles_as_json(pose);
+    told["number"] = directions.size() + 1;
+    directions.push_back(std::move(told));
+  }
+  for (const Eigen::Index i : gonio::counting_positions(samples))
+    given.push_back(angles_as_json(samples[i].directions));
+  json data{{"kind", "design"},
+            {"name", command.output.stem().string()},
+            {"design", {{"sentence", sentence}, {"directions", directions}}},
+            {"samples", given},
+            {"record", record_of({{"Prior", command.prior.string()}, {"Measured", command.given.string()}})}};
+  if (!samples.empty()) {
+    reconstruct_options fit;
+    fit.noise = command.design.noise;
+    fit.keeps_uncertainty = true;
+    fit.materials.prior = command.prior;
+    fit.threads = command.design.threads;
+    data["map"] = known_map(reconstruct(fit, samples));
+  }
+  write_report_page(command.report, data);
+}
+
+/// The next measurements beside samples that were made, by what these read.
+void run_given(const design_command& command) {
+  require_given_alone(command);
+  const gonio::io::sample_file measured = read_measurement_file(command.given, command.reading);
+  const gonio::sample_set& samples = measured.samples;
+  const gonio::reconstruction estimator{
+      gonio::io::read_prior(command.prior), {.noise = command.design.noise}, command.design.threads};
+  const gonio::measurement_chooser chooser{estimator, command.design.near_field.constraint,
+                                           gonio::design::default_candidates(), command.design.threads};
+  const double deviation = chooser.median_deviation(samples);
+  const auto chosen = chooser.choose(samples, command.design.count);
+  std::vector<gonio::direction_pair> poses;
+  for (const gonio::next_measurement& next : chosen) poses.push_back(next.pose);
+  gonio::io::write_direction_pairs(command.output, poses);
+  const std::string sentence = std::to_string(samples.size()) + " samples leave a median deviation of " +
+                               fixed(100.0 * deviation, 1) + " %; " + std::to_string(poses.size()) +
+                               (poses.size() == 1 ? " more leaves" : " more leave") + " an expected Delta E of " +
+                               fixed(chosen.back().expected_delta_e, 2);
+  if (command.report.is_given()) write_report(command, poses, sentence, samples);
+  if (command.print_json) {
+    json all{{"measurements", poses.size()}, {"given", samples.size()}};
+    all.update(facts_of(measured));
+    all["median_deviation"] = deviation;
+    all["expected_delta_e"] = chosen.back().expected_delta_e;
+    std::cout << all.dump(2) << '\n';
+    return;
+  }
+  std::cout << sentence << '\n';
+}
+
+/// The literature's sets are not searched for.
+void require_no_search(const design_command& command) {
+  const design_options standard, &design = command.design;
+  const std::string asked = command.industry ? "--industry" : "--published";
+  if (command.industry && command.published > 0) gonio::refuse("--industry and --published are two sets: choose one");
+  if (design.geometry != "point" && (command.industry || design.geometry != "sphere"))
+    gonio::refuse(asked + " needs --geometry point" + (command.industry ? "" : " or sphere"));
+  if (!command.start.empty() || !command.given.empty() || !command.constraint.empty() ||
+      design.criterion != standard.criterion || design.search != standard.search)
+    gonio::refuse(asked +
+                  " searches for nothing: it goes with none of --start, --given, --constraint, --criterion and "
+                  "--search");
+}
+
+/// A set of the literature, as it is printed; of images, the samples are those of the images that a grid of the prior's
+/// cells has.
+designed set_of_the_literature(const gonio::log_relative_pca& prior, const design_command& command) {
+  const bool is_of_spheres = command.design.geometry == "sphere";
+  designed found;
+  found.samples = command.industry ? gonio::design::westlund_meyer_directions()
+                  : is_of_spheres  ? gonio::design::nielsen_sphere_directions(command.published)
+                                   : gonio::design::nielsen_directions(command.published);
+  for (const gonio::half_difference& angles : found.samples) found.poses.push_back(gonio::to_directions(angles));
+  if (is_of_spheres) found.samples = placed(prior, command.design, found.poses).samples;
+  return found;
+}
+
+/// Writes what was found, and says what it is worth.
+void finish(const design_command& command, const gonio::log_relative_pca& prior, const designed& found,
+            bool is_published) {
+  gonio::io::write_direction_pairs(command.output, found.poses);
+  const auto figures = quality_of(prior, command.design, found);
+  const std::string sentence = std::to_string(found.poses.size()) +
+                               (found.poses.size() == 1 ? " measurement leaves " : " measurements leave ") +
+                               fixed(100.0 * figures.unknown_share, 1) +
+                               " % of how the prior's materials differ from their mean: an expected error of " +
+                               fixed(figures.expected_error, 3) + " in a cell's logarithm";
+  if (command.report.is_given()) write_report(command, found.poses, sentence, {});
+  if (command.print_json) {
+    std::cout << json{{"measurements", found.poses.size()},
+                      {"criterion", is_published ? "published" : command.design.criterion},
+                      {"eta", command.design.eta},
+                      {"in_sample", command.design.in_sample},
+                      {"value", found.value},
+                      {"expected_error", figures.expected_error},
+                      {"unknown_share", figures.unknown_share}}
+                     .dump(2)
+              << '\n';
+    return;
+  }
+  std::cout << sentence << '\n';
+}
+
+/// Of all that a search's result depends on.
+std::uint32_t checksum_of(const design_command& command) {
+  const design_options& design = command.design;
+  std::vector<std::string> words{json{design.count, design.geometry, design.criterion, design.search, design.eta,
+                                      design.noise, design.common_shift, design.in_sample, design.seed,
+                                      command.angular_error, command.field_of_view, command.step}
+                                     .dump()};
+  for (const std::filesystem::path& file : {command.prior, command.constraint, command.start})
+    words.push_back(file.empty() ? "" : std::to_string(gonio::io::checksum(gonio::io::read_bytes(file))));
+  return cli::checksum_of(words);
+}
+
+/// Goes on with what an earlier run has left, and leaves nothing once the directions are written.
+void search(const design_command& command, const gonio::log_relative_pca& prior, progress_bar& bar,
+            const team& processes) {
+  sweep_record record(command.output, checksum_of(command), processes);
+  const designed found = design(prior, command.design, bar.listener(), processes, &record);
+  bar.wipe();
+  if (!processes.writes()) return;
+  if (record.earlier() > 0 && !command.print_json) std::cout << "went on behind sweep " << record.earlier() << '\n';
+  finish(command, prior, found, false);
+  record.remove();
+}
+
+/// Searches, or takes what was published; each process knows the result.
+void run(design_command command, const team& processes) {
+  progress_bar bar;
+  const bool is_published = command.published > 0 || command.industry;
+  if (is_published) require_no_search(command);
+  if (!command.constraint.empty())
+    command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
+  if (!command.given.empty()) {
+    if (processes.writes()) run_given(command);
+    return;
+  }
+  if (!command.reading.empty()) gonio::refuse("--quantity and --columns need --given");
+  const auto prior = gonio::io::read_prior(command.prior);
+  command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
+  command.design.near_field.step = gonio::radians(command.step);
+  command.design.angular_error = gonio::radians(command.angular_error);
+  if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start, reading_of());
+  if (!is_published) return search(command, prior, bar, processes);
+  bar.wipe();
+  if (processes.writes()) finish(command, prior, set_of_the_literature(prior, command), true);
+}
+
+void run_together(design_command command, const team& processes) {
+  command.design.threads = processes.threads(command.design.threads);
+  agree_on_file(processes, command.prior, "prior");
+  agree_on_file(processes, command.constraint, "--constraint");
+  agree_on_file(processes, command.start, "--start");
+  processes.together([&] { run(command, processes); });
+}
+
+}  // namespace
+
+void add_design(command& app, const std::vector<std::string>& words, const team& processes) {
+  auto command = app.add_subcommand("design", "Find what to measure");
+  const auto options = std::make_shared<design_command>();
+  design_options& design = options->design;
+  // Declare the prior, and what is measured.
+  add_prior_option(command, options->prior);
+  command.add_option("-n,--count", design.count, "Number of measurements").capture_default_str();
+  command
+      .add_option("--geometry", design.geometry,
+                  "point: a goniometer's samples; sphere: images of a sphere; near-field: images of a flat sample by "
+                  "a close camera; fixed-camera, fixed-light: such images with one camera, or one light")
+      .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
+      .capture_default_str();
+  // Declare what a set is worth, and how sets are searched for.
+  command
+      .add_option(
+          "--criterion", design.criterion,
+          "expected-error: Xu et al. 2016; perceived: the same as seen on spheres; condition: Nielsen et al. 2015; "
+          "a-optimal, d-optimal: of the weights' covariance")
+      .check(check::one_of({"expected-error", "perceived", "condition", "a-optimal", "d-optimal"}))
+      .capture_default_str();
+  command
+      .add_option("--search", design.search,
+                  "exchange: the best of all, one after another, then replaced by better ones; greedy: without the "
+                  "replacing; descent: from random ones, for large priors. Other criteria than the expected error "
+                  "descend")
+      .check(check::one_of({"exchange", "greedy", "descent"}))
+      .capture_default_str();
+  // Declare the reconstruction and the errors of the measurements.
+  command
+      .add_option("--eta", design.eta,
+                  "Tikhonov's penalty of the reconstruction; the default is about what gonio reconstruct chooses")
+      .capture_default_str();
+  command
+      .add_option("--noise", design.noise,
+                  "Deviation of every measurement's logarithm (0.02 is 2 %), independent of the others'")
+      .capture_default_str();
+  command
+      .add_option("--common-shift", design.common_shift,
+                  "Size of one shift that all logarithms share: beta of Xu et al. 2016, Eq. 15")
+      .capture_default_str();
+  command.add_flag("--in-sample", design.in_sample,
+                   "Expect the error of materials that the prior has seen, as Xu et al. do, instead of each left out");
+  command
+      .add_option("--misplaced", options->angular_error,
+                  "Points: degrees by which light and viewer may each be off their directions")
+      .capture_default_str();
+  // Declare the limits of the apparatus.
+  command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
+      .capture_default_str();
+  command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
+  command.add_input("--constraint", options->constraint,
+                    "What the apparatus cannot do (a text file, docs/reference/formats.md)");
+  command.add_input("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
+  command.add_input("--given", options->given,
+                    "Samples that were measured (.csv): the next ones by what these read, so that the reconstruction "
+                    "errs least as seen on spheres");
+  add_measurement_options(command, options->reading);
+  // Declare what needs no search.
+  command
+      .add_option("--published", options->published,
+                  "No search: the set of Nielsen et al. 2015 of so many points (1, 2, 5, 10, 20) or, with --geometry "
+                  "sphere, images (1, 2, 5)")
+      .check(check::range(1, 20));
+  command.add_flag("--industry", options->industry,
+                   "No search: the five points of industry's goniospectrophotometers (Westlund and Meyer 2001)");
+  // Declare the run and its output.
+  command.add_option("--seed", design.seed, "Seed of what is random").capture_default_str();
+  add_report_option(command, options->report, words);
+  command.add_flag("--json", options->print_json, "Print the result as JSON");
+  add_threads_option(command, design.threads);
+  command
+      .add_output("-o,--output", options->output, {".csv"},
+                  "Directions to write; of images, those of the centre (.csv)")
+      .required();
+  command.callback([options, &processes] { run_together(*options, processes); });
+}
+
+}  // namespace cli

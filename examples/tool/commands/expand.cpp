@@ -1,0 +1,154 @@
+/// gonio expand: a material as a table, from a network, the prior or a formula.
+
+#include "commands.hpp"
+#include "tool/files/file_kinds.hpp"
+#include "tool/files/file_start.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/options/chosen_networks.hpp"
+#include "tool/options/prior_material.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/threads_option.hpp"
+#include <gonio/basis/component_variance.hpp>
+#include <gonio/core/finite.hpp>
+#include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/estimate/fitted_spectra.hpp>
+#include <gonio/io/materials/merl.hpp>
+#include <gonio/io/materials/networks.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/materials/rgl_spectra.hpp>
+#include <gonio/io/text/text.hpp>
+#include <gonio/model/formula_materials.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+struct expand_options {
+  std::filesystem::path networks, prior, output;
+  std::string name, formula;
+  std::vector<std::string> weights;  ///< lists of numbers: one for all channels (or wavelengths), or one for each
+  bool in_deviations = false;
+  gonio::thread_count threads;
+};
+
+/// The numbers of a list, as 0.5,-1,2.
+std::vector<double> numbers_of(std::string_view list) {
+  std::vector<std::string_view> fields;
+  gonio::io::split_fields(list, fields);
+  std::vector<double> numbers(fields.size());
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (const char* wrong = gonio::io::read_number(fields[i], numbers[i]))
+      gonio::refuse({"--weights: number ", i + 1, " of a list, ", gonio::io::in_quotes(fields[i]), ",", wrong});
+  return numbers;
+}
+
+/// The weights that --weights gives, components x channels: zero where it gives none.
+Eigen::MatrixXd given_weights(const expand_options& options, const gonio::log_relative_pca& prior) {
+  const Eigen::Index channels = prior.channels(), lists = std::ssize(options.weights);
+  if (lists != 1 && lists != channels && prior.wavelengths().empty())
+    gonio::refuse({"--weights needs one list for all channels, or three for red, green and blue, not ", lists});
+  if (lists != 1 && lists != channels)
+    gonio::refuse(
+        {"--weights needs one list for all wavelengths, or one for each of ", channels, " wavelengths, not ", lists});
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), channels);
+  for (Eigen::Index channel = 0; channel < channels; ++channel) {
+    const auto numbers = numbers_of(options.weights[options.weights.size() == 1 ? 0 : channel]);
+    if (std::ssize(numbers) > prior.size())
+      gonio::refuse({"--weights: ", numbers.size(), " numbers are more than the ", prior.size(), " components of ",
+                     options.prior.native()});
+    for (Eigen::Index j = 0; j < std::ssize(numbers); ++j) weights(j, channel) = numbers[j];
+  }
+  if (options.in_deviations) weights.array().colwise() *= gonio::weight_deviations(prior.coefficients()).array();
+  return weights;
+}
+
+void require_finite(const expand_options& options, std::span<const float> values) {
+  if (!options.weights.empty() && !gonio::all_finite(values))
+    gonio::refuse("--weights are too large: their table is not finite (gonio info --components has the deviations)");
+}
+
+/// Spectra where the format holds them, else their colours.
+void write_spectra(const expand_options& options, const gonio::spectral_table& table) {
+  if (lower_extension(options.output) != ".bsdf" || table.bands() == 1)
+    return write_table(options.output, table.colours(gonio::illuminant::d65, options.threads));
+  const std::string name = options.name.empty() ? options.output.stem().string() : options.name;
+  write_file(options.output, gonio::io::tabulate_adaptively(table, name, options.threads));
+}
+
+/// One of the materials a prior was learned from, by the coefficients that it stores, or its mean; and what the weights
+/// given add.
+void write_of_prior(const expand_options& options, const gonio::valid_cells& cells) {
+  const auto prior = gonio::io::read_prior(options.prior);
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), prior.channels());
+  if (!options.name.empty()) weights = prior.weights_of(material_number(prior, options.name, options.prior));
+  if (!options.weights.empty()) weights += given_weights(options, prior);
+  if (prior.wavelengths().empty()) {
+    const gonio::brdf_table table = gonio::fitted_brdf(prior, weights).tabulate(cells, options.threads);
+    require_finite(options, table.values());
+    return write_table(options.output, table);
+  }
+  const gonio::fitted_spectra fitted(prior.wavelengths(), prior, {std::move(weights), {}});
+  const gonio::spectral_table table = fitted.tabulate(cells, options.threads);
+  require_finite(options, {table.values().data(), static_cast<std::size_t>(table.values().size())});
+  write_spectra(options, table);
+}
+
+void expand(const expand_options& options, const gonio::valid_cells& cells) {
+  if (!options.formula.empty())
+    return write_table(options.output,
+                       gonio::tabulate(gonio::model::formula_material(options.formula), cells, options.threads));
+  if (options.networks.empty()) return write_of_prior(options, cells);
+  const auto chosen = networks_in(gonio::io::read_networks(options.networks), {options.name});
+  write_table(options.output, gonio::model::tabulate_networks(chosen, cells, options.threads).table(0));
+}
+
+}  // namespace
+
+void add_expand(command& app) {
+  auto command = app.add_subcommand(
+      "expand", "Write a material given by a network, the prior, weights or a formula as a MERL table");
+  const auto options = std::make_shared<expand_options>();
+  auto networks =
+      command.add_input("--networks", options->networks, "File of networks (.npy, names in merl_names.txt beside it)");
+  add_prior_option(command, options->prior);
+  command.add_option("--name", options->name, "Name of a material of the networks, or else of the prior");
+  auto weights = command
+                     .add_option("--weights", options->weights,
+                                 "Weights of the prior's components, as 0.5,-1,2: those that are not given are zero. "
+                                 "Once for all channels, or three times, for red, green and blue (of a prior of "
+                                 "spectra, for each wavelength). With --name they are "
+                                 "added to that material's")
+                     .repeatable()
+                     .excludes(networks);
+  command
+      .add_flag("--in-deviations", options->in_deviations,
+                "--weights are in standard deviations of the weights that the prior's materials have")
+      .needs(weights);
+  std::string known;
+  for (const std::string& formula : gonio::model::formula_material_names())
+    known += (known.empty() ? "" : ", ") + formula;
+  command.add_option("--formula", options->formula, "Name of a material given by a formula: " + known)
+      .excludes(networks)
+      .excludes(weights);
+  command
+      .add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
+                  "Table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)")
+      .required();
+  add_threads_option(command, options->threads);
+  command.callback([options] {
+    if (options->formula.empty() && options->name.empty() && options->weights.empty())
+      gonio::refuse(
+          "expand needs a material: --name NAME (of --prior or --networks), --weights W1,W2,... or --formula NAME");
+    expand(*options, gonio::valid_cells());
+  });
+}
+
+}  // namespace cli

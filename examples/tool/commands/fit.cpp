@@ -1,0 +1,178 @@
+/// gonio fit: an analytic model of measurements.
+
+#include "commands.hpp"
+#include "tool/files/file_start.hpp"
+#include "tool/files/json.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/options/model_choice.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/images.hpp"
+#include "tool/pages/measures_as_json.hpp"
+#include "tool/pages/report_data.hpp"
+#include "tool/pages/report_page.hpp"
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/renderer_material.hpp>
+
+#include <array>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace cli {
+
+namespace {
+
+/// How a fitted model is written for renderers.
+struct renderer_format {
+  const char* option;
+  const char* extension;
+  const char* description;
+  std::string (*text)(const gonio::model::analytic_brdf& model);
+};
+
+constexpr std::array renderer_formats{
+    renderer_format{"--pbrt", ".pbrt", "Material of pbrt-v4 to write (.pbrt)", gonio::io::pbrt_material},
+    renderer_format{"--mitsuba", ".xml", "Material of Mitsuba 3 to write (.xml)", gonio::io::mitsuba_material},
+    renderer_format{"--materialx", ".mtlx", "Surface of OpenPBR to write, in MaterialX (.mtlx)",
+                    [](const gonio::model::analytic_brdf& model) { return gonio::io::materialx_material(model); }},
+    renderer_format{"--gltf", ".gltf", "Material of glTF 2.0 to write (.gltf)", gonio::io::gltf_material}};
+
+struct fit_command_options {
+  measurement_options reading;
+  std::filesystem::path measurements, output, image;
+  page_option report;
+  std::array<std::filesystem::path, renderer_formats.size()> for_renderers;
+  gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
+  bool print_json = false, no_cosine_weight = false;
+  image_options how;
+  model_choice choice;
+};
+
+bool is_table(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".binary" || extension == ".gz";
+}
+
+void print(const gonio::model::model_fit& fit, std::size_t measurements) {
+  std::cout << measurements << " measurements, loss " << fit.loss << " after " << fit.evaluations << " evaluations"
+            << (fit.converged ? "" : ", which did not converge") << '\n';
+  for (const gonio::model::analytic_lobe& lobe : fit.model.lobes()) {
+    std::cout << lobe.kind().name() << ": colour " << fixed(lobe.colour()[0], 4) << ' ' << fixed(lobe.colour()[1], 4)
+              << ' ' << fixed(lobe.colour()[2], 4);
+    const auto about = lobe.kind().parameters();
+    for (std::size_t i = 0; i < about.size(); ++i) {
+      std::cout << ", " << about[i].name << ' ' << fixed(lobe.parameters()[i], 4);
+      if (!about[i].unit.empty()) std::cout << " (" << about[i].unit << ')';
+    }
+    std::cout << '\n';
+  }
+}
+
+/// The page for people. `samples` are those that were fitted, or some values of the table.
+void write_report(const fit_command_options& options, const gonio::model::analytic_brdf& model,
+                  const gonio::sample_set& samples, const json& details) {
+  json data =
+      model_report_data({options.measurements.stem().string(), model, samples, details, options.choice.fit.threads});
+  data["record"] = record_of({{"Measurements", options.measurements.string()},
+                              {"Model", options.choice.model + ", metric " + options.choice.metric}});
+  data["of_table"] = is_table(options.measurements);
+  write_report_page(options.report, data);
+}
+
+void fit(const fit_command_options& options) {
+  if (options.cell_weights != gonio::model::cell_weighting::equal && !is_table(options.measurements))
+    gonio::refuse("--cell-weights needs a table: samples carry their own weights");
+  // Read the measurements, and fit the model under the metric.
+  std::optional<gonio::brdf_table> table;
+  if (is_table(options.measurements)) table.emplace(gonio::io::read_merl_any(options.measurements));
+  if (table) require_unused(options.reading, options.measurements);
+  gonio::io::sample_file measured;
+  if (!table) measured = read_measurement_file(options.measurements, options.reading);
+  const auto observations =
+      table ? gonio::model::fit_observations(*table, options.choice.fit.threads, options.cell_weights)
+            : gonio::model::fit_observations(measured.samples);
+  const gonio::model::model_fit found = fit_chosen(options.choice, observations);
+
+  // Describe the material before a file is written: what a renderer cannot have leaves nothing behind.
+  std::array<std::string, renderer_formats.size()> materials;
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if (!options.for_renderers[i].empty()) materials[i] = renderer_formats[i].text(found.model);
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if (!materials[i].empty()) gonio::io::write_renderer_material(options.for_renderers[i], materials[i]);
+  // Tabulate the fit, and draw it beside the table that was measured.
+  if (!options.output.empty() || !options.image.empty()) {
+    const gonio::valid_cells cells = table ? table->cells() : gonio::valid_cells();
+    const gonio::brdf_table fitted = gonio::tabulate(found.model, cells, options.choice.fit.threads);
+    if (!options.output.empty()) write_table(options.output, fitted);
+    if (!options.image.empty()) {
+      std::vector<gonio::image> images;
+      if (table) images.push_back(sphere_image(*table, options.how, options.choice.fit.threads));
+      images.push_back(sphere_image(fitted, options.how, options.choice.fit.threads));
+      expose_spheres(images, std::span(images).first(1), options.how);  // by what was measured
+      gonio::io::write_png(options.image, gonio::render::side_by_side(images, 8));
+    }
+  }
+  // Print the fit.
+  json all{{"measurements", observations.size()},  {"loss", found.loss},
+           {"evaluations", found.evaluations},     {"converged", found.converged},
+           {"promised_gain", found.promised_gain}, {"lobes", to_json(found.model)}};
+  all.update(facts_of(measured));
+  if (options.report.is_given())
+    write_report(options, found.model, table ? in_plane_values(*table) : measured.samples, all);
+  if (!options.print_json) return print(found, observations.size());
+  std::cout << all.dump(2) << '\n';
+}
+
+}  // namespace
+
+void add_fit(command& app, const std::vector<std::string>& words) {
+  auto command = app.add_subcommand("fit", "Fit an analytic model to samples or a table");
+  const auto options = std::make_shared<fit_command_options>();
+  // Declare the measurements and the model.
+  command
+      .add_input("measurements", options->measurements,
+                 "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
+      .required();
+  add_measurement_options(command, options->reading);
+  std::string names;
+  for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds())
+    names += (names.empty() ? "" : ", ") + std::string(kind->name());
+  command
+      .add_option("--model", options->choice.model,
+                  "A lobe beside a Lambertian one, or with sum:ward+ggx the lobes that are named: " + names)
+      .capture_default_str();
+  // Declare how they are compared.
+  command
+      .add_option("--metric", options->choice.metric,
+                  "Reflectance is compared as it is (lin), as log (ln(1 + x)) or as cubic root")
+      .check(check::one_of({"lin", "log", "cubic"}))
+      .capture_default_str();
+  command.add_flag("--fresnel", options->choice.fresnel,
+                   "The last lobe times the reflectance of a dielectric (Phong's lobes)");
+  add_fit_options(command, options->choice.fit);
+  command.add_flag("--no-cosine-weight", options->no_cosine_weight,
+                   "Compare reflectance without the cosine of the light");
+  add_cell_weights_option(command, options->cell_weights);
+  // Declare what is written.
+  command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
+                     "The model as a table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)");
+  auto image = command.add_output("--image", options->image, {".png"},
+                                  "Spheres of measurement (if it is a table) and model to write (.png)");
+  add_image_options(command, options->how, image);
+  for (std::size_t i = 0; i < renderer_formats.size(); ++i) {
+    const auto& [option, extension, description, text] = renderer_formats[i];
+    command.add_output(option, options->for_renderers[i], {extension}, description);
+  }
+  add_report_option(command, options->report, words);
+  command.add_flag("--json", options->print_json, "Print the fit as JSON");
+  add_threads_option(command, options->choice.fit.threads);
+  command.callback([command, options] {
+    if (command.count("--cosine-weighted") > 0 && options->no_cosine_weight)
+      gonio::refuse("--cosine-weighted and --no-cosine-weight contradict each other: give one of them");
+    options->choice.fit.cosine_weighted = !options->no_cosine_weight;
+    fit(*options);
+  });
+}
+
+}  // namespace cli

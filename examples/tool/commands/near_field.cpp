@@ -1,0 +1,227 @@
+/// gonio near-field: images of a flat sample, taken from close by, as measurements: of one material, or of each of
+/// several that clusters of colours tell apart.
+
+#include "commands.hpp"
+#include "tool/files/photograph_files.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
+#include <gonio/capture/colour_clusters.hpp>
+#include <gonio/estimate/pose_refinement.hpp>
+#include <gonio/io/images/image.hpp>
+#include <gonio/io/materials/prior.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/setups/near_field_setup.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+struct near_field_command {
+  photograph_files files;
+  std::string clusters;  ///< a number, auto, or empty: one material
+  std::filesystem::path labels, prior, output;
+  double angular_error = 0.0;  ///< degrees; 0: light and cameras are in their places
+  bool reference_in_place = false;
+  std::uint64_t seed = 0;
+  gonio::thread_count threads;
+};
+
+using taken_image = taken_photograph<gonio::capture::near_field_setup>;
+
+std::vector<taken_image> read_images(const near_field_command& options) {
+  return read_photographs(options.files, [](const std::string& file, const auto& calibration) {
+    return gonio::io::read_near_field_setup(file, calibration);
+  });
+}
+
+gonio::sample_set samples_of(const taken_image& image) {
+  return image.naming_files([&] { return gonio::capture::near_field_samples(image.pixels, image.setup, image.white); });
+}
+
+/// Was the light measured where the sample lies? Then it is the same for both, wherever it stands.
+bool has_reference_in_place(const std::vector<taken_image>& images, const near_field_command& options) {
+  return options.reference_in_place ||
+         std::ranges::all_of(images, [](const taken_image& each) { return each.white && !each.white->surface; });
+}
+
+std::string angle_of(const Eigen::Vector3d& turn) { return fixed(gonio::degrees(turn.norm()), 2); }
+
+/// The samples of each image, for each of some materials.
+using samples_of_materials = std::vector<std::vector<gonio::sample_set>>;
+
+/// Each material's samples where light and cameras are found to be, which all of them share; says by how much these
+/// were off.
+std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, samples_of_materials samples,
+                                       const near_field_command& options) {
+  gonio::pose_refinement refinement(
+      gonio::io::read_prior(options.prior), std::move(samples),
+      {.deviation = gonio::radians(options.angular_error),
+       .calibrated_by = has_reference_in_place(images, options) ? gonio::light_calibration::reference_in_place
+                                                                : gonio::light_calibration::irradiance,
+       .threads = options.threads});
+  refinement.solve();
+  for (Eigen::Index i = 0; i < std::ssize(images); ++i)
+    std::cout << images[i].file << ": light off by " << angle_of(refinement.turns()[i].light) << " degrees, camera by "
+              << angle_of(refinement.turns()[i].camera) << '\n';
+  std::vector<gonio::sample_set> all;
+  for (Eigen::Index m = 0; m < refinement.materials(); ++m) all.push_back(refinement.samples(m));
+  return all;
+}
+
+/// Each material's samples of all images.
+std::vector<gonio::sample_set> joined(const std::vector<taken_image>& images, samples_of_materials samples,
+                                      const near_field_command& options) {
+  if (options.angular_error != 0.0) return refined(images, std::move(samples), options);
+  std::vector<gonio::sample_set> all(samples.size());
+  for (std::size_t m = 0; m < samples.size(); ++m)
+    for (const gonio::sample_set& own : samples[m]) all[m].insert(all[m].end(), own.begin(), own.end());
+  return all;
+}
+
+/// How many samples each image has, a line each.
+std::string counts_of(const std::vector<taken_image>& images, const std::vector<gonio::sample_set>& samples) {
+  std::string lines;
+  for (Eigen::Index i = 0; i < std::ssize(images); ++i)
+    lines += images[i].file + ": " + std::to_string(samples[i].size()) + " samples\n";
+  return lines;
+}
+
+/// All images' samples in one file; prints how many each has.
+void write_samples_of_one(const std::vector<taken_image>& images, const near_field_command& options) {
+  std::vector<gonio::sample_set> samples;
+  for (const taken_image& image : images) samples.push_back(samples_of(image));
+  const std::string counts = counts_of(images, samples);
+  gonio::io::write_samples(options.output, joined(images, {std::move(samples)}, options).front());
+  std::cout << counts;
+}
+
+// ---- several materials -------------------------------------------------------------------------
+
+/// Pixels are the same points of the sample only if the camera stood still.
+void require_fixed_camera(const std::vector<taken_image>& images) {
+  const gonio::pinhole_camera& first = images.front().setup.camera.pinhole();
+  for (const taken_image& image : images) {
+    const gonio::pinhole_camera& camera = image.setup.camera.pinhole();
+    if (camera.intrinsics().rows != first.intrinsics().rows ||
+        camera.intrinsics().columns != first.intrinsics().columns || camera.position() != first.position() ||
+        camera.rotation() != first.rotation())
+      gonio::refuse(image.setup_file +
+                    ": --clusters needs a camera that stands still, and this is another one than in " +
+                    images.front().setup_file);
+  }
+}
+
+/// Clusters of the pixels of an image's region by their reflectance.
+gonio::capture::colour_clusters clusters_of(const taken_image& image, const near_field_command& options) {
+  static_cast<void>(samples_of(image));  // refuses what is no image of the sample
+  const std::vector<gonio::rgb> values = gonio::capture::region_reflectance(image.pixels, image.setup, image.white);
+  gonio::capture::point_matrix colours(std::ssize(values), 3);
+  for (Eigen::Index i = 0; i < colours.rows(); ++i) colours.row(i) = values[i].matrix().transpose();
+  if (options.clusters == "auto")
+    return gonio::capture::cluster_colours(colours, gonio::capture::cluster_count_choice{}, options.seed,
+                                           options.threads);
+  Eigen::Index count = 0;
+  const std::string& text = options.clusters;
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (failed != std::errc() || end != text.data() + text.size() || count < 1)
+    gonio::refuse("--clusters needs a positive number, or auto, not '" + text + "'");
+  return gonio::capture::cluster_colours(colours, count, options.seed, options.threads);
+}
+
+/// FILE.csv of material 2 is FILE-2.csv.
+std::filesystem::path path_of_material(const std::filesystem::path& output, Eigen::Index material) {
+  std::filesystem::path path = output;
+  path.replace_filename(output.stem().string() + '-' + std::to_string(material + 1) + output.extension().string());
+  return path;
+}
+
+/// Each material's pixels in its mean colour, the brightest channel of all of them white; black around.
+gonio::image label_map(const gonio::capture::colour_clusters& clusters, const std::vector<Eigen::Index>& region,
+                       const gonio::camera_intrinsics& size) {
+  gonio::image map = gonio::uniform_image(size.rows, size.columns);
+  const double brightest = std::max(clusters.centres.maxCoeff(), 1e-30);
+  for (std::size_t i = 0; i < region.size(); ++i)
+    gonio::set_pixel(map, region[i] / size.columns, region[i] % size.columns,
+                     gonio::rgb(clusters.centres.row(clusters.labels[i]).transpose().array() / brightest));
+  return map;
+}
+
+/// A file of samples for each material. Its pixels are those of its cluster in the last image.
+void write_samples_of_each(std::vector<taken_image> images, const command& given, const near_field_command& options) {
+  require_fixed_camera(images);
+  const taken_image& diffuse = images.back();
+  const gonio::camera_intrinsics size = diffuse.setup.camera.intrinsics();
+  const std::vector<Eigen::Index> region = gonio::capture::pixels_of_region(diffuse.setup);
+  const gonio::capture::colour_clusters clusters = clusters_of(diffuse, options);
+  for (Eigen::Index material = 0; material < clusters.count(); ++material)
+    given.require_writable(path_of_material(options.output, material));
+  if (!options.labels.empty()) gonio::io::write_png(options.labels, label_map(clusters, region, size));
+  samples_of_materials samples;
+  std::vector<std::string> counts;
+  for (Eigen::Index material = 0; material < clusters.count(); ++material) {
+    std::vector<bool> mask(size.rows * size.columns, false);
+    for (const Eigen::Index pixel : clusters.pixels(material)) mask[region[pixel]] = true;
+    auto& own = samples.emplace_back();
+    for (taken_image& image : images) {
+      image.setup.mask = mask;
+      own.push_back(samples_of(image));
+    }
+    counts.push_back(counts_of(images, own));
+  }
+  const std::vector<gonio::sample_set> all = joined(images, std::move(samples), options);
+  for (Eigen::Index material = 0; material < clusters.count(); ++material) {
+    const std::filesystem::path path = path_of_material(options.output, material);
+    gonio::io::write_samples(path, all[material]);
+    std::cout << path.string() << ", " << clusters.sizes[material] << " pixels\n" << counts[material];
+  }
+}
+
+void run(const command& given, const near_field_command& options) {
+  if (options.reference_in_place && options.angular_error == 0.0)
+    gonio::refuse("--reference-in-place requires --misplaced");
+  if (options.clusters.empty() && !options.labels.empty()) gonio::refuse("--labels requires --clusters");
+  std::vector<taken_image> images = read_images(options);
+  if (options.clusters.empty())
+    write_samples_of_one(images, options);
+  else
+    write_samples_of_each(std::move(images), given, options);
+}
+
+}  // namespace
+
+void add_near_field(command& app) {
+  auto command = app.add_subcommand("near-field", "Turn images of a flat sample into samples for gonio reconstruct");
+  const auto options = std::make_shared<near_field_command>();
+  add_photograph_options(command, options->files, "images",
+                         "Images of linear radiance (.hdr, .npy or .exr), each followed by its set-up "
+                         "(docs/reference/formats.md): camera, light and region of interest");
+  command.add_option("--clusters", options->clusters,
+                     "Several materials: how many, or auto; told apart by colour in the last image, which should "
+                     "show no highlight. Each gets a file of its own, OUTPUT-1.csv and so on, the largest first");
+  command.add_output("--labels", options->labels, {".png"}, "Image of which pixels are which material (.png)");
+  command
+      .add_option("--misplaced", options->angular_error,
+                  "Degrees by which light and cameras may be off where the set-ups say: where they were is found with "
+                  "the help of --prior")
+      .capture_default_str();
+  command.add_flag("--reference-in-place", options->reference_in_place,
+                   "The irradiance is had from a white reference in the sample's place: a light off its place then "
+                   "leaves the values as they are (with --misplaced; --white without 'white_plane' says it)");
+  add_prior_option(command, options->prior);
+  command.add_option("--seed", options->seed, "Seed of the clusters").capture_default_str();
+  add_threads_option(command, options->threads);
+  command.add_output("-o,--output", options->output, {".csv"}, "Samples to write (.csv)").required();
+  command.callback([command, options] { run(command, *options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,223 @@
+/// gonio reconstruct: samples in, a table over all directions out.
+
+#include "commands.hpp"
+#include "tool/files/file_kinds.hpp"
+#include "tool/files/file_start.hpp"
+#include "tool/files/json.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/options/materials.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/reconstruct_choice.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/images.hpp"
+#include "tool/pages/report_data.hpp"
+#include "tool/pages/report_page.hpp"
+#include "tool/pages/uncertainty_image.hpp"
+#include "tool/pages/warning.hpp"
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/materials/rgl_spectra.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace cli {
+
+namespace {
+
+/// A line for each round; docs/reference/formats.md has the columns.
+void write_history(const std::filesystem::path& path, std::span<const gonio::correction_round> rounds) {
+  std::string text = "round,error,change,down_weighted\n";
+  const auto append = [&](double value, char separator) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    text.append(digits.data(), end).push_back(separator);
+  };
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    text += std::to_string(i + 1) + ',';
+    append(rounds[i].error, ',');
+    append(rounds[i].change, ',');
+    append(rounds[i].down_weighted, '\n');
+  }
+  gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
+}
+
+void print(const reconstruction& result, const gonio::io::sample_file& measured, bool as_json) {
+  for (const std::string& sentence : result.warnings) warn(sentence);
+  if (as_json) {
+    json all{{"samples", measured.samples.size()}};
+    all.update(facts_of(measured));
+    all.update(result.details);
+    std::cout << all.dump(2) << '\n';
+    return;
+  }
+  std::cout << measured.samples.size() << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence
+            << '\n';
+}
+
+void write_sphere(const reconstruct_options& options, const gonio::brdf_table& table, const image_options& how) {
+  std::array spheres{sphere_image(table, how, options.threads)};
+  expose_spheres(spheres, how);
+  gonio::io::write_png(options.image, spheres.front());
+}
+
+/// Spectra where the format holds them, else the table.
+void write_result(const reconstruct_options& options, const reconstruction& result) {
+  if (lower_extension(options.output) != ".bsdf" || !result.spectra) return write_table(options.output, result.table);
+  const std::string name = options.output.stem().string();
+  write_file(options.output, gonio::io::tabulate_adaptively(*result.spectra, name, options.threads));
+}
+
+void reconstruct_and_write(reconstruct_options options, const image_options& how) {
+  gonio::io::sample_file measured;
+  std::optional<reconstruction> found;
+  // Wavelengths stay what they are where the output can hold them.
+  if (!options.fits_spectra && lower_extension(options.output) == ".bsdf" && takes_spectra(options.method))
+    options.fits_spectra = names_wavelengths(options.samples, options.reading);
+  if (options.fits_spectra) {
+    const gonio::io::spectral_sample_file spectra = read_spectra_file(options.samples, options.reading);
+    measured = {spectra.samples.in_three_channels(options.reading.light.value_or(gonio::illuminant::d65)),
+                spectra.quantity,
+                {},
+                spectra.provenance};
+    if (spectra.samples.bands() == 1) measured.wavelength = spectra.samples.wavelengths.front();
+    options.provenance = measured.provenance;
+    tell_doubts(options.samples, measured);
+    if (lower_extension(options.output) == ".bsdf" && spectra.samples.bands() == 1)
+      gonio::refuse({options.output.native(), ": spectra need two wavelengths or more: leave out --spectra"});
+    found = reconstruct(options, spectra.samples);
+  } else {
+    measured = read_measurement_file(options.samples, options.reading);
+    options.provenance = measured.provenance;
+    found = reconstruct(options, measured.samples);
+  }
+  const reconstruction& result = *found;
+  if (!options.output.empty()) write_result(options, result);
+  if (!options.image.empty()) write_sphere(options, result.table, how);
+  if (!options.uncertainty.empty()) write_table(options.uncertainty, *result.uncertainty);
+  if (!options.uncertainty_image.empty())
+    gonio::io::write_png(options.uncertainty_image,
+                         uncertainty_image(result.table, *result.uncertainty, how.size, options.threads));
+  if (!options.history.empty()) write_history(options.history, result.history);
+  if (result.iteration_figure) {
+    gonio::io::write_png(options.iteration_figure / "iterations.png", *result.iteration_figure);
+    write_history(options.iteration_figure / "history.csv", result.history);
+  }
+  if (options.report.is_given()) write_report_page(options.report, report_data({options, measured, result, nullptr}));
+  print(result, measured, options.print_json);
+}
+
+void add_method_option(command& to, std::string& name) {
+  std::string description;
+  std::vector<std::string> names;
+  for (const reconstruct_method& m : reconstruct_methods()) {
+    description += (names.empty() ? "" : "; ") + std::string(m.name) + ": " + m.description;
+    names.emplace_back(m.name);
+  }
+  to.add_option("--method", name, description).check(check::one_of(names)).capture_default_str();
+}
+
+void add_correction_options(command& to, reconstruct_options& options) {
+  to.add_option("--gamma", options.gamma,
+                "How correction finds outliers: a number, with which the weight of a sample falls off with its "
+                "relative deviation (0 trusts all, the paper mostly has 3); or auto, which needs no number")
+      .capture_default_str();
+  to.add_flag("--as-printed", options.as_printed,
+              "correction as Noell et al. 2014 print it: no constant function, no inertia, and their weights, with a "
+              "--gamma of 3 if none is given (they have 0 without outliers, 3 for a fifth, 6 for more)");
+  to.add_option("--iterations", options.iterations, "Rounds of correction at most")
+      .check(check::range(1, 10'000))
+      .capture_default_str();
+  to.add_output("--history", options.history, {".csv"}, "What each round of correction did, to write (.csv)");
+  to.add_output_folder("--iteration-figure", options.iteration_figure, {"iterations.png", "history.csv"},
+                       "Folder for an image of the first rounds of correction and the last, and their history");
+  to.add_input("--truth", options.truth, "Table that --iteration-figure compares with (.binary or .binary.gz)");
+  to.add_option("--seed", options.seed, "Seed of the centres of rbf, and of the samples from which correction starts")
+      .capture_default_str();
+}
+
+void add_spectra_options(command& to, reconstruct_options& options) {
+  to.add_flag(
+      "--spectra", options.fits_spectra,
+      "Fit each wavelength of spectral samples (.csv with columns like 400nm, or formats of instruments) as a grey "
+      "material: the default where -o is a .bsdf, which has the spectra then; other formats have their colours");
+  to.add_choice(
+      "--illuminant", [&options](int light) { options.reading.light = static_cast<gonio::illuminant>(light); },
+      {{"D65", static_cast<int>(gonio::illuminant::d65)}, {"A", static_cast<int>(gonio::illuminant::a)}},
+      "Under which spectra become colours: D65, daylight (the default), or A, incandescent");
+}
+
+}  // namespace
+
+void add_reconstruct(command& app, const std::vector<std::string>& words) {
+  auto command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
+  const auto options = std::make_shared<reconstruct_options>();
+  const auto how = std::make_shared<image_options>();
+  // Declare the samples and the method.
+  command.add_input("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
+  add_measurement_options(command, options->reading);
+  add_spectra_options(command, *options);
+  add_method_option(command, options->method);
+  add_prior_option(command, options->materials.prior);
+  add_material_options(command, options->materials);
+  // Declare the metric, the solver and the noise.
+  command
+      .add_option("--metric", options->metric,
+                  "Errors of linear, rbf and the start of correction are those of the reflectance mapped by: lin, "
+                  "root, log (ln(1 + x), the default) or log-relative")
+      .check(check::one_of({"lin", "root", "log", "log-relative"}));
+  command.add_option("--root", options->root, "Which root --metric root takes").capture_default_str();
+  add_solver_options(command, options->solver);
+  command.add_option(
+      "--noise", options->noise,
+      "Relative deviation of the measured values (0.02 is 2 %), which chooses tikhonov's penalty for pca");
+  command
+      .add_option("--discrepancy", options->discrepancy,
+                  "Variance, in the metric's domain, of what the components of pca cannot say and many samples can; 0: "
+                  "components alone, with a penalty chosen by cross-validation")
+      .check(check::range(0.0, 10.0))
+      .capture_default_str();
+  command.add_flag("--no-reject", options->keeps_all,
+                   "Let all samples count in full: of 13 to 99, pca leaves out and names those that the others "
+                   "contradict; of more, outliers count less");
+  command.add_output("--residuals", options->residuals, {".csv"},
+                     "What all other samples say of each sample, to write (.csv)");
+  command.add_output("--uncertainty", options->uncertainty, {".binary", ".npy"},
+                     "Table to write of how well each direction is known: 0.06 is to 6 % in 68 of 100 cases");
+  command.add_output("--uncertainty-image", options->uncertainty_image, {".png"},
+                     "Image of a sphere to write (.png), coloured by how well its brightness is known: light to 2 %, "
+                     "dark blue from 100 % on, in steps of equal factors");
+  add_report_option(command, options->report, words);
+  // Declare the corrections.
+  add_correction_options(command, *options);
+  command
+      .add_option("--misplaced", options->angular_error,
+                  "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
+                  "of highlights count less then (for images: gonio near-field --misplaced)")
+      .capture_default_str();
+  command
+      .add_option("--neighbours", options->neighbours,
+                  "How many samples around each direction scattered takes the mean of; 1: the nearest")
+      .check(check::range(1, static_cast<int>(gonio::scattered_options::most_neighbours)))
+      .capture_default_str();
+  // Declare what is written.
+  command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
+                     "Table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)");
+  auto image = command.add_output("--image", options->image, {".png"}, "Image of a sphere to write (.png)");
+  add_image_options(command, *how, image);
+  command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
+  add_threads_option(command, options->threads);
+  // Refuse options that the method does not take, then run it.
+  command.callback([command, options, how] {
+    take_given(*options, [&](const std::string& option) { return command.count(option) > 0; });
+    if (command.count("--truth") > 0 && command.count("--iteration-figure") == 0)
+      gonio::refuse("--truth requires --iteration-figure");
+    reconstruct_and_write(*options, *how);
+  });
+}
+
+}  // namespace cli

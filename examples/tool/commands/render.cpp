@@ -1,0 +1,207 @@
+/// gonio render: images of tables, side by side.
+
+#include "commands.hpp"
+#include "tool/files/exr_files.hpp"
+#include "tool/files/file_start.hpp"
+#include "tool/files/radiance_image.hpp"
+#include "tool/options/lights.hpp"
+#include "tool/options/prior_option.hpp"
+#include "tool/options/threads_option.hpp"
+#include "tool/pages/colour_scale.hpp"
+#include "tool/pages/contact_sheet.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/flat_sample.hpp"
+#include "tool/pages/images.hpp"
+#include "tool/pages/progress_bar.hpp"
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/svbrdf_map.hpp>
+#include <gonio/render/false_colour.hpp>
+#include <gonio/render/half_vector_sampler.hpp>
+#include <gonio/render/lookup_table.hpp>
+#include <gonio/render/sampled_sphere.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+/// In light from all around no highlight is much brighter than what is around it.
+constexpr double exposure_in_environment = 0.4;
+
+struct render_options {
+  std::vector<std::filesystem::path> tables;
+  std::vector<std::string> lights;
+  std::filesystem::path output, environment, prior;
+  bool slices = false, compares = false, labels = false;
+  std::string caption;
+  int quality = 64, columns = 0;  ///< of a contact sheet; 0: all images in one row
+  image_options image{.size = 512, .exposure = {}};
+  std::uint64_t seed = 1;
+  gonio::thread_count threads;
+};
+
+bool is_exr(const std::filesystem::path& path) { return lower_extension(path) == ".exr"; }
+
+/// The colours of Delta E from 0 to 20, over the lowest rows, where a sphere is narrow.
+colour_scale delta_e_scale() {
+  return {[](double share) { return gonio::render::false_colour(20.0 * share); },
+          {{0.0, "0"}, {0.25, "5"}, {0.5, "10"}, {0.75, "15"}, {1.0, "20+"}}};
+}
+
+/// CIELAB's Delta E of each pixel of two images as a colour, as in Noell et al. 2014, Fig. 3, and its mean over the
+/// pixels that are not black in both: those are beside the sphere, or not lit.
+struct image_difference {
+  gonio::image image;
+  double mean = 0.0;
+};
+
+image_difference difference_of(const gonio::image& one, const gonio::image& other) {
+  image_difference found{gonio::uniform_image(one.shape(0), one.shape(1), gonio::rgb::Zero())};
+  double sum = 0.0, count = 0.0;
+  for (std::size_t row = 0; row < one.shape(0); ++row)
+    for (std::size_t column = 0; column < one.shape(1); ++column) {
+      const gonio::rgb a = gonio::pixel(one, row, column), b = gonio::pixel(other, row, column);
+      if ((a == 0.0).all() && (b == 0.0).all()) continue;
+      const double delta_e = (gonio::to_lab(a) - gonio::to_lab(b)).matrix().norm();
+      sum += delta_e;
+      count += 1.0;
+      gonio::set_pixel(found.image, row, column, gonio::render::false_colour(delta_e));
+    }
+  found.mean = count > 0.0 ? sum / count : 0.0;
+  draw_scale(found.image, delta_e_scale());
+  return found;
+}
+
+/// Refuses what --compare cannot draw, before anything is drawn.
+void require_comparable(const render_options& options) {
+  if (options.tables.size() != 2)
+    gonio::refuse("--compare needs two tables, not " + std::to_string(options.tables.size()));
+  if (is_exr(options.output)) gonio::refuse("--compare draws colours for people: its -o needs the extension .png");
+  if (options.image.size < static_cast<int>(smallest_with_scale))
+    gonio::refuse("--compare needs a --size of at least " + std::to_string(smallest_with_scale) +
+                  ", for the numbers of its scale");
+}
+
+/// The tables' names without folders and extensions, where they are asked for.
+sheet_text text_of(const render_options& options) {
+  sheet_text text{{}, options.caption};
+  if (!options.labels) return text;
+  for (std::filesystem::path name : options.tables) {
+    name = name.filename();
+    if (lower_extension(name) == ".gz") name.replace_extension();
+    text.labels.push_back(name.stem().string());
+  }
+  if (options.compares) text.labels.emplace_back("Delta E");
+  return text;
+}
+
+/// Refuses text in an image whose numbers are radiance.
+void require_no_text(const render_options& options) {
+  if (is_exr(options.output) && (options.labels || !options.caption.empty()))
+    gonio::refuse("--labels and --caption draw text for people: their -o needs the extension .png");
+}
+
+/// The flat sample of a map, alone in its image.
+void render_flat_sample(const render_options& options) {
+  if (options.tables.size() != 1 || options.slices || options.compares || !options.environment.empty() ||
+      options.labels || !options.caption.empty())
+    gonio::refuse({options.tables.front().native(),
+                   ": a map is drawn alone, under lights, without --slices, --compare, --environment, --labels and ",
+                   "--caption"});
+  const gonio::image sample =
+      flat_sample_image(options.tables.front(), options.prior, lighting_of(options.lights).lights(),
+                        options.image.exposure, options.threads);
+  if (is_exr(options.output)) return write_exr(options.output, sample);
+  gonio::io::write_png(options.output, sample);
+}
+
+void render(const render_options& options) {
+  require_no_text(options);
+  if (gonio::io::is_svbrdf_map(options.tables.front())) return render_flat_sample(options);
+  if (options.compares) require_comparable(options);
+  const gonio::render::directional_lighting lamps = lighting_of(options.lights);
+  std::optional<gonio::render::environment_sampler> light;
+  if (!options.environment.empty()) light.emplace(gonio::render::environment_map(read_radiance(options.environment)));
+  progress_bar bar;
+  const auto image_of = [&](const gonio::brdf_table& table) {
+    if (options.slices) return slice_image(table, options.image, options.threads);
+    if (!light) return sphere_image(table, options.image, options.threads, lamps);
+    const gonio::render::half_vector_sampler material(gonio::render::lookup_table<>::of(table));
+    const gonio::render::sampled_sphere_view view{.size = options.image.size,
+                                                  .samples = options.quality,
+                                                  .seed = options.seed,
+                                                  .white = options.image.exposure.value_or(exposure_in_environment)};
+    return gonio::render::render_sphere(material, *light, view, options.threads, bar.listener());
+  };
+  std::vector<gonio::image> images;
+  for (const auto& path : options.tables) images.push_back(image_of(gonio::io::read_merl_any(path)));
+  if (!options.slices && !light) expose_spheres(images, options.image);
+  if (options.compares) {
+    auto [image, mean] = difference_of(images[0], images[1]);
+    images.push_back(std::move(image));
+    std::cout << "Delta E of the images: " << fixed(mean, 2) << " in the mean; 0 is blue, 10 green, 20 and more red\n";
+  }
+  const gonio::image beside = contact_sheet(
+      images, options.columns == 0 ? images.size() : std::min<std::size_t>(options.columns, images.size()),
+      text_of(options));
+  if (is_exr(options.output))
+    write_exr(options.output, beside);
+  else
+    gonio::io::write_png(options.output, beside);
+}
+
+}  // namespace
+
+void add_render(command& app) {
+  auto command = app.add_subcommand(
+      "render", "Draw tables as spheres under two lights or in an environment, or as slices, side by side");
+  const auto options = std::make_shared<render_options>();
+  command
+      .add_input(
+          "tables", options->tables,
+          "Tables (.binary or .binary.gz), left to right; or a map of gonio svbrdf (.gsv), a pixel for each texel")
+      .required();
+  add_prior_option(command, options->prior);
+  command
+      .add_output("-o,--output", options->output, {".png", ".exr"},
+                  "Image to write: .png, or .exr for the values themselves, of slices pi times the BRDF")
+      .required();
+  auto slices = command.add_flag("--slices", options->slices,
+                                 "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
+  auto environment = command.add_input("--environment", options->environment,
+                                       "Light from all around: a latitude-longitude image (.hdr, .npy or .exr)");
+  environment.excludes(slices);
+  add_light_option(command, options->lights).excludes(environment).excludes(slices);
+  command
+      .add_option("--quality", options->quality,
+                  "Pairs of directions for each pixel, by the BRDF and by the environment")
+      .check(check::range(1, 1'000'000))
+      .needs(environment)
+      .capture_default_str();
+  command.add_flag(
+      "--compare", options->compares,
+      "Two tables: beside them how far their colours are apart, CIELAB's Delta E of each pixel as a colour");
+  command.add_option("--columns", options->columns, "Images in a row, of a contact sheet of many tables")
+      .check(check::range(1, 1000))
+      .default_str("all in one row");
+  command.add_flag("--labels", options->labels, "Under each image the name of its table");
+  command.add_option("--caption", options->caption, "A line of text under all images");
+  add_image_options_to(command, options->image,
+                       "0.4 in an environment; under the lights such that the brightest sphere is white at its 99th "
+                       "percentile")
+      .second.excludes(slices);
+  command.add_option("--seed", options->seed, "Seed of the samples").needs(environment).capture_default_str();
+  add_threads_option(command, options->threads);
+  command.callback([options] { render(*options); });
+}
+
+}  // namespace cli

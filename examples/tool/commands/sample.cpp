@@ -1,0 +1,54 @@
+/// gonio sample: a simulated measurement of a table.
+
+#include "commands.hpp"
+#include "tool/files/measurement_files.hpp"
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/measurements/samples.hpp>
+
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct sample_options {
+  std::filesystem::path table, directions, output;
+  Eigen::Index count = 0;
+  double ratio = 0.0;
+  gonio::measurement_defects defects;
+  std::uint64_t seed = 0;
+};
+
+std::vector<Eigen::Index> chosen_cells(const sample_options& options, const gonio::valid_cells& cells) {
+  if (!options.directions.empty())
+    return gonio::cells_at(cells, gonio::io::read_directions(options.directions, reading_of()));
+  const Eigen::Index count = options.count != 0 ? options.count : gonio::share_of(cells.size(), options.ratio);
+  return gonio::random_cells(cells, count, options.seed);
+}
+
+}  // namespace
+
+void add_sample(command& app) {
+  auto command = app.add_subcommand("sample", "Simulate a measurement: read a table at some of its cells");
+  const auto options = std::make_shared<sample_options>();
+  command.add_input("table", options->table, "Table to measure (.binary or .binary.gz)").required();
+  auto where = command.add_option_group("where", "Where to measure (one of)");
+  where.add_option("--count", options->count, "Number of different cells, at random").check(check::positive_number());
+  where.add_option("--ratio", options->ratio, "Share of all cells, at random, above 0 up to 1")
+      .check(check::positive_number() & check::range(0.0, 1.0));
+  where.add_input("--directions", options->directions, "CSV file of directions; the nearest cells are read");
+  where.require_option(1);
+  command.add_option("--outliers", options->defects.outlier_ratio,
+                     "Share of samples replaced by a random other value of the table");
+  command.add_option("--noise", options->defects.noise, "Standard deviation of Gaussian noise relative to the value");
+  command.add_option("--seed", options->seed, "Seed of everything random").capture_default_str();
+  command.add_output("-o,--output", options->output, {".csv"}, "Samples to write (.csv)").required();
+  command.callback([options] {
+    const gonio::brdf_table table = gonio::io::read_merl_any(options->table);
+    const auto cells = chosen_cells(*options, table.cells());
+    gonio::io::write_samples(options->output, gonio::sample_table(table, cells, options->defects, options->seed));
+  });
+}
+
+}  // namespace cli

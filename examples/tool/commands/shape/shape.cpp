@@ -1,0 +1,49 @@
+/// gonio shape: surfaces that scans show in part, from what many of their kind have in common.
+
+#include "shape.hpp"
+
+#include "tool/commands/commands.hpp"
+#include "tool/pages/fixed.hpp"
+#include <gonio/render/false_colour.hpp>
+#include <gonio/render/image.hpp>
+
+#include <array>
+
+namespace cli {
+
+gonio::image shape_image(const gonio::shape::triangle_mesh& mesh, const Eigen::VectorXd& distances, double largest) {
+  std::vector<gonio::rgb> colours(mesh.vertices.cols(), gonio::rgb::Constant(0.5));
+  for (Eigen::Index v = 0; v < distances.size(); ++v)
+    colours[v] = gonio::render::false_colour(distances[v], {-largest, largest});
+  const auto from = [&](const Eigen::Vector3d& towards) {
+    gonio::shape::mesh_view view = gonio::shape::mesh_view::of(mesh, towards);
+    view.radius = 18.0;  // mm: all ears at one scale
+    view.pixels = 240;
+    return gonio::shape::image_of(mesh, colours, view);
+  };
+  const std::array both{from({0.0, -0.2, -1.0}), from({0.3, -1.0, 0.2})};
+  return gonio::render::side_by_side(both);
+}
+
+gonio::shape::similarity_transform find_pose(const gonio::shape::shape_model& model,
+                                             const gonio::shape::triangle_mesh& scan, gonio::thread_count threads) {
+  const gonio::shape::pre_alignment found = gonio::shape::align_by_shape_context(scan, model.mean(), {}, threads);
+  // What the scan lacks is far from the model, but not the other way round.
+  constexpr double largest = 5.0;
+  if (found.mean_scan_distance > largest)
+    gonio::refuse("the scan matches the model nowhere: it is " + fixed(found.mean_scan_distance, 1) +
+                  " mm away in the mean, expected at most " + fixed(largest, 1));
+  return found.transform;
+}
+
+void add_shape(command& app) {
+  auto shape = app.add_subcommand("shape", "Recover surfaces that scans show in part (docs/learn/shapes.md)");
+  shape.require_subcommand();
+  add_shape_learn(shape);
+  add_shape_recover(shape);
+  add_shape_demo(shape);
+  add_shape_grow(shape);
+  add_shape_see(shape);
+}
+
+}  // namespace cli

@@ -1,0 +1,12 @@
+/// EXIF data where libexif is not: says what it needs.
+
+#include "tool/files/exif_files.hpp"
+#include <gonio/core/error.hpp>
+
+namespace cli {
+
+std::optional<double> read_exif_exposure_time(const std::filesystem::path& path) {
+  gonio::refuse({path.string(), ": this build reads no EXIF data: it needs libexif (libexif-dev)"});
+}
+
+}  // namespace cli

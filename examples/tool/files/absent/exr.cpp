@@ -1,0 +1,22 @@
+/// OpenEXR images where OpenEXR is not: says what it needs.
+
+#include "tool/files/exr_files.hpp"
+#include <gonio/core/error.hpp>
+
+namespace cli {
+
+namespace {
+
+[[noreturn]] void refuse_exr(const std::filesystem::path& path) {
+  gonio::refuse({path.string(), ": this build has no OpenEXR files: it needs OpenEXR (libopenexr-dev)"});
+}
+
+}  // namespace
+
+gonio::image read_exr(const std::filesystem::path& path) { refuse_exr(path); }
+
+std::unique_ptr<image_rows> open_exr(const std::filesystem::path& path) { refuse_exr(path); }
+
+void write_exr(const std::filesystem::path& path, const gonio::image&) { refuse_exr(path); }
+
+}  // namespace cli

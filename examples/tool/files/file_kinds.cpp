@@ -1,0 +1,187 @@
+#include "file_kinds.hpp"
+
+#include "file_start.hpp"
+#include <gonio/core/error.hpp>
+#include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/table_npy.hpp>
+#include <gonio/io/measurements/openmaterial.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/text/text.hpp>
+
+#include <algorithm>
+
+namespace cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace io = gonio::io;
+
+using bytes = std::span<const std::byte>;
+
+[[noreturn]] void refuse_samples(const fs::path& path) {
+  gonio::refuse({path.native(), ": is a whole material, and samples are not one: 'gonio reconstruct' completes them"});
+}
+
+/// Calls `use` with the BRDF of a whole material.
+template <class Use>
+auto with_brdf(const fs::path& path, const file_content& content, Use&& use) {
+  if (std::holds_alternative<gonio::sample_set>(content)) refuse_samples(path);
+  if (const auto* table = std::get_if<gonio::brdf_table>(&content)) return use(*table);
+  if (const auto* material = std::get_if<io::rgl_material>(&content)) return use(material->material);
+  return use(std::get<io::mbsdf_material>(content).reflection);
+}
+
+gonio::brdf_table as_table(const fs::path& path, const file_content& content, gonio::thread_count threads) {
+  if (const auto* table = std::get_if<gonio::brdf_table>(&content)) return *table;
+  return with_brdf(path, content, [&](const auto& f) { return gonio::tabulate(f, gonio::valid_cells(), threads); });
+}
+
+io::rgl_material as_rgl(const fs::path& path, const file_content& content, gonio::thread_count threads) {
+  if (const auto* material = std::get_if<io::rgl_material>(&content)) return *material;
+  return with_brdf(path, content, [&](const auto& f) -> io::rgl_material {
+    return {gonio::model::tabulate_keeping_albedo(f, threads), path.stem().string(), {}};
+  });
+}
+
+/// As many cells as are asked for; else those of difference angles that a table has, or the usual ones.
+gonio::model::polar_grid polar_grid_of(const file_content& content, const writing& how) {
+  if (how.polar_steps != 0) return {how.polar_steps, 2 * how.polar_steps};
+  const auto* table = std::get_if<gonio::brdf_table>(&content);
+  if (table == nullptr) return {};
+  const gonio::grid_extents extents = table->cells().grid().extents();
+  return {std::clamp<Eigen::Index>(extents.theta_d, 2, 360), std::clamp<Eigen::Index>(extents.phi_d, 2, 720)};
+}
+
+io::mbsdf_material as_mbsdf(const fs::path& path, const file_content& content, const writing& how) {
+  const auto* material = std::get_if<io::mbsdf_material>(&content);
+  if (material != nullptr && how.polar_steps == 0) return *material;
+  return with_brdf(path, content, [&](const auto& f) -> io::mbsdf_material {
+    return {gonio::model::tabulate_polar(f, polar_grid_of(content, how), how.threads),
+            {{"name", path.stem().string()}, {"software", "gonio"}, {"values", "BRDF in 1/sr, linear Rec. 709"}}};
+  });
+}
+
+void write_merl(const fs::path& path, const file_content& content, const writing& how) {
+  io::write_merl(path, as_table(path, content, how.threads));
+}
+
+/// Such an array has the values at the cells' centres.
+void write_array(const fs::path& path, const file_content& content, const writing& how) {
+  gonio::brdf_table table = as_table(path, content, how.threads);
+  const gonio::grid& cells = table.cells().grid();
+  if (cells.anchor() != gonio::cell_anchor::centre)
+    table = gonio::resample(table, gonio::valid_cells(gonio::grid(cells.extents())), how.threads);
+  if (how.as_halves)
+    io::write_table_npy_halves(path, table);
+  else
+    io::write_table_npy(path, table);
+}
+
+void write_rgl(const fs::path& path, const file_content& content, const writing& how) {
+  io::rgl_material material = as_rgl(path, content, how.threads);
+  if (how.as_spectra && !material.spectra) material.spectra = io::upsampled_spectra(material.material);
+  io::write_rgl(path, material);
+}
+
+void write_mbsdf(const fs::path& path, const file_content& content, const writing& how) {
+  io::write_mbsdf(path, as_mbsdf(path, content, how));
+}
+
+void write_openmaterial(const fs::path& path, const file_content& content, const writing& how) {
+  io::openmaterial_metadata metadata{.name = path.stem().string(), .description = "Written by gonio."};
+  if (metadata.name.ends_with("_brdf")) metadata.name.resize(metadata.name.size() - 5);
+  io::openmaterial_steps steps;
+  if (how.polar_steps != 0) steps = {how.polar_steps, 2 * how.polar_steps};
+  io::write_openmaterial(path, with_brdf(path, content, [&](const auto& f) {
+                           return io::write_openmaterial(f, metadata, steps, how.threads);
+                         }));
+}
+
+void write_samples(const fs::path& path, const file_content& content, const writing& /*how*/) {
+  const auto* samples = std::get_if<gonio::sample_set>(&content);
+  if (samples == nullptr)
+    gonio::refuse({path.native(), ": holds samples, and a whole material is none: 'gonio sample' takes some of it"});
+  io::write_samples(path, *samples);
+}
+
+bool ends_as(const fs::path& path, const file_kind& kind) {
+  return std::ranges::find(kind.extensions, lower_extension(path)) != kind.extensions.end();
+}
+
+bool begins_as(bytes content, const file_kind& kind) {
+  return !kind.magic.empty() && io::as_text(content).starts_with(kind.magic);
+}
+
+/// "MERL table (.binary, .gz), ..." of those that are written, or of all.
+std::string listed(bool only_written) {
+  std::string all;
+  for (const file_kind& kind : file_kinds()) {
+    if (only_written && kind.write == nullptr) continue;
+    all += (all.empty() ? "" : ", ") + std::string(kind.name) + " (";
+    for (const std::string_view extension : kind.extensions)
+      all += (extension == kind.extensions.front() ? "" : " ") + std::string(extension);
+    all += ")";
+  }
+  return all;
+}
+
+}  // namespace
+
+const std::vector<file_kind>& file_kinds() {
+  static const std::vector<file_kind> kinds{
+      {"RGL material",
+       {".bsdf"},
+       {"tensor_file\0", 12},
+       [](bytes content, const std::string& name) -> file_content { return io::read_rgl(content, name); },
+       &write_rgl},
+      {"MDL measurement",
+       {".mbsdf"},
+       "NVIDIA ARC MBSDF",
+       [](bytes content, const std::string& name) -> file_content { return io::read_mbsdf(content, name); },
+       &write_mbsdf},
+      {"OpenMATERIAL table", {".xompt"}, "", nullptr, &write_openmaterial},
+      {"table as an array",
+       {".npy"},
+       "\x93NUMPY",
+       [](bytes content, const std::string& name) -> file_content { return io::read_table_npy(content, name); },
+       &write_array},
+      {"MERL table, compressed",
+       {".gz"},
+       "\x1f\x8b",
+       [](bytes content, const std::string& name) -> file_content { return io::read_merl_any(content, name); }},
+      {"MERL table",
+       {".binary"},
+       "",
+       [](bytes content, const std::string& name) -> file_content { return io::read_merl(content, name); },
+       &write_merl},
+      {"samples", {".csv"}, "", nullptr, &write_samples},
+  };
+  return kinds;
+}
+
+file_content read_file(const fs::path& path, const measurement_options& reading) {
+  if (holds_measurements(path)) return read_measurements(path, reading);
+  require_unused(reading, path);
+  const std::vector<std::byte> content = io::read_bytes(path);
+  const auto begins = [&](const file_kind& kind) { return begins_as(content, kind); };
+  const auto ends = [&](const file_kind& kind) { return ends_as(path, kind); };
+  const std::vector<file_kind>& kinds = file_kinds();
+  auto found = std::ranges::find_if(kinds, begins);
+  if (found == kinds.end()) found = std::ranges::find_if(kinds, ends);
+  if (found == kinds.end())
+    gonio::refuse({path.native(), ": is of no kind that is known, expected one of: ", listed(false)});
+  return found->parse(content, path.string());
+}
+
+const file_kind& written_kind(const fs::path& path) {
+  for (const file_kind& kind : file_kinds())
+    if (kind.write != nullptr && ends_as(path, kind)) return kind;
+  gonio::refuse({path.native(), ": is of no kind that is written, expected one of: ", listed(true)});
+}
+
+void write_file(const fs::path& path, const file_content& content, const writing& how) {
+  written_kind(path).write(path, content, how);
+}
+
+}  // namespace cli

@@ -1,0 +1,106 @@
+#pragma once
+/// Results as JSON: objects keep the order of their keys. Only json.cpp knows nlohmann's library, which takes seconds
+/// to parse; the text is that of its ordered_json.
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace cli {
+
+/// Null, true or false, a number, a text, an array or an object. Braces make an object of pairs that begin with a text,
+/// and an array of anything else.
+class json {
+ public:
+  using member = std::pair<std::string, json>;
+
+  json() noexcept = default;
+  json(std::nullptr_t) noexcept {}
+  json(bool value) : value_(value) {}
+  json(int value) : value_(std::int64_t{value}) {}
+  json(long value) : value_(std::int64_t{value}) {}
+  json(long long value) : value_(std::int64_t{value}) {}
+  json(unsigned value) : value_(std::uint64_t{value}) {}
+  json(unsigned long value) : value_(std::uint64_t{value}) {}
+  json(unsigned long long value) : value_(std::uint64_t{value}) {}
+  json(double value) : value_(value) {}
+  json(const char* value) : value_(std::string(value)) {}
+  json(std::string_view value) : value_(std::string(value)) {}
+  json(std::string value) : value_(std::move(value)) {}
+  json(std::vector<json> values);
+  json(const std::vector<double>& values);
+  json(const std::vector<std::string>& values);
+  json(std::initializer_list<json> values);
+  template <class T>
+  json(T*) = delete;  // which would be true or false
+
+  json(const json& other);
+  json(json&& other) noexcept;
+  json& operator=(const json& other);
+  json& operator=(json&& other) noexcept;
+  ~json();
+
+  [[nodiscard]] static json array(std::initializer_list<json> values = {});
+  [[nodiscard]] static json object();
+  /// Arrays and objects in one another that `parse` reads, and values in all: what destroys or prints a value recurses.
+  static constexpr std::size_t deepest = 100, most_values = 1 << 18;
+  /// Null where the text is no JSON, or more than these.
+  [[nodiscard]] static json read(const std::string& text);
+
+  [[nodiscard]] bool is_null() const noexcept;
+  [[nodiscard]] bool is_string() const noexcept;
+  [[nodiscard]] bool is_number() const noexcept;
+  [[nodiscard]] bool is_number_integer() const noexcept;
+  [[nodiscard]] bool is_array() const noexcept;
+  [[nodiscard]] bool is_object() const noexcept;
+
+  // What it holds. Of anything else these throw std::logic_error.
+  [[nodiscard]] bool truth() const;
+  [[nodiscard]] double number() const;
+  [[nodiscard]] const std::string& text() const;
+  [[nodiscard]] const std::vector<json>& elements() const;
+  [[nodiscard]] std::vector<json>& elements();
+  [[nodiscard]] const std::vector<member>& items() const;
+  [[nodiscard]] std::vector<member>& items();
+
+  /// Of arrays; null becomes one.
+  void push_back(json value);
+  [[nodiscard]] const json& operator[](std::size_t index) const;
+  [[nodiscard]] json& operator[](std::size_t index);
+
+  /// Of objects; null becomes one, and a key that is not there is added. The other throws std::logic_error.
+  [[nodiscard]] json& operator[](const std::string& key);
+  [[nodiscard]] const json& operator[](const std::string& key) const;
+  [[nodiscard]] bool contains(const std::string& key) const;
+  /// Takes over all members of another object.
+  void update(const json& other);
+
+  /// Elements of an array, members of an object.
+  [[nodiscard]] std::size_t size() const noexcept;
+  [[nodiscard]] bool empty() const noexcept { return size() == 0; }
+
+  /// On one line, or indented. Bytes that are no UTF-8 are replaced.
+  [[nodiscard]] std::string dump(int indent = -1) const;
+
+  /// Numbers of any kind are compared by their values.
+  friend bool operator==(const json& one, const json& other);
+
+ private:
+  friend struct json_text;
+
+  [[nodiscard]] const json* find(const std::string& key) const;
+
+  std::variant<std::nullptr_t, bool, std::int64_t, std::uint64_t, double, std::string, std::vector<json>,
+               std::vector<member>>
+      value_;
+};
+
+std::ostream& operator<<(std::ostream& stream, const json& value);
+
+}  // namespace cli

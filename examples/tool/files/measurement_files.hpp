@@ -1,0 +1,71 @@
+#pragma once
+/// Files whose format is told from their name or their beginning, and the options of how measurements are read.
+
+#include "json.hpp"
+#include "tool/options/command.hpp"
+#include <gonio/core/spectrum.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/measurements/spectral_samples.hpp>
+#include <gonio/table/brdf_table.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+/// What a user says of a file that does not say it itself.
+struct measurement_options {
+  std::string quantity;                         ///< a name of `gonio::io::sample_quantity`; empty if it is not stated
+  std::vector<std::string> columns;             ///< lists like "theta_o=Winkel,g=Y"
+  std::optional<gonio::illuminant> light = {};  ///< under which spectra become colours; none: D65
+
+  [[nodiscard]] bool empty() const noexcept { return quantity.empty() && columns.empty(); }
+};
+
+/// Adds `--quantity` and `--columns`, for every subcommand that reads measurements.
+void add_measurement_options(command& to, measurement_options& options);
+
+/// How a file is read by these options, what is ignored or assumed being told as warnings on standard error.
+[[nodiscard]] gonio::io::sample_reading reading_of(const measurement_options& options = {});
+
+/// Do name or beginning say that the file holds measurements?
+[[nodiscard]] bool holds_measurements(const std::filesystem::path& path);
+
+/// Refuses these options for a file that holds no measurements.
+void require_unused(const measurement_options& options, const std::filesystem::path& path);
+
+/// Measurements: samples as CSV, or in a format of the field that is recognised (measurement_kinds.hpp), which takes no
+/// options. What is ignored, assumed or implausible is told as a warning on standard error.
+[[nodiscard]] gonio::io::sample_file read_measurement_file(const std::filesystem::path& path,
+                                                           const measurement_options& options = {});
+
+/// The same with all wavelengths: CSV whose columns are called by them, or that has a single one, or Cornell's format.
+/// Throws gonio::error for a file of colours.
+[[nodiscard]] gonio::io::spectral_sample_file read_spectra_file(const std::filesystem::path& path,
+                                                                const measurement_options& options = {});
+
+/// Spectra as colours, and what their file says of them.
+[[nodiscard]] gonio::io::sample_file as_colours(const std::filesystem::path& path,
+                                                const gonio::io::spectral_sample_file& file, gonio::illuminant light);
+
+/// Warns of numbers that look like something else than they are read as (`doubts_of`).
+void tell_doubts(const std::filesystem::path& path, const gonio::io::sample_file& file);
+
+/// Does a file have several wavelengths, and no illuminant make colours of them?
+[[nodiscard]] bool names_wavelengths(const std::filesystem::path& path, const measurement_options& options = {});
+
+/// The same without what the file says of them.
+[[nodiscard]] gonio::sample_set read_measurements(const std::filesystem::path& path,
+                                                  const measurement_options& options = {});
+
+/// What a file says of its measurements, for --json: quantity, wavelength_nm, instrument, date and conditions, those
+/// that it states.
+[[nodiscard]] json facts_of(const gonio::io::sample_file& file);
+
+/// Writes a table in the format that the name asks for: see `written_kind`.
+void write_table(const std::filesystem::path& path, const gonio::brdf_table& table);
+
+}  // namespace cli

@@ -1,0 +1,47 @@
+#include "measurement_kinds.hpp"
+
+#include "file_start.hpp"
+#include <gonio/io/measurements/astm_e1392.hpp>
+#include <gonio/io/measurements/bird.hpp>
+#include <gonio/io/measurements/cornell.hpp>
+#include <gonio/io/measurements/openmaterial.hpp>
+#include <gonio/io/measurements/ssdd.hpp>
+#include <gonio/io/measurements/zemax_bsdf.hpp>
+
+#include <array>
+
+namespace cli {
+
+namespace {
+
+constexpr std::array<measurement_kind, 6> kinds{{
+    {"Zemax BSDF", [](std::string_view, std::string_view start) { return gonio::io::looks_like_zemax_bsdf(start); },
+     gonio::io::read_zemax_bsdf},
+    {"SSDD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_ssdd(start); },
+     gonio::io::read_ssdd, gonio::io::read_ssdd_spectra},
+    {"ASTM E1392",
+     [](std::string_view extension, std::string_view start) {
+       return extension == ".astm" || gonio::io::looks_like_astm_e1392(start);
+     },
+     gonio::io::read_astm_e1392, gonio::io::read_astm_e1392_spectra},
+    {"OpenMATERIAL",
+     [](std::string_view extension, std::string_view start) {
+       return extension == ".xompt" || gonio::io::looks_like_openmaterial(start);
+     },
+     gonio::io::read_openmaterial, gonio::io::read_openmaterial_spectra},
+    {"BiRD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_bird(start); },
+     gonio::io::read_bird, gonio::io::read_bird_spectra},
+    {"spectral samples of Cornell", [](std::string_view extension, std::string_view) { return extension == ".brdf"; },
+     gonio::io::read_cornell, gonio::io::read_cornell_spectra},
+}};
+
+}  // namespace
+
+const measurement_kind* measurement_kind_of(const std::filesystem::path& path) {
+  const std::string start = file_start(path), extension = lower_extension(path);
+  for (const measurement_kind& kind : kinds)
+    if (kind.recognises(extension, start)) return &kind;
+  return nullptr;
+}
+
+}  // namespace cli

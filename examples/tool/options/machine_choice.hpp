@@ -1,0 +1,50 @@
+#pragma once
+/// Which machine of the simulated laboratory measures.
+
+#include "command.hpp"
+#include "lab/gantry.hpp"
+#include "lab/robot.hpp"
+#include "tool/pages/fixed.hpp"
+
+#include <string>
+
+namespace cli {
+
+/// Which machine stands in the laboratory.
+struct machine_choice {
+  std::string name = "gantry";
+  double tolerance = 0.5;  ///< degrees by which one may miss the robot's nearest lamp
+};
+
+/// Adds `--machine` and `--lamp-tolerance`.
+inline void add_machine_options(command& to, machine_choice& machine) {
+  to.add_option("--machine", machine.name,
+                "gantry: two arms, for lamp and camera; robot: a camera under an arc of lamps every 7.5 degrees")
+      .check(check::one_of({"gantry", "robot"}))
+      .capture_default_str();
+  to.add_option("--lamp-tolerance", machine.tolerance,
+                "Degrees from a direction within which robot takes its nearest lamp instead")
+      .check(check::range(0.0, 90.0))
+      .capture_default_str();
+}
+
+/// Calls `use(machine)` with the machine in a room.
+template <class Use>
+auto with_machine(const machine_choice& choice, lab::dark_room& room, Use&& use) {
+  if (choice.name == "robot") {
+    lab::robot machine(room, gonio::radians(choice.tolerance));
+    return use(machine);
+  }
+  lab::gantry machine(room);
+  return use(machine);
+}
+
+/// Pairs of directions as lines for people, counted from 1.
+[[nodiscard]] inline std::string in_degrees(const gonio::direction_pair& pair) {
+  const auto angles = [](const gonio::direction& w) {
+    return fixed(gonio::degrees(gonio::polar_angle(w)), 1) + ", " + fixed(gonio::degrees(gonio::azimuth(w)), 1);
+  };
+  return "light at " + angles(pair.wi) + ", viewer at " + angles(pair.wo);
+}
+
+}  // namespace cli

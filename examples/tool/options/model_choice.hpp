@@ -1,0 +1,48 @@
+#pragma once
+/// Analytic models as options name them, and how they are printed.
+
+#include "command.hpp"
+#include "tool/files/json.hpp"
+#include "tool/pages/measures_as_json.hpp"
+#include <gonio/model/fit_model.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+/// A model, and what is compared to fit it. The defaults are those that are nearest on measured materials:
+/// docs/results/models.md.
+struct model_choice {
+  std::string model = "ggx", metric = "log";
+  bool fresnel = false;
+  gonio::model::model_fit_options fit{.norm = gonio::model::fit_norm::huber, .cosine_weighted = true};
+};
+
+/// The lobes of `ggx` (beside a Lambertian one), or of `sum:ggx+ward` (as they stand). Throws gonio::error.
+[[nodiscard]] std::vector<const gonio::model::lobe_kind*> lobes_named(const std::string& model);
+
+/// A kind with Fresnel's factor: phong becomes phong-fresnel. Throws gonio::error for a kind that has none.
+[[nodiscard]] const gonio::model::lobe_kind& with_fresnel_factor(const gonio::model::lobe_kind& kind);
+
+/// Adds `--loss`, `--cosine-weighted`, `--starts` and `--seed`.
+void add_fit_options(command& to, gonio::model::model_fit_options& options);
+
+/// Adds `--cell-weights`.
+void add_cell_weights_option(command& to, gonio::model::cell_weighting& weighting);
+
+/// Fits by one of the metrics lin, log and cubic.
+[[nodiscard]] gonio::model::model_fit fit_by_metric(const std::string& metric,
+                                                    const std::vector<const gonio::model::lobe_kind*>& kinds,
+                                                    std::span<const gonio::model::fit_observation> observations,
+                                                    const gonio::model::model_fit_options& options);
+
+/// Fits the model that is chosen. Throws gonio::error where `lobes_named` or `with_fresnel_factor` does.
+[[nodiscard]] gonio::model::model_fit fit_chosen(const model_choice& choice,
+                                                 std::span<const gonio::model::fit_observation> observations);
+
+/// The lobes with their colours and parameters.
+[[nodiscard]] json to_json(const gonio::model::analytic_brdf& model);
+
+}  // namespace cli

@@ -1,0 +1,117 @@
+#include "reconstruct_choice.hpp"
+
+#include "tool/files/measurement_files.hpp"
+#include "tool/pages/method_record.hpp"
+#include "tool/pages/sample_warnings.hpp"
+#include <gonio/core/finite.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+namespace cli {
+
+namespace {
+
+const reconstruct_method& method_named(const std::string& name) {
+  const auto& all = reconstruct_methods();
+  const auto found = std::ranges::find(all, name, [](const reconstruct_method& m) { return std::string_view(m.name); });
+  if (found != all.end()) return *found;
+  std::string names;
+  for (const reconstruct_method& m : all) names += (names.empty() ? "" : ", ") + std::string(m.name);
+  gonio::refuse("there is no method '" + name + "': expected one of " + names);
+}
+
+/// Samples may be such that what they are completed to is no number; it is they that are to blame, not the output.
+void require_finite(const gonio::brdf_table& table, const gonio::sample_set& samples,
+                    const reconstruct_options& options) {
+  if (gonio::all_finite(table.values())) return;
+  double largest = 0.0;
+  for (const gonio::sample& s : samples) largest = std::max(largest, s.value.abs().maxCoeff());
+  std::ostringstream value;
+  value << largest;
+  const std::string file = options.samples.empty() ? "" : options.samples.native() + ": ";
+  gonio::refuse({file, "these samples, of up to ", value.str(),
+                 " sr^-1, complete to a table that is not finite by the method ", options.method});
+}
+
+/// What is told of every fit, which is refused if it is not finite.
+reconstruction with_warnings(reconstruction result, const reconstruct_options& options,
+                             const gonio::sample_set& samples) {
+  std::ranges::move(warnings_of(samples, options.noise.value_or(0.0)), std::back_inserter(result.warnings));
+  if (std::string sentence = warning_of(options.method, std::ssize(gonio::counting_positions(samples)));
+      !sentence.empty())
+    result.warnings.push_back(std::move(sentence));
+  require_finite(result.table, samples, options);
+  return result;
+}
+
+}  // namespace
+
+const std::vector<reconstruct_method>& reconstruct_methods() {
+  static const std::vector<reconstruct_method> all{
+      {"pca",
+       "principal components (Nielsen et al. 2015)",
+       reconstruct_by_components,
+       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--noise",
+        "--lambda", "--variance", "--misplaced", "--discrepancy", "--no-reject", "--residuals", "--uncertainty",
+        "--uncertainty-image", "--report"}},  // refuses some of them itself, and says why
+      {"soft-specular",
+       "the components of soft or those of specular materials, whichever the contrast of the samples' highlight "
+       "chooses, from a prior of gonio learn --split, with a penalty --eta of 40 shared out by their numbers (Nielsen "
+       "et al. 2015, section 8)",
+       reconstruct_by_soft_or_specular,
+       {"--prior", "--eta"}},
+      {"linear",
+       "a combination of the materials themselves (Noell et al. 2014)",
+       reconstruct_by_materials,
+       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--lambda",
+        "--variance"}},
+      {"correction",
+       "such a combination, corrected again and again (Noell et al. 2014), from 2000 samples on, or if an option of "
+       "its "
+       "own is given; else what pca does",
+       reconstruct_by_corrections,
+       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--gamma", "--as-printed", "--iterations",
+        "--history", "--iteration-figure", "--truth", "--seed"}},
+      {"rbf",
+       "radial basis functions (a rival of Noell et al. 2014)",
+       reconstruct_by_radial_functions,
+       {"--prior", "--metric", "--root", "--seed"}},
+      {"pull-push", "interpolation (Gortler et al. 1996, the other rival)", reconstruct_by_pull_push, {}},
+      {"scattered",
+       "a mean of the nearest samples (Shepard 1968), from which nothing else is known: no prior",
+       reconstruct_by_neighbours,
+       {"--neighbours"}}};
+  return all;
+}
+
+void take_given(reconstruct_options& options, const std::function<bool(const std::string&)>& is_given) {
+  const reconstruct_method& chosen = method_named(options.method);
+  const auto takes = [](const reconstruct_method& m, std::string_view option) {
+    return std::ranges::count(m.takes, option) > 0;
+  };
+  for (const reconstruct_method& other : reconstruct_methods())
+    for (const std::string_view option : other.takes) {
+      if (!is_given(std::string(option)) || takes(chosen, option)) continue;
+      std::string names;
+      for (const reconstruct_method& m : reconstruct_methods())
+        if (takes(m, option)) names += (names.empty() ? "" : " or ") + std::string(m.name);
+      gonio::refuse(std::string(option) + " needs --method " + names + ", not --method " + chosen.name);
+    }
+  options.has_own_options = std::ranges::any_of(chosen.takes, [&](std::string_view option) {
+    return option != "--prior" && option != "--seed" && is_given(std::string(option));
+  });
+}
+
+reconstruction reconstruct(const reconstruct_options& options, const gonio::sample_set& samples) {
+  return with_warnings(method_named(options.method).reconstruct(options, samples), options, samples);
+}
+
+reconstruction reconstruct(const reconstruct_options& options, const gonio::spectral_samples& spectra) {
+  const gonio::sample_set colours = spectra.in_three_channels(options.reading.light.value_or(gonio::illuminant::d65));
+  return with_warnings(reconstruct_each_wavelength(options, spectra, colours), options, colours);
+}
+
+}  // namespace cli

@@ -1,0 +1,148 @@
+/// gonio reconstruct --method pca: what the library's `reconstruction` finds, told to people.
+
+#include "reconstruct_methods.hpp"
+#include "tool/files/measurement_files.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/measures_as_json.hpp"
+#include <gonio/estimate/reconstruction.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/measurements/sample_provenance.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <span>
+#include <utility>
+
+namespace cli {
+
+namespace {
+
+/// Of the green channel, which has most of the luminance: "sample 6 disagrees, left out: measured 2.09, the others say
+/// 0.140 (0.110 to 0.170)".
+std::string told(const gonio::outlying_sample& out, const char* what_is_done) {
+  const double low = out.predicted.y() * std::exp(-out.deviation), high = out.predicted.y() * std::exp(out.deviation);
+  return "sample " + std::to_string(out.number + 1) + " disagrees, " + what_is_done + ": measured " +
+         reflectance(out.measured.y()) + ", the others say " + reflectance(out.predicted.y()) + " (" +
+         reflectance(low) + " to " + reflectance(high) + ", green)";
+}
+
+/// docs/reference/formats.md has the columns.
+void write_residuals(const reconstruct_options& options, const std::vector<gonio::sample_residual>& residuals) {
+  std::string text = gonio::io::comment_lines(options.provenance);
+  text += "sample,r,g,b,others_r,others_g,others_b,relative_deviation,disagreement,left_out\n";
+  for (const gonio::sample_residual& each : residuals) {
+    text += std::to_string(each.number + 1);
+    const auto append = [&](double value) {
+      std::array<char, 40> digits{};
+      std::snprintf(digits.data(), digits.size(), ",%.6g", value);
+      text += digits.data();
+    };
+    for (const double value : each.measured) append(value);
+    for (const double value : each.predicted) append(value);
+    append(each.relative_deviation);
+    append(each.disagreement);
+    text += each.rejected ? ",1\n" : ",0\n";
+  }
+  gonio::io::write_atomically(options.residuals, std::as_bytes(std::span(text)));
+}
+
+/// "half of all directions are known to 6 %, half of those beyond 80 degrees to 40 %".
+void describe(const gonio::certainty& known, reconstruction& result) {
+  // A highlight that may be four times too bright or too dark is no result.
+  const double factor = known.highlight_factor;
+  result.details["highlight_known_to_factor"] = factor;
+  if (factor > 4.0)
+    result.warnings.push_back("the highlight is known to a factor of " + fixed(factor, factor < 10.0 ? 1 : 0) +
+                              " only: measure more directions whose half vector is within 5 degrees of the normal");
+  result.details["known_to"] = known.known_to;
+  result.details["known_to_beyond_80_degrees"] = known.known_to_at_grazing;
+  result.sentence += "; half of all directions are known to " + fixed(100.0 * known.known_to, 0) +
+                     " %, half of those beyond 80 degrees to " + fixed(100.0 * known.known_to_at_grazing, 0) + " %";
+}
+
+/// The relative deviation in all directions as a table, the same in all channels.
+template <class Paint>
+gonio::brdf_table uncertainty_table(const Paint& paint, gonio::thread_count threads) {
+  gonio::brdf_table coarse(gonio::valid_cells(gonio::grid({30, 15, 18})));
+  const std::vector<double> all = paint.deviations(coarse.cells());
+  for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell)
+    coarse.set(cell, gonio::rgb::Constant(paint.known_to(all[cell])));
+  return gonio::resample(coarse, gonio::valid_cells(), threads);
+}
+
+/// Which samples were rejected; `samples` count.
+template <class Paint>
+void describe_rejected(const Paint& paint, Eigen::Index samples, reconstruction& result) {
+  if (samples >= gonio::fewest_weighed) {
+    result.details["outliers"] = paint.outlier_share();
+    result.details["down_weighted"] = static_cast<double>(paint.rejected().size()) / static_cast<double>(samples);
+    result.sentence += ", about " + fixed(100.0 * paint.outlier_share(), 1) + " % outliers";
+    return;
+  }
+  const bool rejects = samples >= gonio::fewest_rejected;
+  json contradicted = json::array();
+  for (const gonio::outlying_sample& out : paint.contradicted()) {
+    result.warnings.push_back(told(out, rejects ? "left out" : "kept beside so few"));
+    contradicted.push_back({{"sample", out.number + 1},
+                            {"measured", per_channel(out.measured)},
+                            {"others", per_channel(out.predicted)},
+                            {"mapped_deviation", out.deviation},
+                            {"probability_wrong", out.probability}});
+  }
+  result.details[rejects ? "left_out" : "disagreeing"] = contradicted;
+}
+
+/// Says all of a reconstruction that does not depend on whether colours or wavelengths were fitted.
+template <class Paint>
+reconstruction described(reconstruction result, const Paint& paint, Eigen::Index samples,
+                         const reconstruct_options& options) {
+  if (!options.residuals.empty() || (options.tells_residuals() && samples <= most_residuals))
+    result.residuals = paint.residuals();
+  if (!options.residuals.empty()) write_residuals(options, result.residuals);
+  result.rejected = paint.rejected();
+  result.details["discrepancy"] = options.discrepancy;
+  if (!options.keeps_all) describe_rejected(paint, samples, result);
+  describe(paint.certainty(), result);
+  if (options.wants_uncertainty()) result.uncertainty = uncertainty_table(paint, options.threads);
+  return result;
+}
+
+gonio::reconstruction<gonio::log_relative> estimator_of(const reconstruct_options& options,
+                                                        const gonio::log_relative_pca& prior, Eigen::Index samples) {
+  if (!options.residuals.empty() && samples > most_residuals)
+    gonio::refuse("--residuals needs at most " + std::to_string(most_residuals) + " samples, not " +
+                  std::to_string(samples));
+  const gonio::reconstruction estimator{
+      prior, {.variance = options.discrepancy, .noise = options.noise.value_or(0.0)}, options.threads};
+  return options.keeps_all ? estimator.keeping_all() : estimator;
+}
+
+}  // namespace
+
+reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, const gonio::log_relative_pca& prior,
+                                            const gonio::sample_set& samples) {
+  const Eigen::Index count = std::ssize(gonio::counting_positions(samples));
+  const auto paint = estimator_of(options, prior, count).fit(samples);
+  reconstruction result{paint.tabulate(gonio::valid_cells())};
+  const gonio::solve_report& report = *paint.fit().report();
+  const gonio::rgb residual = report.residual.array() / std::sqrt(static_cast<double>(paint.kept()));
+  result.details = {{"mapped_residual_rms", per_channel(residual)},
+                    {"kkt_residual", per_channel(report.kkt_residual.array())}};
+  result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
+                    ' ' + fixed(residual.z(), 3);
+  return described(std::move(result), paint, count, options);
+}
+
+reconstruction reconstruct_spectra_with_discrepancy(const reconstruct_options& options,
+                                                    const gonio::log_relative_pca& prior,
+                                                    const gonio::spectral_samples& spectra) {
+  const gonio::illuminant light = options.reading.light.value_or(gonio::illuminant::d65);
+  const Eigen::Index count = std::ssize(gonio::counting_positions(spectra.in_three_channels(light)));
+  const auto paint = estimator_of(options, prior, count).fit(spectra, light);
+  reconstruction result = described_spectra(paint.tabulate(gonio::valid_cells()), options);
+  describe_residuals(paint.fit().report(), paint.kept(), result);
+  return described(std::move(result), paint, count, options);
+}
+
+}  // namespace cli

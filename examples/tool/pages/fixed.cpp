@@ -1,0 +1,19 @@
+#include "fixed.hpp"
+
+#include "tool/files/json.hpp"
+
+#include <cstdio>
+
+namespace cli {
+
+std::string fixed(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+std::string fixed(const json& value, int digits) { return fixed(value.number(), digits); }
+
+std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
+
+}  // namespace cli

@@ -1,0 +1,141 @@
+#include "report_page.hpp"
+
+#include "report_parts.hpp"
+#include <gonio/io/bytes/file.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+namespace cli {
+
+namespace {
+
+/// Every `from` of a text becomes `to`.
+std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
+  std::string result;
+  std::size_t position = 0;
+  while (true) {
+    const std::size_t found = text.find(from, position);
+    result.append(text.substr(position, found - position));
+    if (found == std::string_view::npos) return result;
+    result.append(to);
+    position = found + from.size();
+  }
+}
+
+/// A command line as a shell takes it.
+std::string as_typed(const std::vector<std::string>& words) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=,:+@%";
+  std::string line = "gonio";
+  for (const std::string& word : std::span(words).subspan(std::min<std::size_t>(1, words.size()))) {
+    line += ' ';
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
+std::string joined(std::span<const std::string_view> pieces) {
+  std::string all;
+  for (const std::string_view piece : pieces) all.append(piece);
+  return all;
+}
+
+}  // namespace
+
+std::string escape_html(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&#39;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+std::string escape_script(std::string_view json_text) {
+  return replaced(replaced(json_text, "</", "<\\/"), "<!", "\\u003c!");
+}
+
+std::string base64(std::span<const std::byte> bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = bytes.size() - i < 3 ? bytes.size() - i : 3;
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = (group << 8) | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[(group >> (18 - 6 * k)) & 63U] : '=';
+  }
+  return text;
+}
+
+std::string data_url(std::string_view media_type, std::span<const std::byte> bytes) {
+  return std::string("data:").append(media_type).append(";base64,").append(base64(bytes));
+}
+
+std::string report_page(const std::string& title, const json& data) {
+  // What is put in is not searched for further marks.
+  const std::pair<std::string_view, std::string> parts[] = {{"@TITLE@", escape_html(title)},
+                                                            {"@STYLE@", joined(report_style())},
+                                                            {"@DATA@", escape_script(data.dump())},
+                                                            {"@BUNDLE@", joined(report_bundle())},
+                                                            {"@SCRIPT@", joined(report_script())}};
+  const std::string form = joined(report_form());
+  std::string page;
+  std::size_t position = 0;
+  for (const auto& [mark, text] : parts) {
+    const std::size_t found = form.find(mark, position);
+    if (found == std::string::npos) throw std::logic_error("examples/report/page.html lacks a mark");
+    page.append(form, position, found - position).append(text);
+    position = found + mark.size();
+  }
+  return page.append(form, position);
+}
+
+void add_report_option(command& to, page_option& page, const std::vector<std::string>& command_line) {
+  to.add_output("--report", page.path, {".html"},
+                "Page for people to write (.html): one file, which a browser shows without a network");
+  page.command_line = command_line;
+}
+
+json record_of(std::initializer_list<std::pair<const char*, std::string>> pairs) {
+  json record = json::array();
+  for (const auto& [name, text] : pairs)
+    if (!text.empty()) record.push_back(json::array({name, text}));
+  return record;
+}
+
+void write_report_page(const page_option& page, json data) {
+  json record = record_of({{"Command", as_typed(page.command_line)}, {"Version", "gonio " GONIO_VERSION}});
+  for (const json& pair : data["record"].elements()) record.push_back(pair);
+  data["record"] = std::move(record);
+  const std::string text = report_page(data["name"].text(), data);
+  gonio::io::write_atomically(page.path, std::as_bytes(std::span(text)));
+}
+
+}  // namespace cli

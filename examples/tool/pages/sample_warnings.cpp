@@ -1,0 +1,174 @@
+#include "sample_warnings.hpp"
+
+#include "fixed.hpp"
+#include <gonio/core/statistics.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+
+namespace cli {
+
+namespace {
+
+/// Samples of the same half and difference angles, to a thousandth of a degree.
+using repeats = std::map<std::array<std::int64_t, 3>, std::vector<Eigen::Index>>;
+
+repeats grouped(const gonio::sample_set& samples) {
+  repeats groups;
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
+    if (!samples[i].weight.counts()) continue;
+    const gonio::half_difference angles = samples[i].angles();
+    const auto rounded = [](double angle) { return std::llround(1e3 * gonio::degrees(angle)); };
+    groups[{rounded(angles.theta_h), rounded(angles.theta_d), rounded(angles.phi_d)}].push_back(i);
+  }
+  return groups;
+}
+
+/// The two samples whose green values are furthest apart, of the group in which these differ by the largest factor.
+std::string contradiction(const gonio::sample_set& samples, double noise) {
+  const auto green = [&](Eigen::Index i) { return samples[i].value.y(); };
+  double largest = 1.5 * (1.0 + 6.0 * noise);
+  std::string sentence;
+  for (const auto& [angles, numbers] : grouped(samples)) {
+    const auto [low, high] = std::ranges::minmax(numbers, {}, green);
+    if (!(green(low) > 0.0) || !(green(high) > largest * green(low))) continue;
+    largest = green(high) / green(low);
+    const auto [first, second] = std::minmax(low, high);
+    sentence = "samples " + std::to_string(first + 1) + " and " + std::to_string(second + 1) +
+               " have the same directions, but the values " + fixed(green(first), 3) + " and " +
+               fixed(green(second), 3) + " (green)";
+  }
+  return sentence;
+}
+
+bool all_equal(const gonio::sample_set& samples) {
+  return std::ranges::all_of(samples,
+                             [&](const gonio::sample& s) { return (s.value == samples.begin()->value).all(); });
+}
+
+/// Light, viewer and normal of each sample are in one plane, to half a degree.
+bool all_in_plane(const gonio::sample_set& samples) {
+  const double tolerance = std::sin(gonio::radians(0.5));
+  return std::ranges::all_of(samples, [&](const gonio::sample& s) {
+    const gonio::direction_pair pair = s.directions.pair();
+    return std::abs(pair.wi.x() * pair.wo.y() - pair.wi.y() * pair.wo.x()) < tolerance;
+  });
+}
+
+constexpr std::size_t fewest = 3;
+
+/// In radians no polar angle is above 1.6, and the sum of theta_h and theta_d is not above 3.2.
+bool looks_like_radians(const gonio::sample_set& samples) {
+  if (samples.size() < fewest) return false;
+  const double nearest = std::cos(gonio::radians(3.2));
+  const auto is_near = [&](const gonio::sample& s) {
+    return std::min(s.directions.pair().wi.z(), s.directions.pair().wo.z()) > nearest;
+  };
+  const auto is_along_normal = [](const gonio::sample& s) {
+    return std::min(s.directions.pair().wi.z(), s.directions.pair().wo.z()) >= 1.0;
+  };
+  return std::ranges::all_of(samples, is_near) && !std::ranges::all_of(samples, is_along_normal);
+}
+
+/// A sample away from the highlight: the mean of its channels, and the cosine of the viewer's angle.
+struct dull_reading {
+  double value, cosine;
+};
+
+std::vector<dull_reading> dull_readings(const gonio::sample_set& samples) {
+  std::vector<dull_reading> readings;
+  for (const gonio::sample& s : samples)
+    if (s.angles().theta_h > gonio::radians(30.0)) readings.push_back({s.value.mean(), s.directions.pair().wo.z()});
+  return readings;
+}
+
+/// Do the values fall like the cosine, in logarithms a line of slope 1?
+bool fall_like_cosine(const std::vector<dull_reading>& readings) {
+  constexpr std::size_t enough = 8;
+  if (readings.size() < enough) return false;
+  Eigen::ArrayXd x(std::ssize(readings)), y(std::ssize(readings));
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (!(readings[i].value > 0.0)) return false;
+    x[i] = std::log(readings[i].cosine);
+    y[i] = std::log(readings[i].value);
+  }
+  // The cosine must change by a factor of 2 for a slope to be one.
+  if (x.maxCoeff() - x.minCoeff() < std::log(2.0)) return false;
+  x -= x.mean();
+  y -= y.mean();
+  const double products = (x * y).sum(), slope = products / x.square().sum();
+  const double correlation = products / std::sqrt(x.square().sum() * y.square().sum());
+  return std::abs(slope - 1.0) < 0.3 && correlation > 0.9;
+}
+
+/// What half of the samples away from the highlight reflect at least, relative to a white diffuser; 0 of few samples.
+double typical_reflectance_factor(const std::vector<dull_reading>& readings) {
+  constexpr std::size_t enough = 5;
+  if (readings.size() < enough) return 0.0;
+  std::vector<double> values;
+  for (const dull_reading& each : readings) values.push_back(each.value);
+  return std::numbers::pi * gonio::upper_median(values);
+}
+
+/// Values of white may be a little above 1: noise, and a reference that is not quite white.
+constexpr double brightest = 1.05;
+
+/// What values are that cannot be what they are read as; empty if they can.
+std::string likely_quantity(double reflectance_factor, gonio::io::sample_quantity read_as) {
+  using gonio::io::sample_quantity;
+  if (!(reflectance_factor > brightest) || read_as == sample_quantity::percent) return "";
+  if (read_as == sample_quantity::reflectance_factor) return reflectance_factor <= 100.0 * brightest ? "percent" : "";
+  const double value = reflectance_factor / std::numbers::pi;
+  if (value <= brightest) return "reflectance factors (--quantity reflectance-factor)";
+  return value <= 100.0 * brightest ? "percent (--quantity percent)" : "";
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_of(const gonio::io::sample_file& file) {
+  std::vector<std::string> sentences;
+  if (looks_like_radians(file.samples))
+    sentences.emplace_back(
+        "light and viewer of all samples are within 3.2 degrees of the normal: are the angles radians? They are read "
+        "as degrees; columns like 'theta_i [rad]' are not");
+  const auto read_as = file.quantity.value_or(gonio::io::sample_quantity::brdf);
+  const std::vector<dull_reading> readings = dull_readings(file.samples);
+  const double reflectance_factor = typical_reflectance_factor(readings);
+  if (const std::string likely = likely_quantity(reflectance_factor, read_as); !likely.empty())
+    sentences.push_back("away from highlights half of the samples reflect more than " + fixed(reflectance_factor, 1) +
+                        " times what a white diffuser does: are the values " + likely + "?");
+  if (read_as != gonio::io::sample_quantity::brdf_cosine && fall_like_cosine(readings))
+    sentences.emplace_back(
+        "away from highlights the values fall like the cosine of the viewer's angle: do they contain it (--quantity "
+        "brdf-cosine)?");
+  return sentences;
+}
+
+std::vector<std::string> warnings_of(const gonio::sample_set& samples, double noise) {
+  std::vector<std::string> sentences;
+  if (noise > 0.5)
+    sentences.push_back("noise of " + fixed(100.0 * noise, 0) + " % leaves little of the values: is it " +
+                        fixed(noise, 2) + " %, that is --noise " + fixed(noise / 100.0, 4) + "?");
+  if (std::string sentence = contradiction(samples, noise); !sentence.empty()) sentences.push_back(std::move(sentence));
+  if (samples.size() < fewest) return sentences;
+  if (all_equal(samples)) sentences.emplace_back("all samples have the same value");
+  if (all_in_plane(samples))
+    sentences.emplace_back(
+        "all samples are in the plane of incidence: what is outside it follows from other materials alone "
+        "(gonio design --given says which directions help most)");
+  return sentences;
+}
+
+Eigen::Index repeated_samples(const gonio::sample_set& samples) {
+  Eigen::Index repeats = 0;
+  for (const auto& [angles, numbers] : grouped(samples)) repeats += std::ssize(numbers) - 1;
+  return repeats;
+}
+
+}  // namespace cli

@@ -1,0 +1,299 @@
+#pragma once
+/// Bodies of conformity/conformity.hpp.
+
+#include <gonio/conformity/conformity.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/probability.hpp>
+#include <gonio/solve/cholesky.hpp>
+#include <gonio/solve/product.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE void require_possible(const conformity_options& options) {
+  for (const measurement_noise& noise : {options.part, options.reference})
+    if (!(noise.relative >= 0.0 && noise.relative <= 0.3) || !(noise.dark >= 0.0 && std::isfinite(noise.dark)))
+      refuse({"noise must be from 0 to 0.3 relative to a value, and finite and not negative beside it, not ",
+              noise.relative, " and ", noise.dark});
+  if (options.part.relative == 0.0 && options.part.dark == 0.0)
+    refuse("a part is compared by the noise of its measurement, which must be above 0");
+  if (!(options.part.degrees_of_freedom > 0.0) || !(options.reference.degrees_of_freedom > 0.0))
+    refuse("noise that is estimated needs degrees of freedom above 0");
+  if (!(options.tolerance >= 0.0 && std::isfinite(options.tolerance)))
+    refuse({"a tolerance must be finite and not negative, not ", options.tolerance});
+  if (!(options.same_direction >= 0.0 && options.same_direction <= 0.1))
+    refuse({"directions are the same within 0 to 0.1 radians, not ", options.same_direction});
+}
+
+GONIO_INLINE Eigen::Index distinct_channels(const Eigen::MatrixXd& values) {
+  for (Eigen::Index c = 1; c < values.cols(); ++c)
+    if (values.col(c) != values.col(0)) return values.cols();
+  return std::min<Eigen::Index>(values.cols(), 1);
+}
+
+GONIO_INLINE located_samples both_of(const located_samples& part, const located_samples& reference) {
+  constexpr Eigen::Index most_of_part = 500, most = 2000, most_values = 3000;
+  const Eigen::Index n = part.size(), all = n + reference.size();
+  if (n == 0 || n == all) refuse("a part and a reference have at least one sample each");
+  if (n > most_of_part) refuse({"a part is compared in at most ", most_of_part, " directions, not ", n});
+  if (all > most) refuse({"part and reference have at most ", most, " samples together, not ", all});
+  if (part.values.cols() != reference.values.cols())
+    refuse(
+        {"a part of ", part.values.cols(), " channels needs a reference of as many, not of ", reference.values.cols()});
+  located_samples both{part.locations, Eigen::MatrixXd(all, part.values.cols()), Eigen::MatrixXd::Ones(all, 1)};
+  both.locations.insert(both.locations.end(), reference.locations.begin(), reference.locations.end());
+  both.values.topRows(n) = part.values;
+  both.values.bottomRows(all - n) = reference.values;
+  both.values.conservativeResize(Eigen::NoChange, distinct_channels(both.values));
+  if (n * both.values.cols() > most_values)
+    refuse(
+        {"a part has at most ", most_values, " values, not ", n, " directions of ", both.values.cols(), " channels"});
+  return both;
+}
+
+/// The difference of an isotropic material's directions; the azimuth counts as far as it moves one of them.
+[[nodiscard]] inline bool is_same(const half_difference& a, const half_difference& b, double limit) {
+  const double turn = std::remainder(a.phi_d - b.phi_d, std::numbers::pi);
+  return std::abs(a.theta_h - b.theta_h) <= limit && std::abs(a.theta_d - b.theta_d) <= limit &&
+         std::abs(turn) * std::sin(std::max(a.theta_d, b.theta_d)) <= limit;
+}
+
+GONIO_INLINE std::vector<Eigen::Index> same_directions(const std::vector<location>& locations,
+                                                       const half_difference& place, double limit) {
+  std::vector<Eigen::Index> same;
+  for (Eigen::Index i = 0; i < std::ssize(locations); ++i)
+    if (is_same(locations[i].angles, place, limit)) same.push_back(i);
+  return same;
+}
+
+/// What the differences are of part and reference, as a matrix times the samples: n x N. `shared` counts the samples of
+/// the reference that have each direction.
+struct difference_operator {
+  Eigen::MatrixXd rows;
+  std::vector<Eigen::Index> shared;
+  Eigen::MatrixXd channels;  ///< covariance of the model's channels
+  bool predicts = false;
+};
+
+/// How the channels of the reference vary together, relative to what the model expects of one of them. Ten measurements
+/// are what is known before, as in `sample_process`, of channels that are correlated as those of most materials.
+[[nodiscard]] inline Eigen::MatrixXd channel_covariance(const Eigen::MatrixXd& whitened) {
+  constexpr double before = sample_process::known_before, correlation = 0.9;
+  Eigen::MatrixXd known = Eigen::MatrixXd::Constant(whitened.cols(), whitened.cols(), correlation);
+  known.diagonal().setOnes();
+  return (before * known + product(whitened.transpose(), whitened)) / (before + static_cast<double>(whitened.rows()));
+}
+
+/// Differences from the mean of the reference's measurements in the same direction, or from its prediction.
+[[nodiscard]] inline difference_operator differences(const conformity_samples& samples, double limit) {
+  const Eigen::Index n = samples.parts, all = samples.mapped.rows(), r = all - n;
+  const Eigen::Index channels = samples.mapped.cols();
+  difference_operator found{Eigen::MatrixXd::Zero(n, all), std::vector<Eigen::Index>(n),
+                            Eigen::MatrixXd::Identity(channels, channels)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    found.rows(i, i) = 1.0;
+    for (Eigen::Index j = n; j < all; ++j)
+      if (is_same(samples.angles[i], samples.angles[j], limit)) {
+        found.rows(i, j) = -1.0;
+        ++found.shared[i];
+      }
+    if (found.shared[i] > 0)
+      found.rows.row(i).tail(r) /= static_cast<double>(found.shared[i]);
+    else
+      found.predicts = true;
+  }
+  if (!found.predicts) return found;
+
+  // Predict from all of the reference. Its noise is at least 0.1 %, so that it may be repeated in a direction.
+  Eigen::MatrixXd among = samples.covariance.bottomRightCorner(r, r);
+  among.diagonal() += samples.noise.bottomRows(r).rowwise().mean().cwiseMax(1e-6);
+  const cholesky factors(among);
+  if (!factors.positive_definite()) refuse("the covariance of the reference is not positive definite");
+  found.channels = channel_covariance(factors.solve_lower(samples.mapped.bottomRows(r)));
+  const Eigen::MatrixXd weights = factors.solve(samples.covariance.bottomLeftCorner(r, n));
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (found.shared[i] == 0) found.rows.row(i).tail(r) = -weights.col(i).transpose();
+  return found;
+}
+
+/// The covariance of all differences, channels of a direction adjacent: n c x n c.
+[[nodiscard]] inline Eigen::MatrixXd covariance_of(const difference_operator& by, const conformity_samples& samples) {
+  const Eigen::Index n = samples.parts, channels = samples.mapped.cols();
+  const Eigen::MatrixXd model = by.predicts ? product(product(by.rows, samples.covariance), by.rows.transpose())
+                                            : Eigen::MatrixXd(Eigen::MatrixXd::Zero(n, n));
+  Eigen::MatrixXd all(channels * n, channels * n);
+  for (Eigen::Index c = 0; c < channels; ++c) {
+    const Eigen::MatrixXd scaled = by.rows * samples.noise.col(c).asDiagonal();
+    const Eigen::MatrixXd noise = product(scaled, by.rows.transpose());
+    for (Eigen::Index d = 0; d < channels; ++d)
+      for (Eigen::Index j = 0; j < n; ++j)
+        for (Eigen::Index i = 0; i < n; ++i)
+          all(channels * i + c, channels * j + d) = by.channels(c, d) * model(i, j) + (c == d ? noise(i, j) : 0.0);
+  }
+  return all;
+}
+
+GONIO_INLINE double least_within(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& residuals,
+                                 const Eigen::VectorXd& tolerance) {
+  Eigen::VectorXd gradient = product(matrix, residuals), left = residuals;
+  if (tolerance.maxCoeff() == 0.0) return left.dot(gradient);
+  constexpr int most_sweeps = 2000;
+  double movement = 1.0;
+  for (int sweep = 0; sweep < most_sweeps && movement > 1e-9 * tolerance.maxCoeff(); ++sweep) {
+    movement = 0.0;
+    for (Eigen::Index j = 0; j < left.size(); ++j) {
+      if (!(matrix(j, j) > 0.0)) continue;
+      const double before = residuals[j] - left[j];
+      const double step = std::clamp(before + gradient[j] / matrix(j, j), -tolerance[j], tolerance[j]) - before;
+      if (step == 0.0) continue;
+      left[j] -= step;
+      gradient -= step * matrix.col(j);
+      movement = std::max(movement, std::abs(step));
+    }
+  }
+  return std::max(left.dot(gradient), 0.0);
+}
+
+/// Holm's step-down adjustment: S. Holm, "A simple sequentially rejective multiple test procedure", Scandinavian
+/// Journal of Statistics 6, 1979.
+inline void adjust(std::vector<compared_direction>& directions) {
+  std::vector<Eigen::Index> order(directions.size());
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::sort(order, {}, [&](Eigen::Index i) { return std::pair(directions[i].p_value, i); });
+  double least = 0.0;
+  for (Eigen::Index k = 0; k < std::ssize(order); ++k) {
+    compared_direction& each = directions[order[k]];
+    least = std::max(least, std::min(each.p_value * static_cast<double>(std::ssize(order) - k), 1.0));
+    each.adjusted_p_value = least;
+  }
+}
+
+/// The inverse of a covariance.
+[[nodiscard]] inline Eigen::MatrixXd precision_of(const Eigen::MatrixXd& covariance) {
+  const cholesky factors(covariance);
+  if (!factors.positive_definite()) refuse("the covariance of part and reference is not positive definite");
+  return factors.solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
+}
+
+/// Differences, channels of a direction adjacent: n c; their covariance and what is tolerated.
+struct stacked_differences {
+  Eigen::Index channels;  ///< c
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd tolerance;
+
+  [[nodiscard]] stacked_differences subset(const std::vector<Eigen::Index>& directions) const {
+    std::vector<Eigen::Index> rows;
+    for (const Eigen::Index i : directions)
+      for (Eigen::Index c = 0; c < channels; ++c) rows.push_back(channels * i + c);
+    return {channels, residuals(rows), covariance(rows, rows), tolerance(rows)};
+  }
+};
+
+/// The degrees of freedom by which the covariance of differences is known. Where the reference predicts they come from
+/// measured materials whose families the prior has not seen: their errors have heavier tails than normal ones, and the
+/// heavier the fewer samples r the reference has. See docs/results/conformity.md.
+struct freedoms {
+  double measured, shift, total, direction;
+
+  freedoms(double noise, Eigen::Index r, bool predicts) : measured(noise), shift(noise), total(noise) {
+    const auto samples = static_cast<double>(r);
+    direction = std::min({noise, std::sqrt(samples), 4.0});
+    if (!predicts) return;
+    shift = std::min(noise, samples / 3.0);
+    total = std::min(noise, std::sqrt(samples));
+  }
+};
+
+/// The upper tail of a sum of squares of so many normal variables whose variance is known to some degrees of freedom.
+[[nodiscard]] inline double tail_of(double squares, double count, double freedom) {
+  return f_tail(squares / count, count, freedom);
+}
+
+/// All differences together, and one shift of each channel in all directions by generalised least squares.
+inline void test_together(const stacked_differences& all, const freedoms& known, conformity& found) {
+  const Eigen::MatrixXd precision = precision_of(all.covariance);
+  found.total_p_value = tail_of(least_within(precision, all.residuals, all.tolerance),
+                                static_cast<double>(all.residuals.size()), known.total);
+  const Eigen::MatrixXd alike =
+      Eigen::MatrixXd::Identity(all.channels, all.channels).replicate(all.residuals.size() / all.channels, 1);
+  const Eigen::MatrixXd weights = product(precision, alike);
+  const Eigen::MatrixXd shift_covariance = precision_of(product(alike.transpose(), weights));
+  const Eigen::MatrixXd shift_by = product(shift_covariance, weights.transpose());
+  found.shift = (shift_by * all.residuals).array();
+  found.shift_p_value = tail_of(least_within(product(weights, shift_by), all.residuals, all.tolerance),
+                                static_cast<double>(all.channels), known.shift);
+}
+
+/// Each direction alone, and the worst of them.
+inline void test_apart(const stacked_differences& all, const std::vector<Eigen::Index>& shared, const freedoms& known,
+                       conformity& found) {
+  for (Eigen::Index i = 0; i < std::ssize(shared); ++i) {
+    const auto [channels, residuals, covariance, tolerance] = all.subset({i});
+    compared_direction each{.number = i,
+                            .measured = shared[i],
+                            .value = {},
+                            .expected = {},
+                            .difference = residuals.array(),
+                            .deviation = covariance.diagonal().array().sqrt()};
+    each.p_value = tail_of(least_within(precision_of(covariance), residuals, tolerance), static_cast<double>(channels),
+                           shared[i] > 0 ? known.measured : known.direction);
+    found.directions.push_back(each);
+  }
+  adjust(found.directions);
+  found.worst_p_value = found.directions[found.worst()].adjusted_p_value;
+}
+
+GONIO_INLINE conformity compare_samples(conformity_samples samples, const conformity_options& options) {
+  // What is independent in each direction is the same wherever that direction is measured again.
+  const Eigen::Index n = samples.parts, all = samples.mapped.rows(), channels = samples.mapped.cols();
+  for (Eigen::Index i = 0; i < all; ++i)
+    for (Eigen::Index j = 0; j < all; ++j)
+      if (i != j && is_same(samples.angles[i], samples.angles[j], options.same_direction))
+        samples.covariance(i, j) += samples.independent;
+
+  // Take the differences.
+  const difference_operator by = differences(samples, options.same_direction);
+  const Eigen::MatrixXd residuals = product(by.rows, samples.mapped);
+  stacked_differences stacked{channels, Eigen::VectorXd(channels * n), covariance_of(by, samples),
+                              Eigen::VectorXd(channels * n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    stacked.residuals.segment(channels * i, channels) = residuals.row(i).transpose();
+    stacked.tolerance.segment(channels * i, channels) = samples.tolerance.row(i).transpose();
+  }
+
+  // Test those together whose differences are noise alone, or all if there is none.
+  std::vector<Eigen::Index> together;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (by.shared[i] > 0) together.push_back(i);
+  const bool predicts = together.empty();
+  if (predicts)
+    for (Eigen::Index i = 0; i < n; ++i) together.push_back(i);
+  const double noise = std::min(options.part.degrees_of_freedom, options.reference.degrees_of_freedom);
+  const freedoms known(noise, all - n, predicts);
+  conformity found;
+  test_together(stacked.subset(together), known, found);
+  test_apart(stacked, by.shared, known, found);
+  const double least = std::min({found.shift_p_value, found.total_p_value, found.worst_p_value});
+  found.p_value = n == 1 ? found.worst_p_value : std::min(3.0 * least, 1.0);
+  return found;
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE measurement_noise pooled_noise(const measurement_noise& a, const measurement_noise& b) {
+  const double freedom = a.degrees_of_freedom + b.degrees_of_freedom;
+  const double squares =
+      a.degrees_of_freedom * a.relative * a.relative + b.degrees_of_freedom * b.relative * b.relative;
+  return {.relative = freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0, .degrees_of_freedom = freedom};
+}
+
+}  // namespace gonio

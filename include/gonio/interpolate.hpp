@@ -1,0 +1,7 @@
+#pragma once
+/// All of `interpolate/` but scattered_brdf.hpp, which needs nanoflann: BRDFs without a basis, by pull-push or between
+/// nearest neighbours.
+
+#include <gonio/interpolate/completed_table.hpp>
+#include <gonio/interpolate/pull_push.hpp>
+#include <gonio/interpolate/scattered_options.hpp>

@@ -1,0 +1,146 @@
+#pragma once
+/// Bodies of interpolate/scattered_brdf.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/k_d_tree.hpp>
+#include <gonio/interpolate/scattered_brdf.hpp>
+#include <gonio/metric/log_relative.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace gonio::detail {
+
+/// As `log_relative` of a reference of zero and no cosines.
+[[nodiscard]] GONIO_INLINE double to_domain(interpolation_domain domain, double rho) noexcept {
+  return domain == interpolation_domain::reflectance ? rho : log_relative::forward(rho, 0.0, 1.0);
+}
+
+[[nodiscard]] GONIO_INLINE double from_domain(interpolation_domain domain, double y) noexcept {
+  return domain == interpolation_domain::reflectance ? y : log_relative::inverse(y, 0.0, 1.0);
+}
+
+/// The two in an order that does not depend on which of them is the light.
+[[nodiscard]] GONIO_INLINE bool is_ordered(const direction& wi, const direction& wo) noexcept {
+  return std::tuple(wi.z(), wi.x(), wi.y()) <= std::tuple(wo.z(), wo.x(), wo.y());
+}
+
+/// Where a sample lies, and its number in the set.
+using sample_place = std::pair<std::array<double, 4>, Eigen::Index>;
+
+/// The samples that count in a channel, sorted by place, so that repeats are next to each other.
+[[nodiscard]] GONIO_INLINE std::vector<sample_place> sorted_places(const sample_set& samples, Eigen::Index channel,
+                                                                   const pair_embedding& embedding) {
+  std::vector<sample_place> places;
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
+    if (samples[i].weight[channel] > 0.0) places.emplace_back(embedding(samples[i].angles()), i);
+  std::ranges::sort(places);
+  return places;
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+/// The tree reads the points where they are, so that this stays where it is.
+struct scattered_brdf::embedded_samples {
+  /// There is a place at least.
+  embedded_samples(const sample_set& samples, const std::vector<detail::sample_place>& places, Eigen::Index channel,
+                   interpolation_domain domain)
+      : points(4, std::ssize(places)),
+        values(Eigen::Array3Xd::Zero(3, std::ssize(places))),
+        weights(Eigen::VectorXd::Zero(std::ssize(places))),
+        tree(merge(samples, places, channel, domain)) {}
+
+  Eigen::Matrix4Xd points;
+  Eigen::Array3Xd values;  ///< in the domain of the interpolation
+  Eigen::VectorXd weights;
+  k_d_tree<4> tree;
+
+ private:
+  /// Repeats are one point, with the weighted mean of their values as they are, so that noise cancels.
+  const Eigen::Matrix4Xd& merge(const sample_set& samples, const std::vector<detail::sample_place>& places,
+                                Eigen::Index channel, interpolation_domain domain) {
+    Eigen::Index merged = 0;
+    for (Eigen::Index i = 0; i < std::ssize(places); ++i) {
+      const auto& [place, number] = places[i];
+      if (i > 0 && place != places[i - 1].first) ++merged;
+      std::ranges::copy(place, points.col(merged).data());
+      values.col(merged) += samples[number].weight[channel] * samples[number].value;
+      weights[merged] += samples[number].weight[channel];
+    }
+    ++merged;
+    points.conservativeResize(Eigen::NoChange, merged);
+    values.conservativeResize(Eigen::NoChange, merged);
+    weights.conservativeResize(merged);
+    for (Eigen::Index i = 0; i < merged; ++i)
+      for (Eigen::Index c = 0; c < 3; ++c) values(c, i) = detail::to_domain(domain, values(c, i) / weights[i]);
+    return points;
+  }
+};
+
+GONIO_INLINE rgb scattered_brdf::mean_of_neighbours(const embedded_samples& of,
+                                                    const std::array<double, 4>& place) const noexcept {
+  // One more than are averaged: its distance is where weights end.
+  std::array<std::uint32_t, scattered_options::most_neighbours + 1> numbers;
+  std::array<double, scattered_options::most_neighbours + 1> distances;
+  const Eigen::Index found = of.tree.nearest(place.data(), options_.neighbours + 1, numbers.data(), distances.data()),
+                     count = std::min(found, options_.neighbours);
+  // A distance of rounding errors is none. The end lies a little beyond the next one: weights of equally near
+  // neighbours would be rounding errors, too.
+  constexpr double least = 1e-12, beyond = 1.0 + 1e-6;
+  for (Eigen::Index i = 0; i < found; ++i) distances[i] = std::max(std::sqrt(distances[i]), least);
+  const double end = beyond * distances[found - 1];
+  const auto closeness = [&](double distance) {
+    return found > count ? (end - distance) / (end * distance) : 1.0 / distance;
+  };
+  // Relative to the nearest, so that nothing overflows.
+  const double closest = closeness(distances[0]);
+  rgb sum = rgb::Zero();
+  double weights = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double weight = of.weights[numbers[i]] * std::pow(closeness(distances[i]) / closest, options_.exponent);
+    sum += weight * of.values.col(numbers[i]);
+    weights += weight;
+  }
+  rgb mean;
+  for (Eigen::Index c = 0; c < 3; ++c) mean[c] = std::max(detail::from_domain(options_.domain, sum[c] / weights), 0.0);
+  return mean;
+}
+
+GONIO_INLINE rgb scattered_brdf::operator()(const direction& wi, const direction& wo) const noexcept {
+  if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
+  const bool ordered = detail::is_ordered(wi, wo);
+  const std::array<double, 4> place =
+      options_.embedding(ordered ? to_half_difference(wi, wo) : to_half_difference(wo, wi));
+  if (channels_.size() == 1) return mean_of_neighbours(*channels_.front(), place);
+  rgb value;
+  for (Eigen::Index c = 0; c < 3; ++c) value[c] = mean_of_neighbours(*channels_[c], place)[c];
+  return value;
+}
+
+GONIO_INLINE scattered_brdf scattered_interpolation::fit(const sample_set& samples) const {
+  require_usable(samples);
+  scattered_brdf fitted(options_);
+  const Eigen::Index channels = weigh_channels_apart(samples) ? 3 : 1;
+  for (Eigen::Index channel = 0; channel < channels; ++channel) {
+    const std::vector<detail::sample_place> places = detail::sorted_places(samples, channel, options_.embedding);
+    if (places.empty())
+      refuse(channels == 1 ? "all samples have weight zero: nothing is known"
+                           : "all samples have weight zero in one of the channels: nothing is known of it");
+    fitted.channels_.push_back(
+        std::make_shared<const scattered_brdf::embedded_samples>(samples, places, channel, options_.domain));
+  }
+  return fitted;
+}
+
+}  // namespace gonio

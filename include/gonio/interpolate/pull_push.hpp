@@ -1,0 +1,139 @@
+#pragma once
+/// Scattered-data interpolation over a pyramid of grids: Gortler, Grzeszczuk, Szeliski and Cohen, "The Lumigraph",
+/// SIGGRAPH 1996 (doi:10.1145/237170.237200), section 3.3 (splat, pull, push), which Noell, Koehler and Stricker 2014,
+/// section 3.1, compare their estimator with, over the table of a BRDF.
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/interpolate/completed_table.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+namespace detail {
+
+/// The cells of an axis of n, merged in runs of `stride` from the first on; the last run may be shorter.
+struct merged_axis {
+  int cells = 1;
+  int stride = 1;
+  bool wraps = false;
+
+  [[nodiscard]] int extent() const noexcept { return (cells + stride - 1) / stride; }
+
+  /// The middle of a run, counted in cells. Beyond the ends of an axis that wraps runs repeat.
+  [[nodiscard]] double centre(int run) const noexcept;
+
+  /// Runs twice as long, unless one holds all cells already.
+  [[nodiscard]] merged_axis coarser() const noexcept { return {cells, extent() > 1 ? 2 * stride : stride, wraps}; }
+
+  /// The coarser runs around the centre of a run, with the weights of linear interpolation: 3/4 and 1/4, but for a
+  /// shorter run at the end.
+  [[nodiscard]] axis_interval parents(int run, const merged_axis& coarse) const noexcept;
+};
+
+/// A level of the pyramid: three channels of reflectance and the weight, at most 1, of what is known about it.
+struct pyramid_level {
+  merged_axis theta_h, theta_d, phi_d;
+  Eigen::Array4Xf cells;
+
+  pyramid_level(const merged_axis& h, const merged_axis& d, const merged_axis& p)
+      : theta_h(h), theta_d(d), phi_d(p), cells(4, Eigen::Index{h.extent()} * d.extent() * p.extent()) {}
+
+  [[nodiscard]] Eigen::Index index(int h, int d, int p) const noexcept {
+    return (Eigen::Index{h} * theta_d.extent() + d) * phi_d.extent() + p;
+  }
+
+  /// Calls `visit(h, d, p)` for all cells, concurrently.
+  template <class Visit>
+  void for_each(Visit&& visit, thread_count threads) const {
+    for_each_block(
+        theta_h.extent(), 1,
+        [&](block layer) {
+          for (int d = 0; d < theta_d.extent(); ++d)
+            for (int p = 0; p < phi_d.extent(); ++p) visit(static_cast<int>(layer.begin), d, p);
+        },
+        threads);
+  }
+};
+
+/// Sums of weighted values and of weights as mean values and weights that saturate at 1.
+[[nodiscard]] Eigen::Array4f mean_of(const Eigen::Array4d& sums) noexcept;
+
+/// Value times weight and weight, to be summed.
+[[nodiscard]] Eigen::Array4d weighted(const Eigen::Array4f& cell) noexcept;
+
+/// Pull: what the finer cells know together about each cell of twice their size.
+[[nodiscard]] pyramid_level pull(const pyramid_level& fine, thread_count threads);
+
+/// Push: as much of each finer cell as is not known comes from the coarser ones around it, which are complete.
+void push(const pyramid_level& coarse, pyramid_level& fine, thread_count threads);
+
+}  // namespace detail
+
+/// Completes a table from measurements, each of which counts for the cell nearest to it.
+///
+/// - Splat: a cell has the weighted mean of its measurements, and the sum of their weights, at most 1, as its own.
+/// - Pull: cells of twice the size along each axis have the weighted mean and, at most 1, the summed weight of their
+///   parts, up to a single cell.
+/// - Push: from the coarsest level down, a cell of weight w keeps w of its own value and takes 1 - w from the coarser
+///   level, interpolated linearly between the centres of its cells.
+///
+/// Extents need not be powers of two: phi_d wraps for any (reciprocity), theta_h and theta_d end. A cell measured with
+/// a weight of at least 1 keeps its mean exactly, unless that is negative: measurements are averaged as they are, so
+/// that noise cancels, and what is negative in the end becomes zero. Outliers are interpolated like anything else.
+///
+/// ```cpp
+/// const auto paint = gonio::pull_push{gonio::valid_cells()}.fit(samples);
+/// ```
+class pull_push {
+ public:
+  /// Completes tables over these cells.
+  explicit pull_push(valid_cells cells, thread_count threads = {}) : cells_(std::move(cells)), threads_(threads) {}
+
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+
+  /// O(samples + cells of the grid), 50 bytes for each of these. Throws gonio::error for unusable samples
+  /// (`require_usable`), or if all weights are zero.
+  template <sample_range Samples>
+  [[nodiscard]] completed_table fit(const Samples& samples) const {
+    require_usable(samples);
+    splats sums(cells_.grid());
+    for (const sample& s : samples) sums.add(s);
+    return complete(sums);
+  }
+
+  /// Each cell of a table is a sample of weight 1.
+  [[nodiscard]] completed_table fit(const brdf_table& table) const;
+
+ private:
+  /// Sums of weighted values, and of weights, over the measurements nearest to each cell of a grid.
+  class splats {
+   public:
+    explicit splats(const grid& over) : over_(over), sums_(Eigen::Array4Xd::Zero(4, over.size())) {}
+
+    void add(const sample& s);
+
+    [[nodiscard]] detail::pyramid_level finest() const;
+
+   private:
+    grid over_;
+    Eigen::Array4Xd sums_;
+  };
+
+  [[nodiscard]] completed_table complete(const splats& sums) const;
+
+  valid_cells cells_;
+  thread_count threads_;
+};
+
+static_assert(estimator<pull_push>);
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/interpolate/impl/pull_push.ipp>
+#endif

@@ -1,0 +1,53 @@
+#pragma once
+/// How scattered measurements are interpolated: what is near to what, how many neighbours count and how much.
+/// interpolate/scattered_brdf.hpp does it.
+
+#include <gonio/core/direction.hpp>
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace gonio {
+
+/// Where a pair of directions lies in a space in which the distance says how different pairs are.
+///
+/// With s = sqrt(theta_h / (pi / 2)) and t = theta_d / (pi / 2) the coordinates are
+/// (s, a t, b r cos 2 phi_d, b r sin 2 phi_d), where r = sin theta_h sin theta_d:
+/// - the root resolves highlights, as MERL's grid does;
+/// - 2 phi_d: by reciprocity phi_d and phi_d + pi are one pair;
+/// - r: at theta_d = 0 there is no phi_d, and at theta_h = 0 an isotropic material does not see it, since it turns both
+///   directions about the normal. r cos phi_d is half the difference of the cosines of light and viewer.
+/// Pairs that differ for a reciprocal isotropic material have a distance, all others have none: what a BRDF must keep
+/// is kept. A mirrored material (phi_d and -phi_d alike) is not assumed.
+struct pair_embedding {
+  double theta_d_scale = 1.0;  ///< a
+  double phi_d_scale = 0.25;   ///< b
+
+  [[nodiscard]] std::array<double, 4> operator()(const half_difference& angles) const noexcept;
+};
+
+/// What a mean of neighbours is taken of.
+enum class interpolation_domain {
+  reflectance,
+  logarithm,  ///< ln(rho + 0.001 sr^-1), with negative values as zero: `log_relative` of a black reference
+};
+
+/// The defaults are the best on measured materials, each judged by the choice of the others: docs/results/scattered.md.
+struct scattered_options {
+  static constexpr Eigen::Index most_neighbours = 64;
+
+  Eigen::Index neighbours = 16;  ///< k, from 1 (the nearest alone) to `most_neighbours`
+  double exponent = 1.5;         ///< p, above 0
+  pair_embedding embedding = {};
+  interpolation_domain domain = interpolation_domain::logarithm;
+};
+
+/// Throws gonio::error that names the first option out of its range.
+void require_usable(const scattered_options& options);
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/interpolate/impl/scattered_options.ipp>
+#endif

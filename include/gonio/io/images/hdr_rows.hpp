@@ -1,0 +1,46 @@
+#pragma once
+/// Radiance HDR images (RGBE), read some rows at a time: all that is kept of a file is where each row begins.
+/// Format: G. Ward, Real Pixels, Graphics Gems II (1991); radsite.lbl.gov/radiance/refer/filefmts.pdf.
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/io/bytes/file.hpp>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gonio::io {
+
+/// An open HDR file whose rows run from top to bottom. Any number of threads may read it.
+class hdr_rows {
+ public:
+  /// Reads through the file once. Throws gonio::error naming it if it is no HDR image, is truncated or damaged, goes on
+  /// behind its last row, or has more than 16384 pixels one way.
+  explicit hdr_rows(const std::filesystem::path& path);
+
+  [[nodiscard]] Eigen::Index rows() const noexcept { return std::ssize(begins_) - 1; }
+  [[nodiscard]] Eigen::Index columns() const noexcept { return columns_; }
+
+  /// Red, green and blue of the pixels of some rows, one row after the other, as they are stored: EXPOSURE is not
+  /// applied. `out` has 3 x columns x rows numbers. Throws gonio::error if the file was changed meanwhile.
+  void read(block rows, std::span<float> out) const;
+
+ private:
+  class row_reader;
+
+  std::string name_;
+  descriptor file_;
+  Eigen::Index columns_ = 0;
+  bool has_runs_ = false;              ///< rows are run-length encoded
+  std::vector<std::uint64_t> begins_;  ///< of each row in the file, and the end of the last
+};
+
+}  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/images/impl/hdr_rows.ipp>
+#endif

@@ -1,0 +1,202 @@
+#pragma once
+/// Bodies of io/images/hdr_rows.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/io/bytes/believable.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/images/hdr_rows.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace gonio::io::detail {
+
+/// What an HDR file's header says.
+struct hdr_header {
+  std::size_t rows = 0, columns = 0;
+  std::size_t size = 0;  ///< bytes before the first row
+};
+
+/// The fewest bytes that the pixels can take: all rows in runs of 127.
+[[nodiscard]] constexpr std::size_t least_hdr_size(std::size_t rows, std::size_t columns) noexcept {
+  const std::size_t flat = 4 * columns;
+  return rows * (columns < 8 ? flat : std::min(flat, 4 + 8 * ((columns + 126) / 127)));
+}
+
+/// Takes "-Y 12" off the front of a line: the number behind these letters, 0 if it is negative.
+[[nodiscard]] GONIO_INLINE bool read_hdr_extent(std::string_view& line, std::string_view letters, std::size_t& extent) {
+  if (!line.starts_with(letters)) return false;
+  line.remove_prefix(letters.size());
+  std::int64_t number = 0;
+  const auto [end, failure] = std::from_chars(line.data(), line.data() + line.size(), number);
+  if (failure == std::errc::invalid_argument) return false;
+  if (failure == std::errc::result_out_of_range) number = std::numeric_limits<std::int32_t>::max();
+  line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+  line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+  extent = static_cast<std::size_t>(std::clamp<std::int64_t>(number, 0, std::numeric_limits<std::int32_t>::max()));
+  return true;
+}
+
+/// Lines of text, an empty one, and a line with the size.
+[[nodiscard]] GONIO_INLINE hdr_header read_hdr_header(std::string_view text, const std::string& name) {
+  if (!text.starts_with("#?RADIANCE\n") && !text.starts_with("#?RGBE\n"))
+    gonio::refuse({name, ": is not a Radiance HDR file"});
+  hdr_header header;
+  bool is_rgbe = false, is_sized = false;
+  for (bool before_empty = true; !is_sized;) {
+    const auto end = text.find('\n', header.size);
+    if (end == std::string_view::npos) break;
+    std::string_view line = text.substr(header.size, end - header.size);
+    header.size = end + 1;
+    is_rgbe = is_rgbe || line == "FORMAT=32-bit_rle_rgbe";
+    if (!before_empty) {
+      is_sized = read_hdr_extent(line, "-Y ", header.rows) && read_hdr_extent(line, "+X ", header.columns);
+      break;
+    }
+    before_empty = !line.empty();
+  }
+  if (!is_rgbe || !is_sized)
+    gonio::refuse(
+        {name,
+         ": the header of the HDR file is truncated or of an unknown kind (expected 32-bit_rle_rgbe, -Y and +X)"});
+  check_image_size(header.rows, header.columns, name);
+  return header;
+}
+
+/// Factors of the mantissas for each exponent.
+[[nodiscard]] GONIO_INLINE std::array<float, 256> rgbe_factors() {
+  std::array<float, 256> factors{};
+  for (int exponent = 1; exponent < 256; ++exponent)
+    factors[static_cast<std::size_t>(exponent)] = std::ldexp(1.0f, exponent - 136);
+  return factors;
+}
+
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+/// Reads rows one after the other, through a buffer.
+class hdr_rows::row_reader {
+ public:
+  row_reader(const hdr_rows& file, std::uint64_t offset)
+      : file_(file), buffer_(std::size_t{1} << 16), end_(offset), codes_(static_cast<std::size_t>(4 * file.columns_)) {}
+
+  /// The next byte's offset in the file.
+  [[nodiscard]] std::uint64_t offset() const noexcept { return end_ - left_.size(); }
+  [[nodiscard]] bool ended() { return left_.empty() && !refill(); }
+
+  /// The next row: of rows of runs all mantissas of red, of green, of blue, then all exponents, of flat ones pixel by
+  /// pixel.
+  [[nodiscard]] std::span<const std::uint8_t> next() {
+    if (!file_.has_runs_) {
+      read(codes_);
+      return codes_;
+    }
+    std::array<std::uint8_t, 4> start{};
+    read(start);
+    if (start[0] != 2 || start[1] != 2 || start[2] * 256 + start[3] != file_.columns_)
+      fail("a row does not begin as a row of runs");
+    const auto columns = static_cast<std::size_t>(file_.columns_);
+    for (std::size_t channel = 0; channel < 4; ++channel)
+      read_channel(std::span(codes_).subspan(channel * columns, columns));
+    return codes_;
+  }
+
+ private:
+  void read_channel(std::span<std::uint8_t> out) {
+    while (!out.empty()) {
+      std::array<std::uint8_t, 1> count{};
+      read(count);
+      const bool is_run = count[0] > 128;
+      const std::size_t length = is_run ? count[0] - 128u : count[0];
+      if (length == 0 || length > out.size()) fail("a run has no pixel, or leaves its row");
+      if (is_run) {
+        std::array<std::uint8_t, 1> value{};
+        read(value);
+        std::ranges::fill(out.first(length), value[0]);
+      } else {
+        read(out.first(length));
+      }
+      out = out.subspan(length);
+    }
+  }
+
+  void read(std::span<std::uint8_t> out) {
+    while (!out.empty()) {
+      if (ended()) gonio::refuse({file_.name_, ": the HDR file is truncated"});
+      const std::size_t count = std::min(out.size(), left_.size());
+      std::ranges::copy(left_.first(count), out.begin());
+      left_ = left_.subspan(count);
+      out = out.subspan(count);
+    }
+  }
+
+  [[nodiscard]] bool refill() {
+    const std::size_t count = read_at(file_.file_, end_, std::as_writable_bytes(std::span(buffer_)), file_.name_);
+    end_ += count;
+    left_ = std::span(buffer_).first(count);
+    return count > 0;
+  }
+
+  [[noreturn]] void fail(std::string_view reason) const {
+    gonio::refuse({file_.name_, ": the HDR file cannot be decoded (", reason, ")"});
+  }
+
+  const hdr_rows& file_;
+  std::vector<std::uint8_t> buffer_;
+  std::uint64_t end_;  ///< of the buffer in the file
+  std::span<const std::uint8_t> left_;
+  std::vector<std::uint8_t> codes_;
+};
+
+GONIO_INLINE hdr_rows::hdr_rows(const std::filesystem::path& path) : name_(path.string()), file_(open_to_read(path)) {
+  const std::uint64_t size = size_of_regular(file_, path);
+  std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(size, 1u << 16)), ' ');
+  text.resize(read_at(file_, 0, std::as_writable_bytes(std::span(text)), path));
+  const detail::hdr_header header = detail::read_hdr_header(text, name_);
+  if (size < detail::least_hdr_size(header.rows, header.columns)) gonio::refuse({name_, ": the HDR file is truncated"});
+  detail::check_believable_pixels(detail::hdr_claims, header.rows, header.columns, size, name_);
+  columns_ = static_cast<Eigen::Index>(header.columns);
+  // A pixel of flat rows has a mantissa of 128 or more.
+  const std::string_view first = std::string_view(text).substr(header.size).substr(0, 3);
+  has_runs_ = header.columns >= 8 && first.size() == 3 && first.starts_with("\x02\x02") &&
+              static_cast<unsigned char>(first[2]) < 128;
+  // Find where the rows begin.
+  row_reader reader(*this, header.size);
+  begins_.push_back(header.size);
+  for (std::size_t row = 0; row < header.rows; ++row) {
+    static_cast<void>(reader.next());
+    begins_.push_back(reader.offset());
+  }
+  if (!reader.ended()) gonio::refuse({name_, ": ", size - reader.offset(), " bytes follow the end of the HDR file"});
+}
+
+GONIO_INLINE void hdr_rows::read(block rows, std::span<float> out) const {
+  static const std::array<float, 256> factors = detail::rgbe_factors();
+  row_reader reader(*this, begins_.at(static_cast<std::size_t>(rows.begin)));
+  const auto columns = static_cast<std::size_t>(columns_);
+  const std::size_t across = has_runs_ ? 1 : 4,
+                    along = has_runs_ ? columns : 1;  // from pixel to pixel, from channel to channel
+  for (auto* pixel = out.data(); rows.begin < rows.end; ++rows.begin) {
+    const std::span<const std::uint8_t> codes = reader.next();
+    for (std::size_t i = 0; i < columns; ++i, pixel += 3) {
+      const float factor = factors[codes[i * across + 3 * along]];
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        pixel[channel] = static_cast<float>(codes[i * across + channel * along]) * factor;
+    }
+  }
+}
+
+}  // namespace gonio::io

@@ -1,0 +1,38 @@
+#pragma once
+/// TIFF images of counts, as cameras and raw converters write them, and the exposure time in their EXIF data. Needs
+/// libtiff 4.5 (gonio::tiff); its headers are not included. Format: TIFF 6.0; EXIF 2.32 (CIPA DC-008).
+
+#include <gonio/table/stored_codes.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace gonio::io {
+
+/// The counts of the first image of a TIFF file: strips of 8 or 16 bits, one channel or three, more are ignored; any
+/// compression that libtiff knows. Pixels are as they are stored: the orientation is ignored. Grey becomes three equal
+/// channels.
+///
+/// Throws gonio::error starting with `name` if the bytes are no TIFF file or are truncated, if the image is tiled, has
+/// channels in planes, a palette, another colour space or samples that are no such counts, or if it has more than 16384
+/// pixels one way or more pixels than is believable of the bytes.
+[[nodiscard]] stored_codes read_tiff(std::span<const std::byte> bytes, const std::string& name);
+
+/// Reads a TIFF file.
+[[nodiscard]] stored_codes read_tiff(const std::filesystem::path& path);
+
+/// Seconds of exposure by the EXIF data of a TIFF file; nothing if it has none. Throws gonio::error starting with
+/// `name` if the bytes are no TIFF file, or if the time is not from 1e-7 s to a day.
+[[nodiscard]] std::optional<double> read_tiff_exposure_time(std::span<const std::byte> bytes, const std::string& name);
+
+/// The same of a file.
+[[nodiscard]] std::optional<double> read_tiff_exposure_time(const std::filesystem::path& path);
+
+}  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/images/impl/tiff.ipp>
+#endif

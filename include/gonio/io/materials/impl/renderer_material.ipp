@@ -1,0 +1,189 @@
+#pragma once
+/// Bodies of io/materials/renderer_material.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/materials/renderer_material.hpp>
+#include <gonio/io/text/text.hpp>
+#include <gonio/model/analytic_brdf.hpp>
+#include <gonio/model/fresnel.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+
+namespace gonio::io::detail {
+
+GONIO_INLINE double rough_surface::refractive_index() const {
+  const double root = std::sqrt(std::min(f0, 0.999));
+  return (1.0 + root) / (1.0 - root);
+}
+
+GONIO_INLINE bool rough_surface::metal() const {
+  constexpr double base_of_metal = 0.05;
+  return (diffuse <= base_of_metal * specular * f0).all();
+}
+
+GONIO_INLINE rough_surface bounded(rough_surface surface) {
+  const double brightest = surface.specular.maxCoeff();
+  if (brightest <= 1.0) return surface;
+  surface.specular /= brightest;
+  surface.f0 = std::min(brightest * surface.f0, 0.999);
+  return surface;
+}
+
+GONIO_INLINE rgb base_below_coat(const rgb& seen, double index) {
+  // What a dielectric lets in of diffuse light, and by reciprocity what it reflects back of light from inside.
+  constexpr int steps = 1000;
+  double enters = 0.0;
+  for (int step = 0; step < steps; ++step) {
+    const double cosine = (step + 0.5) / steps;
+    enters += (1.0 - model::fresnel_dielectric(cosine, index)) * 2.0 * cosine / steps;
+  }
+  const double leaves = enters / (index * index);
+  return (seen / (enters * leaves + seen * (1.0 - leaves))).min(1.0);
+}
+
+GONIO_INLINE conductor conductor_like_schlick(double f0) {
+  const double bounded = std::clamp(f0, 1e-4, 0.999), root = std::sqrt(bounded);
+  const double least = (1.0 - bounded) / (1.0 + bounded), most = (1.0 + root) / (1.0 - root);
+  conductor best;
+  double least_error = std::numeric_limits<double>::infinity();
+  constexpr int steps = 400;
+  for (int step = 0; step <= steps; ++step) {
+    // All indices from the least to the most have an extinction with this reflectance at normal incidence.
+    const double index = least * std::pow(most / least, static_cast<double>(step) / steps);
+    const double squared = (bounded * std::pow(index + 1.0, 2) - std::pow(index - 1.0, 2)) / (1.0 - bounded);
+    const double extinction = std::sqrt(std::max(squared, 0.0));
+    double error = 0.0;
+    for (int degrees = 0; degrees <= 85; degrees += 5) {
+      const double cosine = std::cos(radians(degrees));
+      const double ratio =
+          model::fresnel_conductor(cosine, index, extinction) / model::fresnel_schlick(cosine, bounded);
+      error = std::max(error, std::abs(ratio - 1.0));
+    }
+    if (error >= least_error) continue;
+    least_error = error;
+    best = {index, extinction};
+  }
+  return best;
+}
+
+GONIO_INLINE rough_surface as_rough_surface(const model::analytic_brdf& model) {
+  rough_surface found;
+  std::size_t rough = 0;
+  for (const model::analytic_lobe& lobe : model.lobes()) {
+    if (lobe.kind() == model::lobe_kind::of<model::lambert_shape>()) {
+      found.diffuse += lobe.colour();
+      continue;
+    }
+    found.beckmann = lobe.kind() == model::lobe_kind::of<model::torrance_sparrow_shape>();
+    if (!found.beckmann && !(lobe.kind() == model::lobe_kind::of<model::ggx_shape>()))
+      gonio::refuse({"renderers know the lobes ggx and torrance-sparrow beside a diffuse one, not ",
+                     std::string(lobe.kind().name())});
+    found.specular = lobe.colour();
+    found.alpha = lobe.parameters()[0];
+    found.f0 = lobe.parameters()[1];
+    ++rough;
+  }
+  if (rough != 1) gonio::refuse({"a renderer's material has one rough lobe, not ", rough});
+  return found;
+}
+
+GONIO_INLINE rough_surface as_ggx_surface(const model::analytic_brdf& model, const char* renderer) {
+  const rough_surface surface = as_rough_surface(model);
+  if (surface.beckmann) gonio::refuse({renderer, " has no Beckmann distribution: fit ggx instead of torrance-sparrow"});
+  return surface;
+}
+
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
+  const detail::rough_surface surface = detail::bounded(detail::as_ggx_surface(model, "pbrt"));
+  const std::string roughness =
+      "  \"float roughness\" [ " + shortest(surface.alpha) + " ]\n  \"bool remaproughness\" false\n";
+  if (surface.metal())
+    return "Material \"conductor\"\n  \"rgb reflectance\" [ " +
+           detail::three_numbers((surface.specular * surface.f0).min(1.0), " ") + " ]\n" + roughness;
+  // A thick coat absorbs, and ten bounces are too few below a dense one.
+  const double index = surface.refractive_index();
+  return "Material \"coateddiffuse\"\n  \"rgb reflectance\" [ " +
+         detail::three_numbers(detail::base_below_coat(surface.diffuse, index), " ") + " ]\n" + roughness +
+         "  \"float eta\" [ " + shortest(index) + " ]\n  \"float thickness\" [ 0 ]\n  \"integer maxdepth\" [ 100 ]\n";
+}
+
+GONIO_INLINE std::string mitsuba_material(const model::analytic_brdf& model) {
+  const detail::rough_surface surface = detail::as_rough_surface(model);
+  const auto number = [](const char* type, const char* name, double value) {
+    return "<" + std::string(type) + " name=\"" + name + "\" value=\"" + shortest(value) + "\"/>\n";
+  };
+  // A colour above 1 is refused unless it says that it is meant.
+  const auto colour = [](const char* name, const rgb& value) {
+    return "<spectrum type=\"srgb\" name=\"" + std::string(name) + "\">\n      <rgb name=\"color\" value=\"" +
+           detail::three_numbers(value, ", ") +
+           "\"/>\n      <boolean name=\"unbounded\" value=\"true\"/>\n    </spectrum>\n";
+  };
+  // A blend of equal shares of what is twice as bright is the sum.
+  const auto [index, extinction] = detail::conductor_like_schlick(surface.f0);
+  return "<bsdf type=\"blendbsdf\">\n  " + number("float", "weight", 0.5) + "  <bsdf type=\"diffuse\">\n    " +
+         colour("reflectance", 2.0 * surface.diffuse) + "  </bsdf>\n  <bsdf type=\"roughconductor\">\n    " +
+         "<string name=\"distribution\" value=\"" + (surface.beckmann ? "beckmann" : "ggx") + "\"/>\n    " +
+         number("float", "alpha", surface.alpha) + "    " + number("spectrum", "eta", index) + "    " +
+         number("spectrum", "k", extinction) + "    " + colour("specular_reflectance", 2.0 * surface.specular) +
+         "  </bsdf>\n</bsdf>\n";
+}
+
+GONIO_INLINE std::string materialx_material(const model::analytic_brdf& model, const std::string& name) {
+  const detail::rough_surface surface = detail::bounded(detail::as_ggx_surface(model, "OpenPBR"));
+  constexpr const char* known = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
+  if (name.empty() || name.find_first_not_of(known) != std::string::npos)
+    gonio::refuse({"the name of a MaterialX material is letters, digits and underscores, not ", in_quotes(name)});
+  const auto input = [](const char* of, const char* type, const std::string& value) {
+    return "    <input name=\"" + std::string(of) + "\" type=\"" + type + "\" value=\"" + value + "\"/>\n";
+  };
+  const auto colour = [&](const char* of, const rgb& value) {
+    return input(of, "color3", detail::three_numbers(value.min(1.0), ", "));
+  };
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<materialx version=\"1.39\" colorspace=\"lin_rec709\">\n"
+      "  <open_pbr_surface name=\"" +
+      name + "_surface\" type=\"surfaceshader\">\n";
+  text += input("base_weight", "float", "1");
+  text += colour("base_color", surface.metal() ? rgb(surface.specular * surface.f0) : surface.diffuse);
+  text += input("base_metalness", "float", surface.metal() ? "1" : "0");
+  text += input("specular_roughness", "float", shortest(std::sqrt(surface.alpha)));
+  if (!surface.metal()) {
+    text += colour("specular_color", surface.specular);
+    text += input("specular_ior", "float", shortest(surface.refractive_index()));
+  }
+  return text + "  </open_pbr_surface>\n  <surfacematerial name=\"" + name + "\" type=\"material\">\n" +
+         "    <input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"" + name + "_surface\"/>\n" +
+         "  </surfacematerial>\n</materialx>\n";
+}
+
+GONIO_INLINE std::string gltf_material(const model::analytic_brdf& model) {
+  const detail::rough_surface surface = detail::as_ggx_surface(model, "glTF");
+  const rgb base = surface.metal() ? rgb(surface.specular * surface.f0) : surface.diffuse;
+  const std::string core =
+      "      \"pbrMetallicRoughness\": {\n        \"baseColorFactor\": [" + detail::three_numbers(base.min(1.0), ", ") +
+      ", 1],\n        \"metallicFactor\": " + (surface.metal() ? "1" : "0") +
+      ",\n        \"roughnessFactor\": " + shortest(std::sqrt(std::min(surface.alpha, 1.0))) + "\n      }";
+  const std::string begin = "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"gonio\"},\n";
+  const std::string materials = "  \"materials\": [\n    {\n" + core;
+  const std::string end = "\n    }\n  ]\n}\n";
+  if (surface.metal()) return begin + materials + end;
+  // f0 and f90 are multiplied by the factor, f0 alone by the colour.
+  const double factor = std::min(surface.specular.maxCoeff(), 1.0);
+  const rgb colour = factor > 0.0 ? rgb(surface.specular / factor) : rgb(rgb::Ones());
+  return begin + "  \"extensionsUsed\": [\"KHR_materials_ior\", \"KHR_materials_specular\"],\n" + materials +
+         ",\n      \"extensions\": {\n        \"KHR_materials_ior\": {\"ior\": " +
+         shortest(surface.refractive_index()) +
+         "},\n        \"KHR_materials_specular\": {\"specularFactor\": " + shortest(factor) +
+         ", \"specularColorFactor\": [" + detail::three_numbers(colour, ", ") + "]}\n      }" + end;
+}
+
+}  // namespace gonio::io

@@ -1,0 +1,40 @@
+#pragma once
+/// Spectra in files of the RGL material database (io/materials/rgl.hpp): written of a spectral table, and read in any
+/// directions.
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/io/materials/rgl.hpp>
+#include <gonio/table/spectral_samples.hpp>
+#include <gonio/table/spectral_table.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gonio::io {
+
+/// A spectral table as the spectral variant of a material, for pbrt-v4 and Mitsuba's spectral variants: `write_rgl`
+/// writes it. Throws gonio::error for fewer than two wavelengths, or if none is visible. The cost of
+/// `model::tabulate_adaptively` and of a `model::tabulate_over` for each three wavelengths.
+[[nodiscard]] rgl_material tabulate_adaptively(const spectral_table& table, const std::string& description = "gonio",
+                                               thread_count threads = {});
+
+/// Spectra at other wavelengths, in nanometres: linear between their own, as renderers read them. Throws gonio::error
+/// for wavelengths that are none, or beyond their own. O(values).
+[[nodiscard]] rgl_spectra at_wavelengths(const rgl_spectra& spectra, std::vector<double> wavelengths);
+
+/// The spectra of a material over the valid cells of a grid. Throws gonio::error for a material in RGB. The cost of
+/// `tabulate` for each three wavelengths.
+[[nodiscard]] spectral_table tabulate_spectra(const rgl_material& material, const valid_cells& cells,
+                                              thread_count threads = {});
+
+/// The spectra of a material in some directions, as measurements. Throws gonio::error for a material in RGB, and for
+/// directions at or below the horizon.
+[[nodiscard]] spectral_samples sample_spectra(const rgl_material& material,
+                                              std::span<const sample_directions> directions);
+
+}  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/materials/impl/rgl_spectra.ipp>
+#endif

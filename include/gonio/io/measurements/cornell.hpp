@@ -1,0 +1,74 @@
+#pragma once
+/// Measurements in the text format of Cornell's reflectance database (Foo, A Gonioreflectometer for Measuring the
+/// Bidirectional Reflectance of Material for Use in Illumination Computation, 1997): the number of wavelengths, then
+/// these in nanometres, then a line for each pair of directions: theta_i, phi_i, theta_s, phi_s in radians, and a
+/// reflectance in sr^-1 for each wavelength. Lines that start with # are comments.
+
+#include <gonio/io/measurements/sample_collector.hpp>
+#include <gonio/io/text/text.hpp>
+#include <gonio/table/sample_set.hpp>
+#include <gonio/table/spectral_samples.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::io {
+
+namespace detail {
+
+/// Reads such a file line by line.
+class cornell_reader {
+ public:
+  explicit cornell_reader(text_place& place) : place_(place) {}
+
+  void read(std::string_view line);
+
+  /// What was read. Throws gonio::error if that is not a whole measurement.
+  [[nodiscard]] sample_collector samples() &&;
+
+ private:
+  void split(std::string_view line);
+
+  [[nodiscard]] double number(std::size_t field) const {
+    return read_number(fields_[field], place_, [&] { return "field " + std::to_string(field + 1); });
+  }
+
+  void read_count();
+
+  void read_wavelengths();
+
+  void read_sample();
+
+  /// From a polar angle and the azimuth after it.
+  [[nodiscard]] direction read_direction(std::size_t field) const;
+
+  text_place& place_;
+  std::size_t count_ = 0;
+  std::vector<double> wavelengths_, reflectances_;
+  std::vector<std::string_view> fields_;
+  std::optional<sample_collector> collector_;
+};
+
+}  // namespace detail
+
+/// Samples from the text of such a file, as linear Rec. 709 under D65; `name` is what errors call it. Throws
+/// gonio::error naming line and field of what is wrong.
+[[nodiscard]] sample_set read_cornell(std::string_view text, const std::string& name);
+
+/// Reads such a file. Throws gonio::error naming file, line and field of what is wrong.
+[[nodiscard]] sample_set read_cornell(const std::filesystem::path& path);
+
+/// The same with the spectra as they are.
+[[nodiscard]] spectral_samples read_cornell_spectra(std::string_view text, const std::string& name);
+[[nodiscard]] spectral_samples read_cornell_spectra(const std::filesystem::path& path);
+
+}  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/measurements/impl/cornell.ipp>
+#endif

@@ -1,0 +1,186 @@
+#pragma once
+/// Bodies of io/measurements/astm_e1392.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/measurements/astm_e1392.hpp>
+#include <gonio/io/measurements/sample_collector.hpp>
+#include <gonio/io/text/text.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gonio::io::detail {
+
+/// Reads such a file line by line.
+class astm_reader {
+ public:
+  explicit astm_reader(text_place& place) : place_(place) {}
+
+  void read(std::string_view line);
+
+  /// What was read. Throws gonio::error if that is not a whole measurement.
+  [[nodiscard]] sample_collector samples() &&;
+
+ private:
+  void read_keyword(std::string_view line);
+  void read_variables(std::string_view names);
+  [[nodiscard]] colour_channels channels_of(const std::vector<std::string_view>& names) const;
+  void read_row(std::string_view line);
+  [[nodiscard]] direction read_direction(std::size_t angle) const;
+  [[nodiscard]] double number(std::size_t column) const;
+
+  static constexpr std::array<std::string_view, 4> angle_names{"theta_i", "phi_i", "theta_s", "phi_s"};
+
+  text_place& place_;
+  std::optional<double> points_;
+  std::array<std::size_t, 4> angles_{};  ///< the columns of the angles
+  std::vector<std::size_t> values_;      ///< those of the values
+  std::vector<std::string> names_;
+  std::vector<std::string_view> fields_;
+  std::vector<double> reflectances_;
+  std::size_t rows_ = 0;
+  std::optional<sample_collector> collector_;
+};
+
+GONIO_INLINE void astm_reader::read(std::string_view line) {
+  if (collector_)
+    read_row(line);
+  else
+    read_keyword(line);
+}
+
+GONIO_INLINE sample_collector astm_reader::samples() && {
+  if (!collector_) gonio::refuse({place_.name, ": ends before its line VARS, which names the columns"});
+  if (points_ && *points_ != static_cast<double>(rows_))
+    gonio::refuse({place_.name, ": has ", rows_, " lines of numbers, expected NUM_POINTS ", shortest(*points_)});
+  return *std::move(collector_);
+}
+
+GONIO_INLINE void astm_reader::read_keyword(std::string_view line) {
+  const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+  const std::string_view keyword = line.substr(0, end), value = trimmed(line.substr(end));
+  if (keyword == "NUM_POINTS") points_ = read_number(value, place_, [] { return "NUM_POINTS"; });
+  if (keyword == "VARS") read_variables(value);
+}
+
+GONIO_INLINE void astm_reader::read_variables(std::string_view names) {
+  std::vector<std::string_view> all, of_values;
+  split_fields(names, all);
+  for (std::size_t angle = 0; angle < angle_names.size(); ++angle) {
+    if (std::ranges::count(all, angle_names[angle]) != 1)
+      place_.refuse({"VARS: expected one column ", angle_names[angle], " in ", in_quotes(names)});
+    angles_[angle] = std::ranges::find(all, angle_names[angle]) - all.begin();
+  }
+  for (std::size_t column = 0; column < all.size(); ++column) {
+    names_.emplace_back(all[column]);
+    if (std::ranges::find(angle_names, all[column]) != angle_names.end()) continue;
+    values_.push_back(column);
+    of_values.push_back(all[column]);
+  }
+  if (values_.empty()) place_.refuse("VARS: there is no column of values beside the angles");
+  collector_.emplace(channels_of(of_values));
+}
+
+GONIO_INLINE colour_channels astm_reader::channels_of(const std::vector<std::string_view>& names) const {
+  const auto are = [&](std::string_view a, std::string_view b, std::string_view c) {
+    return names.size() == 3 && names[0] == a && names[1] == b && names[2] == c;
+  };
+  if (are("R", "G", "B")) return colour_channels::linear_rgb();
+  if (are("X", "Y", "Z")) return colour_channels::xyz();
+  std::vector<double> wavelengths;
+  for (const std::string_view name : names) {
+    double wavelength = 0.0;
+    const bool is_wavelength =
+        name.ends_with("nm") && read_number(name.substr(0, name.size() - 2), wavelength) == nullptr;
+    if (!is_wavelength && names.size() == 1 && !name.empty()) return colour_channels::grey();
+    if (!is_wavelength)
+      place_.refuse({"VARS: ", in_quotes(name), ", expected one value, or R,G,B, or X,Y,Z, or wavelengths like 400nm"});
+    wavelengths.push_back(wavelength);
+  }
+  try {
+    return colour_channels::spectrum(wavelengths);
+  } catch (const error& reason) {
+    place_.refuse({"VARS: ", reason.what()});
+  }
+}
+
+GONIO_INLINE double astm_reader::number(std::size_t column) const {
+  return read_number(fields_[column], place_, [&] { return "column " + in_quotes(std::string_view(names_[column])); });
+}
+
+GONIO_INLINE direction astm_reader::read_direction(std::size_t angle) const {
+  const double theta = number(angles_[angle]), phi = number(angles_[angle + 1]);
+  // Rounded to four digits, pi / 2 may be a little more than it.
+  if (!(theta >= 0.0 && theta < std::numbers::pi / 2.0 + 1e-3))
+    place_.refuse({"column '", angle_names[angle], "': ", shortest(theta), ", expected radians from 0 to pi / 2",
+                   theta > 1.6 && theta <= 90.0 ? "; are these degrees?" : ""});
+  if (!(std::abs(phi) < 6.3))
+    place_.refuse({"column '", angle_names[angle + 1], "': ", shortest(phi), ", expected radians from -2 pi to 2 pi"});
+  return spherical_direction(theta, phi);
+}
+
+GONIO_INLINE void astm_reader::read_row(std::string_view line) {
+  split_fields(line, fields_);
+  if (fields_.size() != names_.size())
+    place_.refuse({fields_.size(), " fields, expected ", names_.size(), " as in the line VARS"});
+  reflectances_.clear();
+  for (const std::size_t column : values_) {
+    reflectances_.push_back(number(column));
+    require_float_range(reflectances_.back(), place_);
+  }
+  collector_->add({read_direction(0), read_direction(2)}, reflectances_);
+  ++rows_;
+}
+
+[[nodiscard]] GONIO_INLINE sample_collector collect_astm(std::string_view text, const std::string& name) {
+  text_place place{name, 0};
+  astm_reader parser(place);
+  for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
+  return std::move(parser).samples();
+}
+
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE bool looks_like_astm_e1392(std::string_view text) {
+  text = without_byte_order_mark(text).substr(0, 4096);
+  text_place place;
+  for (std::string_view line; next_line(text, place, line);)
+    if ((line.starts_with("VARS ") || line.starts_with("VARS\t")) && line.find("theta_i") != std::string_view::npos)
+      return true;
+  return false;
+}
+
+GONIO_INLINE sample_set read_astm_e1392(std::string_view text, const std::string& name) {
+  return detail::collect_astm(text, name).samples(name);
+}
+
+GONIO_INLINE sample_set read_astm_e1392(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return read_astm_e1392(as_text(bytes), path.string());
+}
+
+GONIO_INLINE spectral_samples read_astm_e1392_spectra(std::string_view text, const std::string& name) {
+  return detail::collect_astm(text, name).spectra(name);
+}
+
+GONIO_INLINE spectral_samples read_astm_e1392_spectra(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return read_astm_e1392_spectra(as_text(bytes), path.string());
+}
+
+}  // namespace gonio::io

@@ -1,0 +1,381 @@
+#pragma once
+/// Bodies of io/measurements/sample_header.hpp. What is done once for a file is cold: compilers then do not spend
+/// seconds on making it fast.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/spelling.hpp>
+#include <gonio/io/measurements/sample_header.hpp>
+#include <gonio/io/measurements/sample_quantity.hpp>
+#include <gonio/io/text/csv_dialect.hpp>
+#include <gonio/io/text/csv_reader.hpp>
+#include <gonio/io/text/text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gonio::io::detail {
+
+// ---- names and units -----------------------------------------------------------------------------------------------
+
+inline constexpr std::array known_names{known_name{"thetah", 0},
+                                        known_name{"thetad", 1},
+                                        known_name{"phid", 2},
+                                        known_name{"thetai", 3},
+                                        known_name{"thetain", 3},
+                                        known_name{"phii", 4},
+                                        known_name{"phiin", 4},
+                                        known_name{"thetao", 5},
+                                        known_name{"thetaout", 5},
+                                        known_name{"thetar", 5},
+                                        known_name{"thetas", 5},
+                                        known_name{"phio", 6},
+                                        known_name{"phiout", 6},
+                                        known_name{"phir", 6},
+                                        known_name{"phis", 6},
+                                        known_name{"wix", 7},
+                                        known_name{"wiy", 8},
+                                        known_name{"wiz", 9},
+                                        known_name{"wox", 10},
+                                        known_name{"woy", 11},
+                                        known_name{"woz", 12},
+                                        known_name{"r", 13},
+                                        known_name{"red", 13},
+                                        known_name{"g", 14},
+                                        known_name{"green", 14},
+                                        known_name{"b", 15},
+                                        known_name{"blue", 15},
+                                        known_name{"weight", 16},
+                                        known_name{"weightr", 17},
+                                        known_name{"weightg", 18},
+                                        known_name{"weightb", 19},
+                                        known_name{"value", 20},
+                                        known_name{"reflectance", 20},
+                                        known_name{"brdf", 20, sample_quantity::brdf},
+                                        known_name{"bsdf", 20, sample_quantity::brdf},
+                                        known_name{"brdfcosine", 20, sample_quantity::brdf_cosine},
+                                        known_name{"brdfcos", 20, sample_quantity::brdf_cosine},
+                                        known_name{"ccbrdf", 20, sample_quantity::brdf_cosine},
+                                        known_name{"ccbsdf", 20, sample_quantity::brdf_cosine},
+                                        known_name{"reflectancefactor", 20, sample_quantity::reflectance_factor},
+                                        known_name{"radiancefactor", 20, sample_quantity::reflectance_factor},
+                                        known_name{"percent", 20, sample_quantity::percent},
+                                        known_name{"wavelength", 21},
+                                        known_name{"lambda", 21},
+                                        known_name{"quantity", 22}};
+
+[[gnu::cold]] GONIO_INLINE column_unit unit_named(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, column_unit>, 18> known{
+      {{"", column_unit::none},
+       {"-", column_unit::none},
+       {"deg", column_unit::degrees},
+       {"degree", column_unit::degrees},
+       {"degrees", column_unit::degrees},
+       {"\xC2\xB0", column_unit::degrees},  // the sign in UTF-8
+       {"\xB0", column_unit::degrees},      // and in Latin-1
+       {"rad", column_unit::radians},
+       {"radian", column_unit::radians},
+       {"radians", column_unit::radians},
+       {"nm", column_unit::nanometres},
+       {"%", column_unit::percent},
+       {"percent", column_unit::percent},
+       {"1/sr", column_unit::per_steradian},
+       {"/sr", column_unit::per_steradian},
+       {"sr^-1", column_unit::per_steradian},
+       {"sr-1", column_unit::per_steradian},
+       {"sr\xE2\x81\xBB\xC2\xB9", column_unit::per_steradian}}};  // superscripts
+  for (const auto& [each, unit] : known)
+    if (each == name) return unit;
+  return column_unit::unknown;
+}
+
+/// Is it a unit that a column may have?
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE bool fits(column_unit unit, std::size_t column) {
+  if (unit == column_unit::none) return true;
+  if (column < vector_group.first) return unit == column_unit::degrees || unit == column_unit::radians;
+  if (colour_group.has(column) || grey_group.has(column))
+    return unit == column_unit::percent || unit == column_unit::per_steradian;
+  return column == wavelength_column && unit == column_unit::nanometres;
+}
+
+[[gnu::cold]] GONIO_INLINE written_column written(std::string_view field) {
+  std::string text;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    text += field[i];
+    if (field.substr(i).starts_with("\"\"")) ++i;  // a doubled quote is one
+  }
+  std::string_view name = text;
+  std::string unit;
+  if (name.ends_with(']') || name.ends_with(')')) {
+    const std::size_t open = name.find_last_of(name.back() == ']' ? '[' : '(');
+    if (open != std::string_view::npos) {
+      unit = lower_case(trimmed(name.substr(open + 1, name.size() - open - 2)));
+      name = name.substr(0, open);
+    }
+  } else if (const std::size_t word = name.find_last_of("_ /"); word != std::string_view::npos) {
+    std::string last = lower_case(name.substr(word + 1));
+    const bool is_unit = !last.empty() && last.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos &&
+                         unit_named(last) != column_unit::unknown;
+    if (is_unit) {
+      unit = std::move(last);
+      name = name.substr(0, word);
+    }
+  }
+  std::string lower = lower_case(trimmed(name));
+  return {std::move(text), std::move(lower), std::move(unit)};
+}
+
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE const known_name* find_known(std::string_view name) {
+  std::string letters;
+  for (const char c : name)
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) letters += c;
+  for (const known_name& each : known_names)
+    if (each.letters == letters) return &each;
+  return nullptr;
+}
+
+/// The nanometres that a column is called by: 400nm, "400 [nm]", w400, lambda_400, or a bare number that may be some; 0
+/// of any other name.
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE double wavelength_named(const written_column& written) {
+  constexpr double least_bare = 100.0, most_bare = 20'000.0;
+  std::string_view name = written.name;
+  bool is_bare = written.unit.empty();
+  if (!is_bare && unit_named(written.unit) != column_unit::nanometres) return 0.0;
+  for (const std::string_view prefix : {"lambda_", "lambda", "wl", "w"})
+    if (is_bare && name.starts_with(prefix)) {
+      name.remove_prefix(prefix.size());
+      is_bare = false;
+    }
+  if (name.ends_with("nm")) {
+    name = trimmed(name.substr(0, name.size() - 2));
+    is_bare = false;
+  }
+  std::string digits(name);  // the header line is above the number that shows the file's decimal mark
+  std::ranges::replace(digits, ',', '.');
+  double nanometres = 0.0;
+  if (read_number(digits, nanometres) != nullptr || !(nanometres > 0.0)) return 0.0;
+  return is_bare && (nanometres < least_bare || nanometres > most_bare) ? 0.0 : nanometres;
+}
+
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::size_t column_named(std::string_view name) {
+  std::size_t column = 0;
+  while (column < sample_columns.size() && sample_columns[column] != name) ++column;
+  return column;
+}
+
+/// The column that is called otherwise in this file, if this is it.
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE const column_name* find_renamed(const written_column& written,
+                                                                         const std::vector<column_name>& names) {
+  const std::string text = lower_case(written.text);
+  for (const column_name& each : names) {
+    const std::string wanted = lower_case(trimmed(each.in_file));
+    if (wanted == text || wanted == written.name) return &each;
+  }
+  return nullptr;
+}
+
+/// No longer one is compared with the columns' names.
+inline constexpr std::size_t longest_name = 40;
+
+// ---- the header line -----------------------------------------------------------------------------------------------
+
+[[gnu::cold]] GONIO_INLINE void sample_header::read(const csv_reader& file, const sample_reading& reading,
+                                                    bool needs_value) {
+  dialect_ = file.dialect();
+  const text_place& place = file.place();
+  double number = 0.0;
+  csv_dialect of_numbers = dialect_;
+  if (of_numbers.read_number(file.fields().front(), number) == nullptr)
+    place.refuse(
+        {"there is no header line above the numbers, expected one like theta_i,phi_i,theta_o,phi_o,r,g,b (what stands "
+         "behind # is a comment); the line looks ",
+         description(dialect_)});
+  for (const column_name& each : reading.columns)
+    if (column_named(each.column) == ignored)
+      place.refuse({"samples have no column ", in_quotes(each.column), " that ", in_quotes(each.in_file),
+                    " could be, expected theta_i, value or another one of theirs"});
+  for (const std::string_view field : file.fields()) add(written(field), reading, place);
+  require_named(reading, place);
+  find_directions(place);
+  find_values(needs_value, place);
+  find_weights(place);
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_header::add(const written_column& written, const sample_reading& reading,
+                                                   const text_place& place) {
+  if (const column_name* renamed = find_renamed(written, reading.columns)) {
+    written_column named = written;
+    const std::size_t column = column_named(renamed->column);
+    if (!fits(unit_named(named.unit), column)) named.unit.clear();
+    if (add_known(named, {"", column}, place)) return;
+  } else if (const known_name* known = find_known(written.name)) {
+    bool is_another = false;
+    for (const column_name& each : reading.columns) is_another |= each.column == sample_columns[known->column];
+    if (!is_another && add_known(written, *known, place)) return;
+  } else if (add_wavelength(written, place)) {
+    return;
+  }
+  columns_.push_back(ignored);
+  extra_.push_back(written);
+}
+
+/// False if it has a unit that the column cannot have.
+[[gnu::cold]] GONIO_INLINE bool sample_header::add_known(const written_column& written, const known_name& known,
+                                                         const text_place& place) {
+  const std::size_t column = known.column;
+  const column_unit unit = unit_named(written.unit);
+  if (!fits(unit, column)) return false;
+  const std::string text = in_quotes(written.text);
+  const std::string_view name = sample_columns[column];
+  const bool is_synonym = written.text != name;
+  if (has(column))
+    place.refuse({"column ", text, is_synonym ? ", which is " : "", is_synonym ? name : "", is_synonym ? "," : "",
+                  " appears twice"});
+  columns_.push_back(column);
+  if (unit == column_unit::radians) in_radians_.push_back(column);
+  if (known.quantity) quantity_.state(*known.quantity, message_of({"the name of column ", text}), place);
+  if (unit == column_unit::percent) quantity_.state_percent_signs(message_of({"the unit of column ", text}), place);
+  return true;
+}
+
+/// False if the name is no wavelength.
+[[gnu::cold]] GONIO_INLINE bool sample_header::add_wavelength(const written_column& written, const text_place& place) {
+  const double nanometres = wavelength_named(written);
+  if (nanometres == 0.0) return false;
+  if (!wavelengths_.empty() && !(nanometres > wavelengths_.back()))
+    place.refuse({"column ", in_quotes(written.text), " stands behind that of ", shortest(wavelengths_.back()),
+                  " nm, expected wavelengths that ascend, none of them twice"});
+  wavelengths_.push_back(nanometres);
+  columns_.push_back(ignored + wavelengths_.size());
+  return true;
+}
+
+[[gnu::cold]] GONIO_INLINE std::string sample_header::name_of(std::size_t column) const {
+  if (column < ignored) return std::string(sample_columns[column]);
+  return message_of({shortest(wavelengths_[column - ignored - 1]), "nm"});
+}
+
+/// Refuses a file that has not all columns that the caller named.
+[[gnu::cold]] GONIO_INLINE void sample_header::require_named(const sample_reading& reading,
+                                                             const text_place& place) const {
+  for (const column_name& each : reading.columns)
+    if (!has(column_named(each.column)))
+      place.refuse({"there is no column ", in_quotes(each.in_file), " to be ", each.column, "; ", as_it_looks()});
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_header::find_directions(const text_place& place) {
+  int groups = 0;
+  for (const column_group& group : {half_difference_group, angle_group, vector_group}) {
+    if (!has_any(group)) continue;
+    directions_ = group;
+    ++groups;
+  }
+  if (groups == 0)
+    place.refuse({"there are no columns of directions, expected theta_h,theta_d,phi_d or ",
+                  "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z; ", as_it_looks()});
+  if (groups > 1) place.refuse("directions are given in more than one way, expected one of them");
+  is_in_plane_ = directions_.first == angle_group.first && !has(4) && !has(6);
+  if (!is_in_plane_) return require(directions_, place);
+  for (const std::size_t polar : {std::size_t{3}, std::size_t{5}})
+    if (!has(polar)) refuse_missing(polar, place);
+  // An azimuth that is misspelt is not one that is absent.
+  for (const written_column& each : extra_)
+    for (const std::size_t azimuth : {std::size_t{4}, std::size_t{6}})
+      if (each.name.find("phi") != std::string::npos || each.name.find("azim") != std::string::npos ||
+          nearest_word(sample_columns[azimuth], {each.name}))
+        refuse_missing(azimuth, place);
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_header::find_values(bool needs_value, const text_place& place) {
+  const bool is_grey = has_any(grey_group), is_colour = has_any(colour_group), is_spectral = !wavelengths_.empty();
+  if (int{is_grey} + int{is_colour} + int{is_spectral} > 1)
+    place.refuse({"reflectance is given in two ways, expected r,g,b or value",
+                  is_spectral ? " or columns of wavelengths, as " : "", is_spectral ? name_of(ignored + 1) : ""});
+  if (is_grey) values_ = grey_group;
+  if (is_spectral) values_ = {ignored + 1, wavelengths_.size()};
+  if (!is_grey && !is_spectral && (is_colour || needs_value)) {
+    require(colour_group, place);
+    values_ = colour_group;
+  }
+  has_wavelength_ = has(wavelength_column);
+  if (has_wavelength_ && values_.first == colour_group.first && values_.count > 0)
+    place.refuse("r,g,b have no wavelength, expected value");
+  if (has_wavelength_ && is_spectral)
+    place.refuse({"the column wavelength stands beside ", name_of(ignored + 1), ", expected one of them"});
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_header::find_weights(const text_place& place) {
+  if (!has_any(channel_weight_group)) return;
+  if (has_any(weight_group))
+    place.refuse("weights are given in two ways, expected weight or weight_r,weight_g,weight_b");
+  if (!wavelengths_.empty()) place.refuse("wavelengths have one weight, expected weight, not one for each channel");
+  require(channel_weight_group, place);
+  weights_ = channel_weight_group;
+}
+
+[[gnu::cold]] GONIO_INLINE bool sample_header::has_any(const column_group& group) const {
+  for (const std::size_t column : columns_)
+    if (group.has(column)) return true;
+  return false;
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_header::require(const column_group& group, const text_place& place) const {
+  for (std::size_t column = group.first; column < group.first + group.count; ++column)
+    if (!has(column)) refuse_missing(column, place);
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_header::refuse_missing(std::size_t column, const text_place& place) const {
+  std::vector<std::string> names;
+  for (const written_column& each : extra_)
+    if (each.name.size() <= longest_name) names.push_back(each.name);
+  const std::string_view name = sample_columns[column];
+  const std::string looks = as_it_looks();
+  if (const auto near = nearest_word(name, names))
+    for (const written_column& each : extra_)
+      if (each.name == *near)
+        place.refuse({"column '", name, "' is missing: perhaps it is ", in_quotes(each.text), "; ", looks});
+  place.refuse(
+      {"column '", name, "' is missing",
+       colour_group.has(column) ? ", expected r,g,b, or value for one channel, or wavelengths, as 400nm; " : "; ",
+       looks});
+}
+
+/// Of lists of names, which may be long, so many are listed.
+inline constexpr std::size_t most_listed = 6;
+
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string how_many_more(std::size_t count) {
+  return count <= most_listed ? "" : message_of({" and ", count - most_listed, " more"});
+}
+
+[[gnu::cold]] GONIO_INLINE std::string sample_header::as_it_looks() const {
+  std::string unknown;
+  for (std::size_t i = 0; i < std::min(most_listed, extra_.size()); ++i)
+    unknown += message_of({i == 0 ? "" : ", ", in_quotes(extra_[i].text)});
+  return message_of({"the header line looks ", description(dialect_),
+                     extra_.empty() ? "" : ", and not known in it: ", unknown, how_many_more(extra_.size()),
+                     extra_.empty() ? "" : " (--columns NAME=THEIRS says what they are)"});
+}
+
+[[gnu::cold]] GONIO_INLINE std::string sample_header::note_of_ignored() const {
+  if (extra_.empty()) return "";
+  std::vector<std::string> optional;
+  for (const std::size_t column : {weight_group.first, channel_weight_group.first, channel_weight_group.first + 1,
+                                   channel_weight_group.first + 2, wavelength_column, quantity_column})
+    if (!has(column)) optional.emplace_back(sample_columns[column]);
+  const bool is_one = extra_.size() == 1;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(most_listed, extra_.size()); ++i) {
+    names += message_of({i == 0 ? "" : ", ", in_quotes(extra_[i].text)});
+    if (extra_[i].name.size() > longest_name) continue;
+    if (const auto near = nearest_word(extra_[i].name, optional)) names += message_of({" (is it ", *near, "?)"});
+  }
+  return message_of(
+      {is_one ? "column " : "columns ", names, how_many_more(extra_.size()), is_one ? " is ignored" : " are ignored"});
+}
+
+}  // namespace gonio::io::detail

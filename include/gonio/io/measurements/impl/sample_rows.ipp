@@ -1,0 +1,157 @@
+#pragma once
+/// Bodies of io/measurements/sample_rows.hpp. What is done once for a file is cold: compilers then do not spend seconds
+/// on making it fast.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/io/measurements/sample_header.hpp>
+#include <gonio/io/measurements/sample_provenance.hpp>
+#include <gonio/io/measurements/sample_quantity.hpp>
+#include <gonio/io/measurements/sample_rows.hpp>
+#include <gonio/io/text/csv_dialect.hpp>
+#include <gonio/io/text/csv_reader.hpp>
+#include <gonio/io/text/text.hpp>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::io::detail {
+
+[[gnu::cold]] GONIO_INLINE sample_rows::sample_rows(std::string_view text, const std::string& name, bool needs_value,
+                                                    const sample_reading& reading)
+    : csv_(text, name), needs_value_(needs_value), reading_(reading) {
+  numbers_[weight_group.first] = 1.0;
+  if (reading.quantity) quantity_.state(*reading.quantity, "what is asked for (--quantity)", csv_.place());
+}
+
+GONIO_INLINE bool sample_rows::next() {
+  const auto comment = [this](std::string_view text) { read_comment(text); };
+  if (header_.columns().empty()) {
+    if (!csv_.next(comment))
+      gonio::refuse({csv_.place().name, ": is empty, expected a header line that names the columns"});
+    read_header();
+  }
+  if (csv_.next(comment)) {
+    read_fields();
+    ++rows_;
+    return true;
+  }
+  finish();
+  return false;
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_rows::read_comment(std::string_view comment) {
+  const comment_entry entry = entry_of(comment);
+  keep(provenance_, entry);
+  if (entry.key != "quantity") return;
+  const text_place& place = csv_.place();
+  if (rows_ > 0) place.refuse("the comment on the quantity stands below a sample, expected above the first");
+  const auto quantity = quantity_named(entry.value);
+  if (!quantity)
+    place.refuse({"the quantity ", in_quotes(entry.value),
+                  " is unknown, expected brdf, brdf-cosine, reflectance-factor or percent"});
+  quantity_.state(*quantity, message_of({"the comment in line ", place.line}), place);
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_rows::read_header() {
+  header_.read(csv_, reading_, needs_value_);
+  quantity_.state(header_.quantity(), csv_.place());
+  numbers_.resize(sample_columns.size() + 1 + header_.wavelengths().size());
+  if (header_.wavelengths().size() == 1) wavelength_ = header_.wavelengths().front();
+}
+
+GONIO_INLINE void sample_rows::read_fields() {
+  const std::vector<std::size_t>& columns = header_.columns();
+  std::size_t percent_signs = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::size_t column = columns[i];
+    const std::string_view field = csv_.fields()[i];
+    if (column < quantity_column || column > sample_header::ignored)
+      read_number_of(column, field, percent_signs);
+    else if (column == quantity_column)
+      read_quantity(field);
+  }
+  for (const std::size_t column : header_.columns_in_radians()) numbers_[column] = degrees(numbers_[column]);
+  check_percent_signs(percent_signs);
+  check_weights();
+  if (header_.has_wavelength()) check_wavelength();
+  if (header_.is_in_plane()) look_at_sides();
+}
+
+GONIO_INLINE void sample_rows::read_number_of(std::size_t column, std::string_view field, std::size_t& percent_signs) {
+  const char* wrong = csv_.read_number(field, numbers_[column]);
+  if (wrong == nullptr) return;
+  if (field.ends_with('%') && header_.values().has(column)) {
+    wrong = csv_.read_number(trimmed(field.substr(0, field.size() - 1)), numbers_[column]);
+    ++percent_signs;
+  }
+  if (wrong != nullptr)
+    csv_.place().refuse({"column ", header_.name_of(column), ": ", in_quotes(field), wrong, "; the file looks ",
+                         description(csv_.dialect())});
+}
+
+/// The file may say in each line what its numbers are, if it is the same in all.
+[[gnu::cold]] GONIO_INLINE void sample_rows::read_quantity(std::string_view field) {
+  const auto quantity = quantity_named(field);
+  if (!quantity)
+    csv_.place().refuse({"column quantity: ", in_quotes(field),
+                         " is unknown, expected brdf, brdf-cosine, reflectance-factor or "
+                         "percent"});
+  quantity_.state(*quantity, "the column quantity", csv_.place());
+}
+
+/// Values have percent signs everywhere or nowhere.
+[[gnu::cold]] GONIO_INLINE void sample_rows::check_percent_signs(std::size_t signs) {
+  const std::size_t count = header_.values().count;
+  if (rows_ == 0) has_percent_signs_ = signs > 0;
+  if (signs != (has_percent_signs_ ? count : 0))
+    csv_.place().refuse("some values have percent signs and some have not, expected all or none");
+  if (rows_ == 0 && has_percent_signs_) quantity_.state_percent_signs("their percent signs", csv_.place());
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_rows::check_wavelength() {
+  const double given = numbers_[wavelength_column];
+  if (!(given > 0.0)) csv_.place().refuse({"column wavelength: ", shortest(given), " nm, expected more than 0"});
+  if (!wavelength_) wavelength_ = given;
+  if (*wavelength_ != given)
+    csv_.place().refuse(
+        {"column wavelength: ", shortest(given), " nm, but ", shortest(*wavelength_),
+         " nm above: more than one wavelength in such a column is not read, expected a file for each, or "
+         "columns called by their wavelengths, as 400nm"});
+}
+
+GONIO_INLINE void sample_rows::check_weights() const {
+  const column_group& weights = header_.weights();
+  for (std::size_t column = weights.first; column < weights.first + weights.count; ++column)
+    if (numbers_[column] < 0.0)
+      csv_.place().refuse(
+          {"column ", sample_columns[column], ": ", shortest(numbers_[column]), " is negative, expected at least 0"});
+}
+
+/// Without azimuths, one negative angle in the file shows that signs tell the sides of the normal apart.
+[[gnu::cold]] GONIO_INLINE void sample_rows::look_at_sides() {
+  const double theta_i = numbers_[angle_group.first], theta_o = numbers_[angle_group.first + 2];
+  if (theta_i < 0.0 || theta_o < 0.0) has_signed_angle_ = true;
+  if (theta_i > 0.0 && theta_o > 0.0 && line_of_unknown_side_ == 0) line_of_unknown_side_ = csv_.place().line;
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_rows::finish() const {
+  if (rows_ == 0) gonio::refuse({csv_.place().name, ": has a header line but no samples, expected at least one"});
+  if (line_of_unknown_side_ > 0 && !has_signed_angle_)
+    text_place{csv_.place().name, line_of_unknown_side_}.refuse(
+        "on which sides of the normal are light and viewer? There are no columns phi_i and phi_o, and no angle of the "
+        "file is negative; expected these columns, or signs: those of one side are equal");
+  if (!reading_.note) return;
+  if (const std::string ignored = header_.note_of_ignored(); !ignored.empty())
+    reading_.note(message_of({csv_.place().name, ": ", ignored}));
+  if (header_.is_in_plane())
+    reading_.note(
+        message_of({csv_.place().name,
+                    ": there are no columns phi_i and phi_o: light and viewer are taken to be on the same side of the "
+                    "normal where theta_i and theta_o have the same sign"}));
+}
+
+}  // namespace gonio::io::detail

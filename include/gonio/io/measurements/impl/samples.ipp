@@ -1,0 +1,218 @@
+#pragma once
+/// Bodies of io/measurements/samples.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/measurements/sample_header.hpp>
+#include <gonio/io/measurements/sample_quantity.hpp>
+#include <gonio/io/measurements/sample_rows.hpp>
+#include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/text/text.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::io::detail {
+
+/// A polar angle in radians. A goniometer's arm may lean to either side: there a negative angle is as good
+/// as an azimuth of 180 degrees.
+[[nodiscard]] GONIO_INLINE double polar_angle(const sample_row& row, std::size_t column, bool either_side,
+                                              const text_place& place) {
+  const double angle = row[column];
+  if (!((angle >= 0.0 || either_side) && std::abs(angle) < 90.0))
+    place.refuse({"column ", sample_columns[column], ": ", shortest(angle), " degrees",
+                  angle < 0.0 && !either_side ? " is negative" : " is at or below the horizon", ", expected ",
+                  either_side ? "between -90 and 90" : "at least 0 and less than 90"});
+  return radians(angle);
+}
+
+[[nodiscard]] GONIO_INLINE double azimuth(const sample_row& row, std::size_t column, const text_place& place) {
+  if (!(std::abs(row[column]) <= 360.0))
+    place.refuse(
+        {"column ", sample_columns[column], ": ", shortest(row[column]), " degrees, expected from -360 to 360"});
+  return radians(row[column]);
+}
+
+[[nodiscard]] GONIO_INLINE direction unit_vector(const sample_row& row, std::size_t first, const text_place& place) {
+  const double x = row[first], y = row[first + 1], z = row[first + 2];
+  const double length = gonio::norm_of(x, y, z);
+  const auto refuse = [&](const char* what, double value, const char* expected) {
+    place.refuse(
+        {"columns ", sample_columns[first], " to ", sample_columns[first + 2], what, shortest(value), expected});
+  };
+  if (!(std::abs(length - 1.0) <= 1e-3)) refuse(": the vector has length ", length, ", expected 1");
+  if (!(z > 0.0)) refuse(": the direction is at or below the horizon, its z is ", z, "");
+  return {x / length, y / length, z / length};
+}
+
+GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_row& row) {
+  if (cosine.i > 0.0 && cosine.o > 0.0) return;
+  std::string given;
+  for (std::size_t column = row.group.first; column < row.group.first + row.group.count; ++column)
+    given += message_of({given.empty() ? "" : ", ", sample_columns[column], " ", shortest(row.numbers[column])});
+  row.place.refuse({"a direction is at or below the horizon (", given, ")"});
+}
+
+/// Of a row that gives half and difference angles.
+[[nodiscard]] GONIO_INLINE half_difference given_angles(const parsed_row& row) {
+  return {polar_angle(row.numbers, 0, false, row.place), polar_angle(row.numbers, 1, false, row.place),
+          azimuth(row.numbers, 2, row.place)};
+}
+
+/// Light and viewer of a row that gives directions.
+[[nodiscard]] GONIO_INLINE direction_pair given_directions(const parsed_row& row) {
+  const sample_row& numbers = row.numbers;
+  const text_place& place = row.place;
+  if (row.group.first == vector_group.first) return {unit_vector(numbers, 7, place), unit_vector(numbers, 10, place)};
+  const double theta_i = polar_angle(numbers, 3, true, place), theta_o = polar_angle(numbers, 5, true, place);
+  return {spherical_direction(theta_i, azimuth(numbers, 4, place)),
+          spherical_direction(theta_o, azimuth(numbers, 6, place))};
+}
+
+/// Angles as they were given. Those of phi_d beyond half a turn exchange light and viewer: they are kept as a pair.
+[[nodiscard]] GONIO_INLINE sample_directions directions_of(const half_difference& given) {
+  if (fold_phi_d(given.phi_d) == given.phi_d) return given;
+  return to_directions(given);
+}
+
+/// A row's directions. Rounding may put one that grazes the surface below it in one of the two ways alone; it is
+/// refused in both.
+[[nodiscard]] GONIO_INLINE sample_directions row_directions(const parsed_row& row) {
+  const sample_directions at = row.has_half_difference() ? directions_of(given_angles(row)) : given_directions(row);
+  require_above_horizon(cosines(at.angles()), row);
+  require_above_horizon({at.pair().wi.z(), at.pair().wo.z()}, row);
+  return at;
+}
+
+[[nodiscard]] GONIO_INLINE channel_weights row_weight(const parsed_row& row) {
+  const double* first = &row.numbers[row.weights.first];
+  return row.weights.count == 1 ? channel_weights(first[0]) : channel_weights(rgb(first[0], first[1], first[2]));
+}
+
+/// Refuses numbers that may be of any quantity: those of r,g,b are a BRDF.
+GONIO_INLINE void require_quantity(const parsed_row& row) {
+  if (row.quantity || row.values.first == colour_group.first) return;
+  row.place.refuse({"the file does not say what the numbers of ", row.header.name_of(row.values.first),
+                    " are, expected a comment line '# quantity: brdf' above, or brdf-cosine, reflectance-factor or "
+                    "percent (--quantity says it of files that do not)"});
+}
+
+GONIO_INLINE void refuse_beyond_float(const parsed_row& row, std::size_t column, double value) {
+  row.place.refuse(
+      {"column ", row.header.name_of(column), ": ", shortest(value), " sr^-1 is beyond the range of float"});
+}
+
+/// The value of a row as a BRDF, sr^-1.
+[[nodiscard]] GONIO_INLINE rgb row_value(const parsed_row& row, const sample_directions& at) {
+  const double* given = &row.numbers[row.values.first];
+  const bool is_grey = row.values.count == 1;
+  require_quantity(row);
+  const double factor = brdf_factor(row.quantity.value_or(sample_quantity::brdf), at.pair().wo);
+  rgb value;
+  for (Eigen::Index channel = 0; channel < 3; ++channel) {
+    const std::size_t field = is_grey ? 0 : static_cast<std::size_t>(channel);
+    value[channel] = factor * given[field];
+    if (std::abs(value[channel]) > double{std::numeric_limits<float>::max()})
+      refuse_beyond_float(row, row.values.first + field, value[channel]);
+  }
+  return value;
+}
+
+GONIO_INLINE void write_sample(std::string& text, const sample& s, bool weighs_channels_apart) {
+  const half_difference& at = s.angles();
+  for (const double value : {degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d)), s.value.x(),
+                             s.value.y(), s.value.z()}) {
+    text += shortest(value);
+    text += ',';
+  }
+  text += shortest(s.weight[0]);
+  for (Eigen::Index channel = 1; weighs_channels_apart && channel < 3; ++channel) {
+    text += ',';
+    text += shortest(s.weight[channel]);
+  }
+  text += '\n';
+}
+
+[[gnu::cold]] GONIO_INLINE void write_text(const std::filesystem::path& path, std::string_view text) {
+  write_atomically(path, {reinterpret_cast<const std::byte*>(text.data()), text.size()});
+}
+
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::string& name,
+                                          const sample_reading& reading) {
+  sample_file file;
+  detail::sample_rows rows(text, name, true, reading);
+  while (rows.next()) {
+    const detail::parsed_row row = rows.row();
+    if (rows.header().wavelengths().size() > 1)
+      gonio::refuse(
+          {name, ": has ", rows.header().wavelengths().size(),
+           " columns of wavelengths, expected r,g,b, or value: io/measurements/spectral_samples.hpp reads spectra"});
+    const sample_directions at = detail::row_directions(row);
+    file.samples.push_back({at, detail::row_value(row, at), detail::row_weight(row)});
+  }
+  file.quantity = rows.quantity();
+  file.wavelength = rows.wavelength();
+  file.provenance = rows.provenance();
+  return file;
+}
+
+GONIO_INLINE sample_set read_samples(std::string_view text, const std::string& name, const sample_reading& reading) {
+  return read_sample_file(text, name, reading).samples;
+}
+
+[[gnu::cold]] GONIO_INLINE sample_file read_sample_file(const std::filesystem::path& path,
+                                                        const sample_reading& reading) {
+  const auto bytes = read_bytes(path);
+  return read_sample_file(as_text(bytes), path.native(), reading);
+}
+
+[[gnu::cold]] GONIO_INLINE bool has_directions_alone(std::string_view text, const std::string& name,
+                                                     const sample_reading& reading) {
+  detail::sample_rows rows(text, name, false, reading);
+  return rows.next() && rows.row().values.count == 0;
+}
+
+GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sample_reading& reading) {
+  return read_sample_file(path, reading).samples;
+}
+
+[[gnu::cold]] GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem::path& path,
+                                                                        const sample_reading& reading) {
+  const auto bytes = read_bytes(path);
+  detail::sample_rows rows(as_text(bytes), path.native(), false, reading);
+  std::vector<half_difference> all;
+  while (rows.next()) all.push_back(detail::row_directions(rows.row()).angles());
+  return all;
+}
+
+[[gnu::cold]] GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
+                                                                            const sample_reading& reading) {
+  const auto bytes = read_bytes(path);
+  detail::sample_rows rows(as_text(bytes), path.native(), false, reading);
+  std::vector<direction_pair> all;
+  while (rows.next()) all.push_back(detail::row_directions(rows.row()).pair());
+  return all;
+}
+
+[[gnu::cold]] GONIO_INLINE void write_direction_pairs(const std::filesystem::path& path,
+                                                      std::span<const direction_pair> pairs) {
+  const auto rounded = [](double angle) { return shortest(std::round(degrees(angle) * 1e9) / 1e9 + 0.0); };
+  std::string text = "theta_i,phi_i,theta_o,phi_o\n";
+  for (const auto& [wi, wo] : pairs)
+    text += message_of({rounded(gonio::polar_angle(wi)), ",", rounded(gonio::azimuth(wi)), ",",
+                        rounded(gonio::polar_angle(wo)), ",", rounded(gonio::azimuth(wo)), "\n"});
+  detail::write_text(path, text);
+}
+
+}  // namespace gonio::io

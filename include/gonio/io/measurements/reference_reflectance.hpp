@@ -1,0 +1,23 @@
+#pragma once
+/// The reflectance of a white reference by the angles of light and viewer, as CSV (docs/reference/formats.md).
+
+#include <gonio/capture/reference_reflectance.hpp>
+
+#include <filesystem>
+
+namespace gonio::io {
+
+/// Reads a table in any dialect (io/text/csv_dialect.hpp): the header names the columns, in any order: `theta_i`,
+/// perhaps `theta_o` (degrees, or with their unit as in files of samples), and `factor`, or
+/// `factor_r,factor_g,factor_b` (or per cent, `factor [%]`). Lines ascend by theta_i, and of one theta_i by theta_o, of
+/// which every theta_i has the same.
+///
+/// Throws gonio::error naming the file, and the line where there is one to name, if a column is missing or unknown, if
+/// a number is none, if angles do not ascend or a pair of them is missing, or as reference_reflectance does.
+[[nodiscard]] capture::reference_reflectance read_reference_reflectance(const std::filesystem::path& path);
+
+}  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/measurements/impl/reference_reflectance.ipp>
+#endif

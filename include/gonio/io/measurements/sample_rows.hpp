@@ -1,0 +1,82 @@
+#pragma once
+/// The lines of a file of samples or directions as numbers, each where it stands. io/measurements/samples.hpp makes
+/// directions and values of them.
+
+#include <gonio/io/measurements/sample_header.hpp>
+#include <gonio/io/measurements/sample_provenance.hpp>
+#include <gonio/io/measurements/sample_quantity.hpp>
+#include <gonio/io/text/csv_reader.hpp>
+#include <gonio/io/text/text.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::io::detail {
+
+/// By the numbers of the columns, those of wavelengths behind the ignored ones.
+using sample_row = std::vector<double>;
+
+/// A line of numbers, in its place.
+struct parsed_row {
+  const sample_row& numbers;
+  const column_group& group;  ///< how directions are given
+  const column_group& values;
+  const column_group& weights;
+  std::optional<sample_quantity> quantity;
+  const text_place& place;
+  const sample_header& header;
+
+  [[nodiscard]] bool has_half_difference() const noexcept { return group.first == half_difference_group.first; }
+};
+
+/// Reads a file of samples or directions line by line:
+/// `sample_rows rows(text, name, false, {}); while (rows.next()) use(rows.row());`
+class sample_rows {
+ public:
+  sample_rows(std::string_view text, const std::string& name, bool needs_value, const sample_reading& reading);
+
+  /// Turns to the next line of numbers. At the end of the file it is false, or an error if there was none.
+  [[nodiscard]] bool next();
+
+  [[nodiscard]] parsed_row row() const noexcept {
+    return {numbers_, header_.directions(), header_.values(), header_.weights(), quantity_.quantity(), csv_.place(),
+            header_};
+  }
+  [[nodiscard]] const sample_header& header() const noexcept { return header_; }
+  [[nodiscard]] std::optional<sample_quantity> quantity() const noexcept { return quantity_.quantity(); }
+  [[nodiscard]] std::optional<double> wavelength() const noexcept { return wavelength_; }
+  [[nodiscard]] const sample_provenance& provenance() const noexcept { return provenance_; }
+
+ private:
+  void read_comment(std::string_view comment);
+  void read_header();
+  void read_fields();
+  void read_number_of(std::size_t column, std::string_view field, std::size_t& percent_signs);
+  void read_quantity(std::string_view field);
+  void check_percent_signs(std::size_t signs);
+  void check_wavelength();
+  void check_weights() const;
+  void look_at_sides();
+  void finish() const;
+
+  csv_reader csv_;
+  bool needs_value_;
+  const sample_reading& reading_;
+  sample_header header_;
+  stated_quantity quantity_;
+  sample_provenance provenance_;
+  std::optional<double> wavelength_;
+  sample_row numbers_ = sample_row(sample_columns.size());
+  std::size_t rows_ = 0;
+  bool has_percent_signs_ = false, has_signed_angle_ = false;
+  std::size_t line_of_unknown_side_ = 0;  ///< where two angles are not 0 and none is negative
+};
+
+}  // namespace gonio::io::detail
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/measurements/impl/sample_rows.ipp>
+#endif

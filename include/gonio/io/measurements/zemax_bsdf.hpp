@@ -1,0 +1,66 @@
+#pragma once
+/// Measurements in Zemax's tabular BSDF format, the one of imaging spheres (IS-SA): R. Rykowski, "Zemax Tabular BSDF
+/// data file format", support.zemax.com/hc/en-us/articles/1500005486801 (first as "BSDF Data Interchange file format
+/// specification", 2008). A block of rows for each rotation of the sample and angle of incidence; each row is an
+/// azimuth, each column a radial angle **about the specular direction**: radial 0 is the specular direction, azimuth 0
+/// points from it towards the normal, azimuths go counterclockwise as seen from outside (as libbsdf by Kimura Ryo,
+/// github.com/KimuraRyo/libbsdf, reads it). Values are sr^-1 without the cosine, grey or CIE XYZ.
+
+#include <gonio/io/text/words.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::io {
+
+namespace detail {
+
+/// Reads such a file word by word.
+class zemax_bsdf_reader {
+ public:
+  zemax_bsdf_reader(std::string_view text, text_place& place) : words_(text, place) {}
+
+  [[nodiscard]] sample_set read();
+
+ private:
+  /// One channel's numbers, in the file's order: rotations, angles of incidence, azimuths, radial angles.
+  using plane = std::vector<double>;
+
+  void read_header();
+  void read_scatter_type();
+  void require_lists() const;
+  [[nodiscard]] plane read_plane();
+  [[nodiscard]] sample_set samples(const std::vector<plane>& planes) const;
+
+  word_reader words_;
+  bool is_tristimulus_ = false;
+  std::vector<double> rotations_, incidences_, azimuths_, radials_;  ///< degrees
+};
+
+/// The direction at a radial angle and an azimuth about the specular direction of light at `theta` and `phi`; radians.
+[[nodiscard]] direction about_specular(double theta, double phi, double radial, double azimuth) noexcept;
+
+}  // namespace detail
+
+/// Does the text begin as such a file does?
+[[nodiscard]] bool looks_like_zemax_bsdf(std::string_view text);
+
+/// Samples from the text of such a file; `name` is what errors call it. A direction that the table has more than once
+/// (radial 0, azimuths 0 and 360) is one sample; those at or below the horizon are none. One half of a table that is
+/// symmetric about the plane of incidence is enough, and stays the half that was measured. Throws gonio::error naming
+/// the line of what is wrong, and for files of transmission.
+[[nodiscard]] sample_set read_zemax_bsdf(std::string_view text, const std::string& name);
+
+/// Reads such a file.
+[[nodiscard]] sample_set read_zemax_bsdf(const std::filesystem::path& path);
+
+}  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/measurements/impl/zemax_bsdf.ipp>
+#endif

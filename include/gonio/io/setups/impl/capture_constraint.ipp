@@ -1,0 +1,78 @@
+#pragma once
+/// Bodies of io/setups/capture_constraint.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/design/capture_constraint.hpp>
+#include <gonio/io/setups/capture_constraint.hpp>
+#include <gonio/io/text/rules.hpp>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace gonio::io::detail {
+
+GONIO_INLINE design::polar_range read_polar_range(const text_rule& rule, std::size_t first, const text_place& place) {
+  const double smallest = rule.numbers[first], largest = rule.numbers[first + 1];
+  if (!(smallest >= 0.0 && smallest <= largest && largest <= 90.0))
+    place.refuse("a range of polar angles is two numbers from 0 to 90, the smaller one first");
+  return {radians(smallest), radians(largest)};
+}
+
+/// By how much what a rule says may be missed, unless it says so itself.
+inline constexpr double default_tolerance = radians(0.5);
+
+[[nodiscard]] GONIO_INLINE double read_tolerance(double angle, const text_place& place) {
+  if (!(angle >= 0.0 && angle <= 90.0)) place.refuse("angles are met to a tolerance from 0 to 90 degrees");
+  return radians(angle);
+}
+
+GONIO_INLINE void apply_rule(const text_rule& rule, design::capture_constraint& constraint, const text_place& place) {
+  if (rule.name == "light" || rule.name == "viewer") {
+    require_numbers(rule, {2, 3}, place);
+    design::polar_range range = read_polar_range(rule, 0, place);
+    const bool is_single = range.smallest == range.largest;
+    const double tolerance =
+        rule.numbers.size() == 3 ? read_tolerance(rule.numbers[2], place) : (is_single ? default_tolerance : 0.0);
+    range.smallest -= tolerance;
+    range.largest += tolerance;
+    (rule.name == "light" ? constraint.light : constraint.viewer) = range;
+  } else if (rule.name == "separation") {
+    require_numbers(rule, {1}, place);
+    if (!(rule.numbers[0] >= 0.0 && rule.numbers[0] <= 180.0)) place.refuse("a separation is from 0 to 180 degrees");
+    constraint.smallest_separation = radians(rule.numbers[0]);
+  } else if (rule.name == "light_step") {
+    require_numbers(rule, {1, 2}, place);
+    if (!(rule.numbers[0] > 0.0)) place.refuse("a step between lights must be positive");
+    constraint.light_step = radians(rule.numbers[0]);
+    if (rule.numbers.size() == 2) constraint.light_tolerance = read_tolerance(rule.numbers[1], place);
+  } else if (rule.name == "forbid") {
+    require_numbers(rule, {4}, place);
+    constraint.forbidden.push_back({read_polar_range(rule, 0, place), read_polar_range(rule, 2, place)});
+  } else if (rule.name == "in_plane") {
+    require_numbers(rule, {0, 1}, place);
+    constraint.plane_tolerance = rule.numbers.empty() ? default_tolerance : read_tolerance(rule.numbers[0], place);
+  } else {
+    place.refuse(in_quotes(rule.name) +
+                 " is no rule: expected light, viewer, separation, light_step, forbid or in_plane");
+  }
+}
+
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE design::capture_constraint read_capture_constraint(std::string_view text, const std::string& name) {
+  design::capture_constraint constraint;
+  text_place place{name};
+  for_each_line(text, place,
+                [&](std::string_view line) { detail::apply_rule(detail::read_rule(line, place), constraint, place); });
+  return constraint;
+}
+
+GONIO_INLINE design::capture_constraint read_capture_constraint(const std::filesystem::path& path) {
+  const auto bytes = read_bytes(path);
+  return read_capture_constraint(as_text(bytes), path.string());
+}
+
+}  // namespace gonio::io

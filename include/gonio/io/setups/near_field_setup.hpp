@@ -1,0 +1,38 @@
+#pragma once
+/// Text files that say how an image of a flat sample was taken: a line for each entry, angles in degrees, lengths in
+/// any one unit, the sample in the plane z = 0. docs/reference/formats.md has all the entries.
+///
+/// ```
+/// size 640 480           # of the image: columns, rows
+/// focal_length 1210.5    # in pixels
+/// position 0.5 0 0.3     # of the camera, which looks at the target
+/// target 0 0 0
+/// light_angles 50 180    # theta, phi of the distant light, or lamp x y z
+/// region 0.1             # radius of the disc that counts
+/// ```
+
+#include <gonio/capture/near_field_image.hpp>
+#include <gonio/io/setups/camera_calibration.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace gonio::io {
+
+/// Throws gonio::error naming the line with an entry that is unknown, there twice or not what it should be, or the
+/// entry that is missing, and as `require_usable` does. With a calibration the text says neither size nor lens. `name`
+/// is what errors call the text.
+[[nodiscard]] capture::near_field_setup read_near_field_setup(
+    std::string_view text, const std::string& name, const std::optional<camera_calibration>& calibration = {});
+
+/// Reads the set-up of an image. Throws gonio::error naming the file and the line.
+[[nodiscard]] capture::near_field_setup read_near_field_setup(
+    const std::filesystem::path& path, const std::optional<camera_calibration>& calibration = {});
+
+}  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/setups/impl/near_field_setup.ipp>
+#endif

@@ -1,0 +1,138 @@
+#pragma once
+/// Bodies of io/text/csv_dialect.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/io/text/csv_dialect.hpp>
+#include <gonio/io/text/text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::io {
+
+[[gnu::cold]] GONIO_INLINE csv_dialect dialect_of(std::string_view header) {
+  constexpr std::string_view separators = ",;\t";
+  std::array<std::size_t, separators.size()> counts{};
+  bool in_quotes = false;
+  for (const char c : header) {
+    if (c == '"') in_quotes = !in_quotes;
+    const std::size_t which = separators.find(c);
+    if (!in_quotes && which != std::string_view::npos) ++counts[which];
+  }
+  const auto most = std::ranges::max_element(counts);
+  return {*most == 0 ? ' ' : separators[static_cast<std::size_t>(most - counts.begin())]};
+}
+
+[[gnu::cold]] GONIO_INLINE std::string description(const csv_dialect& dialect) {
+  const char* separated = dialect.separator == ','    ? "comma-separated"
+                          : dialect.separator == ';'  ? "semicolon-separated"
+                          : dialect.separator == '\t' ? "tab-separated"
+                                                      : "separated by blanks";
+  const char* marked = dialect.decimal_mark == ','   ? " with decimal commas"
+                       : dialect.decimal_mark == '.' ? " with decimal points"
+                                                     : "";
+  return std::string(separated) + marked;
+}
+
+}  // namespace gonio::io
+
+namespace gonio::io::detail {
+
+[[gnu::cold]] GONIO_INLINE void require_plain_text(std::string_view text, const std::string& name) {
+  const bool is_archive = text.starts_with("PK\x03\x04"), is_old_workbook = text.starts_with("\xD0\xCF\x11\xE0");
+  if (is_archive || is_old_workbook)
+    gonio::refuse({name, ": looks like a workbook of a spreadsheet, expected text: save its sheet as CSV"});
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    gonio::refuse({name, ": looks like UTF-16 text, expected UTF-8: save it as CSV UTF-8"});
+}
+
+[[gnu::cold]] GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;
+       begin = line.find_first_not_of(blanks)) {
+    line.remove_prefix(begin);
+    const std::size_t size = std::min(line.find_first_of(blanks), line.size());
+    fields.push_back(line.substr(0, size));
+    line.remove_prefix(size);
+  }
+}
+
+/// Takes a field that begins with a double quote off the front of a line, with both its quotes. False if there is no
+/// second one.
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE bool read_quoted(std::string_view& line, std::string_view& field) {
+  std::size_t end = line.find('"', 1);
+  while (end != std::string_view::npos && line.substr(end + 1).starts_with('"')) end = line.find('"', end + 2);
+  if (end == std::string_view::npos) return false;
+  field = trimmed(line.substr(1, end - 1));
+  line.remove_prefix(end + 1);
+  return true;
+}
+
+[[gnu::cold]] GONIO_INLINE const char* split_quoted(std::string_view line, char separator,
+                                                    std::vector<std::string_view>& fields) {
+  const std::string_view ends = separator == ' ' ? blanks : std::string_view(&separator, 1);
+  if (separator == ' ') line = trimmed(line);
+  fields.clear();
+  while (true) {
+    // A blank before a field is none of it, but a tab that separates is.
+    line.remove_prefix(std::min(line.find_first_not_of(separator == '\t' ? " " : blanks), line.size()));
+    std::string_view field;
+    const bool has_quotes = line.starts_with('"');
+    if (has_quotes && !read_quoted(line, field)) return "a double quote is not closed on its line";
+    const std::string_view rest = line.substr(0, line.find_first_of(ends));
+    if (has_quotes && !trimmed(rest).empty()) return "a field goes on behind its closing double quote";
+    fields.push_back(has_quotes ? field : trimmed(rest));
+    if (rest.size() == line.size()) return nullptr;
+    line.remove_prefix(rest.size() + 1);
+  }
+}
+
+/// Numbers of files with decimal commas, and of those that have shown no decimal mark yet.
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE const char* read_marked_number(std::string_view field, csv_dialect& dialect,
+                                                                        double& value) {
+  const std::size_t comma = field.find(',');
+  const bool has_comma = comma != std::string_view::npos, has_point = field.find('.') != std::string_view::npos;
+  if (!has_comma && !has_point) return read_number(field, value);
+  if (has_comma && has_point) return " is not a number: it has a point and a comma";
+  const char mark = has_comma ? ',' : '.';
+  if (dialect.decimal_mark != '?' && dialect.decimal_mark != mark)
+    return has_comma ? " has a decimal comma, but a number above has a decimal point"
+                     : " has a decimal point, but a number above has a decimal comma";
+  const char* wrong = nullptr;
+  if (has_comma) {
+    std::string with_point(field);
+    with_point[comma] = '.';
+    wrong = read_number(with_point, value);
+  } else {
+    wrong = read_number(field, value);
+  }
+  if (wrong == nullptr) dialect.decimal_mark = mark;
+  return wrong;
+}
+
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE const char* csv_dialect::split(std::string_view line, std::vector<std::string_view>& fields) const {
+  if (line.find('"') != std::string_view::npos) return detail::split_quoted(line, separator, fields);
+  if (separator == ' ')
+    detail::split_at_blanks(line, fields);
+  else
+    split_fields(line, fields, separator);
+  return nullptr;
+}
+
+GONIO_INLINE const char* csv_dialect::read_number(std::string_view field, double& value) {
+  if (decimal_mark != '.') return detail::read_marked_number(field, *this, value);
+  const char* wrong = io::read_number(field, value);
+  const bool has_comma = wrong != nullptr && field.find(',') != std::string_view::npos;
+  return has_comma ? detail::read_marked_number(field, *this, value) : wrong;
+}
+
+}  // namespace gonio::io

@@ -1,0 +1,63 @@
+#pragma once
+/// Bodies of io/csv_reader.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/io/text/csv_dialect.hpp>
+#include <gonio/io/text/csv_reader.hpp>
+#include <gonio/io/text/text.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace gonio::io {
+
+GONIO_INLINE csv_reader::csv_reader(std::string_view text, const std::string& name)
+    : left_(without_byte_order_mark(text)), place_{name, 0} {
+  detail::require_plain_text(text, name);
+}
+
+GONIO_INLINE bool csv_reader::next(const std::function<void(std::string_view)>& read_comment) {
+  std::string_view line;
+  if (!next_line(line, read_comment)) return false;
+  if (columns_ == 0) dialect_ = dialect_of(line);
+  if (const char* wrong = dialect_.split(line, fields_)) place_.refuse(wrong);
+  // Spreadsheets end lines with separators.
+  while (fields_.size() > std::max<std::size_t>(columns_, 1) && fields_.back().empty()) fields_.pop_back();
+  if (columns_ == 0) columns_ = fields_.size();
+  if (fields_.size() != columns_) refuse_size(line);
+  return true;
+}
+
+/// A spreadsheet puts a comment in quotes; below the header line that is a field.
+GONIO_INLINE bool csv_reader::next_line(std::string_view& line,
+                                        const std::function<void(std::string_view)>& read_comment) {
+  while (next_whole_line(left_, place_, line)) {
+    const std::size_t first = line.find_first_not_of(blanks);
+    const bool in_quotes = columns_ == 0 && line.substr(first).starts_with("\"# ");
+    if (in_quotes || line[first] == '#') {
+      const std::string_view comment = line.substr(first + (in_quotes ? 2 : 1));
+      const std::size_t last = comment.find_last_not_of(",;\" \t\r");  // what a spreadsheet puts behind
+      if (read_comment) read_comment(comment.substr(0, last == std::string_view::npos ? 0 : last + 1));
+      continue;
+    }
+    if ((line[first] != ',' && line[first] != ';') || line.find_first_not_of(",; \t\r") != std::string_view::npos)
+      return true;
+  }
+  return false;
+}
+
+[[gnu::cold]] GONIO_INLINE void csv_reader::refuse_size(std::string_view line) const {
+  const csv_dialect of_line = dialect_of(line);
+  const std::size_t found = fields_.size();
+  const bool differs = of_line.separator != dialect_.separator;
+  const bool may_have_commas = !differs && dialect_.separator == ',' && found > columns_;
+  place_.refuse({found, found == 1 ? " field" : " fields", ", expected ", columns_,
+                 " as in the header line; the header line looks ", description({dialect_.separator}),
+                 differs ? ", this one " : "", differs ? description(of_line) : "",
+                 may_have_commas ? ": separate fields by semicolons if numbers have decimal commas" : ""});
+}
+
+}  // namespace gonio::io

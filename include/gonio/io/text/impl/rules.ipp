@@ -1,0 +1,40 @@
+#pragma once
+/// Bodies of io/text/rules.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/io/text/rules.hpp>
+#include <gonio/io/text/text.hpp>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::io::detail {
+
+GONIO_INLINE text_rule read_rule(std::string_view line, const text_place& place) {
+  line = trimmed(line.substr(0, line.find('#')));
+  text_rule rule;
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+    const std::string_view word = line.substr(0, end);
+    if (rule.name.empty())
+      rule.name = word;
+    else
+      rule.numbers.push_back(read_number(word, place, [&] { return "number of " + in_quotes(rule.name); }));
+    line = trimmed(line.substr(end));
+  }
+  return rule;
+}
+
+GONIO_INLINE void require_numbers(const text_rule& rule, std::initializer_list<std::size_t> counts,
+                                  const text_place& place) {
+  if (std::ranges::find(counts, rule.numbers.size()) != counts.end()) return;
+  std::string expected;
+  for (const std::size_t count : counts) expected += (expected.empty() ? "" : " or ") + std::to_string(count);
+  place.refuse(in_quotes(rule.name) + " takes " + expected + (expected == "1" ? " number" : " numbers") + ", not " +
+               std::to_string(rule.numbers.size()));
+}
+
+}  // namespace gonio::io::detail

@@ -1,0 +1,29 @@
+#pragma once
+/// Text files of rules: each line a name and its numbers, separated by blanks; what follows a # is a comment.
+
+#include <gonio/io/text/text.hpp>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::io::detail {
+
+/// A line of the file: what is told, and its numbers. The name is a part of the text.
+struct text_rule {
+  std::string_view name;
+  std::vector<double> numbers;
+};
+
+[[nodiscard]] text_rule read_rule(std::string_view line, const text_place& place);
+
+/// Refuses a rule unless it has one of these counts of numbers.
+void require_numbers(const text_rule& rule, std::initializer_list<std::size_t> counts, const text_place& place);
+
+}  // namespace gonio::io::detail
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/text/impl/rules.ipp>
+#endif

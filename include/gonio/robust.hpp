@@ -1,0 +1,10 @@
+#pragma once
+/// All of `robust/`: Noell et al. 2014's correction functions, their iteration and its weights.
+
+#include <gonio/robust/corrected_brdf.hpp>
+#include <gonio/robust/correction.hpp>
+#include <gonio/robust/correction_iteration.hpp>
+#include <gonio/robust/nearest_material.hpp>
+#include <gonio/robust/outlier_weights.hpp>
+#include <gonio/robust/robust_reconstruction.hpp>
+#include <gonio/robust/sampled_functions.hpp>

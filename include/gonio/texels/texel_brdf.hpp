@@ -1,0 +1,69 @@
+#pragma once
+/// The BRDFs of the texels of a flat sample, evaluated from their weights: what `component_brdf` is of one material, of
+/// as many as a map of a spatially varying BRDF has (io/materials/svbrdf_map.hpp). Nielsen et al. 2015
+/// (doi:10.1145/2816795.2818085), Eq. 10.
+
+#include <gonio/core/half.hpp>
+#include <gonio/render/component_brdf.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <span>
+
+namespace gonio::render {
+
+/// A view of the shared components and of all texels' weights, which must outlive it: the weights may lie in a file
+/// that is mapped into memory. Evaluation does not allocate, lock or throw.
+/// ```cpp
+/// const gonio::io::svbrdf_map map("map.gsv");
+/// const gonio::render::shared_components<Eigen::half> functions(prior, map.header().functions);
+/// const gonio::io::svbrdf_band band = map.read_band(0);
+/// const gonio::render::texel_brdf sample(functions, band.weights);
+/// const auto value = sample(texel, wi, wo);
+/// ```
+template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>
+class texel_brdf {
+ public:
+  /// More are not shipped by anyone.
+  static constexpr Eigen::Index most_components = 512;
+
+  /// `weights` are half floats: of the first texel the components of red, of green, of blue, then of the next. Throws
+  /// gonio::error if they are not so many, or there are too many components.
+  texel_brdf(const shared_components<Stored>& components, std::span<const std::uint16_t> weights)
+      : components_(&components), weights_(weights) {
+    if (components.size() > most_components)
+      refuse({"texels of ", components.size(), " components, expected at most ", most_components});
+    if (std::ssize(weights) % (3 * components.size()) != 0)
+      refuse({"texels of ", components.size(), " components have 3 times as many weights each: ", std::ssize(weights),
+              " are not of whole texels"});
+  }
+
+  [[nodiscard]] Eigen::Index texels() const noexcept { return std::ssize(weights_) / (3 * components_->size()); }
+
+  /// Reflectance in sr^-1 of a texel in a pair of unit vectors, `float` or `double`; black where `component_brdf` is,
+  /// and if the texel is not of the sample: all of its weights are zeros.
+  template <std::floating_point Real>
+  [[nodiscard]] Eigen::Array<Real, 3, 1> operator()(Eigen::Index texel, const Eigen::Matrix<Real, 3, 1>& wi,
+                                                    const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
+    GONIO_ASSERT(texel >= 0 && texel < texels());
+    const Eigen::Index k = components_->size();
+    // The three weights of a component beside each other, as component_brdf has them.
+    std::array<float, 3 * most_components> own;
+    const std::uint16_t* const stored = weights_.data() + 3 * k * texel;
+    if (std::all_of(stored, stored + 3 * k, [](std::uint16_t each) { return each == 0; }))
+      return Eigen::Array<Real, 3, 1>::Zero();
+    for (Eigen::Index c = 0; c < 3; ++c)
+      for (Eigen::Index i = 0; i < k; ++i) own[3 * i + c] = from_half(stored[c * k + i]);
+    return detail::evaluate_components<Interpolation>(*components_, own.data(), wi, wo);
+  }
+
+ private:
+  const shared_components<Stored>* components_;
+  std::span<const std::uint16_t> weights_;
+};
+
+}  // namespace gonio::render

@@ -1,0 +1,3 @@
+// The bodies of conformity/.
+
+#include <gonio/conformity/impl/conformity.ipp>

@@ -1,0 +1,36 @@
+#pragma once
+/// Tukey's biweight, with which the iteration's weights are compared.
+
+#include <gonio/estimate/outlier_mixture.hpp>
+#include <gonio/robust/outlier_weights.hpp>
+
+#include <algorithm>
+
+namespace gonio {
+
+/// Tukey's biweight of the logarithmic deviation, (1 - (u/c)^2)^2 within c and 0 beyond: a redescending M-estimator
+/// with 95 % efficiency for Gaussian errors (Huber, Robust Statistics, 1981). u is in units of the median deviation of
+/// the data, times 1.4826, for each channel by itself. Breaks down when half of the measurements are outliers.
+struct tukey_weights {
+  double cutoff = 4.685;
+  /// Added to measurement and estimate before the logarithm, in sr^-1.
+  float offset = 1e-3f;
+
+  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const;
+};
+
+static_assert(outlier_weighting<tukey_weights>);
+
+inline channel_values tukey_weights::weigh(const channel_values& measured, const channel_values& estimated) const {
+  const channel_values deviation = ((measured.max(0.0f) + offset).log() - (estimated + offset).log()).abs();
+  channel_values weights(3, measured.cols());
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    // Rounding is no deviation.
+    const float limit =
+        static_cast<float>(cutoff) * std::max(1.4826f * detail::upper_median_of(deviation.row(c)), 1e-6f);
+    weights.row(c) = (1.0f - (deviation.row(c) / limit).square()).max(0.0f).square();
+  }
+  return weights;
+}
+
+}  // namespace gonio
