@@ -32,9 +32,5 @@ template solution basic_lasso<sign_rule::any>::solve_any(const least_squares_pro
 template solution basic_lasso<sign_rule::any>::solve_any(const normal_equations&) const;
 template solution basic_lasso<sign_rule::non_negative>::solve_any(const least_squares_problem&) const;
 template solution basic_lasso<sign_rule::non_negative>::solve_any(const normal_equations&) const;
-template lasso_path solve_lasso_path<sign_rule::any>(const least_squares_problem&, std::vector<double>);
-template lasso_path solve_lasso_path<sign_rule::any>(const normal_equations&, std::vector<double>);
-template lasso_path solve_lasso_path<sign_rule::non_negative>(const least_squares_problem&, std::vector<double>);
-template lasso_path solve_lasso_path<sign_rule::non_negative>(const normal_equations&, std::vector<double>);
 
 }  // namespace gonio

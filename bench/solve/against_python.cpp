@@ -1,12 +1,11 @@
-/// Our solvers beside numpy, scipy and scikit-learn on the same real matrices, in one run: writes the problem to a
-/// scratch folder, times our side, lets rivals.py time theirs (Debian's python3-scipy, python3-sklearn and, for a BLAS
-/// worth comparing with, libopenblas0-pthread), and prints the ratios. Says so where Python is absent.
+/// Our solvers beside numpy and scipy on the same real matrices, in one run: writes the problem to a scratch folder,
+/// times our side, lets rivals.py time theirs (Debian's python3-scipy and, for a BLAS worth comparing with,
+/// libopenblas0-pthread), and prints the ratios. Says so where Python is absent.
 
 #include "../real_materials.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/io/bytes/npy.hpp>
 #include <gonio/metric/log.hpp>
-#include <gonio/solve/lasso.hpp>
 #include <gonio/solve/nnls.hpp>
 #include <gonio/solve/quadratic_program.hpp>
 
@@ -51,7 +50,7 @@ void save(const std::filesystem::path& path, const Scalar* data, std::size_t row
 /// What the rivals took, or nothing with the reason on standard error.
 std::optional<json> time_rivals(const std::filesystem::path& folder) {
   for (const std::string python : {"/usr/bin/python3", "python3"}) {
-    if (std::system((python + " -c 'import numpy, scipy, sklearn' 2> /dev/null").c_str()) != 0) continue;
+    if (std::system((python + " -c 'import numpy, scipy' 2> /dev/null").c_str()) != 0) continue;
     json all;
     for (const int threads : {1, 2}) {
       const auto result = folder / "rivals.json";
@@ -62,8 +61,7 @@ std::optional<json> time_rivals(const std::filesystem::path& folder) {
     }
     return all;
   }
-  std::cerr << "no Python with numpy, scipy and sklearn: apt-get install python3-scipy python3-sklearn "
-               "libopenblas0-pthread\n";
+  std::cerr << "no Python with numpy and scipy: apt-get install python3-scipy libopenblas0-pthread\n";
   return std::nullopt;
 }
 
@@ -96,7 +94,6 @@ int main() {
   save(folder / "gram.npy", normal.gram().data(), k, k);
   save(folder / "moment.npy", normal.rhs().data(), k, 1);
 
-  const auto path = [&] { return gonio::solve_lasso_path(normal, gonio::lambda_sequence(normal, 50, 1e-3)); };
   std::map<std::string, double> ours;
   for (const unsigned threads : {1u, 2u}) {
     const std::string suffix = ", " + std::to_string(threads) + " thread" + (threads > 1 ? "s" : "");
@@ -111,9 +108,6 @@ int main() {
     ours["NNLS of all"] += best_of(20, [&] { (void)gonio::nnls().solve(problem); });
     ours["QP of all"] += best_of(20, [&] { (void)gonio::quadratic_program().solve(problem); });
   }
-  ours["Lasso path of 50"] = best_of(50, [&] { (void)path(); });
-  double worst = 0.0;
-  for (const auto& found : path().solutions) worst = std::max(worst, found.report.kkt_residual[0]);
 
   std::printf("%td rows of %zu columns, microseconds (least of several runs)\n\n", rows.rows(), k);
   std::printf("| task | gonio | rival | rival's | rival / gonio |\n|---|---|---|---|---|\n");
@@ -128,10 +122,7 @@ int main() {
     }
     const json& theirs = rivals->at("1");
     print_row("NNLS", ours["NNLS"], "scipy.optimize.nnls on the Cholesky factor", theirs["nnls"]);
-    print_row("Lasso path of 50", ours["Lasso path of 50"], "sklearn.linear_model.lasso_path on the Gram matrix",
-              theirs["lasso_path"]);
-    std::printf("\nworst KKT violation along the path: gonio %.1e, scikit-learn %.1e. numpy's BLAS: %s\n", worst,
-                theirs["lasso_kkt_residual"].get<double>(), theirs["blas"].get<std::string>().c_str());
+    std::printf("\nnumpy's BLAS: %s\n", theirs["blas"].get<std::string>().c_str());
   }
   std::filesystem::remove_all(folder);
 }

@@ -1,16 +1,14 @@
-"""The other side of against_python.cpp: times numpy, scipy and scikit-learn on the matrices in a folder, prints JSON.
+"""The other side of against_python.cpp: times numpy and scipy on the matrices in a folder, prints JSON.
 
 usage: rivals.py FOLDER   (with rows.npy, gram.npy, moment.npy; OPENBLAS_NUM_THREADS set before)"""
 import json
 import subprocess
 import sys
 import time
-import warnings
 
 import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import nnls
-from sklearn.linear_model import lasso_path
 
 
 def best_of(runs, run):
@@ -60,20 +58,5 @@ factor = cholesky(gram)
 right = solve_triangular(factor, moment, trans="T")
 result["nnls"] = best_of(200, lambda: nnls(factor, right))
 
-# scikit-learn minimises |A x - b|^2 / (2 n) + alpha |x|_1; alphas for n = 99 rows of the factor. Its default tolerance.
-n = len(factor)
-alphas = np.abs(moment).max() / n * np.geomspace(1.0, 1e-3, 50)
-path = lambda: lasso_path(factor, right, alphas=alphas, precompute=gram, Xy=moment, check_input=False)
-with warnings.catch_warnings():
-    warnings.simplefilter("ignore")
-    result["lasso_path"] = best_of(3, path)
-    _, weights, _ = path()
-worst = 0.0
-for alpha, x in zip(alphas, weights.T):
-    slope, penalty = gram @ x - moment, alpha * n
-    off = np.where(x == 0, np.maximum(np.abs(slope) - penalty, 0), np.abs(slope + penalty * np.sign(x)))
-    norms = np.sqrt(np.diag(gram))
-    worst = max(worst, float((off / norms).max() / ((np.abs(gram) @ np.abs(x) + np.abs(moment)) / norms).max()))
-result["lasso_kkt_residual"] = worst
 result["blas"] = blas_library()
 print(json.dumps(result))

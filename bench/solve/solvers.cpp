@@ -113,12 +113,6 @@ double lambda(std::int64_t step) {
   return 1e-3 * gonio::largest_lambda(problem_of(step).normal(), gonio::sign_rule::any);
 }
 
-void lasso_path(benchmark::State& state) {
-  const gonio::normal_equations& normal = problem_of(state.range(0)).normal();
-  for (auto _ : state)
-    benchmark::DoNotOptimize(gonio::solve_lasso_path(normal, gonio::lambda_sequence(normal, 50, 1e-3)));
-}
-
 /// Registers everything on the problems of every cell and of a tenth of them.
 const bool registered = [] {
   const auto add = [](const std::string& name, auto run) {
@@ -159,7 +153,6 @@ const bool registered = [] {
   add("gram/lasso", [](benchmark::State& state) { from_normal(state, gonio::lasso(lambda(state.range(0)))); });
   add("gram/non_negative_lasso",
       [](benchmark::State& state) { from_normal(state, gonio::non_negative_lasso(lambda(state.range(0)))); });
-  add("gram/lasso_path_of_50", lasso_path);
   rows("least_squares", gonio::least_squares());
   rows("automatic_tikhonov_gcv", gonio::automatic_tikhonov(gonio::eta_criterion::generalised_cross_validation));
   rows("automatic_tikhonov_loo", gonio::automatic_tikhonov(gonio::eta_criterion::leave_one_out));

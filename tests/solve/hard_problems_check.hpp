@@ -45,23 +45,14 @@ struct way {
   const double both = share * gonio::largest_lambda(problem.normal(), gonio::sign_rule::any),
                one = share * gonio::largest_lambda(problem.normal(), gonio::sign_rule::non_negative),
                eta = share * problem.normal().gram().diagonal().maxCoeff();
-  const auto path = [](auto signs, double lambda) {
-    return [lambda](const gonio::least_squares_problem& given) {
-      return gonio::solve_lasso_path<decltype(signs)::value>(given, {2.0 * lambda, lambda}).solutions.back();
-    };
-  };
-  using any = std::integral_constant<gonio::sign_rule, gonio::sign_rule::any>;
-  using non_negative = std::integral_constant<gonio::sign_rule, gonio::sign_rule::non_negative>;
   std::vector<std::vector<way>> groups{
       {{"nnls", by(gonio::nnls())},
        {"nnls_block_pivoting", by(gonio::nnls_block_pivoting())},
        {"nnls_coordinate_descent", by(gonio::nnls_coordinate_descent())},
        {"non_negative_lasso, no penalty", by(gonio::non_negative_lasso(0.0))},
        {"quadratic_program", by(gonio::quadratic_program<>())}},
-      {{"non_negative_lasso", by(gonio::non_negative_lasso(one)), true, true, one},
-       {"solve_lasso_path, x >= 0", path(non_negative{}, one), true, true, one}},
-      {{"lasso", by(gonio::lasso(both)), true, false, both},
-       {"solve_lasso_path", path(any{}, both), true, false, both}},
+      {{"non_negative_lasso", by(gonio::non_negative_lasso(one)), true, true, one}},
+      {{"lasso", by(gonio::lasso(both)), true, false, both}},
       {{"least_squares", by(gonio::least_squares()), true, false}},
       {{"quadratic_program, convex", by(gonio::quadratic_program<gonio::convex_weights>()), false}},
       {{"truncated_svd", by(gonio::truncated_svd(0.99)), false}}};

@@ -1,6 +1,5 @@
 #include "../golden.hpp"
 #include "../json.hpp"
-#include "oracles/online_quadratic_program.hpp"
 #include "random_programs.hpp"
 #include <gonio/solve/iteration.hpp>
 #include <gonio/solve/quadratic_program.hpp>
@@ -20,7 +19,6 @@ using gonio::dual_active_set;
 using gonio::kkt_violation;
 using gonio::linear_constraints;
 using gonio::normal_equations;
-using gonio::online_quadratic_program;
 using gonio::quadratic_program;
 using gonio::sign_rule;
 
@@ -310,32 +308,6 @@ TEST_CASE("the objective of the dual method rises, up to the optimum") {
     last = next;
   }
   CHECK(steps > 3);
-}
-
-TEST_CASE("online: small changes take fewer steps and change nothing else") {
-  random_problem problem(40, 5, 11);
-  online_quadratic_program<convex_weights> online;
-  int cold = 0, warm = 0;
-  for (int time = 0; time < 20; ++time) {
-    problem.m += 0.01 * random_matrix(40, 1, 100U + static_cast<unsigned>(time));
-    problem.Q.diagonal().array() *= 1.001;
-    matrix both(40, 2);
-    both << problem.m, -problem.m;
-    const normal_equations normal(problem.Q, both);
-    const auto from_scratch = quadratic_program<convex_weights>().solve(normal);
-    const auto found = online.solve(normal);
-    CHECK(found.report.kkt_residual.maxCoeff() < 1e-12);
-    CHECK(near(found.weights, from_scratch.weights, 1e-10));
-    if (time > 0) {
-      cold += from_scratch.report.iterations;
-      warm += found.report.iterations;
-    }
-  }
-  CHECK(warm < cold / 2);
-  // Another size, and after having been told to forget.
-  CHECK(online.solve(identity_with(numbers({3, 1}))).weights == numbers({1, 0}));
-  online.forget();
-  CHECK(online.solve(identity_with(numbers({1, 3}))).weights == numbers({0, 1}));
 }
 
 TEST_CASE("the golden instances") {

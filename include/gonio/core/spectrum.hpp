@@ -78,26 +78,31 @@ class spectral_colour {
       const double from = wavelengths[i == 0 ? 0 : i - 1],
                    to = wavelengths[std::min(i + 1, std::ssize(wavelengths) - 1)];
       const double power = is_visible(wavelengths[i]) ? 0.5 * (to - from) * relative_power(light, wavelengths[i]) : 0.0;
-      weights_.row(i) = (power * colour_matching(wavelengths[i])).transpose();
+      const rgb matching = colour_matching(wavelengths[i]);
+      for (Eigen::Index c = 0; c < 3; ++c) weights_(i, c) = power * matching[c];
     }
-    const Eigen::Array3d white = weights_.colwise().sum().transpose();
-    if (!(white > 0.0).all())
-      refuse({"none of ", wavelengths.size(), " wavelengths, ", std::lround(wavelengths.front()), " to ",
-              std::lround(wavelengths.back()), " nm, is visible: they have no colour"});
-    weights_.rowwise() *= (to_xyz(rgb::Ones()) / white).transpose();
+    const rgb wanted = to_xyz(rgb::Ones());
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      double white = 0.0;
+      for (Eigen::Index i = 0; i < size(); ++i) white += weights_(i, c);
+      if (!(white > 0.0))
+        refuse({"none of ", wavelengths.size(), " wavelengths, ", std::lround(wavelengths.front()), " to ",
+                std::lround(wavelengths.back()), " nm, is visible: they have no colour"});
+      for (Eigen::Index i = 0; i < size(); ++i) weights_(i, c) *= wanted[c] / white;
+    }
   }
 
   /// The number of wavelengths.
   [[nodiscard]] Eigen::Index size() const noexcept { return weights_.rows(); }
 
   /// The colour of as many reflectances as there are wavelengths. Components of saturated colours may be negative.
-  [[nodiscard]] rgb operator()(std::span<const double> reflectance) const {
-    GONIO_ASSERT(std::ssize(reflectance) == size());
-    const Eigen::Map<const Eigen::ArrayXd> values(reflectance.data(), weights_.rows());
-    return from_xyz((weights_.colwise() * values).colwise().sum().transpose());
-  }
+  [[nodiscard]] rgb operator()(std::span<const double> reflectance) const { return colour_of(reflectance); }
   /// The same of reflectances as they are stored.
-  [[nodiscard]] rgb operator()(std::span<const float> reflectance) const {
+  [[nodiscard]] rgb operator()(std::span<const float> reflectance) const { return colour_of(reflectance); }
+
+ private:
+  template <class Number>
+  [[nodiscard]] rgb colour_of(std::span<const Number> reflectance) const {
     GONIO_ASSERT(std::ssize(reflectance) == size());
     rgb xyz(0.0, 0.0, 0.0);
     for (Eigen::Index band = 0; band < size(); ++band)
@@ -105,7 +110,6 @@ class spectral_colour {
     return from_xyz(xyz);
   }
 
- private:
   Eigen::ArrayX3d weights_;
 };
 
@@ -134,7 +138,8 @@ class spectral_colour {
       const double at = fine[j], step = at < here ? here - before : after - here;
       hat[j] = step > 0.0 ? std::max(1.0 - std::abs(at - here) / step, 0.0) : 1.0;
     }
-    weights.col(i) = colour(hat).matrix();
+    const rgb here_alone = colour(hat);
+    for (Eigen::Index c = 0; c < 3; ++c) weights(c, i) = here_alone[c];
   }
   return weights;
 }

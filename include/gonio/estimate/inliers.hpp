@@ -98,6 +98,11 @@ namespace detail {
 
 [[nodiscard]] inliers weighed_inliers(Eigen::VectorXd weights);
 
+/// The first three numbers of a row.
+[[nodiscard]] inline rgb first_three(const Eigen::MatrixXd& values, Eigen::Index row) {
+  return {values(row, 0), values(row, 1), values(row, 2)};
+}
+
 /// The rounds of weighting samples and fitting components again, and the start: the nearest material of the prior.
 template <error_metric Metric>
 class inlier_rounds {
@@ -115,8 +120,8 @@ class inlier_rounds {
     Eigen::VectorXd weights = weights_by(nearest(samples));
     for (int round = 0; round < rounds; ++round) {
       const auto equations = basis_equations<pca<Metric>>::of_mapped(prior_, weighted(mapped, {weights, {}}), threads_);
-      const Eigen::MatrixXd coefficients = equations.solve(solver_).weights.transpose();
-      weights = weights_by(materials_at(samples.locations, coefficients).template cast<float>().transpose());
+      const Eigen::MatrixXd values = materials_at(samples.locations, equations.solve(solver_).weights.transpose());
+      weights = weights_by(values.template cast<float>().transpose());
     }
     return weights;
   }
@@ -192,7 +197,7 @@ template <error_metric Metric>
     const location& at = samples.locations[numbers[i]];
     const double offset = offset_at(prior, at);
     outlying_sample out{.number = numbers[i],
-                        .measured = samples.values.row(numbers[i]).template head<3>().transpose().array(),
+                        .measured = first_three(samples.values, numbers[i]),
                         .predicted = rgb::Zero(),
                         .deviation = others.deviation[i],
                         .probability = wrong[i].probability};

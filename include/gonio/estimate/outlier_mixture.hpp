@@ -167,10 +167,8 @@ struct automatic_weights {
 
   [[nodiscard]] deviations deviate(const channel_values& measured, const channel_values& estimated) const;
 
-  /// Of some of the samples, which have a mixture of their own: a list or a range of their numbers.
-  template <class Some>
-  [[nodiscard]] Eigen::ArrayXf weigh(const outlier_mixture& mixture, const deviations& found,
-                                     const Some& samples) const;
+  /// Of one sample, under the mixture of its region.
+  [[nodiscard]] float weigh(const outlier_mixture& mixture, const deviations& found, Eigen::Index sample) const;
 
   /// The scale of good samples' distances, where `mixture` has that of their residuals: at least that.
   [[nodiscard]] double scale_of_distances(const deviations& found, const outlier_mixture& mixture) const;

@@ -188,7 +188,7 @@ class reconstructed {
       const location& at = samples_->locations[i];
       const double offset = offset_at(prior_, at);
       sample_residual each{.number = number_of(i),
-                           .measured = samples_->values.row(i).template head<3>().transpose().array(),
+                           .measured = detail::first_three(samples_->values, i),
                            .predicted = rgb::Zero(),
                            .relative_deviation = std::expm1(others.deviation[i]),
                            .disagreement = disagreement[i],

@@ -69,10 +69,7 @@ struct sample_predictions {
   Eigen::VectorXd deviation;  ///< n: standard deviation of the prediction and of the sample together
 
   /// The mean square, over the channels, of what a sample is off in deviations: about 1 if the model is right.
-  [[nodiscard]] Eigen::VectorXd disagreement() const {
-    return (mapped - mean).rowwise().squaredNorm().array() / deviation.array().square() /
-           static_cast<double>(mapped.cols());
-  }
+  [[nodiscard]] Eigen::VectorXd disagreement() const;
 };
 
 /// How well the materials of a prior explain some samples.

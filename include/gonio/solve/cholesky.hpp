@@ -30,11 +30,8 @@ class cholesky {
   [[nodiscard]] double log_determinant() const;
 
  private:
-  /// Columns begin to end - 1 of L, from which columns before `begin` are subtracted already.
-  void factorise_columns(Eigen::Index begin, Eigen::Index end);
-
   Eigen::MatrixXd lower_;  ///< L in the lower triangle
-  bool positive_definite_;
+  bool positive_definite_ = false;
 };
 
 }  // namespace gonio

@@ -7,8 +7,6 @@
 #include <Eigen/Core>
 
 #include <cmath>
-#include <string>
-#include <vector>
 
 namespace gonio {
 
@@ -50,22 +48,6 @@ using lasso = basic_lasso<sign_rule::any>;
 using non_negative_lasso = basic_lasso<sign_rule::non_negative>;
 
 static_assert(normal_solver<lasso> && normal_solver<non_negative_lasso>);
-
-/// Solutions for falling penalties, each started from the last: the regularisation path.
-struct lasso_path {
-  std::vector<double> lambdas;
-  std::vector<solution> solutions;
-};
-
-/// `count` penalties in geometric progression from `largest_lambda` down to `smallest_share` of it.
-[[nodiscard]] std::vector<double> lambda_sequence(const normal_equations& normal, Eigen::Index count = 50,
-                                                  double smallest_share = 1e-3, sign_rule signs = sign_rule::any);
-
-/// Solves for each penalty, starting from the solution of the one before. Best given falling. `problem` is a
-/// least_squares_problem or normal_equations. Throws gonio::error for a penalty that `basic_lasso` refuses, or if an
-/// optimum is not found.
-template <sign_rule Signs = sign_rule::any, quadratic_problem Problem>
-[[nodiscard]] lasso_path solve_lasso_path(const Problem& problem, std::vector<double> lambdas);
 
 }  // namespace gonio
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Sums of outer products: the loop that Gram matrices, A'A and A A', and factorisations spend their time in.
+/// Sums of outer products: the loop that Gram matrices, A'A and A A', spend their time in.
 /// Goto and van de Geijn, "Anatomy of High-Performance Matrix Multiplication" (doi:10.1145/1356052.1356053).
 
 #include <gonio/core/vector_kernels.hpp>
@@ -65,11 +65,6 @@ class product_sum {
   product_sum& operator+=(const product_sum& other) {
     add_scaled(1.0, other.sum_.data(), sum_.data(), sum_.size());
     return *this;
-  }
-
-  /// Takes the lower triangle of A'A from that of a matrix, its columns `stride` numbers apart.
-  void subtract_lower_from(double* matrix, Eigen::Index stride) const {
-    for (Eigen::Index j = 0; j < columns_; ++j) add_scaled(-1.0, &sum_(j, j), matrix + j * (stride + 1), columns_ - j);
   }
 
   /// A'A, both triangles.

@@ -25,7 +25,6 @@ namespace gonio {
 struct program_optimum {
   Eigen::VectorXd weights;
   constraint_multipliers multipliers;
-  active_constraints active;
   double kkt_residual = std::numeric_limits<double>::infinity();  ///< see `kkt_violation`
   int iterations = 0;                                             ///< constraints added or dropped
 };
@@ -40,10 +39,9 @@ class program_solver {
   program_solver(const normal_equations& normal, const linear_constraints& constraints)
       : normal_(normal), constraints_(constraints), program_(normal, constraints) {}
 
-  /// From the active constraints `start`, or, if it is null, from x = 0 under x >= 0 and from the optimum without
-  /// inequalities otherwise. Throws gonio::error if there is no solution, because the constraints contradict one
-  /// another or the objective falls for ever, or if it is not found.
-  [[nodiscard]] program_optimum solve(Eigen::Index right_hand_side, const active_constraints* start = nullptr) const;
+  /// From x = 0 under x >= 0, and from the optimum without inequalities otherwise. Throws gonio::error if there is no
+  /// solution, because the constraints contradict one another or the objective falls for ever, or if it is not found.
+  [[nodiscard]] program_optimum solve(Eigen::Index right_hand_side) const;
 
  private:
   static constexpr double good = 1e-11;        // KKT residual

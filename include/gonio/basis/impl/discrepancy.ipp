@@ -29,6 +29,17 @@ namespace detail {
   return std::exp(-0.5 * squared_distance);
 }
 
+[[nodiscard]] inline double squared_distance(const double* one, const double* other) noexcept {
+  double sum = 0.0;
+  for (Eigen::Index c = 0; c < 4; ++c) sum += (one[c] - other[c]) * (one[c] - other[c]);
+  return sum;
+}
+
+/// k of two places.
+[[nodiscard]] inline double covariance(const double* one, const double* other) noexcept {
+  return squared_exponential(squared_distance(one, other));
+}
+
 using discrepancy_places = Eigen::Matrix<double, 4, Eigen::Dynamic>;
 
 /// Where angles are, a column each. Throws gonio::error if one is not finite, or for impossible lengths.
@@ -42,28 +53,27 @@ using discrepancy_places = Eigen::Matrix<double, 4, Eigen::Dynamic>;
   Eigen::Index column = 0;
   for (const half_difference& each : angles) {
     places.col(column) = discrepancy_place(each, lengths);
-    if (!places.col(column).allFinite()) refuse({"centre ", column + 1, " of a discrepancy is not finite"});
+    if (!std::isfinite(places.col(column).sum())) refuse({"centre ", column + 1, " of a discrepancy is not finite"});
     ++column;
   }
   return places;
 }
 
-/// k of one place with the last ones of others, a row each: as many as `out` has.
-template <class Column>
-inline void covariances_with(const Eigen::Vector4d& place, const Eigen::ArrayX4d& others, Column&& out) {
-  const auto last = others.bottomRows(out.size());
-  out = (-0.5 * ((last.col(0) - place[0]).square() + (last.col(1) - place[1]).square() +
-                 (last.col(2) - place[2]).square() + (last.col(3) - place[3]).square()))
-            .exp();
+/// k of one place with others, from number `begin` on.
+GONIO_INLINE void covariances_with(const double* place, const discrepancy_places& others, Eigen::Index begin,
+                                   double* out) {
+  const Eigen::Index count = others.cols() - begin;
+  for (Eigen::Index i = 0; i < count; ++i) out[i] = -0.5 * squared_distance(&others(0, begin + i), place);
+  Eigen::Map<Eigen::ArrayXd> numbers(out, count);
+  numbers = numbers.exp();
 }
 
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd covariance_of(const discrepancy_places& places) {
   const Eigen::Index n = places.cols();
-  const Eigen::ArrayX4d rows = places.transpose();
   Eigen::MatrixXd all(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    covariances_with(places.col(j), rows, all.col(j).tail(n - j));
-    all.row(j).tail(n - j) = all.col(j).tail(n - j).transpose();
+    covariances_with(&places(0, j), places, j, &all(j, j));
+    for (Eigen::Index i = j + 1; i < n; ++i) all(j, i) = all(i, j);
   }
   return all;
 }
@@ -80,7 +90,7 @@ GONIO_INLINE Eigen::VectorXd discrepancy_covariance(std::span<const half_differe
   const Eigen::Vector4d here = detail::discrepancy_place(place, lengths);
   Eigen::VectorXd with(std::ssize(angles));
   for (Eigen::Index i = 0; i < with.size(); ++i)
-    with[i] = detail::squared_exponential((detail::discrepancy_place(angles[i], lengths) - here).squaredNorm());
+    with[i] = detail::covariance(detail::discrepancy_place(angles[i], lengths).data(), here.data());
   return with;
 }
 
@@ -88,9 +98,9 @@ GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(std::span<const half_differe
                                                     std::span<const half_difference> others,
                                                     const correlation_lengths& lengths) {
   const detail::discrepancy_places places = detail::places_of(others, lengths);
-  const Eigen::ArrayX4d rows = detail::places_of(angles, lengths).transpose();
-  Eigen::MatrixXd all(rows.rows(), places.cols());
-  for (Eigen::Index j = 0; j < all.cols(); ++j) detail::covariances_with(places.col(j), rows, all.col(j));
+  const detail::discrepancy_places rows = detail::places_of(angles, lengths);
+  Eigen::MatrixXd all(rows.cols(), places.cols());
+  for (Eigen::Index j = 0; j < all.cols(); ++j) detail::covariances_with(&places(0, j), rows, 0, &all(0, j));
   return all;
 }
 
@@ -117,16 +127,15 @@ GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_d
 GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, double* out) const noexcept {
   const Eigen::Vector4d here = detail::discrepancy_place(angles, shared_->lengths);
   const double scale = std::sqrt(shared_->amplitude);
-  for (Eigen::Index i = 0; i < size(); ++i)
-    out[i] = scale * detail::squared_exponential((shared_->places.col(i) - here).squaredNorm());
+  for (Eigen::Index i = 0; i < size(); ++i) out[i] = scale * detail::covariance(&shared_->places(0, i), here.data());
   if (shared_->factors) shared_->factors->solve_lower_in_place(out);
 }
 
 GONIO_INLINE void discrepancy_functions::read(std::span<const half_difference> angles, row_block out) const {
-  const Eigen::ArrayX4d centres = shared_->places.transpose();
   Eigen::MatrixXd columns(size(), std::ssize(angles));
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    detail::covariances_with(detail::discrepancy_place(angles[i], shared_->lengths), centres, columns.col(i));
+    detail::covariances_with(detail::discrepancy_place(angles[i], shared_->lengths).data(), shared_->places, 0,
+                             &columns(0, i));
   if (shared_->factors) columns = std::sqrt(shared_->amplitude) * shared_->factors->solve_lower(columns);
   out = columns.transpose();
 }
@@ -149,7 +158,8 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
     const double place = detail::discrepancy_place({over.theta_h(i), 0.0, 0.0}, lengths)[0];
     for (Eigen::Index centre = 0; centre < size(); ++centre) {
       const double along = shared_->places(0, centre) - place;
-      by_height.row(centre).segment<3>(3 * i) = detail::squared_exponential(along * along) * centre_weights.row(centre);
+      const double factor = detail::squared_exponential(along * along);
+      for (int c = 0; c < 3; ++c) by_height(centre, 3 * i + c) = factor * centre_weights(centre, c);
     }
   }
   // The part of theta_d and phi_d, a slice of the grid at a time.
@@ -158,21 +168,22 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
       rows, 1,
       [&](Eigen::Index row) {
         const int j = static_cast<int>(row);
-        Eigen::ArrayX4d places(columns, 4);
+        detail::discrepancy_places places(4, columns);
         for (int k = 0; k < columns; ++k)
-          places.row(k) = detail::discrepancy_place({0.0, over.theta_d(j), over.phi_d(k)}, lengths);
+          places.col(k) = detail::discrepancy_place({0.0, over.theta_d(j), over.phi_d(k)}, lengths);
         Eigen::MatrixXd slice(columns, size());
         for (Eigen::Index centre = 0; centre < size(); ++centre) {
           Eigen::Vector4d beside = shared_->places.col(centre);
           beside[0] = 0.0;  // theta_h has its own factor
-          detail::covariances_with(beside, places, slice.col(centre));
+          detail::covariances_with(beside.data(), places, 0, &slice(0, centre));
         }
         const Eigen::MatrixXd values = product(slice, by_height);
         for (int i = 0; i < heights; ++i)
           for (int k = 0; k < columns; ++k) {
             const Eigen::Index linear = over.linear({i, j, k});
             if (!cells.contains(linear)) continue;
-            field.col(cells.representative(linear)) = values.row(k).segment<3>(3 * i).transpose().array().cast<float>();
+            for (int c = 0; c < 3; ++c)
+              field(c, cells.representative(linear)) = static_cast<float>(values(k, 3 * i + c));
           }
       },
       threads);

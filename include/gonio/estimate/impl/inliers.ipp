@@ -4,13 +4,13 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/statistics.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/inliers.hpp>
 #include <gonio/solve/product.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -18,10 +18,12 @@ namespace gonio {
 
 namespace detail {
 
-[[nodiscard]] inline std::vector<Eigen::Index> numbers_up_to(Eigen::Index count) {
-  std::vector<Eigen::Index> all(count);
-  std::iota(all.begin(), all.end(), Eigen::Index{0});
-  return all;
+/// Numbers in the order of what belongs to them, and of themselves where that is the same.
+[[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> in_order(std::vector<std::pair<double, Eigen::Index>> keyed) {
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<Eigen::Index> ordered;
+  for (const auto& [key, number] : keyed) ordered.push_back(number);
+  return ordered;
 }
 
 /// A set of wrong samples, and the logarithm of its probability up to a constant. The mean of the three channels and
@@ -36,11 +38,14 @@ class wrong_sample_set {
         is_wrong_(samples.size(), false),
         log_odds_(log_odds_of_one(rule, samples.size())) {
     const Eigen::MatrixXd dual = product(mean_.inverse, samples.values());
-    mean_.dual = dual.rowwise().sum() / std::sqrt(3.0);
+    mean_.dual.resize(dual.rows(), 1);
     contrasts_.dual.resize(dual.rows(), 2);
-    contrasts_.dual.col(0) = (dual.col(0) - dual.col(1)) / std::sqrt(2.0);
-    contrasts_.dual.col(1) = (dual.col(0) + dual.col(1) - 2.0 * dual.col(2)) / std::sqrt(6.0);
-    squares_ = (dual.array() * samples.values().array()).sum();
+    for (Eigen::Index i = 0; i < dual.rows(); ++i) {
+      mean_.dual(i, 0) = (dual(i, 0) + dual(i, 1) + dual(i, 2)) / std::sqrt(3.0);
+      contrasts_.dual(i, 0) = (dual(i, 0) - dual(i, 1)) / std::sqrt(2.0);
+      contrasts_.dual(i, 1) = (dual(i, 0) + dual(i, 1) - 2.0 * dual(i, 2)) / std::sqrt(6.0);
+    }
+    squares_ = dot(dual.data(), samples.values().data(), dual.size());
   }
 
   [[nodiscard]] Eigen::Index size() const noexcept { return std::ranges::count(is_wrong_, true); }
@@ -96,16 +101,20 @@ class wrong_sample_set {
     /// The matrix determinant lemma, for the covariance with or without a sample's error variance.
     [[nodiscard]] change change_by(Eigen::Index i, double sign) const {
       const double error = sign * error_variance, growth = 1.0 + error * inverse(i, i);
-      return {error * dual.row(i).squaredNorm() / growth, static_cast<double>(dual.cols()) * std::log(growth)};
+      double squares = 0.0;
+      for (Eigen::Index c = 0; c < dual.cols(); ++c) squares += dual(i, c) * dual(i, c);
+      return {error * squares / growth, static_cast<double>(dual.cols()) * std::log(growth)};
     }
 
     /// The formula of Sherman and Morrison.
     void update(Eigen::Index i, double sign) {
       const double error = sign * error_variance;
-      const Eigen::VectorXd column = inverse.col(i);
-      const Eigen::VectorXd scaled = error / (1.0 + error * column[i]) * column;
-      for (Eigen::Index c = 0; c < dual.cols(); ++c) dual.col(c) -= dual(i, c) * scaled;
-      for (Eigen::Index j = 0; j < inverse.cols(); ++j) inverse.col(j) -= column[j] * scaled;
+      const Eigen::Index n = inverse.rows();
+      const std::vector<double> column(&inverse(0, i), &inverse(0, i) + n);
+      std::vector<double> scaled(column);
+      for (double& value : scaled) value *= error / (1.0 + error * column[i]);
+      for (Eigen::Index c = 0; c < dual.cols(); ++c) add_scaled(-dual(i, c), scaled.data(), &dual(0, c), n);
+      for (Eigen::Index j = 0; j < n; ++j) add_scaled(-column[j], scaled.data(), &inverse(0, j), n);
     }
   };
 
@@ -117,9 +126,10 @@ class wrong_sample_set {
 /// Adds the pair of samples whose gain is the largest, if it is positive: two wrong samples may hide each other.
 [[nodiscard]] inline bool add_pair(wrong_sample_set& wrong, Eigen::Index samples) {
   constexpr Eigen::Index candidates = 12;
-  std::vector<Eigen::Index> first = numbers_up_to(samples);
-  std::erase_if(first, [&](Eigen::Index i) { return wrong.contains(i); });
-  std::ranges::sort(first, {}, [&](Eigen::Index i) { return std::pair(-wrong.gain(i), i); });
+  std::vector<std::pair<double, Eigen::Index>> by_gain;
+  for (Eigen::Index i = 0; i < samples; ++i)
+    if (!wrong.contains(i)) by_gain.emplace_back(-wrong.gain(i), i);
+  const std::vector<Eigen::Index> first = in_order(std::move(by_gain));
   double best_gain = 0.0;
   std::array<Eigen::Index, 2> best{};
   for (Eigen::Index i = 0; i < std::min(candidates, std::ssize(first)); ++i) {
@@ -167,17 +177,19 @@ GONIO_INLINE std::vector<wrong_sample> find_wrong_samples(const sample_process& 
       improves = detail::add_pair(wrong, n);
   }
   // Keep the samples about which there is doubt, the most doubtful first.
-  std::vector<Eigen::Index> members = detail::numbers_up_to(n);
-  std::erase_if(members, [&](Eigen::Index i) { return !wrong.contains(i); });
+  std::vector<Eigen::Index> members;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (wrong.contains(i)) members.push_back(i);
   while (!members.empty()) {
     const auto doubtful = std::ranges::min_element(members, {}, [&](Eigen::Index i) { return wrong.probability(i); });
     if (wrong.probability(*doubtful) >= rule.least_probability) break;
     wrong.change_side(*doubtful);
     members.erase(doubtful);
   }
+  std::vector<std::pair<double, Eigen::Index>> by_probability;
+  for (const Eigen::Index i : members) by_probability.emplace_back(-wrong.probability(i), i);
   std::vector<wrong_sample> found;
-  for (const Eigen::Index i : members) found.push_back({i, wrong.probability(i)});
-  std::ranges::sort(found, {}, [](const wrong_sample& each) { return std::pair(-each.probability, each.number); });
+  for (const Eigen::Index i : detail::in_order(std::move(by_probability))) found.push_back({i, wrong.probability(i)});
   return found;
 }
 
@@ -196,22 +208,26 @@ GONIO_INLINE Eigen::VectorXd limit_outliers(const Eigen::VectorXd& inlier_weight
   if (n == 0) return inlier_weights;
   const auto most = static_cast<Eigen::Index>(largest_outlier_share(n) * static_cast<double>(n));
   const double least_inlier = nth_smallest(std::vector<double>(inlier_weights.begin(), inlier_weights.end()), most);
-  if (!(least_inlier > 0.0)) return Eigen::VectorXd::Ones(n);
-  return (inlier_weights / least_inlier).cwiseMin(1.0);
+  Eigen::VectorXd raised = Eigen::VectorXd::Ones(n);
+  for (Eigen::Index i = 0; i < n && least_inlier > 0.0; ++i)
+    raised[i] = std::min(inlier_weights[i] / least_inlier, 1.0);
+  return raised;
 }
 
 GONIO_INLINE located_samples weighted(const located_samples& samples, const inliers& found) {
   const std::vector<Eigen::Index> kept = found.kept();
   located_samples some = samples.subset(kept);
-  for (Eigen::Index i = 0; i < some.size(); ++i) some.weights.row(i) *= found.weights[kept[i]];
+  for (Eigen::Index c = 0; c < some.weights.cols(); ++c)
+    for (Eigen::Index i = 0; i < some.size(); ++i) some.weights(i, c) *= found.weights[kept[i]];
   return some;
 }
 
 GONIO_INLINE inliers detail::weighed_inliers(Eigen::VectorXd weights) {
   inliers found{std::move(weights), {}};
+  std::vector<std::pair<double, Eigen::Index>> by_weight;
   for (Eigen::Index i = 0; i < found.weights.size(); ++i)
-    if (found.weights[i] < 0.5) found.rejected.push_back(i);
-  std::ranges::sort(found.rejected, {}, [&](Eigen::Index i) { return std::pair(found.weights[i], i); });
+    if (found.weights[i] < 0.5) by_weight.emplace_back(found.weights[i], i);
+  found.rejected = in_order(std::move(by_weight));
   found.outlier_share = 1.0 - found.weights.sum() / static_cast<double>(found.weights.size());
   return found;
 }

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -73,19 +74,19 @@ GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measu
         [&](Eigen::Index region) {
           const std::span<const Eigen::Index> here = (*regions)[region];
           const double ratio = half_of_the_good(found.distance, here, mixture.inlier_fraction) / typical;
-          weights(here) = weigh(rescaled(mixture, ratio), found, here);
+          const outlier_mixture own = rescaled(mixture, ratio);
+          for (const Eigen::Index i : here) weights[i] = weigh(own, found, i);
         },
         threads);
   } else {
-    for_each_block(
-        weights.size(), detail::samples_at_once,
-        [&](block range) {
-          const auto here = Eigen::seqN(range.begin, range.size());
-          weights(here) = weigh(mixture, found, here);
-        },
+    for_each_index(
+        weights.size(), detail::samples_at_once, [&](Eigen::Index i) { weights[i] = weigh(mixture, found, i); },
         threads);
   }
-  return weights.transpose().replicate<3, 1>();
+  channel_values each(3, weights.size());
+  for (Eigen::Index i = 0; i < weights.size(); ++i)
+    for (Eigen::Index c = 0; c < 3; ++c) each(c, i) = weights[i];
+  return each;
 }
 
 GONIO_INLINE outlier_mixture automatic_weights::mixture(const channel_values& measured,
@@ -105,15 +106,19 @@ GONIO_INLINE automatic_weights::deviations automatic_weights::deviate(const chan
   const Eigen::Index count = measured.cols();
   const Eigen::Array3f offset = offsets(measured, threads);
   deviations found{Eigen::ArrayXf(count), Eigen::ArrayXf(count), Eigen::ArrayXf(count), Eigen::ArrayXd(count)};
-  for_each_block(
+  for_each_index(
       count, detail::samples_at_once,
-      [&](block range) {
-        const Eigen::Index begin = range.begin, size = range.size();
-        const channel_values logarithms = (measured.middleCols(begin, size).max(0.0f).colwise() + offset).log();
-        const channel_values differences = logarithms - (estimated.middleCols(begin, size).colwise() + offset).log();
-        found.residual.segment(begin, size) = differences.colwise().mean();
-        found.distance.segment(begin, size) = differences.square().colwise().mean().sqrt();
-        found.logarithm.segment(begin, size) = logarithms.colwise().mean();
+      [&](Eigen::Index i) {
+        std::array<float, 3> logarithm{}, residual{};
+        for (Eigen::Index c = 0; c < 3; ++c) {
+          logarithm[c] = std::log(std::max(measured(c, i), 0.0f) + offset[c]);
+          residual[c] = logarithm[c] - std::log(estimated(c, i) + offset[c]);
+        }
+        const auto mean = [](float a, float b, float c) { return (a + (b + c)) / 3.0f; };
+        found.residual[i] = mean(residual[0], residual[1], residual[2]);
+        found.distance[i] =
+            std::sqrt(mean(residual[0] * residual[0], residual[1] * residual[1], residual[2] * residual[2]));
+        found.logarithm[i] = mean(logarithm[0], logarithm[1], logarithm[2]);
       },
       threads);
   const outlier_density density(subset(found.logarithm));
@@ -123,16 +128,10 @@ GONIO_INLINE automatic_weights::deviations automatic_weights::deviate(const chan
   return found;
 }
 
-template <class Some>
-Eigen::ArrayXf automatic_weights::weigh(const outlier_mixture& mixture, const deviations& found,
-                                        const Some& samples) const {
-  const Eigen::ArrayXd residuals = found.residual(samples).template cast<double>(), outliers = found.outliers(samples);
-  Eigen::ArrayXd weights = mixture.probability(residuals, outliers);
-  if (down_weight_tail) {
-    const Eigen::ArrayXd distances = found.distance(samples).template cast<double>();
-    weights *= mixture.tail_weight(distances);
-  }
-  return weights.cast<float>();
+GONIO_INLINE float automatic_weights::weigh(const outlier_mixture& mixture, const deviations& found,
+                                            Eigen::Index sample) const {
+  const double good = mixture.probability(double{found.residual[sample]}, found.outliers[sample]);
+  return static_cast<float>(down_weight_tail ? good * mixture.tail_weight(double{found.distance[sample]}) : good);
 }
 
 GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& found,
@@ -141,26 +140,29 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
   const Eigen::Index count = found.residual.size();
   // Squared distances, and how much each counts: its probability to be good.
   Eigen::ArrayXd squares(count), good(count);
-  for_each_block(
+  for_each_index(
       count, detail::samples_at_once,
-      [&](block range) {
-        const auto here = Eigen::seqN(range.begin, range.size());
-        const Eigen::ArrayXd residuals = found.residual(here).cast<double>(), outliers = found.outliers(here);
-        squares(here) = found.distance(here).cast<double>().square();
-        good(here) = mixture.probability(residuals, outliers);
+      [&](Eigen::Index i) {
+        const double distance = found.distance[i];
+        squares[i] = distance * distance;
+        good[i] = mixture.probability(double{found.residual[i]}, found.outliers[i]);
       },
       threads);
-  const auto sum = [&](auto&& of_block) {
+  // The sum of good / (1 + inverse squares), times the squares or not.
+  const auto sum = [&](double inverse, bool of_squares) {
     return sum_over_blocks(
         count, detail::samples_at_once, 0.0,
-        [&](double& total, block range) { total += of_block(Eigen::seqN(range.begin, range.size())); }, threads);
+        [&](double& total, block range) {
+          for (Eigen::Index i = range.begin; i < range.end; ++i)
+            total += good[i] * (of_squares ? squares[i] : 1.0) / (1.0 + inverse * squares[i]);
+        },
+        threads);
   };
-  const double total = sum([&](const auto& here) { return good(here).sum(); });
+  const double total = sum(0.0, false);
   double scale = mixture.scale;
   for (int step = 0; step < 20; ++step) {
     const double inverse = 1.0 / (nu * scale * scale);
-    const double weighted =
-        sum([&](const auto& here) { return (good(here) * squares(here) / (1.0 + inverse * squares(here))).sum(); });
+    const double weighted = sum(inverse, true);
     scale = std::max(std::sqrt((nu + 1.0) / nu * weighted / total), mixture.scale);
   }
   return scale;

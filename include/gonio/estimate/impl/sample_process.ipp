@@ -4,6 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/probability.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/sample_process.hpp>
 #include <gonio/solve/product.hpp>
 
@@ -34,6 +35,13 @@ namespace detail {
   return part;
 }
 
+[[nodiscard]] GONIO_INLINE double squared_norm(const matrix_view& a) {
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < a.cols(); ++j)
+    sum += dot(a.data() + j * a.outerStride(), a.data() + j * a.outerStride(), a.rows());
+  return sum;
+}
+
 [[nodiscard]] GONIO_INLINE cholesky factors_of(const Eigen::MatrixXd& covariance) {
   cholesky factors(covariance);
   if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
@@ -41,6 +49,16 @@ namespace detail {
 }
 
 }  // namespace detail
+
+GONIO_INLINE Eigen::VectorXd sample_predictions::disagreement() const {
+  Eigen::VectorXd found = Eigen::VectorXd::Zero(mapped.rows());
+  for (Eigen::Index c = 0; c < mapped.cols(); ++c)
+    for (Eigen::Index i = 0; i < found.size(); ++i) {
+      const double off = (mapped(i, c) - mean(i, c)) / deviation[i];
+      found[i] += off * off / static_cast<double>(mapped.cols());
+    }
+  return found;
+}
 
 GONIO_INLINE Eigen::MatrixXd expected_covariance::among(const located_rows& all) const {
   Eigen::MatrixXd sum = product_with_transpose(all.rows) / observations;
@@ -76,9 +94,14 @@ GONIO_INLINE sample_process::sample_process(std::shared_ptr<const stored> shared
 
 GONIO_INLINE Eigen::VectorXd sample_process::errors_of(const stored& parts, std::optional<Eigen::Index> column) {
   const Eigen::MatrixXd& weights = parts.sample_weights;
-  const Eigen::ArrayXd counts =
-      column ? Eigen::ArrayXd(weights.col(*column)) : Eigen::ArrayXd(weights.rowwise().mean());
-  return parts.error_variances.array() / counts;
+  const auto columns = static_cast<double>(weights.cols());
+  Eigen::VectorXd errors(weights.rows());
+  for (Eigen::Index i = 0; i < errors.size(); ++i) {
+    double sum = 0.0;
+    for (Eigen::Index c = 0; c < weights.cols(); ++c) sum += weights(i, c);
+    errors[i] = parts.error_variances[i] / (column ? weights(i, *column) : sum / columns);
+  }
+  return errors;
 }
 
 GONIO_INLINE const cholesky& sample_process::factors() const {
@@ -108,7 +131,8 @@ GONIO_INLINE sample_process sample_process::subset(std::span<const Eigen::Index>
   for (Eigen::Index i = 0; i < errors.size(); ++i) {
     without_errors(i, i) -= all_errors[positions[i]];
     errors[i] = shared_->error_variances[positions[i]];
-    if (inlier_weights.size() > 0) weights.row(i) *= inlier_weights[positions[i]];
+    for (Eigen::Index c = 0; c < weights.cols() && inlier_weights.size() > 0; ++c)
+      weights(i, c) *= inlier_weights[positions[i]];
   }
   return {std::make_shared<const stored>(expected(), std::move(some), std::move(weights), std::move(errors),
                                          std::move(without_errors)),
@@ -144,12 +168,16 @@ GONIO_INLINE solution sample_process::fit() const {
     for (Eigen::Index c = 0; c < together; ++c) {
       // With the weights error_variance / E of the rows, and eta = m error_variance.
       const double unit = expected().model.error_variance;
-      const double squares = unit * (errors.array() * dual.col(c).array().square()).sum();
-      const double largest = y.col(c).cwiseAbs().maxCoeff();
-      found.report.residual[first + c] = std::sqrt(squares);
-      found.report.objective[first + c] =
-          0.5 * unit * (y.col(c).dot(dual.col(c)) - (y.col(c).array().square() / errors.array()).sum());
-      found.report.kkt_residual[first + c] = off.col(c).cwiseAbs().maxCoeff() / (largest > 0.0 ? largest : 1.0);
+      double squares = 0.0, gain = 0.0, largest = 0.0, worst = 0.0;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        squares += errors[i] * dual(i, c) * dual(i, c);
+        gain += y(i, c) * (dual(i, c) - y(i, c) / errors[i]);
+        largest = std::max(largest, std::abs(y(i, c)));
+        worst = std::max(worst, std::abs(off(i, c)));
+      }
+      found.report.residual[first + c] = std::sqrt(unit * squares);
+      found.report.objective[first + c] = 0.5 * unit * gain;
+      found.report.kkt_residual[first + c] = worst / (largest > 0.0 ? largest : 1.0);
     }
   }
   return detail::require_certified(std::move(found), "the process of the samples");
@@ -159,7 +187,7 @@ GONIO_INLINE sample_predictions sample_process::predicted_without() const {
   const Eigen::MatrixXd dual = product(inverse(), values_);
   sample_predictions found{values_, values_, Eigen::VectorXd(size())};
   for (Eigen::Index i = 0; i < size(); ++i) {
-    found.mean.row(i) -= dual.row(i) / inverse()(i, i);
+    for (Eigen::Index c = 0; c < channels(); ++c) found.mean(i, c) -= dual(i, c) / inverse()(i, i);
     found.deviation[i] = std::sqrt(1.0 / inverse()(i, i));
   }
   return found;
@@ -175,22 +203,24 @@ GONIO_INLINE sample_predictions sample_process::predicted_without(std::span<cons
                            product(half.transpose(), by.solve_lower(detail::rows_of_matrix(values_, others))),
                            Eigen::VectorXd(std::ssize(positions))};
   for (Eigen::Index i = 0; i < std::ssize(positions); ++i)
-    found.deviation[i] = std::sqrt(std::max(covariance()(positions[i], positions[i]) - half.col(i).squaredNorm(), 0.0));
+    found.deviation[i] =
+        std::sqrt(std::max(covariance()(positions[i], positions[i]) - detail::squared_norm(half.col(i)), 0.0));
   return found;
 }
 
 GONIO_INLINE double sample_process::scale() const {
   const auto n = static_cast<double>(size()), over = static_cast<double>(channels());
-  return (known_before + factors().solve_lower(values_).squaredNorm() / over) / (known_before + n);
+  return (known_before + detail::squared_norm(factors().solve_lower(values_)) / over) / (known_before + n);
 }
 
 GONIO_INLINE double sample_process::deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const {
   const discrepancy_model& model = expected().model;
   Eigen::VectorXd with = product(at().rows, row.transpose()) / expected().observations;
   if (model.variance != 0.0) with += model.variance * discrepancy_covariance(at().angles, angles, model.lengths);
-  const double before = row.squaredNorm() / expected().observations + model.variance + model.error_variance;
+  const double before =
+      dot(row.data(), row.data(), row.size()) / expected().observations + model.variance + model.error_variance;
   factors().solve_lower_in_place(with.data());
-  return std::sqrt(std::max(before - with.squaredNorm(), 0.0));
+  return std::sqrt(std::max(before - dot(with.data(), with.data(), with.size()), 0.0));
 }
 
 GONIO_INLINE process_prediction sample_process::predict(const located_rows& places,
@@ -204,11 +234,13 @@ GONIO_INLINE process_prediction sample_process::predict(const located_rows& plac
 
 GONIO_INLINE gonio::familiarity sample_process::familiarity() const {
   const Eigen::MatrixXd dual = factors().solve(values_);
-  const double all = values_.cwiseProduct(dual).sum();
+  const double all = dot(values_.data(), dual.data(), dual.size());
   // Share it among the terms of K.
-  const double components = product(at().rows.transpose(), dual).squaredNorm() / expected().observations;
+  const double components = detail::squared_norm(product(at().rows.transpose(), dual)) / expected().observations;
   const Eigen::VectorXd errors = errors_of(*shared_);
-  const double by_errors = (errors.asDiagonal() * dual).cwiseProduct(dual).sum();
+  double by_errors = 0.0;
+  for (Eigen::Index c = 0; c < dual.cols(); ++c)
+    for (Eigen::Index i = 0; i < dual.rows(); ++i) by_errors += errors[i] * dual(i, c) * dual(i, c);
   const double discrepancy = all - components - by_errors;
   const auto n = static_cast<double>(size()), over = static_cast<double>(channels());
   return {.scale = all / over / n,

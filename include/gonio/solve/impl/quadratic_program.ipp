@@ -21,10 +21,9 @@
 
 namespace gonio {
 
-GONIO_INLINE program_optimum program_solver::solve(Eigen::Index right_hand_side,
-                                                   const active_constraints* start) const {
+GONIO_INLINE program_optimum program_solver::solve(Eigen::Index right_hand_side) const {
   const vector q = program_.rhs(normal_, right_hand_side);
-  iteration run(program_, q, start ? *start : origin());
+  iteration run(program_, q, origin());
   advance(run, step_limit());
   if (run.converged() && !run.singular()) {
     program_optimum found = judge(run, q, right_hand_side);
@@ -45,7 +44,6 @@ GONIO_INLINE active_constraints program_solver::origin() const {
 GONIO_INLINE program_optimum program_solver::judge(const iteration& run, const vector& q,
                                                    Eigen::Index right_hand_side) const {
   program_optimum found;
-  found.active = run.active();
   found.weights = run.result();
   if (program_.non_negative) found.weights = found.weights.cwiseMax(0.0);
   found.multipliers = run.multipliers();
