@@ -1,7 +1,8 @@
 # cmake [-D GUARD=ON] [-D OUTPUT=docs/results/compile-cost.md] -P cmake/compile_times.cmake: what README's program and each
 # header that has all of a module cost a compiler, in CPU seconds and megabytes, beside a plain Eigen program with one
 # product and one Cholesky decomposition, which is compiled again before each: the median of three ratios. GUARD:
-# README's program and gonio.hpp alone, which fail where they are 30 % above their goals.
+# README's program and gonio.hpp alone, which fail where they are 30 % above their goals; the program of the headers alone,
+# which misses its goal, where it is 30 % above what it cost when that was decided (docs/decisions/0036).
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} time)
 find_program(time time REQUIRED NO_CACHE)
@@ -58,6 +59,10 @@ function(row name goal goal_megabytes file)
   set(line "| ${name} | ${seconds} | ${times} | ${goal_times} | ${megabytes} | ${goal_megabytes} |")
   message("${line}")
   set_property(GLOBAL APPEND_STRING PROPERTY table "${line}\n")
+  if(header_only_most AND name MATCHES "^README's program, header-only")
+    list(GET header_only_most 0 goal)
+    list(GET header_only_most 1 goal_megabytes)
+  endif()
   math(EXPR most "130 * ${goal} / 100")
   math(EXPR most_megabytes "130 * ${goal_megabytes} / 100")
   if(GUARD AND (ratio GREATER most OR megabytes GREATER most_megabytes))
@@ -73,6 +78,7 @@ endfunction()
 set(heading "| what | CPU s | times the plain program | goal | MB | goal |\n|---|---|---|---|---|---|")
 message("${heading}")
 set(first "${source}/examples/learn/first_program.cpp")
+set(header_only_most 630 980) # hundredths of the plain program, megabytes
 row("README's program, header-only, -O2" 250 600 "${first}" -O2)
 row("README's program, gonio::compiled, -O2" 150 600 "${first}" -O2 -DGONIO_COMPILED)
 header_row("`gonio/gonio.hpp`, -O0" 400 900 gonio/gonio.hpp)
