@@ -102,6 +102,11 @@ class reconstruction {
   [[nodiscard]] solved_channels<basis_type> solve(const located_samples& kept,
                                                   const std::optional<sample_process>& process) const;
   [[nodiscard]] solved_channels<basis_type> solve_around_centres(located_samples kept) const;
+  /// A fit, and all that is known about it.
+  template <class Fit>
+  [[nodiscard]] reconstructed<Metric, Fit> told(Fit fit, selection chosen,
+                                                std::shared_ptr<const located_samples> samples,
+                                                std::vector<Eigen::Index> numbers) const;
   /// Components, and a discrepancy as a combination of covariances with its centres.
   [[nodiscard]] basis_type functions_around(const std::vector<half_difference>& centres) const {
     return {prior_, {prior_.cells(), prior_.metric(), discrepancy_functions::covariances(centres, model().lengths)}};
@@ -189,20 +194,29 @@ solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metr
 }
 
 template <error_metric Metric>
+template <class Fit>
+reconstructed<Metric, Fit> reconstruction<Metric>::told(Fit fit, selection chosen,
+                                                        std::shared_ptr<const located_samples> samples,
+                                                        std::vector<Eigen::Index> numbers) const {
+  sample_process known = known_by(chosen);
+  return {prior_,
+          std::move(fit),
+          std::move(known),
+          std::move(chosen.found),
+          std::move(chosen.all),
+          std::move(samples),
+          std::move(numbers),
+          threads_};
+}
+
+template <error_metric Metric>
 typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located(
     located_samples samples, std::vector<Eigen::Index> numbers) const {
   auto shared = std::make_shared<const located_samples>(std::move(samples));
   selection chosen = select(*shared);
   auto [functions, found] = solve(chosen.kept, chosen.process);
-  fitted_brdf<basis_type> fit(std::move(functions), std::move(found));
-  return {prior_,
-          std::move(fit),
-          known_by(chosen),
-          std::move(chosen.found),
-          std::move(chosen.all),
-          std::move(shared),
-          std::move(numbers),
-          threads_};
+  return told(fitted_brdf<basis_type>(std::move(functions), std::move(found)), std::move(chosen), std::move(shared),
+              std::move(numbers));
 }
 
 template <error_metric Metric>
@@ -216,15 +230,8 @@ typename reconstruction<Metric>::spectral_result_type reconstruction<Metric>::fi
   std::optional<sample_process> process;
   if (chosen.process) process = chosen.process->with_values(spectra.values);
   auto [functions, found] = solve(spectra, process);
-  fitted_spectra<basis_type> fit(samples.wavelengths, std::move(functions), std::move(found));
-  return {prior_,
-          std::move(fit),
-          known_by(chosen),
-          std::move(chosen.found),
-          std::move(chosen.all),
-          std::move(shared),
-          counting_positions(colours),
-          threads_};
+  return told(fitted_spectra<basis_type>(samples.wavelengths, std::move(functions), std::move(found)),
+              std::move(chosen), std::move(shared), counting_positions(colours));
 }
 
 #if defined(GONIO_COMPILED)
