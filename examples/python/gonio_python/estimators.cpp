@@ -90,8 +90,8 @@ void add_prior(py::module_& m) {
       py::arg("path") = py::none(), "Reads a prior; without a path, the one that ships with the package.");
   m.def(
       "write_prior",
-      [](const std::filesystem::path& path, const gonio::log_relative_pca& prior) {
-        gonio::io::write_prior(path, prior);
+      [](const std::filesystem::path& path, const gonio::log_relative_pca& written) {
+        gonio::io::write_prior(path, written);
       },
       py::arg("path"), py::arg("prior"), py::call_guard<py::gil_scoped_release>(), "Writes a prior.");
 }
