@@ -103,7 +103,7 @@ TEST_CASE("wavelengths that nobody sees are fitted and checked as such, and neve
   const measured_files files;
   const auto near_infrared = measured_paint({905, 1064, 1550});
   gonio::io::write_spectral_samples(files.at("nir.csv"), near_infrared);
-  const auto told = parse_json(run("reconstruct " + files.at("nir.csv") + " --json -o " + files.at("nir.bsdf")));
+  const auto told = read_json(run("reconstruct " + files.at("nir.csv") + " --json -o " + files.at("nir.bsdf")));
   CHECK(told["wavelengths_nm"].size() == 3);
   for (const char* command :
        {"reconstruct NIR -o OUT.binary", "reconstruct NIR --spectra -o OUT.binary",
