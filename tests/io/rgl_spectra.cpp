@@ -116,12 +116,23 @@ TEST_CASE("spectra at other wavelengths are linear between their own") {
 TEST_CASE("what is no spectral material is refused") {
   const gonio::spectral_table laser(cells(), {633.0});
   check_refused([&] { return gonio::io::tabulate_adaptively(laser); }, {"two wavelengths"});
-  const gonio::spectral_table unseen(cells(), {2000.0, 3000.0});
-  check_refused([&] { return gonio::io::tabulate_adaptively(unseen); }, {"visible"});
   const gonio::io::rgl_material in_rgb{
       gonio::model::tabulate_adaptively(gonio::model::lambertian{.albedo = gonio::rgb::Constant(0.5)}, {4, 8, 8, 8}),
       "",
       {}};
   check_refused([&] { return gonio::io::sample_spectra(in_rgb, {}); }, {"in RGB"});
   check_refused([&] { return gonio::io::tabulate_spectra(in_rgb, cells()); }, {"in RGB"});
+}
+
+TEST_CASE("wavelengths that nobody sees are written as they are") {
+  gonio::spectral_table unseen(cells(), {905.0, 1550.0});
+  unseen.values().col(0).setConstant(0.1f);
+  unseen.values().col(1).setConstant(0.3f);
+  const auto made = gonio::io::tabulate_adaptively(unseen);
+  REQUIRE(made.spectra);
+  CHECK(made.spectra->wavelengths == std::vector<double>{905.0, 1550.0});
+  const std::vector<gonio::sample_directions> one{{0.2, 0.4, 1.0}};
+  const auto sampled = gonio::io::sample_spectra(made, one);
+  CHECK(sampled.values(0, 0) == doctest::Approx(0.1).epsilon(0.02));
+  CHECK(sampled.values(0, 1) == doctest::Approx(0.3).epsilon(0.02));
 }

@@ -103,8 +103,14 @@ gonio::io::spectral_sample_file read_spectra_file(const std::filesystem::path& p
 
 bool names_wavelengths(const std::filesystem::path& path, const measurement_options& options) {
   if (options.light) return false;
-  if (const measurement_kind* kind = measurement_kind_of(path))
-    return kind->read_spectra != nullptr && kind->read_spectra(path).bands() > 1;
+  if (const measurement_kind* kind = measurement_kind_of(path)) {
+    if (kind->read_spectra == nullptr) return false;
+    try {
+      return kind->read_spectra(path).bands() > 1;
+    } catch (const gonio::error&) {
+      return false;  // a file of the kind without wavelengths, or one that its reader refuses anyhow
+    }
+  }
   const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
   return gonio::io::names_wavelengths(gonio::io::as_text(bytes), path.native(), reading_of(options));
 }
