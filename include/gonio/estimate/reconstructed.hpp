@@ -180,7 +180,8 @@ class reconstructed {
   /// Each sample that counts beside what all others say, rejected ones included. O(n^3). Throws gonio::error for more
   /// samples than `discrepancy_model::most_centres`.
   [[nodiscard]] std::vector<sample_residual> residuals() const {
-    if (!all_) refuse({"residuals are told of fewer than ", samples_->size(), " samples"});
+    if (!all_)
+      refuse({"residuals need at most ", known_.expected().model.most_centres, " samples, not ", samples_->size()});
     const sample_predictions others = all_->predicted_without();
     const Eigen::VectorXd disagreement = others.disagreement();
     std::vector<sample_residual> told;
