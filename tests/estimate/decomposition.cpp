@@ -29,7 +29,35 @@ const gonio::log_relative_pca& prior() {
   return learned;
 }
 
+/// Counts how often its functions are copied.
+class counted_prior {
+ public:
+  static inline int copies = 0;
+
+  counted_prior() = default;
+  counted_prior(const counted_prior&) { ++copies; }
+  counted_prior(counted_prior&&) = default;
+  counted_prior& operator=(const counted_prior&) = delete;
+  counted_prior& operator=(counted_prior&&) = default;
+
+  [[nodiscard]] Eigen::Index size() const noexcept { return prior().size(); }
+  [[nodiscard]] const valid_cells& cells() const noexcept { return prior().cells(); }
+  [[nodiscard]] auto row(Eigen::Index cell) const noexcept { return prior().row(cell); }
+  [[nodiscard]] double offset(Eigen::Index cell) const noexcept { return prior().offset(cell); }
+  [[nodiscard]] const auto& metric() const noexcept { return prior().metric(); }
+};
+static_assert(gonio::basis<counted_prior>);
+
 }  // namespace
+
+TEST_CASE("a basis is not copied for each sample") {
+  const auto truth = synthetic_materials(cells(), 8).table(3);
+  const auto samples = gonio::sample_table(truth, gonio::random_cells(cells(), 300, 5));
+  const decomposition estimator{counted_prior{}, tikhonov{1.0}};
+  counted_prior::copies = 0;
+  CHECK(estimator.fit(samples).weights().rows() == prior().size());
+  CHECK(counted_prior::copies < 10);
+}
 
 TEST_CASE("a material of the prior comes back from a few samples") {
   const auto truth = synthetic_materials(cells(), 8).table(3);

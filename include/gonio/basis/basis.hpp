@@ -145,11 +145,11 @@ concept colour_basis = basis<Basis> || channelwise_basis<Basis>;
 template <colour_basis Basis>
 using domain_of = std::remove_cvref_t<decltype(std::declval<const Basis&>().cells())>;
 
-/// The basis of one colour channel.
+/// The basis of one colour channel: a reference to the basis itself where all channels share it, which is never copied.
 template <colour_basis Basis>
-[[nodiscard]] auto channel_of(const Basis& functions, Eigen::Index channel) {
+[[nodiscard]] decltype(auto) channel_of(const Basis& functions, Eigen::Index channel) {
   if constexpr (basis<Basis>)
-    return functions;
+    return (functions);
   else
     return functions.channel(channel);
 }

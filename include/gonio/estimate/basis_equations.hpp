@@ -99,7 +99,7 @@ class basis_equations {
 
 template <colour_basis Basis>
 least_squares_problem basis_equations<Basis>::problem(Eigen::Index system) const {
-  const auto functions = channel_of(basis_, system);
+  const auto functions = channel_of(basis_, system);  // a copy, which the problem keeps
   const std::shared_ptr<const located_samples> measured = measured_;
   const row_source rows{std::ssize(measured->locations), Eigen::Index(functions.size()),
                         [functions, measured](block range, row_block out) {

@@ -87,15 +87,31 @@ class fitted_brdf {
 
  private:
   using metric_type = std::remove_cvref_t<decltype(std::declval<const Basis&>().metric())>;
-  using channel_type = decltype(channel_of(std::declval<const Basis&>(), 0));
+  using channel_type = std::remove_cvref_t<decltype(channel_of(std::declval<const Basis&>(), 0))>;
+  struct no_channels {};
+  using own_channels = std::conditional_t<basis<Basis>, no_channels, std::array<channel_type, 3>>;
   static constexpr bool computed = computed_basis<channel_type>;
   static constexpr bool combinable = !computed || combining_basis<Basis>;
+
+  /// The functions of a channel.
+  [[nodiscard]] const channel_type& functions_of([[maybe_unused]] Eigen::Index channel) const noexcept {
+    if constexpr (basis<Basis>)
+      return basis_;
+    else
+      return channels_[channel];
+  }
+  [[nodiscard]] static own_channels channels_of([[maybe_unused]] const Basis& functions) {
+    if constexpr (basis<Basis>)
+      return {};
+    else
+      return {functions.channel(0), functions.channel(1), functions.channel(2)};
+  }
 
   /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
   [[nodiscard]] float stored_value(Eigen::Index cell, Eigen::Index channel) const noexcept requires(!computed) {
     const float* weights = float_weights_.data() + channel * weights_.rows();
-    return dot(weights, channels_[channel].row(cell).data(), weights_.rows()) +
-           static_cast<float>(channels_[channel].offset(cell));
+    const channel_type& functions = functions_of(channel);
+    return dot(weights, functions.row(cell).data(), weights_.rows()) + static_cast<float>(functions.offset(cell));
   }
 
   /// The value at any location in the metric's domain.
@@ -120,7 +136,7 @@ class fitted_brdf {
     Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(weights_.rows());
     rgb value;
     for (Eigen::Index c = 0; c < 3; ++c) {
-      const channel_type& functions = channels_[c];
+      const channel_type& functions = functions_of(c);
       if (c == 0 || !basis<Basis>) functions.read_row(at, row);
       value[c] = dot(row.data(), &weights_(0, c), row.size()) + offset_at(functions, at);
     }
@@ -136,7 +152,7 @@ class fitted_brdf {
   }
 
   Basis basis_;
-  std::array<channel_type, 3> channels_;
+  [[no_unique_address]] own_channels channels_;  ///< their functions, where each channel has its own
   Eigen::MatrixXd weights_;
   std::optional<solve_report> report_;
   Eigen::MatrixXf float_weights_;  // what products with stored rows read
@@ -147,7 +163,7 @@ requires std::same_as<domain_of<Basis>, valid_cells> fitted_brdf<Basis>::fitted_
                                                                                      Eigen::MatrixXd weights,
                                                                                      std::optional<solve_report> report)
     : basis_(std::move(basis)),
-      channels_{channel_of(basis_, 0), channel_of(basis_, 1), channel_of(basis_, 2)},
+      channels_(channels_of(basis_)),
       weights_(std::move(weights)),
       report_(std::move(report)),
       float_weights_(to_float(weights_)) {

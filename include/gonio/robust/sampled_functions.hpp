@@ -20,7 +20,7 @@ namespace gonio {
 
 /// Rows at cells are read where they are; rows between cells are interpolated once and kept, 12 bytes a function.
 template <colour_basis Basis>
-requires tabulated_basis<decltype(channel_of(std::declval<const Basis&>(), 0))>
+requires tabulated_basis<std::remove_cvref_t<decltype(channel_of(std::declval<const Basis&>(), 0))>>
 class sampled_functions {
  public:
   sampled_functions(const Basis& functions, const std::vector<location>& locations, thread_count threads = {})
@@ -144,7 +144,7 @@ class sampled_functions {
         threads_);
   }
 
-  using channel_type = decltype(channel_of(std::declval<const Basis&>(), 0));
+  using channel_type = std::remove_cvref_t<decltype(channel_of(std::declval<const Basis&>(), 0))>;
 
   std::vector<Eigen::Index> columns_;
   Eigen::Index unknowns_;
