@@ -3,7 +3,6 @@
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/impl/angular_error.ipp>
-#include <gonio/estimate/impl/fitted_spectra.ipp>
 #include <gonio/estimate/impl/highlight_contrast.ipp>
 #include <gonio/estimate/impl/inliers.ipp>
 #include <gonio/estimate/impl/learn_streamed_soft_specular.ipp>
@@ -20,7 +19,6 @@
 
 namespace gonio {
 
-template located_samples locate_samples(const valid_cells&, const sample_set&, thread_count);
 template class basis_equations<log_relative_pca>;
 template class basis_equations<measured<log>>;
 template class fitted_brdf<log_relative_pca>;

@@ -35,7 +35,6 @@
 #include <gonio/io/measurements/impl/sample_rows.ipp>
 #include <gonio/io/measurements/impl/samples.ipp>
 #include <gonio/io/measurements/impl/scan_journal.ipp>
-#include <gonio/io/measurements/impl/spectral_samples.ipp>
 #include <gonio/io/measurements/impl/ssdd.ipp>
 #include <gonio/io/measurements/impl/zemax_bsdf.ipp>
 #include <gonio/io/setups/impl/camera_calibration.ipp>

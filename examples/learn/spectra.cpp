@@ -2,11 +2,9 @@
 /// in one system; colours are made at the end, under whatever light is asked for.
 
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/fitted_spectra.hpp>
 #include <gonio/io/materials/prior.hpp>
 #include <gonio/io/materials/rgl_spectra.hpp>
 #include <gonio/io/measurements/samples.hpp>
-#include <gonio/io/measurements/spectral_samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
@@ -20,22 +18,17 @@ int main() {
   const gonio::model::smooth_spectra smooth(wavelengths);  // spectra that have its colours
 
   const auto directions = gonio::io::read_directions("nielsen-20.csv");
-  gonio::spectral_samples measured{
-      wavelengths, {}, gonio::cell_matrix(std::ssize(directions), std::ssize(wavelengths))};
-  for (Eigen::Index i = 0; i < std::ssize(directions); ++i) {
-    measured.directions.push_back(directions[i]);
-    const auto& [wi, wo] = measured.directions[i].pair();
-    measured.values.row(i) = smooth(truth(wi, wo)).cast<float>().transpose();
-  }
-  gonio::io::write_spectral_samples("spectra.csv", measured);  // columns 400nm, 420nm, ...
+  gonio::sample_set measured{gonio::channels(wavelengths)};
+  for (const gonio::sample_directions at : directions) measured.add(at, smooth(truth(at.pair().wi, at.pair().wo)));
+  gonio::io::write_samples("spectra.csv", measured);  // columns 400nm, 420nm, ...
 
-  const auto paint = gonio::fit_spectra(gonio::decomposition{prior, gonio::tikhonov{5.0}}, measured);
+  const auto paint = gonio::decomposition{prior, gonio::tikhonov{5.0}}.fit(measured);
   const gonio::direction wi = gonio::spherical_direction(0.8, 0.0), wo = gonio::spherical_direction(0.4, 2.0);
-  const Eigen::ArrayXd expected = smooth(truth(wi, wo)), found = paint(wi, wo);
+  const Eigen::ArrayXd expected = smooth(truth(wi, wo)), found = paint.values(wi, wo);
   for (const Eigen::Index band : {0, 5, 10, 15})
     std::printf("%3.0f nm %8.4f, reconstructed %.4f sr^-1\n", wavelengths[band], expected[band], found[band]);
 
-  const gonio::spectral_table table = paint.tabulate(gonio::valid_cells());
+  const gonio::spectral_table table = paint.tabulate_spectra(gonio::valid_cells());
   const gonio::rgb daylit = table.colours()(wi, wo), lamplit = table.colours(gonio::illuminant::a)(wi, wo);
   std::printf("under D65 %.4f %.4f %.4f\n", daylit.x(), daylit.y(), daylit.z());
   std::printf("under A   %.4f %.4f %.4f\n", lamplit.x(), lamplit.y(), lamplit.z());

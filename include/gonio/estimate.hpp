@@ -9,7 +9,6 @@
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/estimate/fitted_spectra.hpp>
 #include <gonio/estimate/highlight_contrast.hpp>
 #include <gonio/estimate/inliers.hpp>
 #include <gonio/estimate/learn_streamed_soft_specular.hpp>

@@ -3,6 +3,7 @@
 
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/cell_matrix.hpp>
+#include <gonio/table/channels.hpp>
 #include <gonio/table/domain.hpp>
 #include <gonio/table/grid.hpp>
 #include <gonio/table/image.hpp>
@@ -10,7 +11,6 @@
 #include <gonio/table/material_rows.hpp>
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>
-#include <gonio/table/spectral_samples.hpp>
 #include <gonio/table/spectral_table.hpp>
 #include <gonio/table/stored_codes.hpp>
 #include <gonio/table/surface_image.hpp>

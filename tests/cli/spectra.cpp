@@ -7,7 +7,6 @@
 #include <gonio/io/materials/rgl.hpp>
 #include <gonio/io/materials/rgl_spectra.hpp>
 #include <gonio/io/measurements/samples.hpp>
-#include <gonio/io/measurements/spectral_samples.hpp>
 
 #include <doctest/doctest.h>
 
@@ -16,15 +15,17 @@
 
 namespace {
 
-/// A blueish paint at some wavelengths: a highlight over a diffuse part that falls with the wavelength.
-gonio::spectral_samples measured_paint(std::vector<double> wavelengths) {
-  gonio::spectral_samples samples{wavelengths, {}, gonio::cell_matrix(18, std::ssize(wavelengths))};
+/// A blueish paint at some wavelengths: a highlight over a diffuse part that falls with the wavelength. The last one is
+/// `brighter`.
+gonio::sample_set measured_paint(std::vector<double> wavelengths, double brighter = 1.0) {
+  gonio::sample_set samples{gonio::channels(wavelengths)};
   for (Eigen::Index i = 0; i < 18; ++i) {
     const double theta_h = 0.09 * static_cast<double>(i % 6), theta_d = 0.3 + 0.3 * static_cast<double>(i / 6);
-    samples.directions.push_back({theta_h, theta_d, 1.0 + 0.1 * static_cast<double>(i)});
-    for (Eigen::Index band = 0; band < samples.bands(); ++band)
-      samples.values(i, band) = static_cast<float>(60.0 / wavelengths[static_cast<std::size_t>(band)] +
-                                                   0.5 * std::exp(-20.0 * theta_h * theta_h));
+    std::vector<double> values;
+    for (const double wavelength : wavelengths)
+      values.push_back(60.0 / wavelength + 0.5 * std::exp(-20.0 * theta_h * theta_h));
+    values.back() *= brighter;
+    samples.add({theta_h, theta_d, 1.0 + 0.1 * static_cast<double>(i)}, values);
   }
   return samples;
 }
@@ -32,8 +33,8 @@ gonio::spectral_samples measured_paint(std::vector<double> wavelengths) {
 class measured_files {
  public:
   measured_files() {
-    gonio::io::write_spectral_samples(folder_ / "spectra.csv", measured_paint({420, 480, 540, 600, 660}));
-    gonio::io::write_spectral_samples(folder_ / "laser.csv", measured_paint({633}));
+    gonio::io::write_samples(folder_ / "spectra.csv", measured_paint({420, 480, 540, 600, 660}));
+    gonio::io::write_samples(folder_ / "laser.csv", measured_paint({633}));
     gonio::io::write_samples(folder_ / "colours.csv", measured_paint({420, 480, 540, 600, 660}).colours());
   }
   [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
@@ -69,9 +70,9 @@ TEST_CASE("each wavelength is reconstructed, and written as spectra or as their 
 
 TEST_CASE("spectra are fitted by other penalties, by other solvers and by the materials themselves") {
   const measured_files files;
-  for (const std::string options :
-       {"--eta 40", "--discrepancy 0", "--solver lasso", "--no-reject", "--method linear",
-        "--method linear --solver tikhonov --eta 1", "--method rbf", "--method pull-push", "--method scattered"}) {
+  for (const std::string options : {"--eta 40", "--discrepancy 0", "--misplaced 0.5 --noise 0.02", "--solver lasso",
+                                    "--no-reject", "--method linear", "--method linear --solver tikhonov --eta 1",
+                                    "--method rbf", "--method pull-push", "--method scattered"}) {
     CAPTURE(options);
     const std::string told =
         run("reconstruct " + files.at("spectra.csv") + " --spectra " + options + " -o " + files.at("t.binary"));
@@ -101,10 +102,14 @@ TEST_CASE("a .bsdf has the wavelengths of a file that names them, with --spectra
 
 TEST_CASE("wavelengths that nobody sees are fitted and checked as such, and never made grey") {
   const measured_files files;
-  const auto near_infrared = measured_paint({905, 1064, 1550});
-  gonio::io::write_spectral_samples(files.at("nir.csv"), near_infrared);
+  const std::vector<double> near_infrared{905, 1064, 1550};
+  gonio::io::write_samples(files.at("nir.csv"), measured_paint(near_infrared));
   const auto told = read_json(run("reconstruct " + files.at("nir.csv") + " --json -o " + files.at("nir.bsdf")));
   CHECK(told["wavelengths_nm"].size() == 3);
+  CHECK(read_json(run("info --json " + files.at("nir.bsdf")))["wavelengths_nm"].size() == 3);
+  for (const char* command : {"convert ", "properties "})
+    refuses(command + files.at("nir.bsdf") + (command[0] == 'c' ? " " + files.at("nir.binary") : ""),
+            {"nir.bsdf", "905 to 1550 nm", "no colour"});
   for (const char* command :
        {"reconstruct NIR -o OUT.binary", "reconstruct NIR --spectra -o OUT.binary",
         "reconstruct NIR --spectra -o OUT.bsdf --image OUT.png", "fit NIR --model ggx", "properties NIR",
@@ -117,12 +122,10 @@ TEST_CASE("wavelengths that nobody sees are fitted and checked as such, and neve
     refuses(line, {"visible"});
   }
 
-  auto part = near_infrared;
   const std::string checked = "check " + files.at("part.csv") + " --reference " + files.at("nir.csv") + " --noise 0.02";
-  gonio::io::write_spectral_samples(files.at("part.csv"), part);
+  gonio::io::write_samples(files.at("part.csv"), measured_paint(near_infrared));
   CHECK(run(checked).find("no difference found") != std::string::npos);
-  part.values.col(2) *= 3.0f;
-  gonio::io::write_spectral_samples(files.at("part.csv"), part);
+  gonio::io::write_samples(files.at("part.csv"), measured_paint(near_infrared, 3.0));
   const auto [exit_code, differs] = gonio_tool(checked);
   CHECK(exit_code == 1);
   CHECK(differs.find("905 nm +0.0 %, 1064 nm +0.0 %, 1550 nm +") != std::string::npos);
@@ -132,10 +135,10 @@ TEST_CASE("wavelengths that nobody sees are fitted and checked as such, and neve
 TEST_CASE("interpolated spectra are those of three wavelengths at a time, which are the method's own colours") {
   const measured_files files;
   gonio::io::write_samples(files.at("three.csv"), [] {
-    const gonio::spectral_samples all = measured_paint({420, 480, 540, 600, 660});
-    gonio::sample_set three = all.at_wavelength(0);
-    for (Eigen::Index i = 0; i < all.size(); ++i)
-      three[i].value = {all.values(i, 3), all.values(i, 4), all.values(i, 4)};
+    const gonio::sample_set all = measured_paint({420, 480, 540, 600, 660});
+    gonio::sample_set three;
+    for (Eigen::Index i = 0; i < std::ssize(all); ++i)
+      three.push_back({all.directions(i), {all.values(i)[3], all.values(i)[4], all.values(i)[4]}});
     return three;
   }());
   run("reconstruct " + files.at("three.csv") + " --method scattered -o " + files.at("three.binary"));
@@ -144,10 +147,10 @@ TEST_CASE("interpolated spectra are those of three wavelengths at a time, which 
   REQUIRE(material.spectra);
   const gonio::direction wi = gonio::spherical_direction(0.4, 0.0), wo = gonio::spherical_direction(0.7, 2.0);
   const gonio::rgb three = gonio::io::read_merl(files.at("three.binary"))(wi, wo);
-  const gonio::spectral_samples found =
+  const gonio::sample_set found =
       gonio::io::sample_spectra(material, std::vector<gonio::sample_directions>{gonio::direction_pair{wi, wo}});
-  CHECK(found.values(0, 3) == doctest::Approx(three.x()).epsilon(0.05));
-  CHECK(found.values(0, 4) == doctest::Approx(three.y()).epsilon(0.05));
+  CHECK(found.values(0)[3] == doctest::Approx(three.x()).epsilon(0.05));
+  CHECK(found.values(0)[4] == doctest::Approx(three.y()).epsilon(0.05));
 }
 
 TEST_CASE("one wavelength is reconstructed as it is, with --spectra and without") {
@@ -172,8 +175,6 @@ TEST_CASE("what has no spectra is refused") {
           {"colours.csv", "names no wavelengths"});
   refuses("reconstruct " + files.at("spectra.csv") + " --spectra --method correction --iterations 3" + output,
           {"--spectra", "correction"});
-  refuses("reconstruct " + files.at("spectra.csv") + " --spectra --misplaced 0.5 --noise 0.02" + output,
-          {"--misplaced", "--spectra"});
   refuses("reconstruct " + files.at("laser.csv") + " --spectra -o " + files.at("t.bsdf"),
           {"t.bsdf", "two wavelengths"});
   refuses("reconstruct " + files.at("spectra.csv") + " --illuminant B" + output, {"--illuminant"});

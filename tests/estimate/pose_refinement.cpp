@@ -155,10 +155,13 @@ TEST_CASE("no step makes it worse, and samples come out where they were found to
 TEST_CASE("several materials in the same images: each has its own weights, all of them one pose") {
   const pose_correction first{{0.01, -0.03, 0.0}, {-0.02, 0.025, 0.01}}, second{{0.0, 0.03, 0.02}, {0.01, -0.02, 0.0}};
   const auto images_of = [&](std::size_t number, bool half) {
-    std::vector<sample_set> images{image_of(material(number), 0.5, first), image_of(material(number), 0.9, second)};
-    for (sample_set& image : images)  // one has the left of each image, the other the right
-      std::erase_if(image, [&](const gonio::sample& s) { return (s.directions.pair().wo.y() > 0.0) == half; });
-    return images;
+    const std::vector<sample_set> images{image_of(material(number), 0.5, first),
+                                         image_of(material(number), 0.9, second)};
+    std::vector<sample_set> halves(images.size());  // one has the left of each image, the other the right
+    for (std::size_t i = 0; i < images.size(); ++i)
+      for (const gonio::sample& s : images[i])
+        if ((s.directions.pair().wo.y() > 0.0) != half) halves[i].push_back(s);
+    return halves;
   };
   const gonio::pose_refinement_options options{.eta = slight_eta, .deviation = radians(2.0)};
   // How far samples are from where they were: of turns themselves, those of both about the normal cannot be seen.

@@ -200,23 +200,19 @@ TEST_CASE("the number of threads changes no byte") {
 TEST_CASE("each wavelength is fitted as a grey material, without the samples that are rejected") {
   auto samples = gonio::sample_table(wavy_material(), gonio::random_cells(discrepancy_cells(), 30, 5));
   samples[6].value *= 40.0;
-  gonio::spectral_samples spectra{{450.0, 550.0, 650.0, 700.0}, {}, gonio::cell_matrix(30, 4)};
-  for (Eigen::Index i = 0; i < 30; ++i) {
-    spectra.directions.push_back(samples[i].directions);
-    const gonio::rgb value = samples[i].value;
-    spectra.values.row(i) << static_cast<float>(value[0]), static_cast<float>(value[1]), static_cast<float>(value[2]),
-        static_cast<float>(0.5 * value[1]);
-  }
+  sample_set spectra(gonio::channels({450.0, 550.0, 650.0, 700.0}));
+  for (const gonio::sample& each : samples)
+    spectra.add(each.directions, std::array{each.value[0], each.value[1], each.value[2], 0.5 * each.value[1]});
   const gonio::reconstruction estimator{discrepancy_prior()};
   const auto paint = estimator.fit(spectra);
   REQUIRE(paint.rejected() == std::vector<Eigen::Index>{6});
   CHECK(paint.kept() == 29);
   for (Eigen::Index band = 0; band < 4; ++band) {
-    sample_set grey = spectra.at_wavelength(band);
+    sample_set grey = spectra.channel(band);
     grey.erase(grey.begin() + 6);
     const auto alone = estimator.keeping_all().fit(grey);
     const auto [wi, wo] = gonio::to_directions({0.2, 0.4, 1.1});
-    CHECK(paint(wi, wo)[band] == doctest::Approx(alone(wi, wo)[0]).epsilon(1e-6));
+    CHECK(paint.values(wi, wo)[band] == doctest::Approx(alone(wi, wo)[0]).epsilon(1e-6));
   }
 }
 

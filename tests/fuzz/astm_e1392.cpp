@@ -5,7 +5,7 @@
 
 namespace {
 
-void read(fuzz::input bytes) { fuzz::read_both(bytes, gonio::io::read_astm_e1392, gonio::io::read_astm_e1392_spectra); }
+void read(fuzz::input bytes) { static_cast<void>(gonio::io::read_astm_e1392(fuzz::text_of(bytes), fuzz::bytes_name)); }
 
 const fuzz::registered harness("astm_e1392", &read);
 

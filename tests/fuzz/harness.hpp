@@ -5,7 +5,6 @@
 #include <gonio/core/error.hpp>
 #include <gonio/core/printable.hpp>
 #include <gonio/table/sample_set.hpp>
-#include <gonio/table/spectral_samples.hpp>
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -44,17 +43,6 @@ inline const std::string bytes_name = "fuzzed.file";
 
 [[nodiscard]] inline std::string_view text_of(input bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-/// Reads a text by both ends of a reader, for colours and for spectra: either may take what the other refuses.
-inline void read_both(input bytes, gonio::sample_set (*colours)(std::string_view, const std::string&),
-                      gonio::spectral_samples (*spectra)(std::string_view, const std::string&)) {
-  try {
-    static_cast<void>(spectra(text_of(bytes), bytes_name));
-  } catch (const gonio::error&) {
-    // Colours need no wavelengths.
-  }
-  static_cast<void>(colours(text_of(bytes), bytes_name));
 }
 
 /// The bytes as a file that is nowhere on a disk, for readers that take a path.

@@ -195,8 +195,8 @@ put("samples", "german.csv", "# Instrument: GON\n# quantity: percent\n\"Theta In
 put("samples", "in-plane.tsv", "theta_i_rad\ttheta_o (rad)\tvalue\tquantity\r\n0.5\t-0.5\t12%\tpercent\r\n0.5\t0.25\t1.5 %\tpercent\t\r\n")
 put("samples", "blanks.txt", "theta_h theta_d  phi_d brdf\n 1 2.5\t3 0.1 \n\"1\" 2 3 0.2\n")
 put("samples", "directions.csv", "\ufefftheta_i,phi_i,theta_o,phi_o\r\n89.9999999,0,-89.9999989,0\r\n")
-put("spectral_samples", "spectra.csv", "# quantity: brdf\ntheta_i,phi_i,theta_o,phi_o,400nm,w500,600,weight\n10,20,30,40,1,.5,-.5,1\n45,0,45,180,0,1e3,2,.5\n")
-put("spectral_samples", "laser.csv", "# quantity: percent\ntheta_h;theta_d;phi_d;632,8 [nm]\n10;20;30;31,4\n")
+put("samples", "spectra.csv", "# quantity: brdf\ntheta_i,phi_i,theta_o,phi_o,400nm,w500,600,weight\n10,20,30,40,1,.5,-.5,1\n45,0,45,180,0,1e3,2,.5\n")
+put("samples", "laser.csv", "# quantity: percent\ntheta_h;theta_d;phi_d;632,8 [nm]\n10;20;30;31,4\n")
 put("cornell", "small.brdf", "# paint\n3\n400 550\n700\n0.1 0.2 0.3 0.4 1 2 3\n1.5 -6.28 0 0 0.1 0.1 0.1\n")
 zemax = "# made up\nSource Measured\nSymmetry PlaneSymmetrical\nSpectralContent %s\nScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 2\n0 40\nScatterAzimuth 2\n0 180\nScatterRadial 2\n0 30\n\n"
 blocks = "%s\nDataBegin\nTIS 0.5\n1 2\n3 4\nTIS 0.5\n5 6\n7 8.5e-1\nDataEnd\n"
@@ -287,12 +287,11 @@ words = {
     "shape_model": ['gonio-shapes', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x00\\x00\\x80', '\\x78\\xDA', '\\x00\\x00\\x80\\x7F'],
     "npy": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f2'", "'<f4'", "'<f8'", "'>f4'", 'True', 'False', '(', ')', ',', '{', '}', ':', '18446744073709551615', '\\x1B'],
     "networks": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", '(1, 675)', '(2, 675)', '(0, 675)', '\\x0A', '\\x00', '\\x1B'],
-    "samples": ['theta_h', 'theta_d', 'phi_d', 'theta_i', 'phi_i', 'theta_o', 'phi_o', 'wi_x', 'wi_y', 'wi_z', 'wo_x', 'wo_y', 'wo_z', 'weight', 'r,g,b', ',', '\\x0A', '#', '1e308', '-0', 'nan', 'inf', '89.9999999', '-89.9999989', '1e-320', '\\xEF\\xBB\\xBF', 'value', 'brdf', 'quantity', 'wavelength', 'percent', 'reflectance-factor', '# quantity: ', '# instrument: ', '[rad]', '[%]', '%', ';', '\\x09', '"', '0,5', ' '],
+    "samples": ['theta_h', 'theta_d', 'phi_d', 'theta_i', 'phi_i', 'theta_o', 'phi_o', 'wi_x', 'wi_y', 'wi_z', 'wo_x', 'wo_y', 'wo_z', 'weight', 'r,g,b', ',', '\\x0A', '#', '1e308', '-0', 'nan', 'inf', '89.9999999', '-89.9999989', '1e-320', '\\xEF\\xBB\\xBF', 'value', 'brdf', 'quantity', 'wavelength', 'percent', 'reflectance-factor', '# quantity: ', '# instrument: ', '[rad]', '[%]', '%', ';', '\\x09', '"', '0,5', ' ', '400nm', '[nm]', 'w500', 'lambda_600', ',700'],
     "zemax_bsdf": ['Source', 'Measured', 'Symmetry', 'SpectralContent', 'Monochrome', 'XYZ', 'TristimulusX', 'ScatterType', 'BRDF', 'SampleRotation', 'AngleOfIncidence', 'ScatterAzimuth', 'ScatterRadial', 'DataBegin', 'DataEnd', 'TIS', '1000000', '1e308', '-360', '180', 'nan', '#', '\\x0A'],
     "astm_e1392": ['NUM_POINTS', 'VARS ', 'theta_i,phi_i,theta_s,phi_s,', 'R,G,B', 'X,Y,Z', '400nm', '700nm', 'BRDF', '1.5707', '6.2831', '1e308', 'nan', '#', ',', '\\x0A'],
     "ssdd": ['VERSION 0.3', 'DATA_TYPE', 'brdf', 'btdf', 'specular_reflectance', 'COLOR_MODEL', 'monochrome', 'rgb', 'xyz', 'spectrum', 'WAVELENGTH_LIST', 'PARAM_TYPE', 'spherical_coordinate_system', 'specular_coordinate_system', 'half_difference_coordinate_system', 'REDUCTION_TYPE', 'PARAM0_LIST', 'PARAM1_LIST', 'PARAM2_LIST', 'PARAM3_LIST', 'PARAM4_LIST', 'DATA', 'ascii', 'binary', '1e308', '360', 'nan', '# ', '\\x0A', '\\x00\\x00\\x80\\x7F'],
     "bird": ['"metadata"', '"data"', '"theta_i"', '"phi_i"', '"theta_r"', '"phi_r"', '"BRDF"', '"uBRDF"', '"wavelength_i"', '"wavelength_r"', '"polarization_i"', '"polarization_r"', '"adhoc_variables"', '"unit"', '"values"', '"uncertainty"', '"value"', '"deg"', '"rad"', '"sr^-1"', '"%"', '"nm"', '"s"', '"p"', '"u"', '[1,-1,0,0]', '{', '}', '[', ']', ':', ',', '1e308', 'null', '\\\\u001b', '\\\\ud83d'],
-    "spectral_samples": ['theta_h,theta_d,phi_d', 'theta_i,phi_i,theta_o,phi_o', '400nm', '[nm]', 'w500', 'lambda_600', ',700', 'wavelength', 'value', 'weight', '# quantity: brdf', '# quantity: percent', '1e308', 'nan', '-0', '\\x0A', ';', '%', '"'],
     "mbsdf": ['NVIDIA ARC MBSDF V1\\x0A', 'MBSDF_DATA=\\x0A', 'MBSDF_DATA_REFLECTION=\\x0A', 'MBSDF_DATA_TRANSMISSION=\\x0A', '="', '"\\x0A', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x00\\x80\\x7F'],
     "openmaterial": ['"metadata"', '"openMaterial3dVersion"', '"brdf"', '"lookupTable"', '"wavelengths"', '[9.05e-07, ', '4.5e-07', '1.570796', '6.283185', '3.141593', '0.01716', 'null', '1e308', '{', '}', '[', ']', ':', ',', '\\x0A'],
     "cornell": ['400', '700', '1.5707963267948966', '6.2831853', '10000', '1e308', 'nan', '\\x0A', '#', '-0'],

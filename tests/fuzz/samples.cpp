@@ -4,6 +4,7 @@
 #include "harness.hpp"
 #include <gonio/io/measurements/samples.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -52,7 +53,10 @@ void read(fuzz::input bytes) {
       file.path(), {.columns = {}, .quantity = plain.refusal ? percent : none, .note = check_note});
   const std::string text = gonio::io::write_samples(given.samples, given.provenance);
   const auto again = gonio::io::read_sample_file(text, fuzz::bytes_name);
-  if (again.samples.size() != given.samples.size()) std::abort();
+  if (again.samples.size() != given.samples.size() || !(again.samples.channels() == given.samples.channels()))
+    std::abort();
+  for (Eigen::Index i = 0; i < std::ssize(given.samples); ++i)
+    if (!std::ranges::equal(again.samples.values(i), given.samples.values(i))) std::abort();
   if (comment_lines(again.provenance) != comment_lines(given.provenance)) std::abort();
 }
 

@@ -5,7 +5,7 @@
 
 namespace {
 
-void read(fuzz::input bytes) { fuzz::read_both(bytes, gonio::io::read_ssdd, gonio::io::read_ssdd_spectra); }
+void read(fuzz::input bytes) { static_cast<void>(gonio::io::read_ssdd(fuzz::text_of(bytes), fuzz::bytes_name)); }
 
 const fuzz::registered harness("ssdd", &read);
 

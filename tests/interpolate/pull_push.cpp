@@ -93,10 +93,9 @@ TEST_CASE("cells measured with full weight keep their weighted mean, whatever is
     const valid_cells cells = any_cells();
     const auto pick = static_cast<std::size_t>(fraction() * static_cast<double>(cells.size() - 1));
     const auto angles = cells.angles(pick);
-    sample_set samples = any_samples();
-    std::erase_if(samples, [&](const gonio::sample& s) {
-      return cells.grid().nearest(s.angles()) == cells.grid().cell(cells.linear(pick));
-    });
+    sample_set samples;
+    for (const gonio::sample& s : any_samples())
+      if (!(cells.grid().nearest(s.angles()) == cells.grid().cell(cells.linear(pick)))) samples.push_back(s);
     samples.push_back({angles, rgb(1, 2, 4), 0.5});
     samples.push_back({angles, rgb(5, 6, 0), 1.5});
     const auto table = pull_push{cells}.fit(samples).tabulate(cells);

@@ -70,22 +70,18 @@ TEST_CASE("BiRD: wavelengths at one direction are its spectrum, in whatever orde
        {variable("wavelength_i", "nm", "550,450,650"), variable("wavelength_r", "\xCE\xBCm", "0.55,0.45,0.65")}) {
     const auto samples = read_bird(at_one_direction("45,45,45", given, "0.2,0.1,0.4"), "x");
     REQUIRE(samples.size() == 1);
-    CHECK((samples[0].value - expected).abs().maxCoeff() < 1e-9);
-    const auto spectra = gonio::io::read_bird_spectra(at_one_direction("45,45,45", given, "0.2,0.1,0.4"), "x");
-    REQUIRE(spectra.size() == 1);
-    CHECK(spectra.wavelengths == std::vector<double>(wavelengths.begin(), wavelengths.end()));
-    CHECK(spectra.values(0, 2) == 0.4f);
+    CHECK((samples.colours()[0].value - expected).abs().maxCoeff() < 1e-9);
+    CHECK(samples.channels() == gonio::channels({wavelengths.begin(), wavelengths.end()}));
+    CHECK(samples.values(0)[2] == 0.4);
   }
-  check_refused([&] { return gonio::io::read_bird_spectra(three_of(""), "tile.json"); }, {"tile.json", "no spectra"});
-  check_refused(
-      [&] {
-        return gonio::io::read_bird_spectra(three_of(variable("wavelength_i", "nm", "450,550,450")), "tile.json");
-      },
-      {"tile.json", "other wavelengths"});
+  CHECK(read_bird(three_of(""), "x").channels() == gonio::channels::one_value());
+  // Other wavelengths in the next pair of directions make colours.
+  CHECK(read_bird(three_of(variable("wavelength_i", "nm", "450,550,450")), "x").channels().are_colours());
   const auto laser = read_bird(at_one_direction("45", variable("wavelength_i", "nm", "1064"), "0.2"), "x");
   CHECK((laser[0].value == 0.2).all());
-  check_bird_refused(at_one_direction("45,45", variable("wavelength_i", "nm", "1000,1064"), "0.2,0.1"),
-                     {"fewer than two"});
+  CHECK_FALSE(read_bird(at_one_direction("45,45", variable("wavelength_i", "nm", "1000,1064"), "0.2,0.1"), "x")
+                  .channels()
+                  .have_colour());
 }
 
 TEST_CASE("BiRD: states of illumination must average to unpolarised light") {
@@ -188,7 +184,7 @@ TEST_CASE("BiRD: the consortium's own example has one direction in four waveleng
   }
   const auto samples = gonio::io::read_bird(path);
   REQUIRE(samples.size() == 1);
-  CHECK(gonio::degrees(gonio::polar_angle(samples[0].directions.pair().wo)) == doctest::Approx(10.0));
+  CHECK(gonio::degrees(gonio::polar_angle(samples.directions(0).pair().wo)) == doctest::Approx(10.0));
   const std::array wavelengths{550.0, 650.0, 750.0, 850.0}, values{0.2585, 0.27, 0.288, 0.2985};
-  CHECK((samples[0].value - gonio::spectral_colour(wavelengths)(values)).abs().maxCoeff() < 1e-9);
+  CHECK((samples.colours()[0].value - gonio::spectral_colour(wavelengths)(values)).abs().maxCoeff() < 1e-9);
 }

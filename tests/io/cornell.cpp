@@ -19,7 +19,8 @@ void check_text_refused(const std::string& text, std::initializer_list<std::stri
 }  // namespace
 
 TEST_CASE("directions in radians, reflectances by wavelength") {
-  const auto samples = read_cornell(start + "0.5 0 0.25 3.1 .1 .1 .1\r\n\t# and\n 0.5  1 0.25 -1.5 0 0 0.3\n", "x");
+  const auto samples =
+      read_cornell(start + "0.5 0 0.25 3.1 .1 .1 .1\r\n\t# and\n 0.5  1 0.25 -1.5 0 0 0.3\n", "x").colours();
   REQUIRE(samples.size() == 2);
   const auto expected =
       gonio::to_half_difference(gonio::spherical_direction(0.5, 0.0), gonio::spherical_direction(0.25, 3.1));
@@ -61,7 +62,7 @@ TEST_CASE("any text is read or refused") {
     const auto text = *rc::gen::container<std::string>(rc::gen::elementOf(std::string("0123456789.-+e \n#x")));
     const bool whole = *rc::gen::arbitrary<bool>();
     try {
-      const auto samples = read_cornell(whole ? text : start + text, "x");
+      const auto samples = read_cornell(whole ? text : start + text, "x").colours();
       for (const gonio::sample& s : samples) RC_ASSERT(s.value.isFinite().all());
     } catch (const gonio::error&) {
     }
@@ -74,8 +75,8 @@ TEST_CASE("the shared paints: a red and a blue one, positive, with highlights") 
     MESSAGE("skipped: there is no " << folder.string());
     return;
   }
-  const auto red = gonio::io::read_cornell(folder / "garnet_red.brdf");
-  const auto blue = gonio::io::read_cornell(folder / "krylon_blue.brdf");
+  const auto red = gonio::io::read_cornell(folder / "garnet_red.brdf").colours();
+  const auto blue = gonio::io::read_cornell(folder / "krylon_blue.brdf").colours();
   REQUIRE(red.size() == 1439);
   REQUIRE(blue.size() == 1439);
   const auto sum = [](const gonio::sample_set& samples) {
@@ -87,17 +88,12 @@ TEST_CASE("the shared paints: a red and a blue one, positive, with highlights") 
   CHECK(sum(blue).z() > 1.5 * sum(blue).x());
 }
 
-TEST_CASE("Cornell's spectra as they are, and their colours as before") {
+TEST_CASE("Cornell's spectra as they are") {
   const std::string text = start + "0.5 0 0.25 3.1 .1 .2 .3\n0.5 1 0.25 -1.5 0 -1 0.3\n";
-  const auto spectra = gonio::io::read_cornell_spectra(text, "x");
-  CHECK(spectra.wavelengths == std::vector<double>{450, 550, 650});
-  CHECK(spectra.values(0, 1) == 0.2f);
-  CHECK(spectra.values(1, 1) == -1.0f);
-  const auto colours = spectra.colours(), samples = read_cornell(text, "x");
-  for (std::size_t i = 0; i < 2; ++i) {
-    CHECK(((colours[i].value - samples[i].value).abs() < 1e-6).all());
-    CHECK(colours[i].angles().theta_h == samples[i].angles().theta_h);
-  }
-  check_refused([] { return gonio::io::read_cornell_spectra("3\n450 550\n", "x"); }, {"ends before its 3"});
-  check_refused([] { return gonio::io::read_cornell_spectra("/nowhere/paint.brdf"); }, {"/nowhere/paint.brdf"});
+  const auto spectra = read_cornell(text, "x");
+  CHECK(spectra.channels() == gonio::channels({450, 550, 650}));
+  CHECK(spectra.values(0)[1] == 0.2);
+  CHECK(spectra.values(1)[1] == -1.0);
+  check_refused([] { return read_cornell("3\n450 550\n", "x"); }, {"ends before its 3"});
+  check_refused([] { return read_cornell("/nowhere/paint.brdf"); }, {"/nowhere/paint.brdf"});
 }

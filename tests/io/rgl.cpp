@@ -223,7 +223,6 @@ TEST_CASE("bad files of the RGL database are refused") {
   };
   refused([&](fields& all) { spectral(all, {1, 3, 3, 2, 2}, 500.0); }, {"file: ", "need 6 tables", "not 9"});
   refused([&](fields& all) { spectral(all, {1, 3, 2, 0, 0}, 500.0); }, {"file: ", "at least 2 x 2", "0 x 0"});
-  refused([&](fields& all) { spectral(all, {1, 3, 2, 2, 2}, 9000.0); }, {"file: ", "is visible: they have no colour"});
   refused([&](fields& all) { spectral(all, {1, 3, 2, 2, 2}, 500.0), all.erase("wavelengths"); }, {"'wavelengths'"});
   refused([](fields& all) { all["jacobian"] = {1, {1}, std::string("\0", 1)}; }, {"'jacobian' is not 1"});
   refused([](fields& all) { all["phi_i"] = all["theta_i"]; }, {"anisotropic", "3 azimuths"});

@@ -42,13 +42,13 @@ TEST_CASE("a spectral table is written as a spectral material, and its spectra a
   std::vector<gonio::sample_directions> directions;
   for (const double theta_h : {0.05, 0.3, 0.6})
     for (const double theta_d : {0.1, 0.5}) directions.push_back({theta_h, theta_d, 1.2});
-  const gonio::spectral_samples samples = gonio::io::sample_spectra(read, directions);
-  CHECK(samples.wavelengths == table.wavelengths());
-  for (Eigen::Index i = 0; i < samples.size(); ++i) {
+  const gonio::sample_set samples = gonio::io::sample_spectra(read, directions);
+  CHECK(samples.channels().wavelengths() == table.wavelengths());
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
     const auto& [wi, wo] = directions[i].pair();
     const Eigen::ArrayXf expected = table(wi, wo);
     for (Eigen::Index band = 0; band < 4; ++band)
-      CHECK(double{samples.values(i, band)} == doctest::Approx(double{expected[band]}).epsilon(0.02));
+      CHECK(samples.values(i)[static_cast<std::size_t>(band)] == doctest::Approx(double{expected[band]}).epsilon(0.02));
   }
 }
 
@@ -81,8 +81,10 @@ TEST_CASE("spectra over cells are those in the cells' directions") {
     const auto angles = coarse.angles(cell);
     directions.push_back({angles.theta_h, angles.theta_d, angles.phi_d});
   }
-  const gonio::spectral_samples samples = gonio::io::sample_spectra(material, directions);
-  CHECK((found.values() - samples.values).cwiseAbs().maxCoeff() < 1e-5f);
+  const gonio::sample_set samples = gonio::io::sample_spectra(material, directions);
+  for (Eigen::Index cell = 0; cell < coarse.size(); ++cell)
+    for (Eigen::Index band = 0; band < 4; ++band)
+      CHECK(std::abs(double{found.values()(cell, band)} - samples.values(cell)[static_cast<std::size_t>(band)]) < 1e-5);
   CHECK(found.values() == gonio::io::tabulate_spectra(material, coarse, gonio::thread_count{3}).values());
 }
 
@@ -133,6 +135,13 @@ TEST_CASE("wavelengths that nobody sees are written as they are") {
   CHECK(made.spectra->wavelengths == std::vector<double>{905.0, 1550.0});
   const std::vector<gonio::sample_directions> one{{0.2, 0.4, 1.0}};
   const auto sampled = gonio::io::sample_spectra(made, one);
-  CHECK(sampled.values(0, 0) == doctest::Approx(0.1).epsilon(0.02));
-  CHECK(sampled.values(0, 1) == doctest::Approx(0.3).epsilon(0.02));
+  CHECK(sampled.values(0)[0] == doctest::Approx(0.1).epsilon(0.02));
+  CHECK(sampled.values(0)[1] == doctest::Approx(0.3).epsilon(0.02));
+  const scratch::folder here;
+  gonio::io::write_rgl(here / "ir.bsdf", made);
+  const auto read = gonio::io::read_rgl(here / "ir.bsdf");
+  REQUIRE(read.spectra);
+  CHECK(read.spectra->wavelengths == made.spectra->wavelengths);
+  CHECK(gonio::io::sample_spectra(read, one).values(0)[1] == doctest::Approx(sampled.values(0)[1]).epsilon(1e-5));
+  check_refused([&] { return gonio::io::colours_of(read, "ir.bsdf"); }, {"ir.bsdf", "905 to 1550 nm", "no colour"});
 }

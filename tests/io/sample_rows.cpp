@@ -80,12 +80,13 @@ TEST_CASE("one wavelength, and what a file says of its measurements") {
       "# Instrument: GON 360: arm 2\n#date:2026-11-25\n# conditions: 23 C\n# conditions: dry\n# other: x\n"
       "theta_i,phi_i,theta_o,phi_o,wavelength [nm],BRDF [1/sr]\n10,0,60,0,633,0.25\n10,0,50,0,633,0.5\n",
       "x");
-  CHECK(file.wavelength == 633.0);
+  CHECK(file.samples.channels() == gonio::channels({633.0}));
   CHECK(file.quantity == gonio::io::sample_quantity::brdf);
   CHECK(file.provenance == gonio::io::sample_provenance{"GON 360: arm 2", "2026-11-25", "23 C; dry"});
   CHECK((file.samples[1].value == 0.5).all());
   CHECK(gonio::io::write_samples(file.samples, file.provenance)
-            .starts_with("# instrument: GON 360: arm 2\n# date: 2026-11-25\n# conditions: 23 C; dry\ntheta_h,"));
+            .starts_with("# instrument: GON 360: arm 2\n# date: 2026-11-25\n# conditions: 23 C; dry\n# quantity: "
+                         "brdf\ntheta_h,theta_d,phi_d,633nm,weight\n"));
   const std::string two = "theta_h,theta_d,phi_d,wavelength,brdf\n1,2,3,550,1\n1,2,3,";
   check_text_refused(two + "650,1\n", {"line 3", "650 nm, but 550 nm above", "more than one wavelength"});
   check_text_refused(two + "0,1\n", {"line 3", "wavelength: 0 nm", "more than 0"});

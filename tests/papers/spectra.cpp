@@ -2,7 +2,7 @@
 
 #include "../io/scratch.hpp"
 #include "papers_tool.hpp"
-#include <gonio/io/measurements/spectral_samples.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
 #include <doctest/doctest.h>
 
@@ -10,16 +10,15 @@
 #include <string>
 
 TEST_CASE("spectra are fitted by wavelengths and by colours, and judged by what was not fitted") {
-  gonio::spectral_samples samples{{420, 480, 540, 600, 660}, {}, gonio::cell_matrix(30, 5)};
-  for (Eigen::Index i = 0; i < samples.values.rows(); ++i) {
+  gonio::sample_set samples{gonio::channels({420, 480, 540, 600, 660})};
+  for (Eigen::Index i = 0; i < 30; ++i) {
     const double theta_h = 0.04 * static_cast<double>(i % 10), theta_d = 0.3 + 0.3 * static_cast<double>(i / 10);
-    samples.directions.push_back({theta_h, theta_d, 1.0});
-    for (Eigen::Index band = 0; band < 5; ++band)
-      samples.values(i, band) = static_cast<float>(0.05 * static_cast<double>(band + 1) + std::exp(-30.0 * theta_h));
+    samples.add({theta_h, theta_d, 1.0},
+                Eigen::ArrayXd(Eigen::ArrayXd::LinSpaced(5, 0.05, 0.25) + std::exp(-30.0 * theta_h)));
   }
   const scratch::folder here;
   const auto file = here / "paint.csv";
-  gonio::io::write_spectral_samples(file, samples);
+  gonio::io::write_samples(file, samples);
   const auto result = gonio_papers("spectra --samples " + file.string() + " --counts 20 --repetitions 2");
   REQUIRE_MESSAGE(result.exit_code == 0, result.output);
   CHECK(result.output.find("| paint | 20 | wavelengths | 0.") != std::string::npos);

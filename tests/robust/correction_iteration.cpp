@@ -355,7 +355,7 @@ TEST_CASE("a sample of weight zero changes no byte, and other weights matter") {
   auto with_ignored = samples;
   // Far out, at the beginning, in between and at the end.
   const gonio::sample ignored{samples[3].angles(), gonio::rgb(50, 60, 70), 0.0};
-  with_ignored.insert(with_ignored.begin(), ignored);
+  with_ignored.insert(with_ignored.begin(), 1, ignored);
   with_ignored.insert(with_ignored.begin() + 30, 5, ignored);
   with_ignored.push_back(ignored);
   const auto expect_same = [&](const auto& estimator) {

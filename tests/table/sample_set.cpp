@@ -3,8 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <ranges>
+#include <vector>
 
 using gonio::rgb;
 using gonio::sample;
@@ -54,4 +58,72 @@ TEST_CASE("one measurement that counts more in one channel makes all of them cou
     gonio::channel_weights weight;
   };
   CHECK(gonio::weigh_channels_apart(std::vector<observation>{{1.0}, {rgb(1.0, 0.0, 1.0)}}));
+}
+
+namespace {
+
+const gonio::channels bands({450.0, 550.0, 650.0, 750.0});
+
+/// Two measurements at four wavelengths.
+sample_set two_spectra() {
+  sample_set samples(bands);
+  samples.add({0.1, 0.2, 0.3}, std::array{0.1, 0.2, 0.3, 0.4});
+  samples.add({0.4, 0.5, 0.6}, std::array{-0.1, 0.0, 2.0, 1.0}, 0.5);
+  return samples;
+}
+
+}  // namespace
+
+TEST_CASE("samples at wavelengths are no colours, and make some") {
+  const sample_set samples = two_spectra();
+  gonio::require_usable(samples);
+  REQUIRE(samples.size() == 2);
+  CHECK(samples.values(1)[2] == 2.0);
+  CHECK_THROWS_WITH_AS(static_cast<void>(samples[0]), doctest::Contains("4 wavelengths are no colours"), gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(samples.begin()), gonio::error);
+  CHECK_THROWS_AS(two_spectra().push_back({{0.1, 0.2, 0.3}, rgb::Ones()}), gonio::error);
+  for (const auto light : {gonio::illuminant::d65, gonio::illuminant::a}) {
+    const sample_set colours = samples.under(light).colours();
+    CHECK(colours.channels().are_colours());
+    for (std::size_t i = 0; i < 2; ++i)
+      CHECK((colours[i].value == bands.under(light).colour(samples.values(static_cast<Eigen::Index>(i)))).all());
+    CHECK(colours[1].weight == gonio::channel_weights(0.5));
+    CHECK(colours[1].angles().theta_d == 0.5);
+  }
+}
+
+TEST_CASE("a channel of samples, and some of them") {
+  const sample_set samples = two_spectra(), green = samples.channel(1);
+  CHECK(green.channels() == gonio::channels({550.0}));
+  CHECK((green[0].value == 0.2).all());
+  CHECK(green.values(0).size() == 1);
+  const std::vector<Eigen::Index> second{1};
+  const sample_set some = samples.subset(second);
+  REQUIRE(some.size() == 1);
+  CHECK(some.channels() == bands);
+  CHECK(std::ranges::equal(some.values(0), samples.values(1)));
+  CHECK(some.weight(0) == gonio::channel_weights(0.5));
+  const sample_set coloured{{{0.1, 0.2, 0.3}, rgb(1, 2, 3)}};
+  CHECK(coloured.channel(2).channels() == gonio::channels::one_value());
+  CHECK((coloured.channel(2)[0].value == 3.0).all());
+  CHECK((coloured.subset(std::vector<Eigen::Index>{0})[0].value == rgb(1, 2, 3)).all());
+}
+
+TEST_CASE("unusable samples at wavelengths are refused") {
+  const auto refused = [](const char* words, const gonio::sample_directions& at, double value, double weight) {
+    sample_set samples = two_spectra();
+    samples.add(at, std::array{1.0, value, 1.0, 1.0}, weight);
+    CHECK_THROWS_WITH_AS(gonio::require_usable(samples), doctest::Contains(words), gonio::error);
+  };
+  refused("sample 3: the reflectance at wavelength 2", {0.1, 0.2, 0.3}, std::nan(""), 1.0);
+  refused("sample 3: the reflectance at wavelength 2", {0.1, 0.2, 0.3}, 1e39, 1.0);
+  refused("sample 3: the weight", {0.1, 0.2, 0.3}, 1.0, -1.0);
+  refused("sample 3: a direction", {1.5, 1.5, 0.0}, 1.0, 1.0);
+  CHECK_THROWS_WITH_AS(gonio::require_usable(sample_set(bands)), doctest::Contains("no samples"), gonio::error);
+  sample_set samples(bands);
+  CHECK_THROWS_WITH_AS(samples.add({0.1, 0.2, 0.3}, std::array{1.0}), doctest::Contains("each of 4 channels"),
+                       gonio::error);
+  CHECK_THROWS_WITH_AS(samples.add({0.1, 0.2, 0.3}, std::array{1.0, 1.0, 1.0, 1.0}, rgb(1, 2, 3)),
+                       doctest::Contains("one weight"), gonio::error);
+  CHECK(gonio::counting_positions(two_spectra()) == std::vector<Eigen::Index>{0, 1});
 }

@@ -201,17 +201,17 @@ std::vector<gonio::sample_directions> pairs(int count) {
 void compare_values(const gonio::io::rgl_material& ours) {
   const std::vector<double> wavelengths = with_middles(ours.spectra->wavelengths);
   const auto directions = pairs(20000);
-  const gonio::spectral_samples read = gonio::io::sample_spectra(ours, directions);
+  const gonio::sample_set read = gonio::io::sample_spectra(ours, directions);
   const double near = pi / 1800.0;
   std::vector<double> off, off_near;
-  for (Eigen::Index i = 0; i < read.size(); ++i) {
+  for (Eigen::Index i = 0; i < std::ssize(read); ++i) {
     const vector3 wi = of(directions[i].pair().wi), wo = of(directions[i].pair().wo);
     const auto one = theirs::f(wo, wi, wavelengths), other = theirs::f(wi, wo, wavelengths);
     double largest = 0.0;
     for (std::size_t j = 0; j < wavelengths.size(); ++j) {
-      const auto band = static_cast<Eigen::Index>(j / 2), next = static_cast<Eigen::Index>((j + 1) / 2);
+      const std::size_t band = j / 2, next = (j + 1) / 2;
       const double mean = 0.5 * (one[j] + other[j]);
-      double f = 0.5 * (double{read.values(i, band)} + double{read.values(i, next)});
+      double f = 0.5 * (read.values(i)[band] + read.values(i)[next]);
       // pbrt takes what is negative in one of the orders as 0.
       if (one[j] == 0.0 || other[j] == 0.0) f = std::max(f, mean);
       largest = std::max(largest, std::abs(mean - f) / (std::abs(f) + 0.01));

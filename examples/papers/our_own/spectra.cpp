@@ -10,7 +10,6 @@
 #include <gonio/core/random.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/core/statistics.hpp>
-#include <gonio/estimate/fitted_spectra.hpp>
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/materials/prior.hpp>
 #include <gonio/model/smooth_spectra.hpp>
@@ -72,11 +71,11 @@ constexpr std::array measures{
 
 /// What was not fitted, in one repetition.
 struct held_out {
-  const gonio::spectral_samples& samples;
+  const gonio::sample_set& samples;
   gonio::spectral_colour daylit, lamplit;
 
-  explicit held_out(const gonio::spectral_samples& all)
-      : samples(all), daylit(all.wavelengths), lamplit(all.wavelengths, illuminant::a) {}
+  explicit held_out(const gonio::sample_set& all)
+      : samples(all), daylit(all.channels().wavelengths()), lamplit(all.channels().wavelengths(), illuminant::a) {}
 
   [[nodiscard]] const gonio::spectral_colour& colour(illuminant light) const {
     return light == illuminant::a ? lamplit : daylit;
@@ -88,7 +87,7 @@ struct held_out {
   [[nodiscard]] double rms(const Spectrum& spectrum_in) const {
     constexpr double offset = 1e-3;
     double sum = 0.0;
-    for (Eigen::Index i = 0; i < samples.size(); ++i) {
+    for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
       const Eigen::ArrayXd estimate = spectrum_in(i), truth = truth_in(i);
       sum += ((estimate.max(0.0) + offset) / (truth.max(0.0) + offset)).log().square().mean();
     }
@@ -100,8 +99,8 @@ struct held_out {
   template <class Colour>
   [[nodiscard]] std::pair<double, double> delta_e(illuminant light, const Colour& colour_in) const {
     double sum = 0.0, shown = 0.0, count = 0.0;
-    for (Eigen::Index i = 0; i < samples.size(); ++i) {
-      const gonio::rgb truth = std::numbers::pi * colour(light)(samples.spectrum(i));
+    for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
+      const gonio::rgb truth = std::numbers::pi * colour(light)(samples.values(i));
       if (gonio::luminance(truth) > 1.0) continue;
       const gonio::rgb estimate = std::numbers::pi * gonio::rgb(colour_in(i));
       sum += (gonio::unclipped_lab(estimate) - gonio::unclipped_lab(truth)).matrix().norm();
@@ -112,7 +111,7 @@ struct held_out {
   }
 
   [[nodiscard]] Eigen::ArrayXd truth_in(Eigen::Index i) const {
-    return samples.values.row(i).transpose().cast<double>().array();
+    return Eigen::Map<const Eigen::ArrayXd>(samples.values(i).data(), samples.channels().size());
   }
   [[nodiscard]] gonio::rgb colour_of(illuminant light, const Eigen::ArrayXd& spectrum) const {
     return colour(light)(std::span<const double>(spectrum.data(), static_cast<std::size_t>(spectrum.size())));
@@ -120,12 +119,12 @@ struct held_out {
 };
 
 /// Each wavelength as a grey material.
-path_errors fit_wavelengths(const spectral_fit_estimator& estimator, const gonio::spectral_samples& fitted,
+path_errors fit_wavelengths(const spectral_fit_estimator& estimator, const gonio::sample_set& fitted,
                             const held_out& others) {
   const auto fit = estimator.fit(fitted);
   const auto spectrum_in = [&](Eigen::Index i) -> Eigen::ArrayXd {
-    const auto& [wi, wo] = others.samples.directions[i].pair();
-    return fit(wi, wo);
+    const auto& [wi, wo] = others.samples.directions(i).pair();
+    return fit.values(wi, wo);
   };
   const auto under = [&](illuminant light) {
     return others.delta_e(light, [&](Eigen::Index i) { return others.colour_of(light, spectrum_in(i)); });
@@ -141,9 +140,9 @@ enum class colour_space { rgb, xyz };
 /// A fit of three channels, as linear Rec. 709: XYZ is relative to white, and not negative.
 class colour_fit {
  public:
-  colour_fit(const spectral_fit_estimator& estimator, const gonio::spectral_samples& fitted, colour_space space,
+  colour_fit(const spectral_fit_estimator& estimator, const gonio::sample_set& fitted, colour_space space,
              illuminant light)
-      : space_(space), fit_(estimator.fit(channels_of(fitted.colours(light), space))) {}
+      : space_(space), fit_(estimator.fit(channels_of(fitted.under(light).colours(), space))) {}
 
   [[nodiscard]] gonio::rgb operator()(const gonio::direction_pair& at) const {
     const gonio::rgb found = fit_(at.wi, at.wo);
@@ -162,10 +161,10 @@ class colour_fit {
 };
 
 /// Colours under each illuminant; the spectra are the smoothest of those under D65.
-path_errors fit_colours(const spectral_fit_estimator& estimator, const gonio::spectral_samples& fitted,
-                        colour_space space, const gonio::model::smooth_spectra& smooth, const held_out& others) {
+path_errors fit_colours(const spectral_fit_estimator& estimator, const gonio::sample_set& fitted, colour_space space,
+                        const gonio::model::smooth_spectra& smooth, const held_out& others) {
   const colour_fit daylit(estimator, fitted, space, illuminant::d65), lamplit(estimator, fitted, space, illuminant::a);
-  const auto at = [&](Eigen::Index i) { return others.samples.directions[i].pair(); };
+  const auto at = [&](Eigen::Index i) { return others.samples.directions(i).pair(); };
   const auto spectrum_in = [&](Eigen::Index i) -> Eigen::ArrayXd { return smooth(daylit(at(i))); };
   const auto under_d65 = others.delta_e(illuminant::d65, [&](Eigen::Index i) { return daylit(at(i)); });
   const auto under_a = others.delta_e(illuminant::a, [&](Eigen::Index i) { return lamplit(at(i)); });
@@ -200,18 +199,18 @@ struct comparison {
 };
 
 /// Some measurements at random, and the others.
-std::pair<gonio::spectral_samples, gonio::spectral_samples> parted(const gonio::spectral_samples& all,
-                                                                   Eigen::Index count, Eigen::Index seed) {
-  const std::vector<Eigen::Index> chosen = gonio::random_choice(all.size(), count, seed);
+std::pair<gonio::sample_set, gonio::sample_set> parted(const gonio::sample_set& all, Eigen::Index count,
+                                                       Eigen::Index seed) {
+  const std::vector<Eigen::Index> chosen = gonio::random_choice(std::ssize(all), count, seed);
   std::vector<Eigen::Index> rest;
-  for (Eigen::Index i = 0; i < all.size(); ++i)
+  for (Eigen::Index i = 0; i < std::ssize(all); ++i)
     if (!std::ranges::binary_search(chosen, i)) rest.push_back(i);
   return {all.subset(chosen), all.subset(rest)};
 }
 
-comparison compare(const spectral_fit_estimator& estimator, const gonio::spectral_samples& all, Eigen::Index count,
+comparison compare(const spectral_fit_estimator& estimator, const gonio::sample_set& all, Eigen::Index count,
                    const spectra_options& given) {
-  const gonio::model::smooth_spectra smooth(all.wavelengths);
+  const gonio::model::smooth_spectra smooth(all.channels().wavelengths());
   comparison found;
   for (Eigen::Index r = 0; r < given.repetitions; ++r) {
     const auto [fitted, unused] = parted(all, count, r);
@@ -262,11 +261,12 @@ gonio::log_relative_pca learn_as_spectra(const gonio::log_relative_pca& prior, c
       .prior;
 }
 
-void compare_priors(const std::string& name, const gonio::spectral_samples& all, const spectra_options& given) {
+void compare_priors(const std::string& name, const gonio::sample_set& all, const spectra_options& given) {
   const auto colours = gonio::io::read_prior(given.prior);
   const spectral_fit_estimator by_colours = keeping_all(colours, given.threads),
-                               by_spectra = keeping_all(learn_as_spectra(colours, all.wavelengths, given.threads),
-                                                        given.threads);
+                               by_spectra =
+                                   keeping_all(learn_as_spectra(colours, all.channels().wavelengths(), given.threads),
+                                               given.threads);
   for (const Eigen::Index count : given.counts) {
     all_errors of_colours, of_spectra;
     for (Eigen::Index r = 0; r < given.repetitions; ++r) {
@@ -283,19 +283,21 @@ void compare_priors(const std::string& name, const gonio::spectral_samples& all,
 }
 
 /// All files, before anything is printed. Throws gonio::error for one that has too few measurements.
-std::vector<gonio::spectral_samples> read_all(const spectra_options& given) {
-  std::vector<gonio::spectral_samples> all;
+std::vector<gonio::sample_set> read_all(const spectra_options& given) {
+  std::vector<gonio::sample_set> all;
   for (const std::filesystem::path& file : given.samples) {
-    all.push_back(read_spectra_file(file).samples);
+    all.push_back(read_measurement_file(file).samples);
+    if (!all.back().channels().are_wavelengths())
+      gonio::refuse({file.native(), ": names no wavelengths, expected columns like 400nm,410nm"});
     const Eigen::Index most = std::ranges::max(given.counts);
-    if (most >= all.back().size())
+    if (most >= std::ssize(all.back()))
       gonio::refuse({file.native(), ": no sample is left to judge by after ", most, " of ", all.back().size()});
   }
   return all;
 }
 
 void run(const spectra_options& given) {
-  const std::vector<gonio::spectral_samples> files = read_all(given);
+  const std::vector<gonio::sample_set> files = read_all(given);
   const spectral_fit_estimator estimator = keeping_all(gonio::io::read_prior(given.prior), given.threads);
   std::cout << "Directions that were not fitted, means (medians) of " << given.repetitions << " random sets each.\n\n"
             << "| material | fitted | " << (given.compares_priors ? "materials of the prior" : "what is fitted")

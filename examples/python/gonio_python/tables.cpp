@@ -105,8 +105,9 @@ void add_tables(py::module_& m) {
       "read_merl", [](const std::filesystem::path& path) { return gonio::io::read_merl_any(path); }, py::arg("path"),
       py::call_guard<py::gil_scoped_release>(), "Reads a MERL file (.binary), also one that gzip compressed.");
   m.def(
-      "read_rgl", [](const std::filesystem::path& path) { return gonio::io::read_rgl(path).material; }, py::arg("path"),
-      py::call_guard<py::gil_scoped_release>(), "Reads a material of the RGL database (.bsdf).");
+      "read_rgl",
+      [](const std::filesystem::path& path) { return gonio::io::colours_of(gonio::io::read_rgl(path), path); },
+      py::arg("path"), py::call_guard<py::gil_scoped_release>(), "Reads a material of the RGL database (.bsdf).");
   m.def("write_npy", &gonio::io::write_table_npy, py::arg("path"), py::arg("table"),
         py::call_guard<py::gil_scoped_release>(),
         "Writes a table as numpy's own file: float32, shape (theta_h, theta_d, phi_d, 3), cells below the horizon\n"

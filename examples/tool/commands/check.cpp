@@ -42,55 +42,39 @@ struct check_options {
 struct measured_surface {
   std::vector<gonio::sample_directions> counting;
   std::vector<Eigen::Index> numbers;  ///< from 1
-  std::vector<double> wavelengths;    ///< of the channels, nanometres; none of colours
   gonio::located_samples located;
   json facts;
 
-  measured_surface(const std::filesystem::path& path, const check_options& given, bool by_wavelengths,
-                   const gonio::log_relative_pca& prior) {
-    if (by_wavelengths) {
-      const gonio::io::spectral_sample_file file = read_spectra_file(path, given.reading);
-      const gonio::spectral_samples& all = file.samples;
-      wavelengths = all.wavelengths;
-      located = gonio::locate_samples(prior.cells(), all, given.threads);
-      keep(all.in_three_channels());
-      facts = facts_of({{}, file.quantity, {}, file.provenance});
-      return;
-    }
-    const gonio::io::sample_file file = read_measurement_file(path, given.reading);
-    located = gonio::locate_samples(prior.cells(), file.samples, given.threads);
-    keep(file.samples);
-    facts = facts_of(file);
-  }
-
- private:
-  void keep(const gonio::sample_set& all) {
-    for (const Eigen::Index i : gonio::counting_positions(all)) {
-      counting.push_back(all[i].directions);
+  measured_surface(gonio::io::sample_file file, const check_options& given, const gonio::log_relative_pca& prior)
+      : located(gonio::locate_samples(prior.cells(), file.samples, given.threads)), facts(facts_of(file)) {
+    for (const Eigen::Index i : gonio::counting_positions(file.samples)) {
+      counting.push_back(file.samples.directions(i));
       numbers.push_back(i + 1);
     }
   }
 };
 
-/// Part and reference, by their wavelengths if both have them.
+/// Part and reference in the channels that both have, else by their colours.
 std::pair<measured_surface, measured_surface> read_both(const check_options& given,
                                                         const gonio::log_relative_pca& prior) {
-  const bool by_wavelengths =
-      names_wavelengths(given.part, given.reading) && names_wavelengths(given.reference, given.reading);
-  std::pair<measured_surface, measured_surface> both{{given.part, given, by_wavelengths, prior},
-                                                     {given.reference, given, by_wavelengths, prior}};
-  if (both.first.wavelengths != both.second.wavelengths)
-    gonio::refuse({given.part.native(), ": its wavelengths are not those of ", given.reference.native(),
-                   ", which check compares one by one"});
-  return both;
+  gonio::io::sample_file part = read_measurement_file(given.part, given.reading),
+                         reference = read_measurement_file(given.reference, given.reading);
+  const gonio::channels &of_part = part.samples.channels(), &of_reference = reference.samples.channels();
+  if (!(of_part == of_reference) && !(of_part.size() == 1 && of_reference.size() == 1)) {
+    if (of_part.are_wavelengths() && of_reference.are_wavelengths())
+      gonio::refuse({given.part.native(), ": its wavelengths are not those of ", given.reference.native(),
+                     ", which check compares one by one"});
+    part.samples = as_colours(given.part, part.samples).colours();
+    reference.samples = as_colours(given.reference, reference.samples).colours();
+  }
+  return {{std::move(part), given, prior}, {std::move(reference), given, prior}};
 }
 
-/// What the channels of an answer are called. Wavelengths that all have the same values are one channel.
+/// What the channels of an answer are called. Channels that all have the same values are one.
 std::vector<std::string> channel_names(const gonio::conformity& found, const measured_surface& part) {
-  if (found.shift.size() == 1) return {"value"};
-  if (part.wavelengths.empty()) return {"red", "green", "blue"};
+  if (found.shift.size() == 1) return {part.located.kinds.size() == 1 ? part.located.kinds.name(0) : "value"};
   std::vector<std::string> names;
-  for (const double wavelength : part.wavelengths) names.push_back(gonio::io::shortest(wavelength) + " nm");
+  for (Eigen::Index c = 0; c < found.shift.size(); ++c) names.push_back(part.located.kinds.name(c));
   return names;
 }
 

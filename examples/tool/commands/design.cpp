@@ -82,7 +82,7 @@ void write_report(const design_command& command, const std::vector<gonio::direct
 /// The next measurements beside samples that were made, by what these read.
 void run_given(const design_command& command) {
   require_given_alone(command);
-  const gonio::io::sample_file measured = read_measurement_file(command.given, command.reading);
+  const gonio::io::sample_file measured = read_colour_file(command.given, command.reading);
   const gonio::sample_set& samples = measured.samples;
   const gonio::reconstruction estimator{
       gonio::io::read_prior(command.prior), {.noise = command.design.noise}, command.design.threads};

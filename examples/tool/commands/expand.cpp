@@ -11,7 +11,6 @@
 #include <gonio/basis/component_variance.hpp>
 #include <gonio/core/finite.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/estimate/fitted_spectra.hpp>
 #include <gonio/io/materials/merl.hpp>
 #include <gonio/io/materials/networks.hpp>
 #include <gonio/io/materials/prior.hpp>
@@ -91,12 +90,12 @@ void write_of_prior(const expand_options& options, const gonio::valid_cells& cel
   if (!options.name.empty()) weights = prior.weights_of(material_number(prior, options.name, options.prior));
   if (!options.weights.empty()) weights += given_weights(options, prior);
   if (prior.wavelengths().empty()) {
-    const gonio::brdf_table table = gonio::fitted_brdf(prior, weights).tabulate(cells, options.threads);
+    const gonio::brdf_table table = gonio::fitted_brdf(prior, std::move(weights)).tabulate(cells, options.threads);
     require_finite(options, table.values());
     return write_table(options.output, table);
   }
-  const gonio::fitted_spectra fitted(prior.wavelengths(), prior, {std::move(weights), {}});
-  const gonio::spectral_table table = fitted.tabulate(cells, options.threads);
+  const gonio::fitted_brdf fitted(prior, std::move(weights), {}, gonio::channels(prior.wavelengths()));
+  const gonio::spectral_table table = fitted.tabulate_spectra(cells, options.threads);
   require_finite(options, {table.values().data(), static_cast<std::size_t>(table.values().size())});
   write_spectra(options, table);
 }

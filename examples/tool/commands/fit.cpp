@@ -88,7 +88,7 @@ void fit(const fit_command_options& options) {
   if (is_table(options.measurements)) table.emplace(gonio::io::read_merl_any(options.measurements));
   if (table) require_unused(options.reading, options.measurements);
   gonio::io::sample_file measured;
-  if (!table) measured = read_measurement_file(options.measurements, options.reading);
+  if (!table) measured = read_colour_file(options.measurements, options.reading);
   const auto observations =
       table ? gonio::model::fit_observations(*table, options.choice.fit.threads, options.cell_weights)
             : gonio::model::fit_observations(measured.samples);

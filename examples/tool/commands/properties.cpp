@@ -97,7 +97,7 @@ struct light_and_viewer_swapped {
 };
 
 json properties_of_rgl(const std::filesystem::path& path, gonio::thread_count threads) {
-  const auto material = gonio::io::read_rgl(path).material;
+  const auto material = gonio::io::colours_of(gonio::io::read_rgl(path), path);
   const light_and_viewer_swapped as_measured{material};
   json all{{"kind", "RGL material"}, {"energy", energy_of(as_measured)}};
   all.update(properties_of(gonio::tabulate(material, gonio::valid_cells(), threads)));
@@ -117,7 +117,7 @@ json to_json(const gonio::model::equal_samples& equal) {
 
 /// Samples have no integral; what they have is pairs that ought to be equal.
 json properties_of_samples(const properties_options& options) {
-  const gonio::io::sample_file measured = read_measurement_file(options.file, options.reading);
+  const gonio::io::sample_file measured = read_colour_file(options.file, options.reading);
   const gonio::sample_set& samples = measured.samples;
   const auto symmetries = gonio::model::compare_equal_samples(samples, gonio::radians(options.tolerance));
   Eigen::Index negative = 0, lowest = 0;

@@ -72,30 +72,28 @@ void write_result(const reconstruct_options& options, const reconstruction& resu
   write_file(options.output, gonio::io::tabulate_adaptively(*result.spectra, name, options.threads));
 }
 
+/// The samples in the channels that are fitted: wavelengths stay what they are if that is asked for, or where the
+/// output can hold them.
+gonio::io::sample_file read_fitted(reconstruct_options& options) {
+  gonio::io::sample_file measured = read_measurement_file(options.samples, options.reading);
+  const gonio::channels& kinds = measured.samples.channels();
+  if (options.fits_spectra && kinds.wavelengths().empty())
+    gonio::refuse({options.samples.native(), ": names no wavelengths, which --spectra needs"});
+  const bool is_bsdf = lower_extension(options.output) == ".bsdf";
+  if (is_bsdf && options.fits_spectra && !kinds.are_wavelengths())
+    gonio::refuse({options.output.native(), ": spectra need two wavelengths or more: leave out --spectra"});
+  const bool wants_colours = options.reading.light.has_value();
+  if (is_bsdf && kinds.are_wavelengths() && takes_spectra(options.method) && !wants_colours)
+    options.fits_spectra = true;
+  if (!options.fits_spectra) measured.samples = as_colours(options.samples, measured.samples);
+  options.provenance = measured.provenance;
+  return measured;
+}
+
 void reconstruct_and_write(reconstruct_options options, const image_options& how) {
-  gonio::io::sample_file measured;
-  std::optional<reconstruction> found;
-  // Wavelengths stay what they are where the output can hold them.
-  if (!options.fits_spectra && lower_extension(options.output) == ".bsdf" && takes_spectra(options.method))
-    options.fits_spectra = names_wavelengths(options.samples, options.reading);
-  if (options.fits_spectra) {
-    const gonio::io::spectral_sample_file spectra = read_spectra_file(options.samples, options.reading);
-    measured = {spectra.samples.in_three_channels(options.reading.light.value_or(gonio::illuminant::d65)),
-                spectra.quantity,
-                {},
-                spectra.provenance};
-    if (spectra.samples.bands() == 1) measured.wavelength = spectra.samples.wavelengths.front();
-    options.provenance = measured.provenance;
-    tell_doubts(options.samples, measured);
-    if (lower_extension(options.output) == ".bsdf" && spectra.samples.bands() == 1)
-      gonio::refuse({options.output.native(), ": spectra need two wavelengths or more: leave out --spectra"});
-    found = reconstruct(options, spectra.samples);
-  } else {
-    measured = read_measurement_file(options.samples, options.reading);
-    options.provenance = measured.provenance;
-    found = reconstruct(options, measured.samples);
-  }
-  const reconstruction& result = *found;
+  gonio::io::sample_file measured = read_fitted(options);
+  const reconstruction result = reconstruct(options, measured.samples);
+  if (measured.samples.channels().are_wavelengths()) measured.samples = measured.samples.in_three_channels();
   if (!options.output.empty()) write_result(options, result);
   if (!options.image.empty()) write_sphere(options, result.table, how);
   if (!options.uncertainty.empty()) write_table(options.uncertainty, *result.uncertainty);

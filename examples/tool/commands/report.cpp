@@ -26,7 +26,7 @@ struct report_options {
 };
 
 void write_report(const report_options& options) {
-  const gonio::io::sample_file measured = read_measurement_file(options.fit.samples, options.fit.reading);
+  const gonio::io::sample_file measured = read_colour_file(options.fit.samples, options.fit.reading);
   std::optional<gonio::brdf_table> truth;
   if (!options.truth.empty()) truth = gonio::io::read_merl_any(options.truth);
   const reconstruction found = reconstruct(options.fit, measured.samples);

@@ -143,18 +143,10 @@ json describe_svbrdf(const path_type& path) {
 }
 
 json describe_samples(const path_type& path, const measurement_options& reading) {
-  gonio::io::sample_file file;
+  const gonio::io::sample_file file = read_measurement_file(path, reading);
   json facts{{"kind", "samples"}};
-  if (names_wavelengths(path, reading)) {
-    const gonio::io::spectral_sample_file spectra = read_spectra_file(path, reading);
-    file = {spectra.samples.in_three_channels(), spectra.quantity, {}, spectra.provenance};
-    facts["wavelengths_nm"] = spectra.samples.wavelengths;
-    tell_doubts(path, file);
-  } else {
-    file = read_measurement_file(path, reading);
-  }
   if (const measurement_kind* kind = measurement_kind_of(path)) facts["format"] = kind->name;
-  facts.update(facts_of(file.samples));
+  facts.update(facts_of(file.samples.in_three_channels()));
   facts.update(facts_of(file));
   return facts;
 }

@@ -133,7 +133,11 @@ const std::vector<file_kind>& file_kinds() {
       {"RGL material",
        {".bsdf"},
        {"tensor_file\0", 12},
-       [](bytes content, const std::string& name) -> file_content { return io::read_rgl(content, name); },
+       [](bytes content, const std::string& name) -> file_content {
+         io::rgl_material material = io::read_rgl(content, name);
+         static_cast<void>(io::colours_of(material, name));  // every other kind has colours
+         return material;
+       },
        &write_rgl},
       {"MDL measurement",
        {".mbsdf"},

@@ -6,13 +6,12 @@
 #include "tool/pages/sample_warnings.hpp"
 #include "tool/pages/warning.hpp"
 #include <gonio/core/error.hpp>
-#include <gonio/io/bytes/file.hpp>
 #include <gonio/io/text/text.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,15 +29,6 @@ void add_columns(const std::string& list, std::vector<gonio::io::column_name>& c
       gonio::refuse({"--columns ", list, ": '", entry, "' is no pair of names, expected one like theta_o=Winkel"});
     columns.push_back({std::string(entry.substr(0, equals)), std::string(entry.substr(equals + 1))});
   }
-}
-
-/// Spectra become colours under D65.
-gonio::io::sample_file read_csv(const std::filesystem::path& path, const gonio::io::sample_reading& reading) {
-  const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
-  const std::string_view text = gonio::io::as_text(bytes);
-  if (!gonio::io::names_wavelengths(text, path.native(), reading))
-    return gonio::io::read_sample_file(text, path.native(), reading);
-  return as_colours(path, gonio::io::read_spectral_sample_file(text, path.native(), reading), gonio::illuminant::d65);
 }
 
 }  // namespace
@@ -74,67 +64,46 @@ void require_unused(const measurement_options& options, const std::filesystem::p
 
 gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, const measurement_options& options) {
   gonio::io::sample_file file;
-  if (options.light) {
-    file = as_colours(path, read_spectra_file(path, options), *options.light);
-  } else if (const measurement_kind* kind = measurement_kind_of(path)) {
+  if (const measurement_kind* kind = measurement_kind_of(path)) {
     require_unused(options, path);  // such a file says what its values are
     file.samples = kind->read(path);
   } else {
-    file = read_csv(path, reading_of(options));
+    file = gonio::io::read_sample_file(path, reading_of(options));
   }
-  tell_doubts(path, file);
+  if (options.light) {
+    if (!file.samples.channels().are_wavelengths())
+      gonio::refuse({path.native(), ": names no wavelengths, of which --illuminant needs several"});
+    file.samples = file.samples.under(*options.light);
+  }
+  for (const std::string& sentence : doubts_of({file.samples.in_three_channels(), file.quantity, file.provenance}))
+    warn(path.native() + ": " + sentence);
   return file;
 }
 
-void tell_doubts(const std::filesystem::path& path, const gonio::io::sample_file& file) {
-  for (const std::string& sentence : doubts_of(file)) warn(path.native() + ": " + sentence);
-}
-
-gonio::io::spectral_sample_file read_spectra_file(const std::filesystem::path& path,
-                                                  const measurement_options& options) {
-  const measurement_kind* kind = measurement_kind_of(path);
-  if (kind == nullptr) return gonio::io::read_spectral_sample_file(path, reading_of(options));
-  require_unused(options, path);
-  if (kind->read_spectra == nullptr)
-    gonio::refuse({path.native(), ": --spectra and --illuminant need reflectance at wavelengths, which files of ",
-                   kind->name, " do not hold"});
-  return {kind->read_spectra(path), {}, {}};
-}
-
-bool names_wavelengths(const std::filesystem::path& path, const measurement_options& options) {
-  if (options.light) return false;
-  if (const measurement_kind* kind = measurement_kind_of(path)) {
-    if (kind->read_spectra == nullptr) return false;
-    try {
-      return kind->read_spectra(path).bands() > 1;
-    } catch (const gonio::error&) {
-      return false;  // a file of the kind without wavelengths, or one that its reader refuses anyhow
-    }
-  }
-  const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
-  return gonio::io::names_wavelengths(gonio::io::as_text(bytes), path.native(), reading_of(options));
-}
-
-gonio::io::sample_file as_colours(const std::filesystem::path& path, const gonio::io::spectral_sample_file& file,
-                                  gonio::illuminant light) {
-  const std::vector<double>& wavelengths = file.samples.wavelengths;
-  if (wavelengths.size() > 1 && std::ranges::none_of(wavelengths, gonio::is_visible))
-    gonio::refuse({path.native(), ": its wavelengths, ", std::lround(wavelengths.front()), " to ",
-                   std::lround(wavelengths.back()),
+gonio::sample_set as_colours(const std::filesystem::path& path, const gonio::sample_set& samples) {
+  if (!samples.channels().are_wavelengths()) return samples;
+  if (const std::vector<double>& all = samples.channels().wavelengths(); !samples.channels().have_colour())
+    gonio::refuse({path.native(), ": its wavelengths, ", std::lround(all.front()), " to ", std::lround(all.back()),
                    " nm, are invisible and have no colour: gonio check and gonio reconstruct -o FILE.bsdf take them"});
-  std::optional<double> wavelength;
-  if (file.samples.bands() == 1) wavelength = file.samples.wavelengths.front();
-  return {file.samples.colours(light), file.quantity, wavelength, file.provenance};
+  return samples.colours();
+}
+
+gonio::io::sample_file read_colour_file(const std::filesystem::path& path, const measurement_options& options) {
+  gonio::io::sample_file file = read_measurement_file(path, options);
+  file.samples = as_colours(path, file.samples);
+  return file;
 }
 
 gonio::sample_set read_measurements(const std::filesystem::path& path, const measurement_options& options) {
-  return read_measurement_file(path, options).samples;
+  return read_colour_file(path, options).samples;
 }
 
 json facts_of(const gonio::io::sample_file& file) {
   json facts = json::object();
   if (file.quantity) facts["quantity"] = name_of(*file.quantity);
-  if (file.wavelength) facts["wavelength_nm"] = *file.wavelength;
+  const std::vector<double>& wavelengths = file.samples.channels().wavelengths();
+  if (wavelengths.size() == 1) facts["wavelength_nm"] = wavelengths.front();
+  if (wavelengths.size() > 1) facts["wavelengths_nm"] = wavelengths;
   const auto& [instrument, date, conditions] = file.provenance;
   if (!instrument.empty()) facts["instrument"] = instrument;
   if (!date.empty()) facts["date"] = date;

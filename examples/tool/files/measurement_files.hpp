@@ -5,7 +5,6 @@
 #include "tool/options/command.hpp"
 #include <gonio/core/spectrum.hpp>
 #include <gonio/io/measurements/samples.hpp>
-#include <gonio/io/measurements/spectral_samples.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
@@ -20,7 +19,7 @@ namespace cli {
 struct measurement_options {
   std::string quantity;                         ///< a name of `gonio::io::sample_quantity`; empty if it is not stated
   std::vector<std::string> columns;             ///< lists like "theta_o=Winkel,g=Y"
-  std::optional<gonio::illuminant> light = {};  ///< under which spectra become colours; none: D65
+  std::optional<gonio::illuminant> light = {};  ///< under which wavelengths are seen; none: D65
 
   [[nodiscard]] bool empty() const noexcept { return quantity.empty() && columns.empty(); }
 };
@@ -37,27 +36,18 @@ void add_measurement_options(command& to, measurement_options& options);
 /// Refuses these options for a file that holds no measurements.
 void require_unused(const measurement_options& options, const std::filesystem::path& path);
 
-/// Measurements: samples as CSV, or in a format of the field that is recognised (measurement_kinds.hpp), which takes no
-/// options. What is ignored, assumed or implausible is told as a warning on standard error.
+/// Measurements in the channels that the file has: samples as CSV, or in a format of the field that is recognised
+/// (measurement_kinds.hpp), which takes no options. What is ignored, assumed or implausible is told as a warning on
+/// standard error.
 [[nodiscard]] gonio::io::sample_file read_measurement_file(const std::filesystem::path& path,
                                                            const measurement_options& options = {});
 
-/// The same with all wavelengths: CSV whose columns are called by them, or that has a single one, or Cornell's format.
-/// Throws gonio::error for a file of colours.
-[[nodiscard]] gonio::io::spectral_sample_file read_spectra_file(const std::filesystem::path& path,
-                                                                const measurement_options& options = {});
+/// The same for whoever needs colours: refuses wavelengths of which none is visible.
+[[nodiscard]] gonio::io::sample_file read_colour_file(const std::filesystem::path& path,
+                                                      const measurement_options& options = {});
+[[nodiscard]] gonio::sample_set as_colours(const std::filesystem::path& path, const gonio::sample_set& samples);
 
-/// Spectra as colours, and what their file says of them.
-[[nodiscard]] gonio::io::sample_file as_colours(const std::filesystem::path& path,
-                                                const gonio::io::spectral_sample_file& file, gonio::illuminant light);
-
-/// Warns of numbers that look like something else than they are read as (`doubts_of`).
-void tell_doubts(const std::filesystem::path& path, const gonio::io::sample_file& file);
-
-/// Does a file have several wavelengths, and no illuminant make colours of them?
-[[nodiscard]] bool names_wavelengths(const std::filesystem::path& path, const measurement_options& options = {});
-
-/// The same without what the file says of them.
+/// The colours without what the file says of them.
 [[nodiscard]] gonio::sample_set read_measurements(const std::filesystem::path& path,
                                                   const measurement_options& options = {});
 

@@ -18,21 +18,21 @@ constexpr std::array<measurement_kind, 6> kinds{{
     {"Zemax BSDF", [](std::string_view, std::string_view start) { return gonio::io::looks_like_zemax_bsdf(start); },
      gonio::io::read_zemax_bsdf},
     {"SSDD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_ssdd(start); },
-     gonio::io::read_ssdd, gonio::io::read_ssdd_spectra},
+     gonio::io::read_ssdd},
     {"ASTM E1392",
      [](std::string_view extension, std::string_view start) {
        return extension == ".astm" || gonio::io::looks_like_astm_e1392(start);
      },
-     gonio::io::read_astm_e1392, gonio::io::read_astm_e1392_spectra},
+     gonio::io::read_astm_e1392},
     {"OpenMATERIAL",
      [](std::string_view extension, std::string_view start) {
        return extension == ".xompt" || gonio::io::looks_like_openmaterial(start);
      },
-     gonio::io::read_openmaterial, gonio::io::read_openmaterial_spectra},
+     gonio::io::read_openmaterial},
     {"BiRD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_bird(start); },
-     gonio::io::read_bird, gonio::io::read_bird_spectra},
+     gonio::io::read_bird},
     {"spectral samples of Cornell", [](std::string_view extension, std::string_view) { return extension == ".brdf"; },
-     gonio::io::read_cornell, gonio::io::read_cornell_spectra},
+     gonio::io::read_cornell},
 }};
 
 }  // namespace

@@ -2,7 +2,6 @@
 /// The kinds of files that hold samples, and what each is recognised by.
 
 #include <gonio/table/sample_set.hpp>
-#include <gonio/table/spectral_samples.hpp>
 
 #include <filesystem>
 #include <string_view>
@@ -15,8 +14,6 @@ struct measurement_kind {
   /// By the name's extension, in lower case, and the first 4096 bytes.
   bool (*recognises)(std::string_view extension, std::string_view start);
   gonio::sample_set (*read)(const std::filesystem::path& path);
-  /// nullptr where the format has no spectra.
-  gonio::spectral_samples (*read_spectra)(const std::filesystem::path& path) = nullptr;
 };
 
 /// Of which kind a file is; null where none recognises it: samples as CSV, or something else. Throws gonio::error if

@@ -51,7 +51,8 @@ std::vector<named_table> tables_of(const material_source& source, gonio::thread_
   for (const std::filesystem::path& folder : source.rgl)
     for (const auto& [name, path] : gonio::io::list_rgl_directory(folder))
       all.push_back({name, [path, threads](const gonio::valid_cells& cells) {
-                       return values_of(gonio::tabulate(gonio::io::read_rgl(path).material, cells, threads));
+                       return values_of(
+                           gonio::tabulate(gonio::io::colours_of(gonio::io::read_rgl(path), path), cells, threads));
                      }});
   return all;
 }

@@ -106,12 +106,10 @@ void take_given(reconstruct_options& options, const std::function<bool(const std
 }
 
 reconstruction reconstruct(const reconstruct_options& options, const gonio::sample_set& samples) {
-  return with_warnings(method_named(options.method).reconstruct(options, samples), options, samples);
-}
-
-reconstruction reconstruct(const reconstruct_options& options, const gonio::spectral_samples& spectra) {
-  const gonio::sample_set colours = spectra.in_three_channels(options.reading.light.value_or(gonio::illuminant::d65));
-  return with_warnings(reconstruct_each_wavelength(options, spectra, colours), options, colours);
+  if (options.fits_spectra && !takes_spectra(options.method))
+    gonio::refuse("--spectra needs another --method: " + options.method + " weighs samples by their colours");
+  return with_warnings(method_named(options.method).reconstruct(options, samples), options,
+                       samples.in_three_channels());
 }
 
 }  // namespace cli

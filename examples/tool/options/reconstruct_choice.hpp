@@ -25,11 +25,9 @@ struct reconstruct_method {
 /// method that does not exist.
 void take_given(reconstruct_options& options, const std::function<bool(const std::string&)>& is_given);
 
-/// Reconstructs by the method of `options`, and warns of samples and methods that are likely to disappoint. Throws
-/// gonio::error for unusable samples, and if the table is not finite.
+/// Reconstructs by the method of `options`, each wavelength as a grey material where they are kept, and warns of
+/// samples and methods that are likely to disappoint. Throws gonio::error for unusable samples, and if the table is not
+/// finite.
 [[nodiscard]] reconstruction reconstruct(const reconstruct_options& options, const gonio::sample_set& samples);
-
-/// The same of spectra, each wavelength as a grey material.
-[[nodiscard]] reconstruction reconstruct(const reconstruct_options& options, const gonio::spectral_samples& spectra);
 
 }  // namespace cli

@@ -18,6 +18,8 @@ namespace cli {
 
 namespace {
 
+using reconstructed_brdf = gonio::reconstructed<gonio::log_relative>;
+
 /// Of the green channel, which has most of the luminance: "sample 6 disagrees, left out: measured 2.09, the others say
 /// 0.140 (0.110 to 0.170)".
 std::string told(const gonio::outlying_sample& out, const char* what_is_done) {
@@ -62,8 +64,7 @@ void describe(const gonio::certainty& known, reconstruction& result) {
 }
 
 /// The relative deviation in all directions as a table, the same in all channels.
-template <class Paint>
-gonio::brdf_table uncertainty_table(const Paint& paint, gonio::thread_count threads) {
+gonio::brdf_table uncertainty_table(const reconstructed_brdf& paint, gonio::thread_count threads) {
   gonio::brdf_table coarse(gonio::valid_cells(gonio::grid({30, 15, 18})));
   const std::vector<double> all = paint.deviations(coarse.cells());
   for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell)
@@ -72,8 +73,7 @@ gonio::brdf_table uncertainty_table(const Paint& paint, gonio::thread_count thre
 }
 
 /// Which samples were rejected; `samples` count.
-template <class Paint>
-void describe_rejected(const Paint& paint, Eigen::Index samples, reconstruction& result) {
+void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, reconstruction& result) {
   if (samples >= gonio::fewest_weighed) {
     result.details["outliers"] = paint.outlier_share();
     result.details["down_weighted"] = static_cast<double>(paint.rejected().size()) / static_cast<double>(samples);
@@ -93,9 +93,8 @@ void describe_rejected(const Paint& paint, Eigen::Index samples, reconstruction&
   result.details[rejects ? "left_out" : "disagreeing"] = contradicted;
 }
 
-/// Says all of a reconstruction that does not depend on whether colours or wavelengths were fitted.
-template <class Paint>
-reconstruction described(reconstruction result, const Paint& paint, Eigen::Index samples,
+/// Says what is known beside the fit.
+reconstruction described(reconstruction result, const reconstructed_brdf& paint, Eigen::Index samples,
                          const reconstruct_options& options) {
   if (!options.residuals.empty() || (options.tells_residuals() && samples <= most_residuals))
     result.residuals = paint.residuals();
@@ -124,24 +123,8 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
                                             const gonio::sample_set& samples) {
   const Eigen::Index count = std::ssize(gonio::counting_positions(samples));
   const auto paint = estimator_of(options, prior, count).fit(samples);
-  reconstruction result{paint.tabulate(gonio::valid_cells())};
-  const gonio::solve_report& report = *paint.fit().report();
-  const gonio::rgb residual = report.residual.array() / std::sqrt(static_cast<double>(paint.kept()));
-  result.details = {{"mapped_residual_rms", per_channel(residual)},
-                    {"kkt_residual", per_channel(report.kkt_residual.array())}};
-  result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
-                    ' ' + fixed(residual.z(), 3);
-  return described(std::move(result), paint, count, options);
-}
-
-reconstruction reconstruct_spectra_with_discrepancy(const reconstruct_options& options,
-                                                    const gonio::log_relative_pca& prior,
-                                                    const gonio::spectral_samples& spectra) {
-  const gonio::illuminant light = options.reading.light.value_or(gonio::illuminant::d65);
-  const Eigen::Index count = std::ssize(gonio::counting_positions(spectra.in_three_channels(light)));
-  const auto paint = estimator_of(options, prior, count).fit(spectra, light);
-  reconstruction result = described_spectra(paint.tabulate(gonio::valid_cells()), options);
-  describe_residuals(paint.fit().report(), paint.kept(), result);
+  reconstruction result = tabulated(paint.fit(), options);
+  describe_residuals(*paint.fit().report(), paint.kept(), result);
   return described(std::move(result), paint, count, options);
 }
 

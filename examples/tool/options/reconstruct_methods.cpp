@@ -6,7 +6,6 @@
 #include "scattered_samples.hpp"
 #include "solver_choice.hpp"
 #include "tool/pages/fixed.hpp"
-#include "tool/pages/measures_as_json.hpp"
 #include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/rbf.hpp>
@@ -23,7 +22,6 @@
 #include <cmath>
 #include <iterator>
 #include <string>
-#include <variant>
 
 namespace cli {
 
@@ -32,32 +30,28 @@ namespace {
 /// The penalty of Nielsen et al. 2015, section 6.
 constexpr double published_eta = 40.0;
 
-/// The solver's report.
-void describe(const gonio::solution& found, std::size_t samples, reconstruction& result) {
-  const auto& [weights, report] = found;
-  const gonio::rgb residual = report.residual.array() / std::sqrt(static_cast<double>(samples));
-  gonio::rgb used;
-  for (Eigen::Index c = 0; c < 3; ++c) used[c] = static_cast<double>((weights.col(c).array() != 0.0).count());
-  result.details = {{"mapped_residual_rms", per_channel(residual)},
-                    {"kkt_residual", per_channel(report.kkt_residual.array())},
-                    {"non_zero_weights", per_channel(used)},
-                    {"iterations", report.iterations}};
-  result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
-                    ' ' + fixed(residual.z(), 3) + ", weights that are not zero " + fixed(used.x(), 0) + ' ' +
-                    fixed(used.y(), 0) + ' ' + fixed(used.z(), 0);
-}
+/// What `--method pca` fits, once what it cannot do is refused.
+struct component_choice {
+  gonio::log_relative_pca prior;
+  gonio::any_solver solver;
+  bool has_discrepancy = false, is_penalised = false;  ///< the latter: by Tikhonov's eta, which is chosen or given
+};
 
 template <class Fit>
-reconstruction described(const Fit& fitted, std::size_t samples, gonio::thread_count threads) {
-  reconstruction result{fitted.tabulate(gonio::valid_cells(), threads)};
-  if (fitted.report()) describe({fitted.weights(), *fitted.report()}, samples, result);
+reconstruction described(const Fit& fitted, const gonio::sample_set& samples, const reconstruct_options& options) {
+  reconstruction result = tabulated(fitted, options);
+  describe_residuals(*fitted.report(), std::ssize(samples), result);
+  const Eigen::ArrayXd used = (fitted.weights().array() != 0.0).template cast<double>().colwise().sum();
+  result.details["non_zero_weights"] = listed(used);
+  result.details["iterations"] = fitted.report()->iterations;
+  result.sentence += ", weights that are not zero " + in_words(used, 0);
   return result;
 }
 
 template <class Basis, class Solver>
 reconstruction fit(const Basis& basis, const Solver& solver, const gonio::sample_set& samples,
-                   gonio::thread_count threads) {
-  return described(gonio::decomposition{basis, solver, threads}.fit(samples), samples.size(), threads);
+                   const reconstruct_options& options) {
+  return described(gonio::decomposition{basis, solver, options.threads}.fit(samples), samples, options);
 }
 
 /// Samples whose light and viewer may be off their directions. Noise that is not stated is taken for none:
@@ -71,12 +65,10 @@ reconstruction reconstruct_misplaced(const reconstruct_options& options, const g
                                     : number_of_eta(stated);
   const gonio::errors_in_variables_decomposition estimator{prior, eta, gonio::radians(options.angular_error),
                                                            options.threads};
-  reconstruction result = described(estimator.fit(samples), samples.size(), options.threads);
+  reconstruction result = described(estimator.fit(samples), samples, options);
   result.details["eta"] = eta;
   return result;
 }
-
-}  // namespace
 
 component_choice choose_components(const reconstruct_options& options) {
   const bool penalised = options.solver.name.empty() || options.solver.name == "tikhonov";
@@ -108,54 +100,50 @@ component_choice choose_components(const reconstruct_options& options) {
   return chosen;
 }
 
+/// Tikhonov's penalty where none is given.
 double chosen_eta(const reconstruct_options& options, const gonio::log_relative_pca& prior,
                   const gonio::sample_set& samples) {
   return options.noise ? gonio::eta_of_noise(prior, samples, *options.noise, options.threads)
                        : gonio::eta_of_unknown_noise(prior, samples, 0.3, options.threads);
 }
 
+}  // namespace
+
 reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& samples) {
   const auto [prior, solver, has_discrepancy, is_penalised] = choose_components(options);
   if (has_discrepancy) return reconstruct_with_discrepancy(options, prior, samples);
   if (options.angular_error != 0.0) return reconstruct_misplaced(options, prior, samples);
-  if (!is_penalised) return fit(prior, solver, samples, options.threads);
+  if (!is_penalised) return fit(prior, solver, samples, options);
   const double eta = chosen_eta(options, prior, samples);
-  reconstruction result = fit(prior, gonio::tikhonov(eta), samples, options.threads);
+  reconstruction result = fit(prior, gonio::tikhonov(eta), samples, options);
   result.details["eta"] = eta;
   result.sentence += ", eta " + fixed(eta, 3);
   return result;
 }
 
-soft_specular_choice choose_soft_or_specular(const reconstruct_options& options, const gonio::sample_set& samples) {
+reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options, const gonio::sample_set& samples) {
   const std::filesystem::path& file = options.materials.prior;
   if (gonio::io::is_prior(file))
     gonio::refuse({"--method soft-specular needs a --prior that gonio learn --split wrote; ", file.native(),
                    " has one of all materials"});
-  auto prior = gonio::io::read_soft_specular_prior(file);
+  const gonio::soft_specular_prior prior = gonio::io::read_soft_specular_prior(file);
   const std::string& stated = options.solver.eta;
   if (stated == "gcv" || stated == "loo")
     gonio::refuse("--method soft-specular needs a number as its --eta, not " + stated);
-  const double eta = stated.empty() ? published_eta : number_of_eta(stated);
-  const auto penalties = gonio::penalties_in_proportion(prior, eta);
-  auto fitted = gonio::soft_specular_decomposition(prior, penalties, options.threads).fit(samples);
-  return {std::move(prior), penalties, std::move(fitted)};
-}
-
-void describe(const soft_specular_choice& choice, reconstruction& result) {
-  result.details["kind"] = choice.is_soft() ? "soft" : "specular";
-  result.details["contrast"] = choice.fitted.contrast();
-  result.details["threshold"] = choice.prior.threshold();
-  result.details["eta"] = choice.eta();
-  result.sentence = std::string("taken for ") + (choice.is_soft() ? "soft" : "specular") +
-                    ": a highlight contrast of " + fixed(choice.fitted.contrast(), 2) + ", where " +
-                    fixed(choice.prior.threshold(), 2) + " divides; " + result.sentence;
-}
-
-reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options, const gonio::sample_set& samples) {
-  const soft_specular_choice choice = choose_soft_or_specular(options, samples);
-  reconstruction result = std::visit(
-      [&](const auto& chosen) { return described(chosen, samples.size(), options.threads); }, choice.fitted.chosen());
-  describe(choice, result);
+  const auto penalties = gonio::penalties_in_proportion(prior, stated.empty() ? published_eta : number_of_eta(stated));
+  // The contrast of the colours' highlight chooses.
+  const auto chosen =
+      gonio::soft_specular_decomposition(prior, penalties, options.threads).fit(samples.in_three_channels());
+  const bool is_soft = chosen.kind() == gonio::material_kind::soft;
+  const double eta = is_soft ? penalties.soft : penalties.specular;
+  reconstruction result = fit(is_soft ? prior.soft() : prior.specular(), gonio::tikhonov(eta), samples, options);
+  result.details["kind"] = is_soft ? "soft" : "specular";
+  result.details["contrast"] = chosen.contrast();
+  result.details["threshold"] = prior.threshold();
+  result.details["eta"] = eta;
+  result.sentence = std::string("taken for ") + (is_soft ? "soft" : "specular") + ": a highlight contrast of " +
+                    fixed(chosen.contrast(), 2) + ", where " + fixed(prior.threshold(), 2) + " divides; " +
+                    result.sentence;
   return result;
 }
 
@@ -173,31 +161,32 @@ reconstruction reconstruct_by_materials(const reconstruct_options& options, cons
   progress_bar bar;
   const auto materials = chosen_materials(options, bar.listener());
   bar.wipe();
-  return fit(materials, solver, samples, options.threads);
+  return options.fits_spectra ? fit(materials.as_grey(), solver, samples, options)
+                              : fit(materials, solver, samples, options);
 }
 
-gonio::rbf<gonio::any_metric> chosen_radial_functions(const reconstruct_options& options) {
+reconstruction reconstruct_by_radial_functions(const reconstruct_options& options, const gonio::sample_set& samples) {
   const gonio::valid_cells cells;
   const auto centres = gonio::farthest_point_centres(cells, gonio::published_centre_count, options.seed);
   const auto metric =
       chosen_metric(options, [&] { return gonio::io::read_prior(options.materials.prior).metric().on(cells); });
-  return {cells, metric, centres};
-}
-
-reconstruction reconstruct_by_radial_functions(const reconstruct_options& options, const gonio::sample_set& samples) {
-  return fit(chosen_radial_functions(options), radial_solver, samples, options.threads);
+  return fit(gonio::rbf<gonio::any_metric>{cells, metric, centres}, gonio::tikhonov{1e-6}, samples, options);
 }
 
 reconstruction reconstruct_by_pull_push(const reconstruct_options& options, const gonio::sample_set& samples) {
-  return {gonio::pull_push{gonio::valid_cells(), options.threads}.fit(samples).table()};
+  return by_threes(options, samples, [&](const gonio::sample_set& colours) {
+    return gonio::pull_push{gonio::valid_cells(), options.threads}.fit(colours).table();
+  });
 }
 
 reconstruction reconstruct_by_neighbours(const reconstruct_options& options, const gonio::sample_set& samples) {
-  const interpolated_samples f = interpolate(samples, {.neighbours = options.neighbours});
-  reconstruction result{gonio::tabulate(f, gonio::valid_cells(), options.threads)};
+  reconstruction result = by_threes(options, samples, [&](const gonio::sample_set& colours) {
+    const interpolated_samples f = interpolate(colours, {.neighbours = options.neighbours});
+    return gonio::tabulate(f, gonio::valid_cells(), options.threads);
+  });
   result.details["neighbours"] = options.neighbours;
   const Eigen::Index count = std::min(options.neighbours, std::ssize(samples));
-  result.sentence =
+  result.sentence +=
       count == 1 ? "the nearest counts" : "the nearest " + std::to_string(count) + " count in each direction";
   return result;
 }

@@ -18,11 +18,12 @@
 #include <gonio/render/image.hpp>
 #include <gonio/robust/corrected_brdf.hpp>
 #include <gonio/solve/tikhonov.hpp>
-#include <gonio/table/spectral_samples.hpp>
 #include <gonio/table/spectral_table.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace cli {
@@ -83,49 +84,15 @@ struct reconstruction {
 [[nodiscard]] reconstruction reconstruct_by_components(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
-/// What `--method pca` fits, once what it cannot do is refused.
-struct component_choice {
-  gonio::log_relative_pca prior;
-  gonio::any_solver solver;
-  bool has_discrepancy = false, is_penalised = false;  ///< the latter: by Tikhonov's eta, which is chosen or given
-};
-[[nodiscard]] component_choice choose_components(const reconstruct_options& options);
-
-/// Tikhonov's penalty where none is given.
-[[nodiscard]] double chosen_eta(const reconstruct_options& options, const gonio::log_relative_pca& prior,
-                                const gonio::sample_set& samples);
-
 /// The same components and a discrepancy beside them, without samples that the others contradict; of 100 samples and
 /// more, outliers count less.
 [[nodiscard]] reconstruction reconstruct_with_discrepancy(const reconstruct_options& options,
                                                           const gonio::log_relative_pca& prior,
                                                           const gonio::sample_set& samples);
 
-/// The same for each wavelength. Which samples disagree is judged by their colours.
-[[nodiscard]] reconstruction reconstruct_spectra_with_discrepancy(const reconstruct_options& options,
-                                                                  const gonio::log_relative_pca& prior,
-                                                                  const gonio::spectral_samples& spectra);
-
 /// The components of soft or of specular materials, whichever the samples choose (Nielsen et al. 2015, section 8).
 [[nodiscard]] reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options,
                                                              const gonio::sample_set& samples);
-
-/// What `--method soft-specular` takes samples for, and the fit.
-struct soft_specular_choice {
-  gonio::soft_specular_prior prior;
-  gonio::soft_specular_penalties penalties;
-  gonio::soft_or_specular_fit<gonio::fitted_brdf<gonio::log_relative_pca>, gonio::fitted_brdf<gonio::log_relative_pca>>
-      fitted;
-
-  [[nodiscard]] bool is_soft() const noexcept { return fitted.kind() == gonio::material_kind::soft; }
-  [[nodiscard]] double eta() const noexcept { return is_soft() ? penalties.soft : penalties.specular; }
-  [[nodiscard]] const gonio::log_relative_pca& components() const noexcept {
-    return is_soft() ? prior.soft() : prior.specular();
-  }
-};
-[[nodiscard]] soft_specular_choice choose_soft_or_specular(const reconstruct_options& options,
-                                                           const gonio::sample_set& samples);
-void describe(const soft_specular_choice& choice, reconstruction& result);
 
 /// The materials themselves under any metric (Noell et al. 2014, section 2.2).
 [[nodiscard]] reconstruction reconstruct_by_materials(const reconstruct_options& options,
@@ -140,10 +107,6 @@ void describe(const soft_specular_choice& choice, reconstruction& result);
 [[nodiscard]] reconstruction reconstruct_by_radial_functions(const reconstruct_options& options,
                                                              const gonio::sample_set& samples);
 
-/// These functions, and their solver.
-[[nodiscard]] gonio::rbf<gonio::any_metric> chosen_radial_functions(const reconstruct_options& options);
-inline const gonio::tikhonov radial_solver{1e-6};
-
 /// Scattered-data interpolation (Gortler et al. 1996).
 [[nodiscard]] reconstruction reconstruct_by_pull_push(const reconstruct_options& options,
                                                       const gonio::sample_set& samples);
@@ -152,19 +115,27 @@ inline const gonio::tikhonov radial_solver{1e-6};
 [[nodiscard]] reconstruction reconstruct_by_neighbours(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
-/// Can a method fit each wavelength?
+/// Can a method fit each wavelength? Correction weighs samples by all three channels of their colours.
 [[nodiscard]] inline bool takes_spectra(const std::string& method) { return method != "correction"; }
-
-/// Each wavelength as a grey material. Throws gonio::error for --method correction, which weighs samples by all three
-/// channels of their colours.
-[[nodiscard]] reconstruction reconstruct_each_wavelength(const reconstruct_options& options,
-                                                         const gonio::spectral_samples& spectra,
-                                                         const gonio::sample_set& colours);
 
 /// A fit of spectra, and its colours.
 [[nodiscard]] reconstruction described_spectra(gonio::spectral_table spectra, const reconstruct_options& options);
-/// What its solver says, of `samples` samples.
+/// A fit as its table, and its wavelengths if they are kept.
+template <class Fit>
+[[nodiscard]] reconstruction tabulated(const Fit& fitted, const reconstruct_options& options) {
+  if constexpr (requires { fitted.tabulate_spectra(gonio::valid_cells(), options.threads); })
+    if (options.fits_spectra)
+      return described_spectra(fitted.tabulate_spectra(gonio::valid_cells(), options.threads), options);
+  return {fitted.tabulate(gonio::valid_cells(), options.threads)};
+}
+/// What a method for colours makes of samples, three wavelengths at a time taking the places of red, green and blue.
+[[nodiscard]] reconstruction by_threes(const reconstruct_options& options, const gonio::sample_set& samples,
+                                       const std::function<gonio::brdf_table(const gonio::sample_set&)>& complete);
+/// What the solver of a fit of `samples` samples says.
 void describe_residuals(const gonio::solve_report& report, Eigen::Index samples, reconstruction& result);
+/// A number for each channel: "0.1 0.2 0.3", of more than three "0.1 to 0.3".
+[[nodiscard]] std::string in_words(const Eigen::ArrayXd& numbers, int digits);
+[[nodiscard]] json listed(const Eigen::ArrayXd& numbers);
 
 /// The metric chosen, log if none is; `relative()` makes the one that needs a reference.
 template <class Relative>

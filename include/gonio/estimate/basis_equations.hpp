@@ -28,6 +28,7 @@ struct solved_channels {
 /// Samples in the metric's domain of a basis, less its offset at each: what its functions combine to. O(samples).
 template <colour_basis Basis>
 [[nodiscard]] located_samples map_samples(const Basis& functions, located_samples samples, thread_count threads = {}) {
+  if constexpr (!basis<Basis>) samples = in_colours(std::move(samples));
   for_each_index(
       samples.locations.size(), 1024,
       [&](Eigen::Index i) {

@@ -39,20 +39,17 @@ class decomposition {
   explicit decomposition(Basis basis, Solver solver = Solver(), thread_count threads = {})
       : basis_(std::move(basis)), solver_(std::move(solver)), threads_(threads) {}
 
-  /// Of samples, or a table, each cell of which is one of weight 1. Cost of the solver plus O(samples x size of the
+  /// Of samples, or a table, each cell of which is one of weight 1. Where channels share their basis there may be any
+  /// number of them, each wavelength being fitted as a grey material: they share one factorisation. Else they are the
+  /// colours. Cost of the solver plus O(samples x size of the
   /// basis) for reading the rows; O(samples x size^2) more where the solver wants the normal equations. Throws
   /// gonio::error for unusable samples, or if the solver gives up.
   template <class Samples>
   [[nodiscard]] fitted_brdf<Basis> fit(const Samples& samples) const {
-    auto [functions, found] = solve_located(locate_samples(cells(), samples, threads_));
-    return {std::move(functions), std::move(found)};
-  }
-
-  /// The same without its end, of samples of any number of channels that are located on the basis' cells: what
-  /// `fit_spectra` goes on with.
-  [[nodiscard]] solved_channels<Basis> solve_located(located_samples samples) const {
-    const basis_equations equations(basis_, std::move(samples), threads_);
-    return {basis_, equations.solve(solver_)};
+    located_samples located = locate_samples(cells(), samples, threads_);
+    channels kinds = basis<Basis> ? located.kinds : channels();
+    const basis_equations equations(basis_, std::move(located), threads_);
+    return {basis_, equations.solve(solver_), std::move(kinds)};
   }
 
   [[nodiscard]] const auto& cells() const noexcept { return basis_.cells(); }

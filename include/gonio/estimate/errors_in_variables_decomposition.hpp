@@ -44,12 +44,13 @@ class errors_in_variables_decomposition {
   }
 
   /// O(16 n k) for n samples beside the solver's cost. Throws gonio::error for unusable samples.
-  template <sample_range Samples>
+  template <class Samples>
   [[nodiscard]] fitted_brdf<pca<Metric>> fit(const Samples& samples) const {
     const located_samples measured = locate_samples(prior_.cells(), samples, threads_);
     const system equations = average(measured);
     const solution first = solve(equations, measured.weights, equations.sample_noise_penalty);
-    return {prior_, solve(equations, measured.weights, sample_noise_penalties(measured, equations, first.weights))};
+    return {prior_, solve(equations, measured.weights, sample_noise_penalties(measured, equations, first.weights)),
+            measured.kinds};
   }
 
  private:
@@ -59,7 +60,7 @@ class errors_in_variables_decomposition {
   struct system {
     row_matrix rows;                       ///< the mean row of each sample, n x k
     Eigen::VectorXd offsets;               ///< the mean material's mapped value, n
-    Eigen::MatrixXd right;                 ///< mapped values less the offsets, n x 3
+    Eigen::MatrixXd right;                 ///< mapped values less the offsets, n x channels
     Eigen::VectorXd sample_noise_penalty;  ///< m v over the prior's observations, n
   };
 
@@ -93,7 +94,8 @@ class errors_in_variables_decomposition {
   [[nodiscard]] system average(const located_samples& measured) const {
     const Eigen::Index n = std::ssize(measured.locations), k = prior_.size();
     const double m = observations();
-    system means{row_matrix::Zero(n, k), Eigen::VectorXd::Zero(n), Eigen::MatrixXd(n, 3), Eigen::VectorXd::Zero(n)};
+    system means{row_matrix::Zero(n, k), Eigen::VectorXd::Zero(n), Eigen::MatrixXd(n, measured.values.cols()),
+                 Eigen::VectorXd::Zero(n)};
     for_each_sample(measured, [&](Eigen::Index i, const location& meant, const displaced& seen) {
       constexpr double share = 1.0 / static_cast<double>(sides * sides);
       for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place) {
@@ -103,7 +105,7 @@ class errors_in_variables_decomposition {
       for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place)
         means.sample_noise_penalty[i] += share * ((seen.rows[place] - means.rows.row(i)).squaredNorm() +
                                                   m * square(seen.offsets[place] - means.offsets[i]));
-      for (Eigen::Index c = 0; c < 3; ++c)
+      for (Eigen::Index c = 0; c < means.right.cols(); ++c)
         means.right(i, c) = prior_.metric().forward(measured.values(i, c), meant) - means.offsets[i];
     });
     return means;
@@ -112,12 +114,14 @@ class errors_in_variables_decomposition {
   /// m v of a material whose weights are given, the mean over its channels.
   [[nodiscard]] Eigen::VectorXd sample_noise_penalties(const located_samples& measured, const system& means,
                                                        const Eigen::MatrixXd& weights) const {
+    const Eigen::Index channels = weights.cols();
     Eigen::VectorXd etas = Eigen::VectorXd::Zero(means.offsets.size());
     for_each_sample(measured, [&](Eigen::Index i, const location&, const displaced& seen) {
       for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place) {
         const Eigen::RowVectorXd change = seen.rows[place] - means.rows.row(i);
-        for (Eigen::Index c = 0; c < 3; ++c)
-          etas[i] += square(change.dot(weights.col(c)) + seen.offsets[place] - means.offsets[i]) / 3.0;
+        for (Eigen::Index c = 0; c < channels; ++c)
+          etas[i] += square(change.dot(weights.col(c)) + seen.offsets[place] - means.offsets[i]) /
+                     static_cast<double>(channels);
       }
       etas[i] *= observations() / static_cast<double>(seen.rows.size());
     });

@@ -7,6 +7,8 @@
 #include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/solve/solver.hpp>
+#include <gonio/table/channels.hpp>
+#include <gonio/table/spectral_table.hpp>
 #include <gonio/table/upsample.hpp>
 
 #include <Eigen/Core>
@@ -14,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
+#include <cstddef>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -25,7 +28,8 @@
 namespace gonio {
 
 /// offset + rows . weights in the metric's domain, mapped back and clamped at zero: a BRDF, and the solver's report if
-/// a solver found the weights. Evaluation costs O(8 x size of the basis), or one row where rows are computed; tabulate
+/// a solver found the weights. Channels that share a basis are any: colours, one value, or wavelengths, each held as a
+/// grey material. Evaluation costs O(8 x size of the basis), or one row where rows are computed; tabulate
 /// for the inner loop of a renderer.
 ///
 /// Rows that a basis stores are multiplied by the weights in float, rows that it computes in double: functions given by
@@ -37,32 +41,48 @@ class fitted_brdf {
   /// How many functions of a computed basis fit on the stack, where evaluation keeps their row: it does not allocate.
   static constexpr int most_computed_functions = 4096;
 
-  /// `weights` is (size of the basis) x 3, one column per colour channel. Throws gonio::error if it is not, or for more
-  /// than `most_computed_functions` that are computed.
-  fitted_brdf(Basis basis, Eigen::MatrixXd weights, std::optional<solve_report> report = {});
+  /// `weights` is (size of the basis) x channels. Throws gonio::error if it is not, for channels other than colours
+  /// where each has a basis of its own, or for more than `most_computed_functions` that are computed.
+  fitted_brdf(Basis basis, Eigen::MatrixXd weights, std::optional<solve_report> report = {},
+              gonio::channels kinds = {});
 
-  fitted_brdf(Basis basis, solution found)
-      : fitted_brdf(std::move(basis), std::move(found.weights), std::move(found.report)) {}
+  fitted_brdf(Basis basis, solution found, gonio::channels kinds = {})
+      : fitted_brdf(std::move(basis), std::move(found.weights), std::move(found.report), std::move(kinds)) {}
 
   [[nodiscard]] const Basis& functions() const noexcept { return basis_; }
-  /// (size of the basis) x 3, one column for each colour channel.
+  /// (size of the basis) x channels.
   [[nodiscard]] const Eigen::MatrixXd& weights() const noexcept { return weights_; }
+  /// What the columns of the weights are.
+  [[nodiscard]] const gonio::channels& channels() const noexcept { return kinds_; }
   /// What the solver says of the weights; nothing if no solver found them.
   [[nodiscard]] const std::optional<solve_report>& report() const noexcept { return report_; }
 
-  /// Reflectance in sr^-1, at least zero; zero below the horizon.
+  /// Reflectance in sr^-1 as a colour, at least zero; zero below the horizon. Wavelengths make the colour that
+  /// `channels::colour` says.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     return at(locate(basis_.cells(), to_half_difference(wi, wo)));
+  }
+
+  /// Reflectance in sr^-1 in each channel, at least zero; zero below the horizon.
+  [[nodiscard]] Eigen::ArrayXd values(const direction& wi, const direction& wo) const {
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return Eigen::ArrayXd::Zero(kinds_.size());
+    return values_at(locate(basis_.cells(), to_half_difference(wi, wo)));
   }
 
   /// The cells that locations for `at` are on.
   [[nodiscard]] const valid_cells& cells() const noexcept { return basis_.cells(); }
 
   /// Reflectance in sr^-1 at a location on the basis' cells, at least zero.
-  [[nodiscard]] rgb at(const location& place) const noexcept { return reflectance(mapped_at(place), place); }
+  [[nodiscard]] rgb at(const location& place) const noexcept {
+    if (kinds_.are_wavelengths()) {
+      const Eigen::ArrayXd spectrum = values_at(place);
+      return kinds_.colour({spectrum.data(), static_cast<std::size_t>(spectrum.size())});
+    }
+    return reflectance(mapped_at(place), place);
+  }
 
-  /// The value at a cell of the basis in the metric's domain.
+  /// The value at a cell of the basis in the metric's domain, of colours or of one value.
   [[nodiscard]] rgb mapped(Eigen::Index cell) const noexcept {
     if constexpr (computed)
       return mapped_at(locate_cell(basis_.cells(), cell));
@@ -73,14 +93,19 @@ class fitted_brdf {
   /// Expands the fit to a table: one product of the basis' rows with the weights, which reads the basis once,
   /// and where the cells are others an interpolation of its three channels. Rows that are computed are so at the
   /// cells of the table, unless the basis combines its functions at all of its own (`combining_basis`). Same bytes for
-  /// any number of threads.
+  /// any number of threads. Wavelengths become colours: `tabulate_spectra` keeps them.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const;
+
+  /// Expands a fit of wavelengths. The cost of a table of colours for each three of them. Throws gonio::error for other
+  /// channels.
+  [[nodiscard]] spectral_table tabulate_spectra(const valid_cells& cells,
+                                                thread_count threads = {}) const requires basis<Basis>;
 
   /// The same table through the metric's own `inverse` at each cell: slower where rows are stored, and works with any
   /// metric.
   [[nodiscard]] brdf_table tabulate_cells(const valid_cells& cells, thread_count threads = {}) const;
 
-  /// Red, green and blue over all cells of the basis, in the metric's domain.
+  /// Red, green and blue, or thrice the one value, over all cells of the basis, in the metric's domain.
   using mapped_fields = Eigen::Array<float, 3, Eigen::Dynamic>;
 
   [[nodiscard]] mapped_fields mapped_field(thread_count threads = {}) const;
@@ -105,6 +130,24 @@ class fitted_brdf {
       return {};
     else
       return {functions.channel(0), functions.channel(1), functions.channel(2)};
+  }
+
+  /// Three columns of the weights from one on, the last one again where there are fewer.
+  [[nodiscard]] Eigen::MatrixXd three_columns(Eigen::Index first) const {
+    Eigen::MatrixXd three(weights_.rows(), 3);
+    for (Eigen::Index c = 0; c < 3; ++c) three.col(c) = weights_.col(std::min(first + c, weights_.cols() - 1));
+    return three;
+  }
+
+  /// In each channel, in double.
+  [[nodiscard]] Eigen::ArrayXd values_at(const location& place) const {
+    if constexpr (basis<Basis>) {
+      Eigen::ArrayXd all = (row_at(basis_, place) * weights_).transpose().array() + offset_at(basis_, place);
+      for (double& value : all) value = reflectance_of(basis_.metric(), value, place);
+      return all;
+    } else {
+      return at(place);
+    }
   }
 
   /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
@@ -138,7 +181,7 @@ class fitted_brdf {
     for (Eigen::Index c = 0; c < 3; ++c) {
       const channel_type& functions = functions_of(c);
       if (c == 0 || !basis<Basis>) functions.read_row(at, row);
-      value[c] = dot(row.data(), &weights_(0, c), row.size()) + offset_at(functions, at);
+      value[c] = dot(row.data(), &weights_(0, std::min(c, weights_.cols() - 1)), row.size()) + offset_at(functions, at);
     }
     return value;
   }
@@ -155,33 +198,50 @@ class fitted_brdf {
   [[no_unique_address]] own_channels channels_;  ///< their functions, where each channel has its own
   Eigen::MatrixXd weights_;
   std::optional<solve_report> report_;
-  Eigen::MatrixXf float_weights_;  // what products with stored rows read
+  gonio::channels kinds_;
+  Eigen::MatrixXf float_weights_;  // what products with stored rows read, for three channels
 };
 
 template <colour_basis Basis>
 requires std::same_as<domain_of<Basis>, valid_cells> fitted_brdf<Basis>::fitted_brdf(Basis basis,
                                                                                      Eigen::MatrixXd weights,
-                                                                                     std::optional<solve_report> report)
+                                                                                     std::optional<solve_report> report,
+                                                                                     gonio::channels kinds)
     : basis_(std::move(basis)),
       channels_(channels_of(basis_)),
       weights_(std::move(weights)),
       report_(std::move(report)),
-      float_weights_(to_float(weights_)) {
-  if (const Eigen::Index size = basis_.size(); weights_.rows() != size || weights_.cols() != 3)
-    refuse({"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"});
+      kinds_(std::move(kinds)) {
+  if (const Eigen::Index size = basis_.size(); weights_.rows() != size || weights_.cols() != kinds_.size())
+    refuse({"a fit by ", size, " functions needs as many weights for each of ", kinds_.size(), " channels"});
+  if (!gonio::basis<Basis> && !kinds_.are_colours()) refuse("channels that have a basis each are red, green and blue");
   if (computed && weights_.rows() > most_computed_functions)
     refuse({"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
             basis_.size()});
+  float_weights_ = to_float(three_columns(0));
 }
 
 template <colour_basis Basis>
 requires std::same_as<domain_of<Basis>, valid_cells> brdf_table fitted_brdf<Basis>::tabulate(const valid_cells& cells,
                                                                                              thread_count threads)
 const {
+  if constexpr (gonio::basis<Basis>)
+    if (kinds_.are_wavelengths())
+      return kinds_.have_colour() ? tabulate_spectra(cells, threads).colours(kinds_.light(), threads)
+                                  : brdf_table(cells);
   if constexpr (row_metric<metric_type> && combinable)
     return tabulate_rows(cells, threads);
   else
     return tabulate_cells(cells, threads);
+}
+
+template <colour_basis Basis>
+requires std::same_as<domain_of<Basis>, valid_cells> spectral_table
+fitted_brdf<Basis>::tabulate_spectra(const valid_cells& cells, thread_count threads)
+const requires basis<Basis> {
+  return tabulate_by_threes(cells, kinds_.wavelengths(), [&](Eigen::Index first) {
+    return fitted_brdf(basis_, three_columns(first)).tabulate(cells, threads);
+  });
 }
 
 template <colour_basis Basis>
@@ -215,7 +275,7 @@ requires std::same_as<domain_of<Basis>, valid_cells>
 typename fitted_brdf<Basis>::mapped_fields fitted_brdf<Basis>::mapped_field(thread_count threads) const {
   mapped_fields field(3, basis_.cells().size());
   constexpr bool at_once = combinable_basis<Basis>;  // three channels by one row
-  if constexpr (at_once) field = combine(basis_, weights_, threads);
+  if constexpr (at_once) field = combine(basis_, three_columns(0), threads);
   for_each_index(
       basis_.cells().size(), 4096,
       [&](Eigen::Index cell) {

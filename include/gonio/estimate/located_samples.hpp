@@ -21,6 +21,7 @@ struct located_samples {
   Eigen::MatrixXd values;  ///< n x channels: red, green and blue in sr^-1, or whatever is observed over the domain
   /// n x channels, or n x 1 if each measurement counts the same in all channels.
   Eigen::MatrixXd weights;
+  gonio::channels kinds = {};  ///< what the columns of `values` are, where they are reflectances
 
   [[nodiscard]] Eigen::Index size() const noexcept { return locations.size(); }
 
@@ -31,11 +32,14 @@ struct located_samples {
     return weights.col(weighs_channels_apart() ? channel : 0);
   }
 
-  /// The weights as estimators keep them.
+  /// The weights of three channels as estimators keep them.
   [[nodiscard]] channel_values channel_weights() const;
 
-  /// The values as estimators keep them.
+  /// The values of three channels as estimators keep them.
   [[nodiscard]] channel_values channels() const;
+
+  /// The same samples for whoever looks at three channels and shows none: see `channels::three`.
+  [[nodiscard]] located_samples in_three_channels() const;
 
   /// The half and difference angles of all samples.
   [[nodiscard]] std::vector<half_difference> angles() const;
@@ -47,13 +51,17 @@ struct located_samples {
 namespace detail {
 
 /// With a weight for each channel if these are `apart`. Throws gonio::error if there is room for none.
-[[nodiscard]] located_samples room_for_samples(Eigen::Index count, bool apart);
+[[nodiscard]] located_samples room_for_samples(Eigen::Index count, bool apart, const gonio::channels& kinds = {});
 /// Without its location but for the angles. `number` is the sample's among all, for the message.
 void put_sample(located_samples& samples, Eigen::Index i, const sample& s, Eigen::Index number);
 /// Completes the locations.
 void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads);
 
 }  // namespace detail
+
+/// The same samples, a single channel being repeated in all three, for estimators of colours. Throws gonio::error for
+/// another number.
+[[nodiscard]] located_samples in_colours(located_samples samples);
 
 /// Samples on given cells. Those of weight zero in all channels are left out: whatever looks at all samples, as outlier
 /// weights do, must not see them. Throws gonio::error for unusable ones (`require_usable`), for a reflectance beyond
@@ -75,10 +83,9 @@ template <sample_range Samples>
   return found;
 }
 
-#if defined(GONIO_COMPILED)
-extern template located_samples locate_samples(const valid_cells& cells, const sample_set& samples,
-                                               thread_count threads);
-#endif
+/// The same, in whatever channels they are.
+[[nodiscard]] located_samples locate_samples(const valid_cells& cells, const sample_set& samples,
+                                             thread_count threads = {});
 
 /// Every cell of a table as a measurement of weight 1. Throws gonio::error naming the first cell that is not finite.
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const brdf_table& table,

@@ -8,7 +8,6 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/estimate/fitted_spectra.hpp>
 #include <gonio/estimate/inliers.hpp>
 #include <gonio/estimate/sample_process.hpp>
 
@@ -70,18 +69,21 @@ namespace detail {
 
 }  // namespace detail
 
-/// What `reconstruction` found: a fit, of colours (`fitted_brdf`) or of wavelengths (`fitted_spectra`), with all that
-/// its samples say about it. A value type whose copies share what they hold.
-template <error_metric Metric, class Fit>
+/// What `reconstruction` found: a fit in the channels of its samples, with all that they say about it. A value type
+/// whose copies share what they hold.
+template <error_metric Metric>
 class reconstructed {
  public:
+  using basis_type = joined<pca<Metric>, discrepancy<Metric>>;
+  using fit_type = fitted_brdf<basis_type>;
+
   /// Of more samples, so many at random say how sure the fit is: what more of them know is left out, deviations are too
   /// large.
   static constexpr Eigen::Index most_known = 500;
 
   /// For `reconstruction`: `known` is the process of the samples that the fit is of, or of some of them, and `all` that
   /// of all `samples`, if they are few enough; `numbers` are their positions among those that were given.
-  reconstructed(pca<Metric> prior, Fit fit, sample_process known, inliers found, std::optional<sample_process> all,
+  reconstructed(pca<Metric> prior, fit_type fit, sample_process known, inliers found, std::optional<sample_process> all,
                 std::shared_ptr<const located_samples> samples, std::vector<Eigen::Index> numbers, thread_count threads)
       : prior_(std::move(prior)),
         fit_(std::move(fit)),
@@ -97,12 +99,18 @@ class reconstructed {
     for (outlying_sample& each : found_.contradicted) each.number = number_of(each.number);
   }
 
-  /// Reflectance in sr^-1, at least zero; zero below the horizon.
-  [[nodiscard]] auto operator()(const direction& wi, const direction& wo) const noexcept { return fit_(wi, wo); }
-  /// All directions as a table.
-  [[nodiscard]] auto tabulate(const valid_cells& cells) const { return fit_.tabulate(cells, threads_); }
+  /// Reflectance in sr^-1 as a colour, at least zero; zero below the horizon.
+  [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept { return fit_(wi, wo); }
+  /// The same in each channel of the samples.
+  [[nodiscard]] Eigen::ArrayXd values(const direction& wi, const direction& wo) const { return fit_.values(wi, wo); }
+  /// All directions as a table of colours.
+  [[nodiscard]] brdf_table tabulate(const valid_cells& cells) const { return fit_.tabulate(cells, threads_); }
+  /// All directions as a table of wavelengths, where the samples have some.
+  [[nodiscard]] spectral_table tabulate_spectra(const valid_cells& cells) const {
+    return fit_.tabulate_spectra(cells, threads_);
+  }
   /// The weights, the functions that they are of, and the solver's report.
-  [[nodiscard]] const Fit& fit() const noexcept { return fit_; }
+  [[nodiscard]] const fit_type& fit() const noexcept { return fit_; }
 
   // ---- how sure ----
 
@@ -208,7 +216,7 @@ class reconstructed {
   [[nodiscard]] Eigen::Index number_of(Eigen::Index i) const { return numbers_.empty() ? i : numbers_[i]; }
 
   pca<Metric> prior_;
-  Fit fit_;
+  fit_type fit_;
   sample_process known_;
   double scale_;
   inliers found_;

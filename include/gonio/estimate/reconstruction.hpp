@@ -12,7 +12,6 @@
 #include <gonio/estimate/mapped_noise.hpp>
 #include <gonio/estimate/reconstructed.hpp>
 #include <gonio/solve/tikhonov.hpp>
-#include <gonio/table/spectral_samples.hpp>
 
 #include <Eigen/Core>
 
@@ -42,9 +41,8 @@ namespace gonio {
 template <error_metric Metric>
 class reconstruction {
  public:
-  using basis_type = joined<pca<Metric>, discrepancy<Metric>>;
-  using result_type = reconstructed<Metric, fitted_brdf<basis_type>>;
-  using spectral_result_type = reconstructed<Metric, fitted_spectra<basis_type>>;
+  using result_type = reconstructed<Metric>;
+  using basis_type = typename result_type::basis_type;
 
   /// Throws gonio::error for an impossible model.
   explicit reconstruction(pca<Metric> prior, const discrepancy_model& model = {}, thread_count threads = {});
@@ -62,18 +60,16 @@ class reconstruction {
   /// What is expected of a material before it is measured.
   [[nodiscard]] const expected_covariance& expected() const noexcept { return expected_; }
 
-  /// n samples, k components and c centres: O(n^2 (n + k)) up to `most_centres` samples, O(n (k + c)^2) for more.
-  /// Throws gonio::error for unusable samples.
+  /// Of samples in any channels, each wavelength being fitted as a grey material, all by one process. Which samples are
+  /// inliers is told by their colours, or by three bands where no wavelength is visible. n samples, k components and c
+  /// centres: O(n^2 (n + k)) up to `most_centres` samples, O(n (k + c)^2) for more. Throws gonio::error for unusable
+  /// samples.
   template <class Samples>
   [[nodiscard]] result_type fit(const Samples& samples) const {
     return fit_located(locate_samples(cells(), samples, threads_), counting_positions(samples));
   }
   /// The same of samples that are located on the prior's cells.
   [[nodiscard]] result_type fit_located(located_samples samples, std::vector<Eigen::Index> numbers = {}) const;
-
-  /// Each wavelength as a grey material, all by one process. Which samples are inliers is told by their colours, or by
-  /// three bands where no wavelength is visible (`spectral_samples::in_three_channels`).
-  [[nodiscard]] spectral_result_type fit(const spectral_samples& samples, illuminant light = illuminant::d65) const;
 
   /// The process of samples that are located on the prior's cells, all of them believed.
   [[nodiscard]] sample_process process_of(const located_samples& samples) const {
@@ -102,11 +98,6 @@ class reconstruction {
   [[nodiscard]] solved_channels<basis_type> solve(const located_samples& kept,
                                                   const std::optional<sample_process>& process) const;
   [[nodiscard]] solved_channels<basis_type> solve_around_centres(located_samples kept) const;
-  /// A fit, and all that is known about it.
-  template <class Fit>
-  [[nodiscard]] reconstructed<Metric, Fit> told(Fit fit, selection chosen,
-                                                std::shared_ptr<const located_samples> samples,
-                                                std::vector<Eigen::Index> numbers) const;
   /// Components, and a discrepancy as a combination of covariances with its centres.
   [[nodiscard]] basis_type functions_around(const std::vector<half_difference>& centres) const {
     return {prior_, {prior_.cells(), prior_.metric(), discrepancy_functions::covariances(centres, model().lengths)}};
@@ -194,44 +185,26 @@ solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metr
 }
 
 template <error_metric Metric>
-template <class Fit>
-reconstructed<Metric, Fit> reconstruction<Metric>::told(Fit fit, selection chosen,
-                                                        std::shared_ptr<const located_samples> samples,
-                                                        std::vector<Eigen::Index> numbers) const {
+typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located(
+    located_samples samples, std::vector<Eigen::Index> numbers) const {
+  channels kinds = samples.kinds;
+  auto colours =
+      std::make_shared<const located_samples>(kinds.are_colours() ? std::move(samples) : samples.in_three_channels());
+  selection chosen = select(*colours);
   sample_process known = known_by(chosen);
+  if (!kinds.are_colours()) {  // the same samples and covariance, other values
+    chosen.kept = weighted(map_samples(prior_, samples, threads_), chosen.found);
+    if (chosen.process) chosen.process = chosen.process->with_values(chosen.kept.values);
+  }
+  auto [functions, found] = solve(chosen.kept, chosen.process);
   return {prior_,
-          std::move(fit),
+          {std::move(functions), std::move(found), std::move(kinds)},
           std::move(known),
           std::move(chosen.found),
           std::move(chosen.all),
-          std::move(samples),
+          std::move(colours),
           std::move(numbers),
           threads_};
-}
-
-template <error_metric Metric>
-typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located(
-    located_samples samples, std::vector<Eigen::Index> numbers) const {
-  auto shared = std::make_shared<const located_samples>(std::move(samples));
-  selection chosen = select(*shared);
-  auto [functions, found] = solve(chosen.kept, chosen.process);
-  return told(fitted_brdf<basis_type>(std::move(functions), std::move(found)), std::move(chosen), std::move(shared),
-              std::move(numbers));
-}
-
-template <error_metric Metric>
-typename reconstruction<Metric>::spectral_result_type reconstruction<Metric>::fit(const spectral_samples& samples,
-                                                                                  illuminant light) const {
-  const sample_set colours = samples.in_three_channels(light);
-  auto shared = std::make_shared<const located_samples>(locate_samples(cells(), colours, threads_));
-  selection chosen = select(*shared);
-  const located_samples spectra =
-      weighted(map_samples(prior_, locate_samples(cells(), samples, threads_), threads_), chosen.found);
-  std::optional<sample_process> process;
-  if (chosen.process) process = chosen.process->with_values(spectra.values);
-  auto [functions, found] = solve(spectra, process);
-  return told(fitted_spectra<basis_type>(samples.wavelengths, std::move(functions), std::move(found)),
-              std::move(chosen), std::move(shared), counting_positions(colours));
 }
 
 #if defined(GONIO_COMPILED)

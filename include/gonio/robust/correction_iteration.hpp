@@ -187,7 +187,7 @@ class correction_iteration {
   /// corrections. Throws gonio::error for unusable samples, or if a solver gives up.
   template <class Samples>
   [[nodiscard]] auto initialise(const Samples& samples) const {
-    const located_samples located = locate_samples(corrections_.cells(), samples, threads_);
+    const located_samples located = in_colours(locate_samples(corrections_.cells(), samples, threads_));
     return correction_run{initial_.fit(samples), corrections_, located, weighting_, solver_, limits_, threads_};
   }
 

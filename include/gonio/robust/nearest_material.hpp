@@ -55,7 +55,7 @@ class nearest_material {
   /// Throws gonio::error for unusable samples.
   template <class Samples>
   [[nodiscard]] completed_table fit(const Samples& samples) const {
-    const auto chosen = choose(locate_samples(materials_.cells(), samples, threads_));
+    const auto chosen = choose(in_colours(locate_samples(materials_.cells(), samples, threads_)));
     const valid_cells& cells = materials_.cells();
     std::vector<location> locations(cells.size());
     for (Eigen::Index cell = 0; cell < cells.size(); ++cell) locations[cell] = locate_cell(cells, cell);

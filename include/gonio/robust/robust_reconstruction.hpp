@@ -125,7 +125,7 @@ class robust_reconstruction {
   /// gonio::error for unusable samples.
   template <class Samples>
   [[nodiscard]] robust_run<Metric> initialise(const Samples& samples) const {
-    return initialise_located(locate_samples(corrections_.cells(), samples, threads_));
+    return initialise_located(in_colours(locate_samples(corrections_.cells(), samples, threads_)));
   }
 
   /// All steps. Throws gonio::error for unusable samples.

@@ -3,12 +3,19 @@
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>
+#include <gonio/core/spectrum.hpp>
+#include <gonio/table/channels.hpp>
 
 #include <Eigen/Core>
 
 #include <concepts>
+#include <cstddef>
+#include <functional>
+#include <initializer_list>
 #include <iterator>
+#include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -112,7 +119,102 @@ concept sample_range = requires(Range& range) {
   std::ranges::end(range);
 };
 
-using sample_set = std::vector<sample>;
+/// n measurements in the same channels: colours, unless it is told that they are others. Those of colours or of one
+/// value, which is the same in red, green and blue, are a sequence of `sample`. Those of several wavelengths are no
+/// colours, and whoever takes them for such is refused: `colours` makes some.
+///
+/// ```cpp
+/// gonio::sample_set paint(gonio::channels({450.0, 550.0, 650.0}));
+/// paint.add(pair, std::array{0.11, 0.32, 0.08});
+/// const gonio::rgb seen = paint.under(gonio::illuminant::a).colours()[0].value;
+/// ```
+class sample_set {
+ public:
+  using value_type = sample;
+  using iterator = std::vector<sample>::iterator;
+  using const_iterator = std::vector<sample>::const_iterator;
+
+  sample_set() = default;
+  explicit sample_set(gonio::channels kinds) : channels_(std::move(kinds)) {}
+  sample_set(std::initializer_list<sample> some) : rows_(some) {}
+  explicit sample_set(std::size_t count, const sample& each = {}) : rows_(count, each) {}
+  template <std::input_iterator Iterator>
+  sample_set(Iterator first, Iterator last) : rows_(first, last) {}
+  template <sample_range Samples>
+  requires(!std::same_as<std::remove_cvref_t<Samples>, sample_set>) sample_set(const Samples& some)
+      : sample_set(std::ranges::begin(some), std::ranges::end(some)) {}
+
+  [[nodiscard]] const gonio::channels& channels() const noexcept { return channels_; }
+  [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
+  [[nodiscard]] bool empty() const noexcept { return rows_.empty(); }
+  void reserve(std::size_t count) { rows_.reserve(count); }
+
+  // ---- in any channels ----
+
+  /// Of as many values as there are channels, sr^-1.
+  void add(const sample_directions& directions, std::span<const double> values, const channel_weights& weight = 1.0);
+  void add(const sample_directions& directions, const Eigen::ArrayXd& values, const channel_weights& weight = 1.0) {
+    add(directions, std::span(values.data(), static_cast<std::size_t>(values.size())), weight);
+  }
+  [[nodiscard]] const sample_directions& directions(Eigen::Index i) const noexcept { return rows_[i].directions; }
+  /// As many as there are channels, sr^-1.
+  [[nodiscard]] std::span<const double> values(Eigen::Index i) const noexcept {
+    const Eigen::Index count = channels_.size();
+    const double* first = channels_.are_wavelengths() ? spectra_.data() + i * count : rows_[i].value.data();
+    return {first, static_cast<std::size_t>(count)};
+  }
+  /// Of several wavelengths, all weigh the same.
+  [[nodiscard]] const channel_weights& weight(Eigen::Index i) const noexcept { return rows_[i].weight; }
+
+  /// Some of the measurements, by their positions.
+  [[nodiscard]] sample_set subset(std::span<const Eigen::Index> positions) const;
+  /// One channel of the measurements.
+  [[nodiscard]] sample_set channel(Eigen::Index c) const;
+  /// The same measurements, wavelengths being seen under another light.
+  [[nodiscard]] sample_set under(illuminant light) const;
+  /// The measurements as linear Rec. 709 under their light; those of one channel are grey. Throws gonio::error if none
+  /// of several wavelengths is visible.
+  [[nodiscard]] sample_set colours() const;
+  /// For whoever looks at three channels and shows none: see `channels::three`.
+  [[nodiscard]] sample_set in_three_channels() const;
+
+  // ---- a sequence; throws gonio::error for several wavelengths ----
+
+  [[nodiscard]] iterator begin() { return samples().begin(); }
+  [[nodiscard]] iterator end() { return rows_.end(); }
+  [[nodiscard]] const_iterator begin() const { return samples().begin(); }
+  [[nodiscard]] const_iterator end() const { return rows_.end(); }
+  [[nodiscard]] sample& operator[](std::size_t i) { return samples()[i]; }
+  [[nodiscard]] const sample& operator[](std::size_t i) const { return samples()[i]; }
+  [[nodiscard]] sample& front() { return samples().front(); }
+  [[nodiscard]] const sample& front() const { return samples().front(); }
+  [[nodiscard]] sample& back() { return samples().back(); }
+  [[nodiscard]] const sample& back() const { return samples().back(); }
+  void push_back(const sample& one) { samples().push_back(one); }
+  template <std::input_iterator Iterator>
+  void insert(const_iterator before, Iterator first, Iterator last) {
+    samples().insert(before, first, last);
+  }
+  void insert(const_iterator before, std::size_t count, const sample& each) { samples().insert(before, count, each); }
+  void erase(const_iterator one) { samples().erase(one); }
+
+ private:
+  [[nodiscard]] const std::vector<sample>& samples() const {
+    if (channels_.are_wavelengths()) refuse_wavelengths();
+    return rows_;
+  }
+  [[nodiscard]] std::vector<sample>& samples() {
+    if (channels_.are_wavelengths()) refuse_wavelengths();
+    return rows_;
+  }
+  [[noreturn]] void refuse_wavelengths() const;
+  /// The same measurements with another value each.
+  [[nodiscard]] sample_set with_values(gonio::channels kinds, const std::function<rgb(Eigen::Index)>& value) const;
+
+  gonio::channels channels_;
+  std::vector<sample> rows_;
+  std::vector<double> spectra_;  ///< of several wavelengths, n x channels; values of `rows_` mean nothing then
+};
 static_assert(sample_range<sample_set>);
 
 namespace detail {
@@ -131,6 +233,7 @@ void require_usable(const Samples& samples) {
   for (const sample& s : samples) detail::require_usable_sample(s, ++number);
   if (number == 0) detail::refuse_no_samples();
 }
+void require_usable(const sample_set& samples);
 
 /// The positions of the measurements that count in any channel, which are those that estimators keep.
 template <sample_range Samples>
@@ -143,6 +246,7 @@ template <sample_range Samples>
   }
   return positions;
 }
+[[nodiscard]] std::vector<Eigen::Index> counting_positions(const sample_set& samples);
 
 /// Does one of the measurements count more in one channel than in another? They are samples, or whatever else has a
 /// `weight` of type `channel_weights`.

@@ -9,13 +9,15 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace gonio {
 
 /// Reflectance in sr^-1 at w wavelengths, tabulated over valid cells, cell-major: the spectrum of a cell is contiguous.
-/// 31 wavelengths over MERL's grid take 136 MB. No `brdf`, whose values are colours: `colours` and `at_wavelength` are.
+/// 31 wavelengths over MERL's grid take 136 MB. No `brdf`, whose values are colours, and no `brdf_table`, which
+/// renderers read by threes: `colours` and `at_wavelength` are.
 class spectral_table {
  public:
   /// A table of zeros. Wavelengths in nanometres. Throws gonio::error unless they are positive, finite and ascending.
@@ -59,6 +61,11 @@ class spectral_table {
   std::vector<double> wavelengths_;
   cell_matrix values_;
 };
+
+/// A table by a table of colours for each three wavelengths, which stand in the places of red, green and blue; `three`
+/// is asked for those from a wavelength on, by its position. Those beyond the last are left out.
+[[nodiscard]] spectral_table tabulate_by_threes(const valid_cells& cells, std::vector<double> wavelengths,
+                                                const std::function<brdf_table(Eigen::Index first)>& three);
 
 }  // namespace gonio
 

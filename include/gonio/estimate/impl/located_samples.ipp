@@ -15,9 +15,10 @@
 
 namespace gonio::detail {
 
-GONIO_INLINE located_samples room_for_samples(Eigen::Index count, bool apart) {
+GONIO_INLINE located_samples room_for_samples(Eigen::Index count, bool apart, const gonio::channels& kinds) {
   if (count == 0) refuse("all samples have weight zero: nothing is known");
-  return {std::vector<location>(count), Eigen::MatrixXd(count, 3), Eigen::MatrixXd(count, apart ? 3 : 1)};
+  return {std::vector<location>(count), Eigen::MatrixXd(count, kinds.size()), Eigen::MatrixXd(count, apart ? 3 : 1),
+          kinds};
 }
 
 GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sample& s, Eigen::Index number) {
@@ -49,12 +50,32 @@ GONIO_INLINE channel_values located_samples::channels() const {
   return transposed;
 }
 
+GONIO_INLINE located_samples in_colours(located_samples samples) {
+  if (samples.kinds.are_colours()) return samples;
+  if (samples.values.cols() != 1)
+    refuse({"samples at ", samples.values.cols(), " wavelengths are no colours, which this estimator needs"});
+  samples.values = samples.values.replicate(1, 3).eval();
+  samples.kinds = {};
+  return samples;
+}
+
 GONIO_INLINE channel_values located_samples::channel_weights() const {
   channel_values transposed(3, weights.rows());
   for (Eigen::Index i = 0; i < weights.rows(); ++i)
     for (Eigen::Index channel = 0; channel < 3; ++channel)
       transposed(channel, i) = static_cast<float>(weights(i, weighs_channels_apart() ? channel : 0));
   return transposed;
+}
+
+GONIO_INLINE located_samples located_samples::in_three_channels() const {
+  if (kinds.are_colours()) return *this;
+  located_samples three{locations, Eigen::MatrixXd(values.rows(), 3), weights};
+  std::vector<double> row(values.cols());
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    for (Eigen::Index c = 0; c < values.cols(); ++c) row[c] = values(i, c);
+    three.values.row(i) = kinds.three(row).matrix().transpose();
+  }
+  return three;
 }
 
 GONIO_INLINE std::vector<half_difference> located_samples::angles() const {
@@ -66,7 +87,7 @@ GONIO_INLINE std::vector<half_difference> located_samples::angles() const {
 GONIO_INLINE located_samples located_samples::subset(const std::vector<Eigen::Index>& positions) const {
   const auto count = std::ssize(positions);
   located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, values.cols()),
-                       Eigen::MatrixXd(count, weights.cols())};
+                       Eigen::MatrixXd(count, weights.cols()), kinds};
   for (Eigen::Index i = 0; i < std::ssize(positions); ++i) {
     const Eigen::Index to = i, from = positions[i];
     some.locations[i] = locations[positions[i]];
@@ -74,6 +95,26 @@ GONIO_INLINE located_samples located_samples::subset(const std::vector<Eigen::In
     for (Eigen::Index column = 0; column < weights.cols(); ++column) some.weights(to, column) = weights(from, column);
   }
   return some;
+}
+
+GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const sample_set& samples, thread_count threads) {
+  require_usable(samples);
+  const std::vector<Eigen::Index> counting = counting_positions(samples);
+  const gonio::channels& kinds = samples.channels();
+  const bool apart = kinds.are_colours() && weigh_channels_apart(samples);
+  located_samples found = detail::room_for_samples(std::ssize(counting), apart, kinds);
+  for (Eigen::Index i = 0; i < found.size(); ++i) {
+    const Eigen::Index from = counting[i];
+    found.locations[i].angles = samples.directions(from).angles();
+    for (Eigen::Index c = 0; c < kinds.size(); ++c) found.values(i, c) = samples.values(from)[c];
+    const channel_weights& weight = samples.weight(from);
+    if (apart)
+      found.weights.row(i) = weight.of_each().matrix().transpose();
+    else
+      found.weights(i, 0) = weight.is_uniform() ? weight[0] : weight.mean();
+  }
+  detail::locate_angles(found, cells, threads);
+  return found;
 }
 
 GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const brdf_table& table, thread_count threads) {

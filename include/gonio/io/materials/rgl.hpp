@@ -49,7 +49,7 @@ struct rgl_spectra {
 
 /// A material, and what its file says of it.
 struct rgl_material {
-  model::adaptive_brdf material;  ///< of spectra their linear Rec. 709 colour under D65
+  model::adaptive_brdf material;  ///< of spectra their linear Rec. 709 colour under D65; black if none is visible
   std::string description;
   std::optional<rgl_spectra> spectra;  ///< if the file has them instead of RGB
 };
@@ -62,6 +62,10 @@ struct rgl_material {
 [[nodiscard]] inline rgl_material read_rgl(const std::filesystem::path& path) {
   return read_rgl(read_bytes(path), path.string());
 }
+
+/// The colours of a material that was read. Throws gonio::error saying that `name` has none where no wavelength is
+/// visible.
+[[nodiscard]] model::adaptive_brdf colours_of(rgl_material material, const std::string& name);
 
 /// Spectra for a material that is known in RGB, for pbrt-v4 and spectral variants of Mitsuba.
 [[nodiscard]] rgl_spectra upsampled_spectra(const model::adaptive_brdf& material,

@@ -4,7 +4,7 @@
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/io/materials/rgl.hpp>
-#include <gonio/table/spectral_samples.hpp>
+#include <gonio/table/sample_set.hpp>
 #include <gonio/table/spectral_table.hpp>
 
 #include <span>
@@ -14,7 +14,7 @@
 namespace gonio::io {
 
 /// A spectral table as the spectral variant of a material, for pbrt-v4 and Mitsuba's spectral variants: `write_rgl`
-/// writes it. Throws gonio::error for fewer than two wavelengths, or if none is visible. The cost of
+/// writes it. Throws gonio::error for fewer than two wavelengths. The cost of
 /// `model::tabulate_adaptively` and of a `model::tabulate_over` for each three wavelengths.
 [[nodiscard]] rgl_material tabulate_adaptively(const spectral_table& table, const std::string& description = "gonio",
                                                thread_count threads = {});
@@ -30,8 +30,7 @@ namespace gonio::io {
 
 /// The spectra of a material in some directions, as measurements. Throws gonio::error for a material in RGB, and for
 /// directions at or below the horizon.
-[[nodiscard]] spectral_samples sample_spectra(const rgl_material& material,
-                                              std::span<const sample_directions> directions);
+[[nodiscard]] sample_set sample_spectra(const rgl_material& material, std::span<const sample_directions> directions);
 
 }  // namespace gonio::io
 

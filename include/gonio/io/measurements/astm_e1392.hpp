@@ -7,7 +7,6 @@
 
 #include <gonio/io/text/text.hpp>
 #include <gonio/table/sample_set.hpp>
-#include <gonio/table/spectral_samples.hpp>
 
 #include <filesystem>
 #include <string>
@@ -20,16 +19,12 @@ namespace gonio::io {
 
 /// Samples from the text of such a file; `name` is what errors call it. The columns are `theta_i`, `phi_i`, `theta_s`
 /// and `phi_s` in radians, in any order, and values in sr^-1 without the cosine: `R`, `G`, `B` (linear), or `X`, `Y`,
-/// `Z` (under D65), or wavelengths (`400nm`, ascending), or a single one of any name, which is grey. Throws
+/// `Z` (under D65), or wavelengths (`400nm`, ascending), or a single one of any name. Throws
 /// gonio::error naming line and column of what is wrong, or if there are other than `NUM_POINTS` lines.
 [[nodiscard]] sample_set read_astm_e1392(std::string_view text, const std::string& name);
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_astm_e1392(const std::filesystem::path& path);
-
-/// The same with the spectra as they are; throws gonio::error if the columns are not called by wavelengths.
-[[nodiscard]] spectral_samples read_astm_e1392_spectra(std::string_view text, const std::string& name);
-[[nodiscard]] spectral_samples read_astm_e1392_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

@@ -6,7 +6,6 @@
 /// belongs to measurement k.
 
 #include <gonio/table/sample_set.hpp>
-#include <gonio/table/spectral_samples.hpp>
 
 #include <filesystem>
 #include <string>
@@ -18,9 +17,9 @@ namespace gonio::io {
 [[nodiscard]] bool looks_like_bird(std::string_view text);
 
 /// Samples from the text of such a file; `name` is what errors call it. Measurements at the same directions become one
-/// sample: the mean over polarisations and repeats at each wavelength, then the colour of the spectrum (linear Rec. 709
-/// under D65; grey for a single wavelength or none). The states of illumination must average to unpolarised light (s
-/// and p, or opposite Stokes vectors).
+/// sample: the mean over polarisations and repeats at each wavelength. Where wavelengths differ between pairs of
+/// directions they become colours (linear Rec. 709 under D65). The states of illumination must average to unpolarised
+/// light (s and p, or opposite Stokes vectors).
 ///
 /// A sample's weight is (m / u)^2, from 0.01 to 100, where u is its relative uncertainty (root mean square of what it
 /// is a mean of) and m the median of the file's, whatever their coverage factor. Without uncertainty it is 1.
@@ -31,10 +30,6 @@ namespace gonio::io {
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_bird(const std::filesystem::path& path);
-
-/// The same with the spectra as they are, which need the same wavelengths in all pairs of directions.
-[[nodiscard]] spectral_samples read_bird_spectra(std::string_view text, const std::string& name);
-[[nodiscard]] spectral_samples read_bird_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

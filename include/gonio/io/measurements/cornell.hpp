@@ -7,7 +7,6 @@
 #include <gonio/io/measurements/sample_collector.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/table/sample_set.hpp>
-#include <gonio/table/spectral_samples.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -56,16 +55,12 @@ class cornell_reader {
 
 }  // namespace detail
 
-/// Samples from the text of such a file, as linear Rec. 709 under D65; `name` is what errors call it. Throws
-/// gonio::error naming line and field of what is wrong.
+/// Samples from the text of such a file, at its wavelengths; `name` is what errors call it. Throws gonio::error naming
+/// line and field of what is wrong.
 [[nodiscard]] sample_set read_cornell(std::string_view text, const std::string& name);
 
 /// Reads such a file. Throws gonio::error naming file, line and field of what is wrong.
 [[nodiscard]] sample_set read_cornell(const std::filesystem::path& path);
-
-/// The same with the spectra as they are.
-[[nodiscard]] spectral_samples read_cornell_spectra(std::string_view text, const std::string& name);
-[[nodiscard]] spectral_samples read_cornell_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

@@ -7,7 +7,6 @@
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/table/sample_set.hpp>
-#include <gonio/table/spectral_samples.hpp>
 
 #include <Eigen/Core>
 
@@ -68,17 +67,13 @@ void write_openmaterial(const std::filesystem::path& path, const std::string& te
 [[nodiscard]] bool looks_like_openmaterial(std::string_view text);
 
 /// Samples from the text of such a file; `name` is what errors call it. Rows of the same directions become one sample:
-/// the mean of those of the same wavelength, then the colour of the spectrum (linear Rec. 709 under D65; grey for a
-/// single wavelength); samples ascend by their angles. Rows with a null and directions at the horizon are none. Throws
-/// gonio::error naming the line of what is wrong, and for tables of other properties. O(rows log rows).
+/// the mean of those of the same wavelength; samples ascend by their angles. Where wavelengths differ between pairs of
+/// directions they become colours (linear Rec. 709 under D65). Rows with a null and directions at the horizon are none.
+/// Throws gonio::error naming the line of what is wrong, and for tables of other properties. O(rows log rows).
 [[nodiscard]] sample_set read_openmaterial(std::string_view text, const std::string& name);
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_openmaterial(const std::filesystem::path& path);
-
-/// The same with the spectra as they are, which need the same wavelengths in all pairs of directions.
-[[nodiscard]] spectral_samples read_openmaterial_spectra(std::string_view text, const std::string& name);
-[[nodiscard]] spectral_samples read_openmaterial_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

@@ -2,8 +2,9 @@
 /// Measurements as CSV: a header line names the columns, in any order; each further line is a sample.
 /// Directions are `theta_h,theta_d,phi_d` or `theta_i,phi_i,theta_o,phi_o` in degrees, or unit vectors
 /// `wi_x,wi_y,wi_z,wo_x,wo_y,wo_z` (normal +z); the reflectance is `r,g,b` in sr^-1 without the cosine, or `value`, one
-/// channel of a `quantity`; a `weight`, or one for each channel, is optional. Separator and decimal mark are told from
-/// the file (io/text/csv_dialect.hpp), and what the numbers are from `# quantity: ...`
+/// channel of a `quantity`, or columns that are called by their wavelengths, `400nm,410nm,...`, of a `quantity`, as
+/// spectrophotometers write them; a `weight`, or one for each colour, is optional. Separator and decimal mark are told
+/// from the file (io/text/csv_dialect.hpp), and what the numbers are from `# quantity: ...`
 /// (io/measurements/sample_quantity.hpp). A name may be in letters of either case, with a unit behind it.
 /// docs/reference/formats.md has all of it.
 
@@ -27,7 +28,6 @@ namespace gonio::io {
 struct sample_file {
   sample_set samples = {};                       ///< sr^-1, whatever quantity the file has
   std::optional<sample_quantity> quantity = {};  ///< as stated in the file or by its reader; r,g,b need none
-  std::optional<double> wavelength = {};         ///< nm, if the file has such a column, or one called by it
   sample_provenance provenance = {};
 };
 
@@ -58,38 +58,15 @@ struct sample_file {
 /// Writes pairs as `theta_i,phi_i,theta_o,phi_o`, rounded to 1e-9 degrees.
 void write_direction_pairs(const std::filesystem::path& path, std::span<const direction_pair> pairs);
 
-namespace detail {
-
-/// Appends a line, with one weight or one for each channel.
-void write_sample(std::string& text, const sample& s, bool weighs_channels_apart);
-
-void write_text(const std::filesystem::path& path, std::string_view text);
-
-}  // namespace detail
-
 /// Samples as CSV text, every number in the fewest digits that read back as the same number. The columns are
-/// `theta_h,theta_d,phi_d,r,g,b,weight`, or `weight_r,weight_g,weight_b` if a sample counts more in one channel than in
-/// another. Where they come from stands above, in comment lines.
-template <sample_range Samples>
-[[nodiscard]] std::string write_samples(const Samples& samples, const sample_provenance& provenance = {}) {
-  const bool apart = weigh_channels_apart(samples);
-  std::string text = comment_lines(provenance) + "theta_h,theta_d,phi_d,r,g,b,";
-  text += apart ? "weight_r,weight_g,weight_b\n" : "weight\n";
-  for (auto&& each : samples) detail::write_sample(text, each, apart);
-  return text;
-}
+/// `theta_h,theta_d,phi_d`, then `r,g,b`, or `value` or a column for each wavelength below `# quantity: brdf`, then
+/// `weight`, or `weight_r,weight_g,weight_b` if a sample counts more in one colour than in another. Where they come
+/// from stands above, in comment lines.
+[[nodiscard]] std::string write_samples(const sample_set& samples, const sample_provenance& provenance = {});
 
 /// Writes measurements. Throws gonio::error if a sample is unusable, before anything is written.
-template <sample_range Samples>
-void write_samples(const std::filesystem::path& path, const Samples& samples,
-                   const sample_provenance& provenance = {}) {
-  try {
-    require_usable(samples);
-  } catch (const error& unusable) {
-    gonio::refuse({path.native(), ": ", unusable.what()});
-  }
-  detail::write_text(path, write_samples(samples, provenance));
-}
+void write_samples(const std::filesystem::path& path, const sample_set& samples,
+                   const sample_provenance& provenance = {});
 
 }  // namespace gonio::io
 

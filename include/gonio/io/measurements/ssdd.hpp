@@ -7,7 +7,6 @@
 #include <gonio/io/measurements/sample_collector.hpp>
 #include <gonio/io/text/words.hpp>
 #include <gonio/table/sample_set.hpp>
-#include <gonio/table/spectral_samples.hpp>
 
 #include <array>
 #include <cstddef>
@@ -47,7 +46,7 @@ class ssdd_reader {
   /// The numbers of `count` colours.
   [[nodiscard]] std::vector<double> read_numbers(std::size_t count);
   void read_block();
-  [[nodiscard]] colour_channels channels_of(const block_header& block) const;
+  [[nodiscard]] sample_collector collector_of(const block_header& block) const;
   [[nodiscard]] sample_collector samples(const block_header& block, const std::vector<double>& numbers) const;
   [[nodiscard]] static direction_pair pair_of(coordinates parameters, const std::array<double, 4>& angles);
 
@@ -69,10 +68,6 @@ class ssdd_reader {
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_ssdd(const std::filesystem::path& path);
-
-/// The same with the spectra as they are; throws gonio::error if the colours are none.
-[[nodiscard]] spectral_samples read_ssdd_spectra(std::string_view text, const std::string& name);
-[[nodiscard]] spectral_samples read_ssdd_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

@@ -5,9 +5,14 @@
 #include <gonio/core/error.hpp>
 #include <gonio/table/sample_set.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace gonio::detail {
 
@@ -34,3 +39,79 @@ GONIO_INLINE void require_usable_sample(const sample& s, Eigen::Index number) {
 GONIO_INLINE void refuse_no_samples() { gonio::refuse("there are no samples: at least one is needed"); }
 
 }  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE void sample_set::refuse_wavelengths() const {
+  refuse({"samples at ", channels_.size(), " wavelengths are no colours: sample_set::colours makes some"});
+}
+
+GONIO_INLINE void sample_set::add(const sample_directions& directions, std::span<const double> values,
+                                  const channel_weights& weight) {
+  if (std::ssize(values) != channels_.size())
+    refuse({"a sample of ", values.size(), " values, expected one for each of ", channels_.size(), " channels"});
+  if (channels_.are_wavelengths()) {
+    if (!weight.is_uniform()) refuse("wavelengths have one weight, not one for each channel");
+    spectra_.insert(spectra_.end(), values.begin(), values.end());
+    rows_.push_back({directions, rgb::Zero(), weight});
+  } else {
+    rows_.push_back({directions, channels_.colour(values), weight});
+  }
+}
+
+GONIO_INLINE sample_set sample_set::subset(std::span<const Eigen::Index> positions) const {
+  sample_set some(channels_);
+  for (const Eigen::Index i : positions) some.add(directions(i), values(i), weight(i));
+  return some;
+}
+
+GONIO_INLINE sample_set sample_set::with_values(gonio::channels kinds,
+                                                const std::function<rgb(Eigen::Index)>& value) const {
+  sample_set others(std::move(kinds));
+  others.rows_ = rows_;
+  for (Eigen::Index i = 0; i < std::ssize(rows_); ++i) others.rows_[i].value = value(i);
+  return others;
+}
+
+GONIO_INLINE sample_set sample_set::channel(Eigen::Index c) const {
+  const std::vector<double>& all = channels_.wavelengths();
+  gonio::channels one = all.empty() ? gonio::channels::one_value() : gonio::channels({all[c]});
+  return with_values(std::move(one), [&](Eigen::Index i) { return rgb(rgb::Constant(values(i)[c])); });
+}
+
+GONIO_INLINE sample_set sample_set::under(illuminant light) const {
+  sample_set lit = *this;
+  lit.channels_ = channels_.under(light);
+  return lit;
+}
+
+GONIO_INLINE sample_set sample_set::colours() const {
+  require_colour(channels_, "a set of samples");
+  return with_values({}, [&](Eigen::Index i) { return channels_.colour(values(i)); });
+}
+
+GONIO_INLINE sample_set sample_set::in_three_channels() const {
+  return with_values({}, [&](Eigen::Index i) { return channels_.three(values(i)); });
+}
+
+GONIO_INLINE void require_usable(const sample_set& samples) {
+  if (samples.empty()) detail::refuse_no_samples();
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
+    const bool has_colour = !samples.channels().are_wavelengths();
+    detail::require_usable_sample(
+        {samples.directions(i), has_colour ? samples[i].value : rgb(rgb::Zero()), samples.weight(i)}, i + 1);
+    for (Eigen::Index c = 0; !has_colour && c < samples.channels().size(); ++c)
+      if (!std::isfinite(static_cast<float>(samples.values(i)[c])))
+        refuse({"sample ", i + 1, ": the reflectance at wavelength ", c + 1,
+                " is not finite or beyond the range of float"});
+  }
+}
+
+GONIO_INLINE std::vector<Eigen::Index> counting_positions(const sample_set& samples) {
+  std::vector<Eigen::Index> positions;
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
+    if (samples.weight(i).counts()) positions.push_back(i);
+  return positions;
+}
+
+}  // namespace gonio

@@ -4,9 +4,10 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/table/spectral_samples.hpp>
 #include <gonio/table/spectral_table.hpp>
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,18 @@ GONIO_INLINE brdf_table spectral_table::colours(illuminant light, thread_count t
   brdf_table table(cells_);
   for_each_index(
       cells_.size(), 4096, [&](Eigen::Index cell) { table.set(cell, colour(at(cell))); }, threads);
+  return table;
+}
+
+GONIO_INLINE spectral_table tabulate_by_threes(const valid_cells& cells, std::vector<double> wavelengths,
+                                               const std::function<brdf_table(Eigen::Index first)>& three) {
+  spectral_table table(cells, std::move(wavelengths));
+  for (Eigen::Index first = 0; first < table.bands(); first += 3) {
+    const brdf_table some = three(first);
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
+      for (Eigen::Index band = first; band < std::min(first + 3, table.bands()); ++band)
+        table.values()(cell, band) = some.values()[3 * cell + band - first];
+  }
   return table;
 }
 

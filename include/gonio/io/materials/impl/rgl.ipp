@@ -6,6 +6,7 @@
 #include <gonio/core/spectrum.hpp>
 #include <gonio/io/bytes/byte_stream.hpp>
 #include <gonio/io/materials/rgl.hpp>
+#include <gonio/table/channels.hpp>
 
 #include <algorithm>
 #include <array>
@@ -119,9 +120,11 @@ class rgl_arrays {
   const std::string& name_;
 };
 
-/// Red, green and blue of spectra.
+/// Red, green and blue of spectra: black where nobody sees any of the wavelengths.
 [[nodiscard]] inline model::unit_square_tables rgb_of(const rgl_spectra& spectra) {
-  const Eigen::MatrixXd weights = interpolated_colour(spectra.wavelengths);
+  const bool is_seen = std::ranges::any_of(spectra.wavelengths, is_visible);
+  const Eigen::MatrixXd weights =
+      is_seen ? interpolated_colour(spectra.wavelengths) : Eigen::MatrixXd::Zero(3, std::ssize(spectra.wavelengths));
   const model::unit_square_tables& all = spectra.values;
   const Eigen::Index size = all.rows * all.columns, bands = weights.cols(), angles = all.tables / bands;
   model::unit_square_tables colours{3 * angles, all.rows, all.columns, std::vector<float>(3 * angles * size)};
@@ -228,6 +231,11 @@ class tensor_writer {
 }  // namespace gonio::io::detail
 
 namespace gonio::io {
+
+GONIO_INLINE model::adaptive_brdf colours_of(rgl_material material, const std::string& name) {
+  if (material.spectra) require_colour(channels(material.spectra->wavelengths), name);
+  return std::move(material.material);
+}
 
 GONIO_INLINE rgl_spectra upsampled_spectra(const model::adaptive_brdf& material, const model::smooth_spectra& spectra) {
   const model::unit_square_tables& colours = material.parts().reflectance;

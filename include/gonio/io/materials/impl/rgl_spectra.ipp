@@ -128,30 +128,26 @@ GONIO_INLINE rgl_spectra at_wavelengths(const rgl_spectra& spectra, std::vector<
 GONIO_INLINE spectral_table tabulate_spectra(const rgl_material& material, const valid_cells& cells,
                                              thread_count threads) {
   detail::require_in_spectra(material);
-  spectral_table table(cells, material.spectra->wavelengths);
-  for (Eigen::Index first = 0; first < table.bands(); first += 3) {
-    const brdf_table three = tabulate(detail::three_wavelengths_of(material, first), cells, threads);
-    for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
-      for (Eigen::Index band = first; band < std::min(first + 3, table.bands()); ++band)
-        table.values()(cell, band) = three.values()[3 * cell + band - first];
-  }
-  return table;
+  return tabulate_by_threes(cells, material.spectra->wavelengths, [&](Eigen::Index first) {
+    return tabulate(detail::three_wavelengths_of(material, first), cells, threads);
+  });
 }
 
-GONIO_INLINE spectral_samples sample_spectra(const rgl_material& material,
-                                             std::span<const sample_directions> directions) {
+GONIO_INLINE sample_set sample_spectra(const rgl_material& material, std::span<const sample_directions> directions) {
   detail::require_in_spectra(material);
-  const std::vector<double>& wavelengths = material.spectra->wavelengths;
-  const Eigen::Index bands = std::ssize(wavelengths);
-  spectral_samples samples{
-      wavelengths, {directions.begin(), directions.end()}, cell_matrix(std::ssize(directions), bands)};
-  for (Eigen::Index first = 0; first < bands; first += 3) {
-    const model::adaptive_brdf three = detail::three_wavelengths_of(material, first);
-    for (Eigen::Index i = 0; i < samples.size(); ++i) {
-      const rgb value = three(directions[i].pair().wi, directions[i].pair().wo);
-      for (Eigen::Index band = first; band < std::min(first + 3, bands); ++band)
-        samples.values(i, band) = static_cast<float>(value[band - first]);
+  sample_set samples(channels(material.spectra->wavelengths));
+  const Eigen::Index bands = samples.channels().size();
+  std::vector<model::adaptive_brdf> by_threes;
+  for (Eigen::Index first = 0; first < bands; first += 3)
+    by_threes.push_back(detail::three_wavelengths_of(material, first));
+  for (const sample_directions& at : directions) {
+    std::vector<double> spectrum;
+    for (const model::adaptive_brdf& three : by_threes) {
+      const rgb value = three(at.pair().wi, at.pair().wo);
+      spectrum.insert(spectrum.end(), value.begin(), value.end());
     }
+    spectrum.resize(static_cast<std::size_t>(bands));
+    samples.add(at, spectrum);
   }
   require_usable(samples);
   return samples;

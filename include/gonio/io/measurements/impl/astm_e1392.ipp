@@ -37,7 +37,7 @@ class astm_reader {
  private:
   void read_keyword(std::string_view line);
   void read_variables(std::string_view names);
-  [[nodiscard]] colour_channels channels_of(const std::vector<std::string_view>& names) const;
+  [[nodiscard]] sample_collector collector_of(const std::vector<std::string_view>& names) const;
   void read_row(std::string_view line);
   [[nodiscard]] direction read_direction(std::size_t angle) const;
   [[nodiscard]] double number(std::size_t column) const;
@@ -91,27 +91,27 @@ GONIO_INLINE void astm_reader::read_variables(std::string_view names) {
     of_values.push_back(all[column]);
   }
   if (values_.empty()) place_.refuse("VARS: there is no column of values beside the angles");
-  collector_.emplace(channels_of(of_values));
+  collector_ = collector_of(of_values);
 }
 
-GONIO_INLINE colour_channels astm_reader::channels_of(const std::vector<std::string_view>& names) const {
+GONIO_INLINE sample_collector astm_reader::collector_of(const std::vector<std::string_view>& names) const {
   const auto are = [&](std::string_view a, std::string_view b, std::string_view c) {
     return names.size() == 3 && names[0] == a && names[1] == b && names[2] == c;
   };
-  if (are("R", "G", "B")) return colour_channels::linear_rgb();
-  if (are("X", "Y", "Z")) return colour_channels::xyz();
+  if (are("R", "G", "B")) return sample_collector(channels());
+  if (are("X", "Y", "Z")) return sample_collector::of_xyz();
   std::vector<double> wavelengths;
   for (const std::string_view name : names) {
     double wavelength = 0.0;
     const bool is_wavelength =
         name.ends_with("nm") && read_number(name.substr(0, name.size() - 2), wavelength) == nullptr;
-    if (!is_wavelength && names.size() == 1 && !name.empty()) return colour_channels::grey();
+    if (!is_wavelength && names.size() == 1 && !name.empty()) return sample_collector();
     if (!is_wavelength)
       place_.refuse({"VARS: ", in_quotes(name), ", expected one value, or R,G,B, or X,Y,Z, or wavelengths like 400nm"});
     wavelengths.push_back(wavelength);
   }
   try {
-    return colour_channels::spectrum(wavelengths);
+    return sample_collector(channels(wavelengths));
   } catch (const error& reason) {
     place_.refuse({"VARS: ", reason.what()});
   }
@@ -172,15 +172,6 @@ GONIO_INLINE sample_set read_astm_e1392(std::string_view text, const std::string
 GONIO_INLINE sample_set read_astm_e1392(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
   return read_astm_e1392(as_text(bytes), path.string());
-}
-
-GONIO_INLINE spectral_samples read_astm_e1392_spectra(std::string_view text, const std::string& name) {
-  return detail::collect_astm(text, name).spectra(name);
-}
-
-GONIO_INLINE spectral_samples read_astm_e1392_spectra(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_bytes(path);
-  return read_astm_e1392_spectra(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -238,13 +238,4 @@ GONIO_INLINE sample_set read_bird(const std::filesystem::path& path) {
   return read_bird(as_text(bytes), path.string());
 }
 
-GONIO_INLINE spectral_samples read_bird_spectra(std::string_view text, const std::string& name) {
-  return detail::collect_bird(text, name).spectra(name);
-}
-
-GONIO_INLINE spectral_samples read_bird_spectra(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_bytes(path);
-  return read_bird_spectra(as_text(bytes), path.string());
-}
-
 }  // namespace gonio::io

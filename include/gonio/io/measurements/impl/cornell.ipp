@@ -56,7 +56,7 @@ GONIO_INLINE void cornell_reader::read_wavelengths() {
   for (std::size_t i = 0; i < fields_.size(); ++i) wavelengths_.push_back(number(i));
   if (wavelengths_.size() < count_) return;
   try {
-    collector_.emplace(colour_channels::spectrum(wavelengths_));
+    collector_.emplace(channels(wavelengths_));
   } catch (const error& reason) {
     place_.refuse(reason.what());
   }
@@ -101,15 +101,6 @@ namespace gonio::io {
 
 GONIO_INLINE sample_set read_cornell(std::string_view text, const std::string& name) {
   return detail::collect_cornell(text, name).samples(name);
-}
-
-GONIO_INLINE spectral_samples read_cornell_spectra(std::string_view text, const std::string& name) {
-  return detail::collect_cornell(text, name).spectra(name);
-}
-
-GONIO_INLINE spectral_samples read_cornell_spectra(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_bytes(path);
-  return read_cornell_spectra(as_text(bytes), path.string());
 }
 
 GONIO_INLINE sample_set read_cornell(const std::filesystem::path& path) {

@@ -284,14 +284,4 @@ GONIO_INLINE sample_set read_openmaterial(const std::filesystem::path& path) {
   return read_openmaterial(as_text(bytes), path.string());
 }
 
-GONIO_INLINE spectral_samples read_openmaterial_spectra(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
-  return detail::openmaterial_reader(text, place).read().spectra(name);
-}
-
-GONIO_INLINE spectral_samples read_openmaterial_spectra(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_bytes(path);
-  return read_openmaterial_spectra(as_text(bytes), path.string());
-}
-
 }  // namespace gonio::io

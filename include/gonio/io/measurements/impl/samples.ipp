@@ -109,35 +109,32 @@ GONIO_INLINE void refuse_beyond_float(const parsed_row& row, std::size_t column,
       {"column ", row.header.name_of(column), ": ", shortest(value), " sr^-1 is beyond the range of float"});
 }
 
-/// The value of a row as a BRDF, sr^-1.
-[[nodiscard]] GONIO_INLINE rgb row_value(const parsed_row& row, const sample_directions& at) {
-  const double* given = &row.numbers[row.values.first];
-  const bool is_grey = row.values.count == 1;
+/// The values of a row as a BRDF, sr^-1.
+GONIO_INLINE void read_row_values(const parsed_row& row, const sample_directions& at, std::vector<double>& values) {
   require_quantity(row);
   const double factor = brdf_factor(row.quantity.value_or(sample_quantity::brdf), at.pair().wo);
-  rgb value;
-  for (Eigen::Index channel = 0; channel < 3; ++channel) {
-    const std::size_t field = is_grey ? 0 : static_cast<std::size_t>(channel);
-    value[channel] = factor * given[field];
-    if (std::abs(value[channel]) > double{std::numeric_limits<float>::max()})
-      refuse_beyond_float(row, row.values.first + field, value[channel]);
+  values.clear();
+  for (std::size_t column = row.values.first; column < row.values.first + row.values.count; ++column) {
+    values.push_back(factor * row.numbers[column]);
+    if (std::abs(values.back()) > double{std::numeric_limits<float>::max()})
+      refuse_beyond_float(row, column, values.back());
   }
-  return value;
 }
 
-GONIO_INLINE void write_sample(std::string& text, const sample& s, bool weighs_channels_apart) {
-  const half_difference& at = s.angles();
-  for (const double value : {degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d)), s.value.x(),
-                             s.value.y(), s.value.z()}) {
-    text += shortest(value);
-    text += ',';
-  }
-  text += shortest(s.weight[0]);
-  for (Eigen::Index channel = 1; weighs_channels_apart && channel < 3; ++channel) {
-    text += ',';
-    text += shortest(s.weight[channel]);
-  }
-  text += '\n';
+/// The channels of a file whose first row has been read.
+[[nodiscard]] GONIO_INLINE channels channels_of(const sample_rows& rows) {
+  if (rows.row().values.count == 3 && rows.header().wavelengths().empty()) return {};
+  if (!rows.header().wavelengths().empty()) return channels(rows.header().wavelengths());
+  return rows.wavelength() ? channels({*rows.wavelength()}) : channels::one_value();
+}
+
+/// The names of the columns of values.
+[[nodiscard]] GONIO_INLINE std::string column_names(const channels& kinds) {
+  if (kinds.are_colours()) return "r,g,b,";
+  if (kinds.wavelengths().empty()) return "value,";
+  std::string names;
+  for (const double wavelength : kinds.wavelengths()) names += message_of({shortest(wavelength), "nm,"});
+  return names;
 }
 
 [[gnu::cold]] GONIO_INLINE void write_text(const std::filesystem::path& path, std::string_view text) {
@@ -152,17 +149,17 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
                                           const sample_reading& reading) {
   sample_file file;
   detail::sample_rows rows(text, name, true, reading);
+  std::vector<double> values;
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
-    if (rows.header().wavelengths().size() > 1)
-      gonio::refuse(
-          {name, ": has ", rows.header().wavelengths().size(),
-           " columns of wavelengths, expected r,g,b, or value: io/measurements/spectral_samples.hpp reads spectra"});
+    if (file.samples.empty()) file.samples = sample_set(detail::channels_of(rows));
+    if (row.weights.count > 1 && file.samples.channels().are_wavelengths())
+      row.place.refuse("wavelengths have one weight, expected weight, not one for each channel");
     const sample_directions at = detail::row_directions(row);
-    file.samples.push_back({at, detail::row_value(row, at), detail::row_weight(row)});
+    detail::read_row_values(row, at, values);
+    file.samples.add(at, values, detail::row_weight(row));
   }
   file.quantity = rows.quantity();
-  file.wavelength = rows.wavelength();
   file.provenance = rows.provenance();
   return file;
 }
@@ -203,6 +200,34 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
   std::vector<direction_pair> all;
   while (rows.next()) all.push_back(detail::row_directions(rows.row()).pair());
   return all;
+}
+
+GONIO_INLINE std::string write_samples(const sample_set& samples, const sample_provenance& provenance) {
+  const channels& kinds = samples.channels();
+  const bool apart = !kinds.are_wavelengths() && weigh_channels_apart(samples);
+  std::string text = comment_lines(provenance);
+  if (!kinds.are_colours()) text += "# quantity: brdf\n";
+  text += "theta_h,theta_d,phi_d," + detail::column_names(kinds);
+  text += apart ? "weight_r,weight_g,weight_b\n" : "weight\n";
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
+    const half_difference& at = samples.directions(i).angles();
+    std::vector<double> numbers{degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d))};
+    numbers.insert(numbers.end(), samples.values(i).begin(), samples.values(i).end());
+    for (Eigen::Index c = 0; c < (apart ? 3 : 1); ++c) numbers.push_back(samples.weight(i)[c]);
+    for (std::size_t k = 0; k < numbers.size(); ++k) text += (k == 0 ? "" : ",") + shortest(numbers[k]);
+    text += '\n';
+  }
+  return text;
+}
+
+GONIO_INLINE void write_samples(const std::filesystem::path& path, const sample_set& samples,
+                                const sample_provenance& provenance) {
+  try {
+    require_usable(samples);
+  } catch (const error& unusable) {
+    gonio::refuse({path.native(), ": ", unusable.what()});
+  }
+  detail::write_text(path, write_samples(samples, provenance));
 }
 
 [[gnu::cold]] GONIO_INLINE void write_direction_pairs(const std::filesystem::path& path,

@@ -142,12 +142,12 @@ GONIO_INLINE direction_pair ssdd_reader::pair_of(coordinates parameters, const s
   return {turned_about_normal(pair.wi, phi), turned_about_normal(pair.wo, phi)};
 }
 
-GONIO_INLINE colour_channels ssdd_reader::channels_of(const block_header& block) const {
-  if (block.colour_model == "rgb") return colour_channels::linear_rgb();
-  if (block.colour_model == "xyz") return colour_channels::xyz();
-  if (block.colour_model != "spectrum") return colour_channels::grey();
+GONIO_INLINE sample_collector ssdd_reader::collector_of(const block_header& block) const {
+  if (block.colour_model == "rgb") return sample_collector(channels());
+  if (block.colour_model == "xyz") return sample_collector::of_xyz();
+  if (block.colour_model != "spectrum") return sample_collector();
   try {
-    return colour_channels::spectrum(block.wavelengths);
+    return sample_collector(channels(block.wavelengths));
   } catch (const error& reason) {
     words_.place().refuse({"WAVELENGTH_LIST: ", reason.what()});
   }
@@ -155,20 +155,20 @@ GONIO_INLINE colour_channels ssdd_reader::channels_of(const block_header& block)
 
 GONIO_INLINE sample_collector ssdd_reader::samples(const block_header& block,
                                                    const std::vector<double>& numbers) const {
-  const colour_channels channels = channels_of(block);
+  sample_collector collector = collector_of(block);
+  const std::size_t count = collector.channel_count();
   const std::vector<bool> are_new = are_new_azimuths(block.angles[3]);
   std::array<std::size_t, 4> extents{};
   for (std::size_t k = 0; k < 4; ++k) extents[k] = std::max<std::size_t>(block.angles[k].size(), 1);
-  sample_collector collector(channels);
   std::array<std::size_t, 4> at{};
-  for (std::size_t i = 0; i < numbers.size() / channels.size(); ++i) {
+  for (std::size_t i = 0; i < numbers.size() / count; ++i) {
     // The first list varies fastest.
     for (std::size_t k = 0, left = i; k < 4; left /= extents[k++]) at[k] = left % extents[k];
     const bool is_at_pole = block.angles[2][at[2]] == 0.0;  // one direction, whatever its azimuth
     if (!are_new[at[3]] || (is_at_pole && at[3] > 0)) continue;
     std::array<double, 4> angles{};
     for (std::size_t k = 0; k < 4; ++k) angles[k] = block.angles[k].empty() ? 0.0 : radians(block.angles[k][at[k]]);
-    const std::span colour(&numbers[i * channels.size()], channels.size());
+    const std::span colour(&numbers[i * count], count);
     for (const double number : colour) require_float_range(number, words_.place());
     collector.add(pair_of(*block.parameters, angles), colour);
   }
@@ -194,16 +194,6 @@ GONIO_INLINE sample_set read_ssdd(std::string_view text, const std::string& name
 GONIO_INLINE sample_set read_ssdd(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
   return read_ssdd(as_text(bytes), path.string());
-}
-
-GONIO_INLINE spectral_samples read_ssdd_spectra(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
-  return detail::ssdd_reader(text, place).read().spectra(name);
-}
-
-GONIO_INLINE spectral_samples read_ssdd_spectra(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_bytes(path);
-  return read_ssdd_spectra(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

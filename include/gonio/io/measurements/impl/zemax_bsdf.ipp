@@ -105,11 +105,10 @@ GONIO_INLINE zemax_bsdf_reader::plane zemax_bsdf_reader::read_plane() {
 }
 
 GONIO_INLINE sample_set zemax_bsdf_reader::samples(const std::vector<plane>& planes) const {
-  const colour_channels channels = is_tristimulus_ ? colour_channels::xyz() : colour_channels::grey();
   const std::vector<bool> are_new = are_new_azimuths(azimuths_);
   const std::size_t columns = radials_.size(), block = azimuths_.size() * columns;
   std::array<double, 3> values{};
-  sample_collector collector(channels);
+  sample_collector collector = is_tristimulus_ ? sample_collector::of_xyz() : sample_collector();
   for (std::size_t b = 0; b < rotations_.size() * incidences_.size(); ++b) {
     const double theta = radians(incidences_[b % incidences_.size()]);
     const double phi = radians(rotations_[b / incidences_.size()]);
@@ -119,7 +118,7 @@ GONIO_INLINE sample_set zemax_bsdf_reader::samples(const std::vector<plane>& pla
         if (!are_new[row] || (radial == 0.0 && row > 0)) continue;  // the specular direction is in every row
         for (std::size_t c = 0; c < planes.size(); ++c) values[c] = planes[c][b * block + row * columns + column];
         const direction wo = about_specular(theta, phi, radial, radians(azimuths_[row]));
-        collector.add({spherical_direction(theta, phi), wo}, {values.data(), channels.size()});
+        collector.add({spherical_direction(theta, phi), wo}, {values.data(), collector.channel_count()});
       }
   }
   return std::move(collector).samples(words_.place().name);

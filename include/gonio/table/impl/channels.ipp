@@ -1,0 +1,68 @@
+#pragma once
+/// Bodies of table/channels.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/table/channels.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE channels::channels(std::vector<double> wavelengths, illuminant light)
+    : size_(std::ssize(wavelengths)), wavelengths_(std::move(wavelengths)), light_(light) {
+  require_wavelengths(wavelengths_);
+  if (are_wavelengths() && std::ranges::any_of(wavelengths_, is_visible)) colour_.emplace(wavelengths_, light);
+}
+
+GONIO_INLINE channels channels::one_value() {
+  channels one;
+  one.size_ = 1;
+  return one;
+}
+
+GONIO_INLINE std::string channels::name(Eigen::Index channel) const {
+  if (!wavelengths_.empty()) {
+    std::array<char, 32> digits{};  // as many as the number needs
+    const auto end = std::to_chars(digits.begin(), digits.end(), wavelengths_[channel]).ptr;
+    return std::string(digits.begin(), end) + " nm";
+  }
+  if (size_ == 1) return "value";
+  return channel == 0 ? "red" : channel == 1 ? "green" : "blue";
+}
+
+GONIO_INLINE rgb channels::colour(std::span<const double> values) const {
+  if (size_ == 1) return rgb::Constant(values[0]);
+  if (are_colours()) return {values[0], values[1], values[2]};
+  return colour_ ? (*colour_)(values) : rgb(rgb::Zero());
+}
+
+GONIO_INLINE rgb channels::three(std::span<const double> values) const {
+  if (have_colour()) return colour(values);
+  rgb means;
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const Eigen::Index first = c * size_ / 3, end = std::max((c + 1) * size_ / 3, first + 1);
+    means[c] = Eigen::Map<const Eigen::ArrayXd>(values.data() + first, end - first).mean();
+  }
+  return means;
+}
+
+GONIO_INLINE channels channels::under(illuminant light) const {
+  return are_wavelengths() ? channels(wavelengths_, light) : *this;
+}
+
+GONIO_INLINE void require_colour(const channels& all, const std::string& name) {
+  if (all.have_colour()) return;
+  refuse({name, ": its wavelengths, ", std::lround(all.wavelengths().front()), " to ",
+          std::lround(all.wavelengths().back()), " nm, are invisible and have no colour"});
+}
+
+}  // namespace gonio
