@@ -112,6 +112,14 @@ TEST_CASE("samples that are likely to disappoint are accepted with a warning") {
   warns("20,0,40,90,.3,.3,.3\n30,0,10,60,.3,.3,.3\n50,0,20,130,.3,.3,.3\n", " --method pull-push",
         {"all samples have the same value"});
   warns("20,0,40,90,.3,.3,.3\n", " --noise 0", {"the highlight is known to a factor of "});
+  std::string flat;
+  for (const std::string theta : {"8", "9", "10", "11"}) flat += "10,0," + theta + ",180,.4,.4,.4\n";
+  warns(flat + around, "", {"4 samples have exactly the largest value, 0.4000: was the detector saturated?"});
+  warns(around + "20,0,20,90,-.1,-.1,-.1\n20,0,30,90,-.1,-.1,-.1\n20,0,50,90,-.2,-.2,-.2\n20,0,60,90,-.2,-.2,-.2\n", "",
+        {"4 of 7 samples are negative: was too much subtracted"});
+  scratch::put(folder / "dark.csv", "theta_i,phi_i,theta_o,phi_o,r,g,b\n20,0,20,90,-.1,-.1,-.1\n20,0,30,90,0,0,0\n");
+  refuses("reconstruct " + (folder / "dark.csv").string(),
+          {"dark.csv", "none of 2 samples reflects light", "dark signal"});
 }
 
 TEST_CASE("options of one method given to another") {

@@ -36,6 +36,21 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
                  " sr^-1, complete to a table that is not finite by the method ", options.method});
 }
 
+/// Of a material that reflects nothing but less than nothing, nothing can be said.
+void require_light(const gonio::sample_set& samples, const reconstruct_options& options) {
+  double largest = 0.0, least = 0.0;
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
+    for (const double value : samples.values(i)) {
+      largest = std::max(largest, value);
+      least = std::min(least, value);
+    }
+  if (largest > 0.0 || !(least < 0.0)) return;
+  const std::string file = options.samples.empty() ? "" : options.samples.native() + ": ";
+  gonio::refuse({file, "none of ", samples.size(),
+                 " samples reflects light, and some are negative: was too much "
+                 "subtracted as the dark signal?"});
+}
+
 /// What is told of every fit, which is refused if it is not finite.
 reconstruction with_warnings(reconstruction result, const reconstruct_options& options,
                              const gonio::sample_set& samples) {
@@ -108,6 +123,7 @@ void take_given(reconstruct_options& options, const std::function<bool(const std
 reconstruction reconstruct(const reconstruct_options& options, const gonio::sample_set& samples) {
   if (options.fits_spectra && !takes_spectra(options.method))
     gonio::refuse("--spectra needs another --method: " + options.method + " weighs samples by their colours");
+  require_light(samples, options);
   return with_warnings(method_named(options.method).reconstruct(options, samples), options,
                        samples.in_three_channels());
 }

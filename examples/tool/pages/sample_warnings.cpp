@@ -8,9 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <numbers>
+#include <ranges>
+#include <utility>
 
 namespace cli {
 
@@ -45,6 +49,28 @@ std::string contradiction(const gonio::sample_set& samples, double noise) {
                fixed(green(second), 3) + " (green)";
   }
   return sentence;
+}
+
+/// A detector that is saturated reads the same number again and again, and no larger one.
+std::string saturation(const gonio::sample_set& samples) {
+  constexpr std::ptrdiff_t suspicious = 4;
+  std::map<double, std::ptrdiff_t> times;
+  for (const gonio::sample& s : samples) ++times[s.value.maxCoeff()];
+  if (times.size() < 3 || times.rbegin()->second < suspicious) return {};
+  const auto [largest, count] = *times.rbegin();
+  times.erase(std::prev(times.end()));
+  const std::ptrdiff_t usual = std::ranges::max(times | std::views::values);
+  if (count <= 2 * usual) return {};  // numbers of few digits, or repeats
+  return std::to_string(count) + " samples have exactly the largest value, " + fixed(largest, 4) +
+         ": was the detector saturated? The highlight may be brighter than the estimate says";
+}
+
+/// Values below zero are noise, unless they are many.
+std::string darkness(const gonio::sample_set& samples) {
+  const auto negative = std::ranges::count_if(samples, [](const gonio::sample& s) { return s.value.maxCoeff() < 0.0; });
+  if (2 * negative <= std::ssize(samples)) return {};
+  return std::to_string(negative) + " of " + std::to_string(samples.size()) +
+         " samples are negative: was too much subtracted as the dark signal?";
 }
 
 bool all_equal(const gonio::sample_set& samples) {
@@ -156,6 +182,8 @@ std::vector<std::string> warnings_of(const gonio::sample_set& samples, double no
     sentences.push_back("noise of " + fixed(100.0 * noise, 0) + " % leaves little of the values: is it " +
                         fixed(noise, 2) + " %, that is --noise " + fixed(noise / 100.0, 4) + "?");
   if (std::string sentence = contradiction(samples, noise); !sentence.empty()) sentences.push_back(std::move(sentence));
+  for (std::string sentence : {saturation(samples), darkness(samples)})
+    if (!sentence.empty()) sentences.push_back(std::move(sentence));
   if (samples.size() < fewest) return sentences;
   if (all_equal(samples)) sentences.emplace_back("all samples have the same value");
   if (all_in_plane(samples))

@@ -10,7 +10,8 @@
 namespace cli {
 
 /// A sentence for each: noise above 50 %, repeats of the same angles that contradict each other by more than the noise
-/// (relative, 0.02 is 2 %), one value everywhere, and directions that are all in the plane of incidence. Samples are
+/// (relative, 0.02 is 2 %), a largest value that is read so often that the detector may be saturated, more negative
+/// values than others, one value everywhere, and directions that are all in the plane of incidence. Samples are
 /// numbered from 1. O(n log n).
 [[nodiscard]] std::vector<std::string> warnings_of(const gonio::sample_set& samples, double noise);
 
