@@ -26,3 +26,4 @@
 #include <gonio/estimate/soft_or_specular.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/estimate/values_at.hpp>
+#include <gonio/estimate/wrong_samples.hpp>

@@ -81,11 +81,9 @@ class tool_methods {
     if (method == "pull-push") return gonio::pull_push{gonio::valid_cells(), threads_}.fit(samples).table();
     if (method == "scattered") return gonio::tabulate(interpolate(samples, {}), cells, threads_);
     if (method == "nearest") return gonio::tabulate(interpolate(samples, {.neighbours = 1}), cells, threads_);
-    if (method == "correction")
-      return gonio::robust_reconstruction{known_.materials(), known_.corrections(), {}, {}, threads_}
-          .fit(samples)
-          .tabulate(cells, threads_);
-    return weighed(samples);
+    return gonio::robust_reconstruction{known_.materials(), known_.corrections(), {}, {}, threads_}
+        .fit(samples)
+        .tabulate(cells, threads_);
   }
 
  private:
@@ -96,39 +94,9 @@ class tool_methods {
     return table;
   }
 
-  using estimator = gonio::reconstruction<gonio::log_relative>;
-
-  [[nodiscard]] estimator keeping_all() const { return estimator{known_.prior(), {}, threads_}.keeping_all(); }
-
-  /// Samples on the prior's cells, and the same as outliers are judged.
-  [[nodiscard]] std::pair<gonio::located_samples, gonio::located_samples> judged(
-      const gonio::sample_set& samples) const {
-    gonio::located_samples located = gonio::locate_samples(known_.prior().cells(), samples);
-    gonio::located_samples in_gamut = gonio::out_of_gamut_as_xyz(located).value_or(located);
-    return {std::move(located), std::move(in_gamut)};
-  }
-
-  /// The way of fewer than a hundred samples, for up to a thousand.
   [[nodiscard]] gonio::brdf_table components(const gonio::sample_set& samples, bool rejecting) const {
-    auto [located, in_gamut] = judged(samples);
-    const estimator both = keeping_all();
-    if (rejecting && located.size() <= 1000) {
-      gonio::inliers found = gonio::all_inliers(located.size());
-      for (const auto& [number, probability] : gonio::find_wrong_samples(both.process_of(in_gamut)))
-        found.weights[number] = 0.0;
-      located = located.subset(found.kept());
-    }
-    return both.fit_located(std::move(located)).tabulate(known_.prior().cells());
-  }
-
-  /// The way of a hundred samples and more, for any number.
-  [[nodiscard]] gonio::brdf_table weighed(const gonio::sample_set& samples) const {
-    const auto [located, in_gamut] = judged(samples);
-    const estimator both = keeping_all();
-    const Eigen::VectorXd weights =
-        gonio::weigh_inliers(known_.prior(), in_gamut, gonio::map_samples(known_.prior(), in_gamut, threads_),
-                             both.model().error_variance, threads_);
-    return both.fit_located(gonio::weighted(located, {weights, {}})).tabulate(known_.prior().cells());
+    const gonio::reconstruction both{known_.prior(), {}, threads_};
+    return (rejecting ? both : both.keeping_all()).fit(samples).tabulate(known_.prior().cells());
   }
 
   learned& known_;
@@ -276,7 +244,7 @@ void add_real_methods(command& app, const team& processes) {
                   "Those of gonio reconstruct; keeping: pca without looking for wrong samples; median: the median of "
                   "all materials, whatever the samples; nearest: the nearest sample")
       .check(check::one_of(
-          {"median", "pca", "keeping", "robust", "linear", "correction", "rbf", "pull-push", "scattered", "nearest"}))
+          {"median", "pca", "keeping", "linear", "correction", "rbf", "pull-push", "scattered", "nearest"}))
       .capture_default_str();
   command.add_option("--repetitions", options->repetitions, "Random sets of each number")
       .check(check::positive_number())

@@ -22,7 +22,7 @@ using reconstructed_brdf = gonio::reconstructed<gonio::log_relative>;
 
 /// Of the green channel, which has most of the luminance: "sample 6 disagrees, left out: measured 2.09, the others say
 /// 0.140 (0.110 to 0.170)".
-std::string told(const gonio::outlying_sample& out, const char* what_is_done) {
+std::string told(const gonio::outlying_sample& out, const std::string& what_is_done) {
   const double low = out.predicted.y() * std::exp(-out.deviation), high = out.predicted.y() * std::exp(out.deviation);
   return "sample " + std::to_string(out.number + 1) + " disagrees, " + what_is_done + ": measured " +
          reflectance(out.measured.y()) + ", the others say " + reflectance(out.predicted.y()) + " (" +
@@ -74,23 +74,25 @@ gonio::brdf_table uncertainty_table(const reconstructed_brdf& paint, gonio::thre
 
 /// Which samples were rejected; `samples` count.
 void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, reconstruction& result) {
-  if (samples >= gonio::fewest_weighed) {
-    result.details["outliers"] = paint.outlier_share();
-    result.details["down_weighted"] = static_cast<double>(paint.rejected().size()) / static_cast<double>(samples);
-    result.sentence += ", about " + fixed(100.0 * paint.outlier_share(), 1) + " % outliers";
-    return;
-  }
-  const bool rejects = samples >= gonio::fewest_rejected;
   json contradicted = json::array();
   for (const gonio::outlying_sample& out : paint.contradicted()) {
-    result.warnings.push_back(told(out, rejects ? "left out" : "kept beside so few"));
+    result.warnings.push_back(
+        told(out, out.probability > 0.99 ? "left out" : "counts " + fixed(100.0 * (1.0 - out.probability), 0) + " %"));
     contradicted.push_back({{"sample", out.number + 1},
                             {"measured", per_channel(out.measured)},
                             {"others", per_channel(out.predicted)},
                             {"mapped_deviation", out.deviation},
                             {"probability_wrong", out.probability}});
   }
-  result.details[rejects ? "left_out" : "disagreeing"] = contradicted;
+  const auto unnamed = std::ssize(paint.rejected()) - std::ssize(paint.contradicted());
+  if (unnamed > 0)
+    result.warnings.push_back(std::to_string(unnamed) +
+                              " more samples disagree, left out: --residuals has what all others say of each");
+  result.details["left_out"] = contradicted;
+  result.details["outliers"] = paint.outlier_share();
+  result.details["down_weighted"] = static_cast<double>(paint.rejected().size()) / static_cast<double>(samples);
+  if (paint.outlier_share() >= 0.0005)
+    result.sentence += ", about " + fixed(100.0 * paint.outlier_share(), 1) + " % outliers";
 }
 
 /// Says what is known beside the fit.

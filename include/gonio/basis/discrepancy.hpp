@@ -29,6 +29,14 @@ struct correlation_lengths {
   double azimuth = 0.4;
 };
 
+namespace detail {
+
+/// Where angles are, in units of the lengths: the first coordinate is theta_h's, the others are of theta_d and phi_d.
+[[nodiscard]] Eigen::Vector4d discrepancy_place(const half_difference& angles,
+                                                const correlation_lengths& lengths) noexcept;
+
+}  // namespace detail
+
 /// k of all pairs of angles, for an amplitude of 1: n x n. Throws gonio::error if an angle is not finite or a length is
 /// not positive. O(n^2).
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,

@@ -1,10 +1,9 @@
 #pragma once
-/// Which samples of a material to believe. Of few samples, those that all others contradict are rejected: each is
-/// predicted from the others in closed form (`sample_process`). Of many, the prior's components are fitted again and
-/// again, each time with the samples weighted by the probability that they are inliers (iteratively reweighted least
-/// squares, Holland and Welsch 1977, doi:10.1080/03610927708827533, with the weights of outlier_mixture.hpp), from a
-/// start that outliers cannot drag along. Why so, and the numbers of samples at which it changes:
-/// docs/decisions/0020-wrong-samples.md; results: docs/results/real-materials.md, docs/results/real-methods.md.
+/// Which samples of a material to believe, at any number of them: those that their process does not call wrong
+/// (wrong_samples.hpp). Of more than `most_judged` samples so many at random are judged together, and each of the
+/// others by these; those that are called wrong where most samples are called so are heard again, together. The search
+/// for wrong samples starts from what the nearest material of the prior says, too, which outliers cannot drag along.
+/// Why so: docs/decisions/0020-wrong-samples.md; results: docs/results/real-materials.md, docs/results/real-methods.md.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/random.hpp>
@@ -13,6 +12,7 @@
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/sample_process.hpp>
 #include <gonio/estimate/scaled_likelihood.hpp>
+#include <gonio/estimate/wrong_samples.hpp>
 #include <gonio/solve/product.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
@@ -27,34 +27,10 @@
 
 namespace gonio {
 
-/// Of fewer samples none is rejected: one that disagrees may be the only one in the highlight.
-inline constexpr Eigen::Index fewest_rejected = 13;
-/// From so many samples on each is weighed, and none is named.
-inline constexpr Eigen::Index fewest_weighed = 100;
-
-/// What is expected of wrong samples, and when one is rejected. The defaults were chosen on measured materials, with
-/// two wrong of twenty and with none (docs/results/real-materials.md).
-struct rejection_rule {
-  double expected_number = 0.2;  ///< of wrong samples among all; of one sample in two at most
-  /// Standard deviations of a wrong sample's error in the metric's domain: of what its channels have in common (where
-  /// that is a logarithm, 1.7 is a factor of 5), and of each channel beside.
-  double common_error = 1.7, channel_error = 0.3;
-  double least_probability = 0.75;  ///< of being wrong, for a sample to be rejected
-  double largest_share = 0.2;       ///< of the samples are rejected at most, and at least one
-};
-
-struct wrong_sample {
-  Eigen::Index number = 0;   ///< its position among the samples
-  double probability = 0.0;  ///< that it is wrong
-};
-
-/// The set of wrong samples of the largest probability that a search finds, without those below the rule's least; the
-/// most probable first. A wrong sample has an error of large variance. Sets are compared by their probability given all
-/// samples, the scale of all variances unknown: where the model is poor all samples disagree a little, and none is an
-/// outlier. Mixtures of good and bad observations: Box and Tiao 1968 (doi:10.1093/biomet/55.1.119). O(n^3 + n^2
-/// rejected). Throws gonio::error for an impossible rule.
-[[nodiscard]] std::vector<wrong_sample> find_wrong_samples(const sample_process& samples,
-                                                           const rejection_rule& rule = {});
+/// So many samples are judged together, by a process of all of them.
+inline constexpr Eigen::Index most_judged = 500;
+/// Of so many that the others contradict, what these say is told.
+inline constexpr Eigen::Index most_contradicted = 20;
 
 /// A sample that the others contradict, for people.
 struct outlying_sample {
@@ -67,10 +43,9 @@ struct outlying_sample {
 
 /// What was found about n samples.
 struct inliers {
-  Eigen::VectorXd weights;             ///< what each counts, from 0 (an outlier) to 1
+  Eigen::VectorXd weights;             ///< what each counts, the probability that it is right
   std::vector<Eigen::Index> rejected;  ///< positions of those that count less than half, the worst first
-  /// Those that the others contradict, the worst first; they count all the same if there are fewer than
-  /// `fewest_rejected`. Empty from `fewest_weighed` on.
+  /// The first of them, `most_contradicted` at most and of those that are judged together, with what the others say.
   std::vector<outlying_sample> contradicted = {};
   double outlier_share = 0.0;  ///< of all samples, the sum of what they do not count
 
@@ -81,109 +56,114 @@ struct inliers {
 /// All of n samples.
 [[nodiscard]] inliers all_inliers(Eigen::Index n);
 
-/// The largest share of n samples that may be outliers: 60 %, less 7.2 samples. What disagrees with a dozen others may
-/// as well be a highlight: of twelve samples none is called an outlier, of 20 at most 24 %, of 100 at most 53 %.
+/// The largest share of n samples that a count of outliers may state: 60 %, less 7.2 samples. What disagrees with a
+/// dozen others may as well be a highlight: of twelve samples none, of 20 at most 24 %, of 100 at most 53 %.
 [[nodiscard]] inline double largest_outlier_share(Eigen::Index n) noexcept {
   return n <= 12 ? 0.0 : 0.6 - 7.2 / static_cast<double>(n);
 }
-
-/// Raises inlier weights, all by one factor and to 1 at most, until so many that no more than `largest_outlier_share`
-/// are left count in full. O(n).
-[[nodiscard]] Eigen::VectorXd limit_outliers(const Eigen::VectorXd& inlier_weights);
 
 /// Some samples, each of which counts as much as it did times its inlier weight.
 [[nodiscard]] located_samples weighted(const located_samples& samples, const inliers& found);
 
 namespace detail {
 
-[[nodiscard]] inliers weighed_inliers(Eigen::VectorXd weights);
+/// Of the probabilities that samples are wrong; the worst first, of those that are equally bad `first` before others.
+[[nodiscard]] inliers inliers_of(const Eigen::VectorXd& probabilities, const std::vector<Eigen::Index>& first);
+
+/// Of samples that are wrong with some probabilities, those that are more likely wrong than not, and so are three of
+/// four samples in their neighbourhood, of a correlation length in size, but not they alone. O(n log n).
+[[nodiscard]] std::vector<Eigen::Index> wrong_neighbours(const located_samples& samples,
+                                                         const Eigen::VectorXd& probabilities,
+                                                         const correlation_lengths& lengths);
+
+/// Numbers of some numbers: those at some positions.
+[[nodiscard]] std::vector<Eigen::Index> numbers_at(const std::vector<Eigen::Index>& numbers,
+                                                   const std::vector<Eigen::Index>& positions);
 
 /// The first three numbers of a row.
 [[nodiscard]] inline rgb first_three(const Eigen::MatrixXd& values, Eigen::Index row) {
   return {values(row, 0), values(row, 1), values(row, 2)};
 }
 
-/// The rounds of weighting samples and fitting components again, and the start: the nearest material of the prior.
+/// The reflectance of materials, given their coefficients in rows, at locations: locations x rows.
 template <error_metric Metric>
-class inlier_rounds {
- public:
-  inlier_rounds(const pca<Metric>& prior, double error_variance, thread_count threads)
-      : prior_(prior), solver_(static_cast<double>(prior.coefficients().rows()) * error_variance), threads_(threads) {}
+[[nodiscard]] Eigen::MatrixXd materials_at(const pca<Metric>& prior, const std::vector<location>& locations,
+                                           const Eigen::MatrixXd& coefficients, thread_count threads) {
+  const Eigen::MatrixXd functions_by_material = coefficients.transpose();
+  Eigen::MatrixXd values(std::ssize(locations), coefficients.rows());
+  for_each_block(
+      std::ssize(locations), 256,
+      [&](block range) {
+        const auto here = std::span(locations).subspan(range.begin, range.size());
+        const Eigen::MatrixXd mapped = product(rows_at(prior, here), functions_by_material);
+        for (Eigen::Index i = 0; i < range.size(); ++i) {
+          const location& at = here[i];
+          const double offset = offset_at(prior, at);
+          for (Eigen::Index j = 0; j < mapped.cols(); ++j)
+            values(range.begin + i, j) = reflectance_of(prior.metric(), mapped(i, j) + offset, at);
+        }
+      },
+      threads);
+  return values;
+}
 
-  [[nodiscard]] Eigen::VectorXd weigh(const located_samples& samples, const located_samples& mapped) const {
-    constexpr int rounds = 8;
-    const automatic_weights weighting{.down_weight_tail = false, .threads = threads_};
-    const channel_values measured = samples.channels();
-    const auto weights_by = [&](const channel_values& estimated) {
-      return limit_outliers(weighting.weigh(measured, estimated).row(0).transpose().template cast<double>());
-    };
-    Eigen::VectorXd weights = weights_by(nearest(samples));
-    for (int round = 0; round < rounds; ++round) {
-      const auto equations = basis_equations<pca<Metric>>::of_mapped(prior_, weighted(mapped, {weights, {}}), threads_);
-      const Eigen::MatrixXd values = materials_at(samples.locations, equations.solve(solver_).weights.transpose());
-      weights = weights_by(values.template cast<float>().transpose());
-    }
-    return weights;
-  }
-
- private:
-  /// For each channel the material of the prior, brightened or darkened, under which the samples are most likely a
-  /// mixture of inliers and outliers: its reflectance at them. As `nearest_material`, but no table is expanded.
-  [[nodiscard]] channel_values nearest(const located_samples& samples) const {
-    constexpr Eigen::Index looked_at = 1500;
-    const located_samples some = samples.subset(random_choice(samples.size(), looked_at, 0));
-    const Eigen::MatrixXd materials = materials_at(some.locations, prior_.coefficients().template cast<double>());
-    channel_values estimates(3, samples.size());
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      // Find the likelihood of each material, each with its best factor.
-      const double offset = logarithm_offset(samples.values.col(c));
-      const Eigen::ArrayXd logarithms = (some.values.col(c).array().max(0.0) + offset).log();
-      const outlier_density density({logarithms.begin(), logarithms.end()});
-      const Eigen::ArrayXd outliers = logarithms.unaryExpr([&](double value) { return density(value); });
-      std::vector<scaled_likelihood> found(materials.cols());
-      for_each_block(
-          materials.cols(), 1,
-          [&](block one) {
-            const Eigen::ArrayXd differences = logarithms - (materials.col(one.begin).array() + offset).log();
-            found[one.begin] = best_factor(differences, outliers);
-          },
-          threads_);
-      // Take the best one.
-      const auto best = std::ranges::max_element(found, {}, &scaled_likelihood::log_likelihood);
-      const Eigen::MatrixXf coefficients = prior_.coefficients().row(best - found.begin());
-      const Eigen::MatrixXd values = materials_at(samples.locations, coefficients.cast<double>());
-      estimates.row(c) = (std::exp(best->logarithm_of_factor) * values).cast<float>().transpose();
-    }
-    return estimates;
-  }
-
-  /// The reflectance of materials, or of channels, given their coefficients in rows, at locations: locations x rows.
-  [[nodiscard]] Eigen::MatrixXd materials_at(const std::vector<location>& locations,
-                                             const Eigen::MatrixXd& coefficients) const {
-    const Eigen::MatrixXd functions_by_material = coefficients.transpose();
-    Eigen::MatrixXd values(std::ssize(locations), coefficients.rows());
+/// For each channel the material of the prior, brightened or darkened, under which the samples are most likely a
+/// mixture of inliers and outliers: its reflectance at them. As `nearest_material`, but no table is expanded. O(n m k)
+/// for m materials.
+template <error_metric Metric>
+[[nodiscard]] channel_values nearest_at_samples(const pca<Metric>& prior, const located_samples& samples,
+                                                thread_count threads) {
+  const Eigen::MatrixXd materials =
+      materials_at(prior, samples.locations, prior.coefficients().template cast<double>(), threads);
+  channel_values estimates(3, samples.size());
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    // Find the likelihood of each material, each with its best factor.
+    const double offset = logarithm_offset(samples.values.col(c));
+    const Eigen::ArrayXd logarithms = (samples.values.col(c).array().max(0.0) + offset).log();
+    const outlier_density density({logarithms.begin(), logarithms.end()});
+    const Eigen::ArrayXd outliers = logarithms.unaryExpr([&](double value) { return density(value); });
+    std::vector<scaled_likelihood> found(materials.cols());
     for_each_block(
-        std::ssize(locations), 256,
-        [&](block range) {
-          const auto here = std::span(locations).subspan(range.begin, range.size());
-          const Eigen::MatrixXd mapped = product(rows_at(prior_, here), functions_by_material);
-          for (Eigen::Index i = 0; i < range.size(); ++i) {
-            const location& at = here[i];
-            const double offset = offset_at(prior_, at);
-            for (Eigen::Index j = 0; j < mapped.cols(); ++j)
-              values(range.begin + i, j) = reflectance_of(prior_.metric(), mapped(i, j) + offset, at);
-          }
+        materials.cols(), 1,
+        [&](block one) {
+          const Eigen::ArrayXd differences = logarithms - (materials.col(one.begin).array() + offset).log();
+          found[one.begin] = best_factor(differences, outliers);
         },
-        threads_);
-    return values;
+        threads);
+    // Take the best one.
+    const auto best = std::ranges::max_element(found, {}, &scaled_likelihood::log_likelihood);
+    estimates.row(c) =
+        (std::exp(best->logarithm_of_factor) * materials.col(best - found.begin())).template cast<float>().transpose();
   }
+  return estimates;
+}
 
-  const pca<Metric>& prior_;
-  tikhonov solver_;
-  thread_count threads_;
-};
+/// Those that look like outliers beside the prior's components alone: a start that many outliers cannot drag along. The
+/// components are fitted in turns with the probabilities that samples are inliers (Holland and Welsch 1977,
+/// doi:10.1080/03610927708827533, with outlier_mixture.hpp), from the nearest material on. O(n k^2 + n m k).
+template <error_metric Metric>
+[[nodiscard]] std::vector<bool> outliers_by_components(const pca<Metric>& prior, const located_samples& samples,
+                                                       const located_samples& mapped, double error_variance,
+                                                       thread_count threads) {
+  constexpr int rounds = 8;
+  const tikhonov solver(static_cast<double>(prior.coefficients().rows()) * error_variance);
+  const automatic_weights weighting{.down_weight_tail = false, .threads = threads};
+  const channel_values measured = samples.channels();
+  channel_values weights = weighting.weigh(measured, nearest_at_samples(prior, samples, threads));
+  for (int round = 0; round < rounds; ++round) {
+    const inliers found{weights.row(0).transpose().template cast<double>(), {}};
+    if (found.kept().empty()) break;
+    const auto equations = basis_equations<pca<Metric>>::of_mapped(prior, weighted(mapped, found), threads);
+    const Eigen::MatrixXd values =
+        materials_at(prior, samples.locations, equations.solve(solver).weights.transpose(), threads);
+    weights = weighting.weigh(measured, values.template cast<float>().transpose());
+  }
+  std::vector<bool> wrong(samples.size());
+  for (Eigen::Index i = 0; i < samples.size(); ++i) wrong[i] = weights(0, i) < 0.5f;
+  return wrong;
+}
 
-/// What the samples that are not contradicted make of those that are.
+/// What the samples that are not contradicted make of the first of those that are, of samples that a process is of.
 template <error_metric Metric>
 [[nodiscard]] std::vector<outlying_sample> told_by_others(const pca<Metric>& prior, const located_samples& samples,
                                                           const sample_process& process,
@@ -193,7 +173,7 @@ template <error_metric Metric>
   if (numbers.empty()) return {};
   const sample_predictions others = process.predicted_without(numbers);
   std::vector<outlying_sample> told;
-  for (Eigen::Index i = 0; i < std::ssize(wrong); ++i) {
+  for (Eigen::Index i = 0; i < std::min(std::ssize(wrong), most_contradicted); ++i) {
     const location& at = samples.locations[numbers[i]];
     const double offset = offset_at(prior, at);
     outlying_sample out{.number = numbers[i],
@@ -208,25 +188,85 @@ template <error_metric Metric>
   return told;
 }
 
+/// Judges samples of a material in groups. `mapped` are all of them in the prior's domain.
+template <error_metric Metric>
+class sample_judge {
+ public:
+  sample_judge(const pca<Metric>& prior, const expected_covariance& expected, const located_samples& mapped,
+               const Eigen::VectorXd& error_variances, thread_count threads)
+      : prior_(prior), expected_(expected), mapped_(mapped), error_variances_(error_variances), threads_(threads) {}
+
+  [[nodiscard]] sample_process process_of(const std::vector<Eigen::Index>& positions) const {
+    const located_samples some = mapped_.subset(positions);
+    Eigen::VectorXd errors(some.size());
+    for (Eigen::Index i = 0; i < errors.size(); ++i) errors[i] = error_variances_[positions[i]];
+    return {expected_, locate_rows(prior_, some.locations), some, errors};
+  }
+
+  /// The probabilities that samples are wrong: of those that were judged, at `positions`, and by them of all others.
+  [[nodiscard]] Eigen::VectorXd probabilities(const judged_samples& judged,
+                                              const std::vector<Eigen::Index>& positions) const {
+    Eigen::VectorXd found(mapped_.size());
+    std::vector<bool> is_judged(mapped_.size(), false);
+    for (Eigen::Index i = 0; i < std::ssize(positions); ++i) {
+      found[positions[i]] = judged.probabilities()[i];
+      is_judged[positions[i]] = true;
+    }
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index i = 0; i < mapped_.size(); ++i)
+      if (!is_judged[i]) others.push_back(i);
+    for_each_block(
+        std::ssize(others), 512,
+        [&](block range) {
+          const std::vector<Eigen::Index> here(others.begin() + range.begin, others.begin() + range.end);
+          const located_samples some = mapped_.subset(here);
+          Eigen::VectorXd errors(some.size());
+          for (Eigen::Index i = 0; i < errors.size(); ++i)
+            errors[i] = error_variances_[here[i]] / some.weights.row(i).mean();
+          const Eigen::VectorXd wrong = judged.probabilities(locate_rows(prior_, some.locations), some.values, errors);
+          for (Eigen::Index i = 0; i < errors.size(); ++i) found[here[i]] = wrong[i];
+        },
+        threads_);
+    return found;
+  }
+
+  /// Of those that are called wrong, none whose neighbours are, too, is wrong if a judgement of these and others
+  /// together does not say so: a narrow highlight of which a random choice has one sample.
+  [[nodiscard]] Eigen::VectorXd heard_again(Eigen::VectorXd wrong, const std::vector<Eigen::Index>& first) const {
+    const std::vector<Eigen::Index> doubted = wrong_neighbours(mapped_, wrong, rejection_rule{}.highlight_lengths);
+    if (doubted.empty()) return wrong;
+    std::vector<Eigen::Index> together = numbers_at(doubted, random_choice(std::ssize(doubted), most_judged / 3, 0));
+    const auto others = numbers_at(first, random_choice(std::ssize(first), most_judged - std::ssize(together), 0));
+    together.insert(together.end(), others.begin(), others.end());
+    std::ranges::sort(together);
+    together.erase(std::unique(together.begin(), together.end()), together.end());
+    std::vector<std::vector<bool>> starts(1);
+    for (const Eigen::Index i : together) starts[0].push_back(wrong[i] > 0.5);
+    const judged_samples judged = judge_samples(process_of(together), {}, starts);
+    const Eigen::VectorXd again = probabilities(judged, together);
+    for (const Eigen::Index i : doubted) wrong[i] = std::min(wrong[i], again[i]);
+    return wrong;
+  }
+
+ private:
+  const pca<Metric>& prior_;
+  const expected_covariance& expected_;
+  const located_samples& mapped_;
+  const Eigen::VectorXd& error_variances_;
+  thread_count threads_;
+};
+
 }  // namespace detail
 
-/// What each of n samples in colours counts, from 0 (an outlier) to 1, of which most may be outliers: the prior's
-/// components are fitted eight times. `mapped` are the same in the prior's domain (`map_samples`). O(8 n k^2 + 1500 m
-/// k) for k components and m materials.
+/// The inliers of samples in colours: `mapped` are the same in the prior's domain (`map_samples`), `error_variances`
+/// those of each one's error. `all` is the process of all of them, if there is one: it is used for up to `most_judged`.
+/// For n samples, j of them judged together, k components and m materials: what `judge_samples` does for j, O(n j (j +
+/// k)), and O(j m k).
 template <error_metric Metric>
-[[nodiscard]] Eigen::VectorXd weigh_inliers(const pca<Metric>& prior, const located_samples& samples,
-                                            const located_samples& mapped, double error_variance,
-                                            thread_count threads = {}) {
-  return detail::inlier_rounds<Metric>(prior, error_variance, threads).weigh(samples, mapped);
-}
-
-/// The inliers of samples in colours: `mapped` are the same in the prior's domain (`map_samples`), `process` is theirs,
-/// which fewer than `fewest_weighed` need. Costs what `find_wrong_samples` does, or O(8 n k^2 + 1500 m k) for n
-/// samples, k components and m materials.
-template <error_metric Metric>
-[[nodiscard]] inliers find_inliers(const pca<Metric>& prior, const located_samples& samples,
-                                   const located_samples& mapped, const std::optional<sample_process>& process,
-                                   double error_variance, thread_count threads = {}) {
+[[nodiscard]] inliers find_inliers(const pca<Metric>& prior, const expected_covariance& expected,
+                                   const located_samples& samples, const located_samples& mapped,
+                                   const Eigen::VectorXd& error_variances,
+                                   const std::optional<sample_process>& all = {}, thread_count threads = {}) {
   // A logarithm does not tell apart what is negative.
   const std::optional<located_samples> in_gamut = out_of_gamut_as_xyz(samples);
   const std::optional<located_samples> in_gamut_mapped =
@@ -234,18 +274,28 @@ template <error_metric Metric>
   const located_samples& judged = in_gamut ? *in_gamut : samples;
   const located_samples& judged_mapped = in_gamut ? *in_gamut_mapped : mapped;
 
-  if (samples.size() >= fewest_weighed)
-    return detail::weighed_inliers(weigh_inliers(prior, judged, judged_mapped, error_variance, threads));
-  inliers found = all_inliers(samples.size());
-  found.contradicted = detail::told_by_others(
-      prior, samples, *process, find_wrong_samples(in_gamut ? process->with_values(judged_mapped.values) : *process));
-  if (samples.size() < fewest_rejected) return found;
-  for (const outlying_sample& out : found.contradicted) {
-    found.rejected.push_back(out.number);
-    found.weights[out.number] = 0.0;
-  }
-  found.outlier_share = static_cast<double>(found.rejected.size()) / static_cast<double>(samples.size());
-  return found;
+  // Judge some together, and all others by these.
+  const detail::sample_judge judge(prior, expected, judged_mapped, error_variances, threads);
+  const std::vector<Eigen::Index> positions = random_choice(samples.size(), most_judged, 0);
+  const located_samples some = judged.subset(positions), some_mapped = judged_mapped.subset(positions);
+  const bool has_all = all && samples.size() <= most_judged;
+  const sample_process process = has_all ? all->with_values(some_mapped.values) : judge.process_of(positions);
+  const std::vector<std::vector<bool>> starts{
+      detail::outliers_by_components(prior, some, some_mapped, expected.model.error_variance, threads)};
+  const judged_samples found = judge_samples(process, {}, starts);
+  Eigen::VectorXd wrong = judge.probabilities(found, positions);
+  if (samples.size() > most_judged) wrong = judge.heard_again(std::move(wrong), positions);
+  // Name them, and tell what the others say, in the colours that were measured.
+  std::vector<wrong_sample> worst;
+  std::vector<Eigen::Index> numbers;
+  for (const wrong_sample& each : found.wrong())
+    if (wrong[positions[each.number]] > 0.5) worst.push_back(each);
+  for (const wrong_sample& each : worst) numbers.push_back(positions[each.number]);
+  inliers told = detail::inliers_of(wrong, numbers);
+  told.contradicted = detail::told_by_others(prior, samples.subset(positions),
+                                             process.with_values(mapped.subset(positions).values), worst);
+  for (outlying_sample& each : told.contradicted) each.number = positions[each.number];
+  return told;
 }
 
 }  // namespace gonio

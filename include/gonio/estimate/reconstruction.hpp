@@ -132,10 +132,10 @@ template <error_metric Metric>
 typename reconstruction<Metric>::selection reconstruction<Metric>::select(const located_samples& samples) const {
   const located_samples mapped = map_samples(prior_, samples, threads_);
   selection chosen;
-  if (has_process(samples.size()) || (rejects_ && samples.size() < fewest_weighed))
-    chosen.all = process_of_mapped(mapped);
-  chosen.found = rejects_ ? find_inliers(prior_, samples, mapped, chosen.all, model().error_variance, threads_)
-                          : all_inliers(samples.size());
+  if (has_process(samples.size())) chosen.all = process_of_mapped(mapped);
+  chosen.found = rejects_
+                     ? find_inliers(prior_, expected_, samples, mapped, error_variances(mapped), chosen.all, threads_)
+                     : all_inliers(samples.size());
   chosen.kept = weighted(mapped, chosen.found);
   if (!has_process(chosen.kept.size())) return chosen;
   if (!chosen.all)

@@ -15,9 +15,8 @@ namespace gonio {
 
 namespace detail {
 
-/// Where angles are, in units of the lengths: the first coordinate is theta_h's, the others are of theta_d and phi_d.
-[[nodiscard]] inline Eigen::Vector4d discrepancy_place(const half_difference& angles,
-                                                       const correlation_lengths& lengths) noexcept {
+GONIO_INLINE Eigen::Vector4d discrepancy_place(const half_difference& angles,
+                                               const correlation_lengths& lengths) noexcept {
   constexpr double right_angle = std::numbers::pi / 2.0;
   const double radius = 0.5 * std::sin(angles.theta_d) / lengths.azimuth;
   return {std::sqrt(std::max(angles.theta_h, 0.0) / right_angle) / lengths.theta_h,
