@@ -49,19 +49,17 @@ function samples_as_marks(samples, x, y, others = []) {
 function verdict() {
   const { details, count } = data;
   const box = element("div", { className: off.length || details.down_weighted > 0 ? "disagree" : "agree" });
-  if (details.outliers !== undefined) {
-    box.append(paragraph(`About ${percent(details.outliers)} of ${count} samples are outliers; ` +
-      `${percent(details.down_weighted)} count less than half.`));
-    if (data.worst.length) box.append(paragraph(`\u2715 The worst: ${data.worst.length === 1 ? "sample" : "samples"} ${data.worst.join(", ")}.`));
+  const contradicted = details.left_out || [], share = details.down_weighted || 0;
+  const repeated = data.warnings.some((each) => each.includes("have the same directions"));
+  if (contradicted.length === 0 && share === 0) {
+    box.append(paragraph(count === 1 ? "One sample: there is no other that could disagree."
+      : repeated ? "Samples of the same directions contradict each other; which of them is wrong the others do not say."
+      : `None of the ${count} samples disagrees with the others.`));
     return box;
   }
-  const contradicted = details.left_out || details.disagreeing || [];
-  if (contradicted.length === 0) {
-    box.append(paragraph(count === 1 ? "One sample: there is no other that could disagree." : `None of the ${count} samples disagrees with the others.`));
-    return box;
-  }
-  box.append(paragraph(`${contradicted.length} of ${count} samples ` + (contradicted.length === 1 ? "disagrees" : "disagree") +
-    (details.left_out ? " with the others and the fit leaves " + (contradicted.length === 1 ? "it" : "them") + " out:" : "; of so few, none is left out:")));
+  const number = Math.round(share * count);
+  box.append(paragraph(`${number} of ${count} samples ${number === 1 ? "disagrees" : "disagree"} with the others and ` +
+    `${number === 1 ? "counts" : "count"} less than half` + (contradicted.length < number ? "; the worst:" : ":")));
   for (const each of contradicted) {
     const sample = by_number.get(each.sample);
     box.append(paragraph(`\u2715 Sample ${each.sample} (${sample ? where(sample) : ""}): measured ${channels(each.measured)}, ` +
@@ -74,8 +72,8 @@ function answer() {
   const { details, count } = data;
   const words = element("div", {},
     paragraph(`Half of all directions are known to ${percent(details.known_to)}.`, "headline"),
-    paragraph(`Half of those beyond 80\u00b0 are known to ${percent(details.known_to_beyond_80_degrees)}; the highlight to a factor of ` +
-      `${digits(details.highlight_known_to_factor)} (95 of 100 cases).`),
+    paragraph(`Half of those beyond 80\u00b0 are known to ${percent(details.known_to_beyond_80_degrees)}; the highlight ` +
+      (details.highlight_known_to_factor > 100 ? "is not known." : `to a factor of ${digits(details.highlight_known_to_factor)} (95 of 100 cases).`)),
     verdict(),
     paragraph(`From ${count} ${count === 1 ? "sample" : "samples"}. \u201cKnown to 6 %\u201d: in 68 of 100 cases the true value is ` +
       "within 6 % of the fit, for materials like those that the prior knows.", "soft"));

@@ -179,9 +179,10 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
                   "components alone, with a penalty chosen by cross-validation")
       .check(check::range(0.0, 10.0))
       .capture_default_str();
-  command.add_flag("--no-reject", options->keeps_all,
-                   "Let all samples count in full: of 13 to 99, pca leaves out and names those that the others "
-                   "contradict; of more, outliers count less");
+  command.add_flag(
+      "--no-reject", options->keeps_all,
+      "Let all samples count in full: without it pca leaves out those that the others contradict, and names "
+      "the worst");
   command.add_output("--residuals", options->residuals, {".csv"},
                      "What all other samples say of each sample, to write (.csv)");
   command.add_output("--uncertainty", options->uncertainty, {".binary", ".npy"},

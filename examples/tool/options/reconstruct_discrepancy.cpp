@@ -54,9 +54,12 @@ void describe(const gonio::certainty& known, reconstruction& result) {
   // A highlight that may be four times too bright or too dark is no result.
   const double factor = known.highlight_factor;
   result.details["highlight_known_to_factor"] = factor;
+  constexpr double unknown = 100.0;
+  const std::string how_well =
+      factor > unknown ? "is not known" : "is known to a factor of " + fixed(factor, factor < 10.0 ? 1 : 0) + " only";
   if (factor > 4.0)
-    result.warnings.push_back("the highlight is known to a factor of " + fixed(factor, factor < 10.0 ? 1 : 0) +
-                              " only: measure more directions whose half vector is within 5 degrees of the normal");
+    result.warnings.push_back("the highlight " + how_well +
+                              ": measure more directions whose half vector is within 5 degrees of the normal");
   result.details["known_to"] = known.known_to;
   result.details["known_to_beyond_80_degrees"] = known.known_to_at_grazing;
   result.sentence += "; half of all directions are known to " + fixed(100.0 * known.known_to, 0) +
@@ -87,7 +90,8 @@ void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, re
   const auto unnamed = std::ssize(paint.rejected()) - std::ssize(paint.contradicted());
   if (unnamed > 0)
     result.warnings.push_back(std::to_string(unnamed) +
-                              " more samples disagree, left out: --residuals has what all others say of each");
+                              (unnamed == 1 ? " more sample disagrees" : " more samples disagree") + ", left out" +
+                              (samples <= most_residuals ? ": --residuals has what all others say of each" : ""));
   result.details["left_out"] = contradicted;
   result.details["outliers"] = paint.outlier_share();
   result.details["down_weighted"] = static_cast<double>(paint.rejected().size()) / static_cast<double>(samples);

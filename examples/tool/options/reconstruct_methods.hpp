@@ -84,8 +84,7 @@ struct reconstruction {
 [[nodiscard]] reconstruction reconstruct_by_components(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
-/// The same components and a discrepancy beside them, without samples that the others contradict; of 100 samples and
-/// more, outliers count less.
+/// The same components and a discrepancy beside them, of samples that count as much as they are likely to be right.
 [[nodiscard]] reconstruction reconstruct_with_discrepancy(const reconstruct_options& options,
                                                           const gonio::log_relative_pca& prior,
                                                           const gonio::sample_set& samples);

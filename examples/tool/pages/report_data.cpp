@@ -96,13 +96,10 @@ std::vector<Eigen::Index> shown_samples(const reported_fit& fit) {
   return {some.begin(), some.end()};
 }
 
-/// The numbers of those that the others contradict, from 1: left out, or kept beside so few.
+/// The numbers of those that the others contradict, from 1.
 std::set<Eigen::Index> disagreeing(const reconstruction& found) {
   std::set<Eigen::Index> numbers;
   for (const Eigen::Index i : found.rejected) numbers.insert(i + 1);
-  if (found.details.contains("disagreeing"))
-    for (const json& each : found.details["disagreeing"].elements())
-      numbers.insert(std::lround(each["sample"].number()));
   return numbers;
 }
 
