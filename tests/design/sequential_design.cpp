@@ -38,7 +38,7 @@ gonio::design::sensitivity random_sensitivity(Eigen::Index points) {
 
 }  // namespace
 
-TEST_CASE("the posterior over candidates is the estimator's fit, and its deviations are those that it states") {
+TEST_CASE("the posterior over candidates is the estimator's fit, and its deviations are those of the process") {
   const gonio::located_samples samples = some_samples({3, 50, 120, 200});
   const auto& estimator = sequence().estimator();
   const gonio::sample_process process = estimator.process_of(samples);
@@ -48,9 +48,12 @@ TEST_CASE("the posterior over candidates is the estimator's fit, and its deviati
   for (Eigen::Index cell = 0; cell < small_cells().size(); cell += 37) {
     const gonio::location& at = sequence().location_of(cell);
     CHECK(estimator.prior().metric().inverse(known.mean(cell, 1), at) ==
-          doctest::Approx(fit.at(cell)[1]).epsilon(1e-3));
-    const double variance = process.scale() * (known.covariance(cell, cell) + sequence().error_variance());
-    CHECK(std::sqrt(variance) == doctest::Approx(paint.deviation(at)).epsilon(1e-6));
+          doctest::Approx(fit.at(cell)[1]).epsilon(3e-3));
+    const double deviation = process.deviation(gonio::row_at(estimator.prior(), at), at.angles),
+                 variance = deviation * deviation - gonio::error_variance_at(estimator.model(), at.angles);
+    CHECK(known.covariance(cell, cell) == doctest::Approx(variance).epsilon(1e-6));
+    // Doubts are beside it where it is stated how sure the fit is.
+    CHECK(paint.deviation(at) > std::sqrt(process.scale()) * deviation);
   }
 }
 

@@ -58,7 +58,7 @@ double mapped_error(const gonio::brdf_table& estimate, const gonio::brdf_table& 
 
 TEST_CASE("the fit is the posterior mean of prior and discrepancy") {
   const sample_set samples = gonio::sample_table(wavy_material(), gonio::random_cells(discrepancy_cells(), 25, 2));
-  const discrepancy_model model{.variance = 0.05, .error_variance = 0.01};
+  const discrepancy_model model{.variance = 0.05, .error_variance = 0.01, .grazing_variance = 0.0};
   const auto fit = keeping_all(discrepancy_prior(), model).fit(samples);
 
   // The textbook's: k(x, X) (k(X, X) + variance of the errors)^-1 y.
@@ -96,7 +96,7 @@ TEST_CASE("the fit is the posterior mean of prior and discrepancy") {
 TEST_CASE("the mean of the process is the ridge regression of components joined to a discrepancy") {
   sample_set samples = gonio::sample_table(wavy_material(), gonio::random_cells(discrepancy_cells(), 25, 2));
   samples[4].weight = 0.25;
-  const discrepancy_model model{.variance = 0.05, .error_variance = 0.01, .noise = 0.03};
+  const discrepancy_model model{.variance = 0.05, .error_variance = 0.01, .grazing_variance = 0.0, .noise = 0.03};
   for (const bool apart : {false, true}) {
     CAPTURE(apart);
     if (apart) samples[7].weight = gonio::rgb(1.0, 0.1, 0.5);
@@ -136,7 +136,9 @@ TEST_CASE("what the components cannot say is learned from many samples") {
 
 TEST_CASE("a discrepancy of almost no variance leaves the components alone") {
   const sample_set samples = gonio::sample_table(wavy_material(), gonio::random_cells(discrepancy_cells(), 15, 5));
-  const auto with = keeping_all(discrepancy_prior(), {.variance = 1e-12}).fit(samples).tabulate(discrepancy_cells());
+  const auto with = keeping_all(discrepancy_prior(), {.variance = 1e-12, .grazing_variance = 0.0})
+                        .fit(samples)
+                        .tabulate(discrepancy_cells());
   const auto without =
       gonio::decomposition{discrepancy_prior(), gonio::tikhonov{24 * 0.007}}.fit(samples).tabulate(discrepancy_cells());
   CHECK(mapped_error(with, without) < 1e-6);

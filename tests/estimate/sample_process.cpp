@@ -108,7 +108,8 @@ TEST_CASE("other places are predicted as the textbook does") {
   CHECK((covariance - (before - with * factors.solve(with.transpose()))).norm() < 1e-9);
   for (Eigen::Index i = 0; i < 3; ++i)
     CHECK(process.deviation(places.rows.row(i), places.angles[i]) ==
-          doctest::Approx(std::sqrt(covariance(i, i) + process.expected().model.error_variance)));
+          doctest::Approx(
+              std::sqrt(covariance(i, i) + gonio::error_variance_at(process.expected().model, places.angles[i]))));
 }
 
 TEST_CASE("familiarity shares the samples among components, discrepancy and errors") {
@@ -127,4 +128,34 @@ TEST_CASE("samples whose covariance cannot be are refused") {
   const gonio::sample_process process = some_process(6, 0.2, Eigen::MatrixXd::Ones(6, 1), -5.0);
   scratch::check_refused([&] { return process.scale(); }, {"not positive definite"});
   scratch::check_refused([&] { return process.inverse(); }, {"not positive definite"});
+}
+
+TEST_CASE("an error is larger where light or viewer graze") {
+  const gonio::discrepancy_model model{.error_variance = 0.01, .grazing_variance = 0.2};
+  CHECK(gonio::error_variance_at(model, {0.0, 0.0, 0.0}) == doctest::Approx(0.01));
+  // 2.5 degrees above the horizon.
+  CHECK(gonio::error_variance_at(model, {0.0, gonio::radians(87.5), 0.3}) ==
+        doctest::Approx(0.01 + 0.2 / std::exp(1.0)));
+}
+
+TEST_CASE("doubts are beside the process, and what neighbours err together does not average out") {
+  const gonio::sample_process process = some_process(7, 0.2, Eigen::MatrixXd::Ones(7, 1)),
+                              doubting = process.with_doubts();
+  const auto& at = process.at().angles;
+  const gonio::discrepancy_model& model = process.expected().model;
+  const Eigen::MatrixXd expected = process.covariance() +
+                                   model.doubt.variance * gonio::discrepancy_covariance(at, model.doubt.lengths) +
+                                   model.doubt.shared_error_variance * gonio::discrepancy_covariance(at, model.lengths);
+  CHECK((doubting.covariance() - expected).norm() < 1e-12 * expected.norm());
+  CHECK((doubting.values() - process.values()).norm() == 0.0);
+  CHECK_FALSE(process.expected().doubts);
+  // The textbook's deviation.
+  const gonio::half_difference place{0.4, 0.3, 1.0};
+  const Eigen::RowVectorXd row = Eigen::RowVectorXd::LinSpaced(process.at().rows.cols(), -1.0, 1.0);
+  const Eigen::MatrixXd with = doubting.expected().between(process.at(), {row, {place}});
+  const double before = row.squaredNorm() / process.expected().observations + model.variance + model.doubt.variance +
+                        gonio::error_variance_at(model, place);
+  const double variance = before - (with.transpose() * expected.llt().solve(with))(0, 0);
+  CHECK(doubting.deviation(row, place) == doctest::Approx(std::sqrt(variance)));
+  CHECK(doubting.deviation(row, place) > process.deviation(row, place));
 }

@@ -154,6 +154,7 @@ template <error_metric Metric>
   const located_samples both = detail::both_of(part, reference);
   discrepancy_model model = estimator.model();
   model.noise = 0.0;
+  model.grazing_variance = 0.0;  // one variance of all errors, as p-values were calibrated with
   const sample_process process = reconstruction<Metric>{estimator.prior(), model}.process_of(both);
   detail::conformity_samples samples{.parts = part.size(),
                                      .angles = both.angles(),

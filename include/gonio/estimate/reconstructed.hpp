@@ -30,10 +30,10 @@ struct reflectance_interval {
 /// Probabilities that intervals are offered for.
 enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 
-/// To how many of the model's deviations an interval reaches, given the number of samples: a curve through the
-/// conformal factors of measured materials, the quantiles of their errors in such deviations (Lee, Barber and Willett
-/// 2023, doi:10.48550/arXiv.2306.06342). With the factors of other families than its own, a material's intervals hold
-/// 67 to 68 and 94 to 95 % of its values on average. A promise for materials like those, averaged over directions.
+/// To how many of the model's deviations an interval reaches, given the number of samples: one number for up to 500,
+/// from the conformal factors of measured materials whose families the prior has not seen, the quantiles of their
+/// errors in such deviations (Lee, Barber and Willett 2023, doi:10.48550/arXiv.2306.06342): of samples all over, below
+/// some theta_h and in planes. A promise for materials like those, averaged over directions.
 [[nodiscard]] double deviations_of(confidence_level level, Eigen::Index samples) noexcept;
 
 /// How sure a reconstruction is.
@@ -88,7 +88,8 @@ class reconstructed {
       : prior_(std::move(prior)),
         fit_(std::move(fit)),
         known_(std::move(known)),
-        scale_(known_.scale()),
+        doubting_(known_.with_doubts()),
+        scale_(doubting_.scale()),
         found_(std::move(found)),
         kept_(std::ssize(found_.kept())),
         all_(std::move(all)),
@@ -117,7 +118,7 @@ class reconstructed {
   /// The standard deviation of a value in the metric's domain; where that is a logarithm, relative to the value. O(n (n
   /// + k)) for n samples, of which at most `most_known` count, and k components.
   [[nodiscard]] double deviation(const location& at) const {
-    return std::sqrt(scale_) * known_.deviation(row_at(prior_, at), at.angles);
+    return std::sqrt(scale_) * doubting_.deviation(row_at(prior_, at), at.angles);
   }
   /// In two directions above the horizon.
   [[nodiscard]] double deviation(const direction& wi, const direction& wo) const { return deviation(located(wi, wo)); }
@@ -217,7 +218,7 @@ class reconstructed {
 
   pca<Metric> prior_;
   fit_type fit_;
-  sample_process known_;
+  sample_process known_, doubting_;
   double scale_;
   inliers found_;
   Eigen::Index kept_;

@@ -105,7 +105,10 @@ class reconstruction {
 
   /// Of each sample's error: the model's, and what its noise is in the metric's domain.
   [[nodiscard]] Eigen::VectorXd error_variances(const located_samples& samples) const {
-    return model().error_variance + map_noise(prior_, samples.locations, model().noise, threads_).variance.array();
+    Eigen::VectorXd variances = map_noise(prior_, samples.locations, model().noise, threads_).variance;
+    for (Eigen::Index i = 0; i < variances.size(); ++i)
+      variances[i] += error_variance_at(model(), samples.locations[i].angles);
+    return variances;
   }
 
   pca<Metric> prior_;

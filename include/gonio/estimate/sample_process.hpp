@@ -19,6 +19,18 @@
 
 namespace gonio {
 
+/// What is assumed beside, where it is asked how sure a reconstruction is: what makes a mean hardly better, and an
+/// interval true. Chosen on measured materials without their families, from samples all over, below a theta_h and in
+/// planes: docs/decisions/0037-certainty-of-scans.md.
+struct doubt_model {
+  /// Of a material's deviation from its process that is known where samples are, and unknown far from all of them.
+  double variance = 2.0;
+  correlation_lengths lengths{0.13, 0.55, 1.1};
+  /// Of errors that neighbouring samples share over the lengths of the discrepancy: many close together say no more
+  /// than a few.
+  double shared_error_variance = 0.005;
+};
+
 /// What is assumed of materials that a prior has not seen, in the squared units of its metric (natural logarithms of
 /// `log_relative`). The defaults are those of least error on twenty measured materials of the RGL database, each
 /// reconstructed by a prior without its family, at 5 to 500 measurements; choosing them anew for each material by the
@@ -27,6 +39,9 @@ struct discrepancy_model {
   double variance = 0.02;         ///< of the discrepancy
   double error_variance = 0.007;  ///< of what is neither prior nor discrepancy, independent at each measurement
   correlation_lengths lengths = {};
+  /// Added to the error variance where light or viewer graze; it falls by e with each 2.5 degrees above the horizon.
+  double grazing_variance = 0.05;
+  doubt_model doubt = {};
   double noise = 0.0;  ///< of the measurements, relative to them: 0.02 is 2 %
   /// Up to so many samples all is exact. Of more, so many chosen at random have a function of the discrepancy around
   /// them, which smooths it.
@@ -34,6 +49,9 @@ struct discrepancy_model {
   /// So many samples, chosen at random, are fitted: beside at most 1,100 functions more of them change little.
   Eigen::Index most_samples = 200'000;
 };
+
+/// The variance of an error at some angles, without noise.
+[[nodiscard]] double error_variance_at(const discrepancy_model& model, const half_difference& angles) noexcept;
 
 /// A prior's functions at n locations.
 struct located_rows {
@@ -55,6 +73,7 @@ template <basis Basis>
 struct expected_covariance {
   double observations = 1.0;  ///< m
   discrepancy_model model;
+  bool doubts = false;  ///< is the variance of `discrepancy_model::doubt` added?
 
   /// Of all pairs of n locations: n x n. O(n^2 k).
   [[nodiscard]] Eigen::MatrixXd among(const located_rows& all) const;
@@ -117,6 +136,8 @@ class sample_process {
 
   /// Other values of the same samples, n x any number of channels.
   [[nodiscard]] sample_process with_values(Eigen::MatrixXd values) const;
+  /// The same samples with the doubts of the model (`doubt_model`) beside: how sure a fit is, is asked of it. O(n^2 k).
+  [[nodiscard]] sample_process with_doubts() const;
   /// Some of the samples, by their positions, with a factor for the variance of each one's error. O(size^2).
   [[nodiscard]] sample_process subset(std::span<const Eigen::Index> positions,
                                       const Eigen::VectorXd& inlier_weights = {}) const;

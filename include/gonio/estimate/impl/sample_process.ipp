@@ -60,15 +60,24 @@ GONIO_INLINE Eigen::VectorXd sample_predictions::disagreement() const {
   return found;
 }
 
+GONIO_INLINE double error_variance_at(const discrepancy_model& model, const half_difference& angles) noexcept {
+  if (model.grazing_variance == 0.0) return model.error_variance;
+  const cosine_pair cosine = cosines(angles);
+  const double above = std::asin(std::clamp(std::min(cosine.i, cosine.o), 0.0, 1.0));
+  return model.error_variance + model.grazing_variance * std::exp(-above / radians(2.5));
+}
+
 GONIO_INLINE Eigen::MatrixXd expected_covariance::among(const located_rows& all) const {
   Eigen::MatrixXd sum = product_with_transpose(all.rows) / observations;
   if (model.variance != 0.0) sum += model.variance * discrepancy_covariance(all.angles, model.lengths);
+  if (doubts) sum += model.doubt.variance * discrepancy_covariance(all.angles, model.doubt.lengths);
   return sum;
 }
 
 GONIO_INLINE Eigen::MatrixXd expected_covariance::between(const located_rows& some, const located_rows& others) const {
   Eigen::MatrixXd sum = product(some.rows, others.rows.transpose()) / observations;
   if (model.variance != 0.0) sum += model.variance * discrepancy_covariance(some.angles, others.angles, model.lengths);
+  if (doubts) sum += model.doubt.variance * discrepancy_covariance(some.angles, others.angles, model.doubt.lengths);
   return sum;
 }
 
@@ -118,6 +127,16 @@ GONIO_INLINE const Eigen::MatrixXd& sample_process::inverse() const {
 GONIO_INLINE sample_process sample_process::with_values(Eigen::MatrixXd values) const {
   if (values.rows() != size()) refuse({"a process of ", size(), " samples has as many values, not ", values.rows()});
   return {shared_, std::move(values)};
+}
+
+GONIO_INLINE sample_process sample_process::with_doubts() const {
+  expected_covariance doubting = expected();
+  doubting.doubts = true;
+  Eigen::MatrixXd among = doubting.among(at());
+  among += doubting.model.doubt.shared_error_variance * discrepancy_covariance(at().angles, doubting.model.lengths);
+  return {std::make_shared<const stored>(doubting, at(), shared_->sample_weights, shared_->error_variances,
+                                         std::move(among)),
+          values_};
 }
 
 GONIO_INLINE sample_process sample_process::subset(std::span<const Eigen::Index> positions,
@@ -217,8 +236,10 @@ GONIO_INLINE double sample_process::deviation(const Eigen::RowVectorXd& row, con
   const discrepancy_model& model = expected().model;
   Eigen::VectorXd with = product(at().rows, row.transpose()) / expected().observations;
   if (model.variance != 0.0) with += model.variance * discrepancy_covariance(at().angles, angles, model.lengths);
-  const double before =
-      dot(row.data(), row.data(), row.size()) / expected().observations + model.variance + model.error_variance;
+  if (expected().doubts)
+    with += model.doubt.variance * discrepancy_covariance(at().angles, angles, model.doubt.lengths);
+  const double before = dot(row.data(), row.data(), row.size()) / expected().observations + model.variance +
+                        (expected().doubts ? model.doubt.variance : 0.0) + error_variance_at(model, angles);
   factors().solve_lower_in_place(with.data());
   return std::sqrt(std::max(before - dot(with.data(), with.data(), with.size()), 0.0));
 }
