@@ -9,6 +9,7 @@
 
 using gonio::degrees;
 using gonio::io::read_samples;
+using scratch::check_refused;
 using scratch::check_text_refused;
 
 namespace {
@@ -120,4 +121,31 @@ TEST_CASE("refusals say what the file looks like") {
   check_text_refused(half_header + "1,2,\"3\"0,4,5,6\n", {"line 2", "behind its closing double quote"});
   check_text_refused(std::string("PK\x03\x04\x14\x00", 6), {"workbook", "CSV"});
   check_text_refused(std::string("\xFF\xFEt\x00h\x00", 6), {"UTF-16", "UTF-8"});
+}
+
+TEST_CASE("the sign of theta_o in a scan without azimuths is stated, or told by where it is bright") {
+  const auto scan = [](double towards_light, double mirror) {
+    return "theta_i,theta_o,r,g,b\n30,28," + std::to_string(towards_light) + ",1,1\n30,0,1,1,1\n30,-31," +
+           std::to_string(mirror) + ",1,1\n";
+  };
+  const auto side_of_first = [](const std::string& text, const gonio::io::sample_reading& reading = {}) {
+    return gonio::io::read_samples(text, "x", reading)[0].directions.pair().wo.x() > 0.0 ? "light" : "mirror";
+  };
+  const gonio::io::sample_reading as_mirror{.sign = gonio::io::theta_o_sign::mirror},
+      as_light{.sign = gonio::io::theta_o_sign::light};
+  CHECK(side_of_first(scan(1.0, 30.0)) == std::string("light"));
+  CHECK(side_of_first(scan(1.9, 1.0)) == std::string("light"));  // a little towards the light is rough
+  check_text_refused(scan(30.0, 0.0), {"theta_o = theta_i", "1000 times", "--theta-o-sign mirror"});
+  check_text_refused(scan(30.0, 1.0), {"30 times as bright"});
+  CHECK(side_of_first(scan(30.0, 1.0), as_mirror) == std::string("mirror"));
+  CHECK(side_of_first(scan(30.0, 1.0), as_light) == std::string("light"));
+  CHECK(side_of_first("# theta-o-sign: mirror\n" + scan(30.0, 1.0)) == std::string("mirror"));
+  // One sided, which only a stated sign tells.
+  CHECK(side_of_first("theta_i,theta_o,r,g,b\n30,31,1,1,1\n", as_mirror) == std::string("mirror"));
+  check_text_refused("# theta-o-sign: left\n" + scan(1.0, 1.0), {"line 1", "'left'", "light or mirror"});
+  check_refused([&] { return gonio::io::read_samples("# theta-o-sign: light\n" + scan(1.0, 1.0), "x", as_mirror); },
+                {"theta-o-sign light", "says the other"});
+  check_refused(
+      [&] { return gonio::io::read_samples("theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n", "paint.csv", as_light); },
+      {"paint.csv", "--theta-o-sign says nothing"});
 }

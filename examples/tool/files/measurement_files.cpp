@@ -35,6 +35,7 @@ void add_columns(const std::string& list, std::vector<gonio::io::column_name>& c
 
 gonio::io::sample_reading reading_of(const measurement_options& options) {
   gonio::io::sample_reading reading{.columns = {}, .quantity = {}, .note = warn};
+  reading.sign = options.sign;
   for (const std::string& list : options.columns) add_columns(list, reading.columns);
   if (!options.quantity.empty()) reading.quantity = gonio::io::quantity_named(options.quantity);
   return reading;
@@ -50,6 +51,12 @@ void add_measurement_options(command& to, measurement_options& options) {
       .check(check::one_of(std::vector<std::string>(names.begin(), names.end())));
   to.add_option("--columns", options.columns, "What a .csv file of samples calls its columns: theta_o=Winkel,g=Y")
       .repeatable();
+  using gonio::io::theta_o_sign;
+  to.add_choice(
+      "--theta-o-sign", [&options](int sign) { options.sign = static_cast<theta_o_sign>(sign); },
+      {{"light", static_cast<int>(theta_o_sign::light)}, {"mirror", static_cast<int>(theta_o_sign::mirror)}},
+      "Where theta_o is positive in a .csv file without azimuths: on the light's side of the normal (the default), or "
+      "towards the mirror direction");
 }
 
 bool holds_measurements(const std::filesystem::path& path) {
@@ -59,7 +66,8 @@ bool holds_measurements(const std::filesystem::path& path) {
 }
 
 void require_unused(const measurement_options& options, const std::filesystem::path& path) {
-  if (!options.empty()) gonio::refuse({path.native(), ": --quantity and --columns need a .csv file of samples"});
+  if (!options.empty())
+    gonio::refuse({path.native(), ": --quantity, --columns and --theta-o-sign need a .csv file of samples"});
 }
 
 gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, const measurement_options& options) {

@@ -17,14 +17,15 @@ namespace cli {
 
 /// What a user says of a file that does not say it itself.
 struct measurement_options {
-  std::string quantity;                         ///< a name of `gonio::io::sample_quantity`; empty if it is not stated
-  std::vector<std::string> columns;             ///< lists like "theta_o=Winkel,g=Y"
-  std::optional<gonio::illuminant> light = {};  ///< under which wavelengths are seen; none: D65
+  std::string quantity;              ///< a name of `gonio::io::sample_quantity`; empty if it is not stated
+  std::vector<std::string> columns;  ///< lists like "theta_o=Winkel,g=Y"
+  std::optional<gonio::io::theta_o_sign> sign = {};  ///< of scans without azimuths
+  std::optional<gonio::illuminant> light = {};       ///< under which wavelengths are seen; none: D65
 
-  [[nodiscard]] bool empty() const noexcept { return quantity.empty() && columns.empty(); }
+  [[nodiscard]] bool empty() const noexcept { return quantity.empty() && columns.empty() && !sign; }
 };
 
-/// Adds `--quantity` and `--columns`, for every subcommand that reads measurements.
+/// Adds `--quantity`, `--columns` and `--theta-o-sign`, for every subcommand that reads measurements.
 void add_measurement_options(command& to, measurement_options& options);
 
 /// How a file is read by these options, what is ignored or assumed being told as warnings on standard error.

@@ -49,6 +49,8 @@ class sample_rows {
   [[nodiscard]] std::optional<sample_quantity> quantity() const noexcept { return quantity_.quantity(); }
   [[nodiscard]] std::optional<double> wavelength() const noexcept { return wavelength_; }
   [[nodiscard]] const sample_provenance& provenance() const noexcept { return provenance_; }
+  /// Has the file no azimuths, and did nobody say on which side of the normal theta_o is positive?
+  [[nodiscard]] bool assumes_side() const noexcept { return header_.is_in_plane() && !sign_; }
 
  private:
   void read_comment(std::string_view comment);
@@ -59,6 +61,7 @@ class sample_rows {
   void check_percent_signs(std::size_t signs);
   void check_wavelength();
   void check_weights() const;
+  void read_sign(std::string_view value);
   void look_at_sides();
   void finish() const;
 
@@ -69,6 +72,7 @@ class sample_rows {
   stated_quantity quantity_;
   sample_provenance provenance_;
   std::optional<double> wavelength_;
+  std::optional<theta_o_sign> sign_;
   sample_row numbers_ = sample_row(sample_columns.size());
   std::size_t rows_ = 0;
   bool has_percent_signs_ = false, has_signed_angle_ = false;

@@ -14,6 +14,7 @@
 #include <gonio/io/text/text.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,7 +23,7 @@ namespace gonio::io::detail {
 
 [[gnu::cold]] GONIO_INLINE sample_rows::sample_rows(std::string_view text, const std::string& name, bool needs_value,
                                                     const sample_reading& reading)
-    : csv_(text, name), needs_value_(needs_value), reading_(reading) {
+    : csv_(text, name), needs_value_(needs_value), reading_(reading), sign_(reading.sign) {
   numbers_[weight_group.first] = 1.0;
   if (reading.quantity) quantity_.state(*reading.quantity, "what is asked for (--quantity)", csv_.place());
 }
@@ -46,6 +47,7 @@ GONIO_INLINE bool sample_rows::next() {
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_comment(std::string_view comment) {
   const comment_entry entry = entry_of(comment);
   keep(provenance_, entry);
+  if (entry.key == "theta-o-sign") return read_sign(entry.value);
   if (entry.key != "quantity") return;
   const text_place& place = csv_.place();
   if (rows_ > 0) place.refuse("the comment on the quantity stands below a sample, expected above the first");
@@ -54,6 +56,15 @@ GONIO_INLINE bool sample_rows::next() {
     place.refuse({"the quantity ", in_quotes(entry.value),
                   " is unknown, expected brdf, brdf-cosine, reflectance-factor or percent"});
   quantity_.state(*quantity, message_of({"the comment in line ", place.line}), place);
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_rows::read_sign(std::string_view value) {
+  if (value != "light" && value != "mirror")
+    csv_.place().refuse({"theta-o-sign ", in_quotes(value), " is unknown, expected light or mirror"});
+  const theta_o_sign stated = value == "light" ? theta_o_sign::light : theta_o_sign::mirror;
+  if (sign_.value_or(stated) != stated)
+    csv_.place().refuse({"the file says theta-o-sign ", value, ", but --theta-o-sign says the other"});
+  sign_ = stated;
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_header() {
@@ -133,6 +144,10 @@ GONIO_INLINE void sample_rows::check_weights() const {
 
 /// Without azimuths, one negative angle in the file shows that signs tell the sides of the normal apart.
 [[gnu::cold]] GONIO_INLINE void sample_rows::look_at_sides() {
+  if (sign_) {
+    if (*sign_ == theta_o_sign::mirror) numbers_[angle_group.first + 2] *= -1.0;
+    return;
+  }
   const double theta_i = numbers_[angle_group.first], theta_o = numbers_[angle_group.first + 2];
   if (theta_i < 0.0 || theta_o < 0.0) has_signed_angle_ = true;
   if (theta_i > 0.0 && theta_o > 0.0 && line_of_unknown_side_ == 0) line_of_unknown_side_ = csv_.place().line;
@@ -140,18 +155,20 @@ GONIO_INLINE void sample_rows::check_weights() const {
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::finish() const {
   if (rows_ == 0) gonio::refuse({csv_.place().name, ": has a header line but no samples, expected at least one"});
+  if (reading_.sign && !header_.is_in_plane())
+    gonio::refuse({csv_.place().name, ": has azimuths, so that --theta-o-sign says nothing of it"});
   if (line_of_unknown_side_ > 0 && !has_signed_angle_)
     text_place{csv_.place().name, line_of_unknown_side_}.refuse(
         "on which sides of the normal are light and viewer? There are no columns phi_i and phi_o, and no angle of the "
-        "file is negative; expected these columns, or signs: those of one side are equal");
+        "file is negative; expected these columns, or signs: those of one side are equal, or --theta-o-sign");
   if (!reading_.note) return;
   if (const std::string ignored = header_.note_of_ignored(); !ignored.empty())
     reading_.note(message_of({csv_.place().name, ": ", ignored}));
-  if (header_.is_in_plane())
+  if (assumes_side())
     reading_.note(
         message_of({csv_.place().name,
                     ": there are no columns phi_i and phi_o: light and viewer are taken to be on the same side of the "
-                    "normal where theta_i and theta_o have the same sign"}));
+                    "normal where theta_i and theta_o have the same sign (--theta-o-sign light)"}));
 }
 
 }  // namespace gonio::io::detail

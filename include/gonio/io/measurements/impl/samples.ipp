@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/measurements/sample_header.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
@@ -11,9 +12,12 @@
 #include <gonio/io/text/text.hpp>
 #include <gonio/table/sample_set.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -128,6 +132,42 @@ GONIO_INLINE void read_row_values(const parsed_row& row, const sample_directions
   return rows.wavelength() ? channels({*rows.wavelength()}) : channels::one_value();
 }
 
+/// How much brighter the light's side of the normal is than the mirror direction's, at the angle of incidence, if a
+/// scan has both: the median over incidences of 10 degrees and more; 0 if none has. Samples are in a plane.
+[[nodiscard]] GONIO_INLINE double brightness_towards_light(const sample_set& samples) {
+  constexpr double least_incidence = 10.0, reach = 5.0;  // degrees
+  struct sides {
+    std::optional<double> light, mirror;  ///< the brightest sample
+  };
+  std::map<long, sides> incidences;
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
+    const auto& [wi, wo] = samples.directions(i).pair();
+    const double theta_i = degrees(gonio::polar_angle(wi)), theta_o = degrees(gonio::polar_angle(wo));
+    if (theta_i < least_incidence || std::abs(theta_o - theta_i) > reach) continue;
+    const double value = std::ranges::max(samples.values(i));
+    largest = std::max(largest, value);
+    sides& both = incidences[std::lround(2.0 * theta_i)];
+    std::optional<double>& side = wi.x() * wo.x() + wi.y() * wo.y() > 0.0 ? both.light : both.mirror;
+    side = std::max(side.value_or(value), value);
+  }
+  std::vector<double> ratios;
+  const double floor = 1e-3 * largest;  // a receiver before the lamp reads nothing
+  for (const auto& [angle, both] : incidences)
+    if (both.light && both.mirror && floor > 0.0) ratios.push_back(*both.light / std::max(*both.mirror, floor));
+  return ratios.empty() ? 0.0 : median(ratios);
+}
+
+/// Refuses a scan without azimuths that is bright where the light comes from and dark in the mirror direction.
+GONIO_INLINE void require_plausible_sides(const sample_set& samples, const std::string& name) {
+  constexpr double implausible = 2.0;
+  const double ratio = brightness_towards_light(samples);
+  if (ratio > implausible)
+    gonio::refuse({name, ": at theta_o = theta_i it is ", shortest(std::round(10.0 * ratio) / 10.0),
+                   " times as bright as at theta_o = -theta_i: is theta_o positive towards the mirror direction? Then "
+                   "give --theta-o-sign mirror; a material that reflects the light back needs --theta-o-sign light"});
+}
+
 /// The names of the columns of values.
 [[nodiscard]] GONIO_INLINE std::string column_names(const channels& kinds) {
   if (kinds.are_colours()) return "r,g,b,";
@@ -159,6 +199,7 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
     detail::read_row_values(row, at, values);
     file.samples.add(at, values, detail::row_weight(row));
   }
+  if (rows.assumes_side()) detail::require_plausible_sides(file.samples, name);
   file.quantity = rows.quantity();
   file.provenance = rows.provenance();
   return file;
