@@ -154,7 +154,8 @@ TEST_CASE("options on samples need samples") {
   const std::string table = (file.folder / "paint.binary").string(), out = (file.folder / "out.csv").string();
   run("expand --formula red-paint -o " + table);
   for (const std::string command : {"fit ", "info ", "properties "})
-    refuses(command + table + " --quantity percent", {"paint.binary: --quantity, --columns and --theta-o-sign need a .csv file"});
+    refuses(command + table + " --quantity percent",
+            {"paint.binary: --quantity, --columns and --theta-o-sign need a .csv file"});
   refuses("design -n 1 --quantity percent -o " + out, {"--quantity and --columns need --given"});
 }
 

@@ -257,10 +257,10 @@ json record_of_fit(const reported_fit& fit) {
   return record_of(
       {{"Samples", options.samples.string() + ": " + std::to_string(measured.samples.size()) + ", of which " +
                        std::to_string(gonio::counting_positions(measured.samples).size()) + " count"},
-       {"Quantity", std::string(measured.quantity ? name_of(*measured.quantity) : "brdf") +
-                        (measured.samples.channels().wavelengths().size() == 1
-                             ? ", at " + measured.samples.channels().name(0)
-                             : "")},
+       {"Quantity",
+        std::string(measured.quantity ? name_of(*measured.quantity) : "brdf") +
+            (measured.samples.channels().wavelengths().size() == 1 ? ", at " + measured.samples.channels().name(0)
+                                                                   : "")},
        {"Instrument", measured.provenance.instrument},
        {"Date", measured.provenance.date},
        {"Conditions", measured.provenance.conditions},
