@@ -135,11 +135,13 @@ TEST_CASE("the sign of theta_o in a scan without azimuths is stated, or told by 
       as_light{.sign = gonio::io::theta_o_sign::light};
   CHECK(side_of_first(scan(1.0, 30.0)) == std::string("light"));
   CHECK(side_of_first(scan(1.9, 1.0)) == std::string("light"));  // a little towards the light is rough
-  check_text_refused(scan(30.0, 0.0), {"theta_o = theta_i", "1000 times", "--theta-o-sign mirror"});
+  check_text_refused(scan(30.0, 0.0), {"theta_o = theta_i", "times as bright", "--theta-o-sign mirror"});
   check_text_refused(scan(30.0, 1.0), {"30 times as bright"});
   CHECK(side_of_first(scan(30.0, 1.0), as_mirror) == std::string("mirror"));
   CHECK(side_of_first(scan(30.0, 1.0), as_light) == std::string("light"));
   CHECK(side_of_first("# theta-o-sign: mirror\n" + scan(30.0, 1.0)) == std::string("mirror"));
+  // The receiver was not before the lamp.
+  check_text_refused("theta_i,theta_o,r,g,b\n30,31,30,1,1\n30,-60,1,1,1\n", {"30 times as bright"});
   // One sided, which only a stated sign tells.
   CHECK(side_of_first("theta_i,theta_o,r,g,b\n30,31,1,1,1\n", as_mirror) == std::string("mirror"));
   check_text_refused("# theta-o-sign: left\n" + scan(1.0, 1.0), {"line 1", "'left'", "light or mirror"});
