@@ -220,7 +220,7 @@ void add_reconstruction(py::module_& m) {
   fit.def_property_readonly("rejected", &reconstructed_brdf::rejected,
                             "Rows of the samples that count less than half, or not at all, the worst first.");
   fit.def_property_readonly("contradicted", &reconstructed_brdf::contradicted,
-                            "Samples that the others contradict, the worst first, 20 at most.");
+                            "Samples that the others contradict, the worst first; twenty of them at most.");
   fit.def_property_readonly("outlier_share", &reconstructed_brdf::outlier_share, "Of all samples.");
   py::class_<estimator_type> type(
       m, "Estimator",

@@ -89,7 +89,7 @@ class reconstructed {
         fit_(std::move(fit)),
         known_(std::move(known)),
         doubting_(known_.with_doubts()),
-        scale_(doubting_.scale()),
+        scale_(doubting_.scale_of_material()),
         found_(std::move(found)),
         kept_(std::ssize(found_.kept())),
         all_(std::move(all)),

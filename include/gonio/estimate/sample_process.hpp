@@ -24,7 +24,7 @@ namespace gonio {
 /// planes: docs/decisions/0037-certainty-of-scans.md.
 struct doubt_model {
   /// Of a material's deviation from its process that is known where samples are, and unknown far from all of them.
-  double variance = 2.0;
+  double variance = 1.0;
   correlation_lengths lengths{0.13, 0.55, 1.1};
   /// Of errors that neighbouring samples share over the lengths of the discrepancy: many close together say no more
   /// than a few.
@@ -155,6 +155,9 @@ class sample_process {
   /// How badly the model explains the samples, s = (known_before + y' K^-1 y) / (known_before + n), the mean over
   /// channels: the scale of all variances, learned as the variance of normal numbers is.
   [[nodiscard]] double scale() const;
+  /// The same of what is not error alone: of S = K - E, (known_before + y' K^-1 S K^-1 y) / (known_before + tr K^-1 S).
+  /// Many smooth samples say that their errors are small, and nothing of what is far from them. O(n^3).
+  [[nodiscard]] double scale_of_material() const;
   /// The standard deviation of the mapped value at one location, error included, for a scale of 1; `row` has k numbers.
   /// Eq. 2.26. O(n (n + k)).
   [[nodiscard]] double deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const;

@@ -16,7 +16,7 @@ GONIO_INLINE double deviations_of(confidence_level level, Eigen::Index samples) 
   const auto n = static_cast<double>(std::max<Eigen::Index>(samples, 1));
   // Of more than 500 samples the posterior knows 500; what the estimate gains by the others was measured to 20,000.
   const double many = std::pow(std::clamp(500.0 / n, 1.0 / 40.0, 1.0), 1.0 / 7.0);
-  return many * (level == confidence_level::sixty_eight_percent ? 0.54 : 1.9);
+  return many * (level == confidence_level::sixty_eight_percent ? 0.51 : 1.85);
 }
 
 namespace detail {

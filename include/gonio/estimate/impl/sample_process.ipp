@@ -232,6 +232,14 @@ GONIO_INLINE double sample_process::scale() const {
   return (known_before + detail::squared_norm(factors().solve_lower(values_)) / over) / (known_before + n);
 }
 
+GONIO_INLINE double sample_process::scale_of_material() const {
+  const Eigen::MatrixXd without_errors = expected().among(at()), dual = product(inverse(), values_);
+  const Eigen::MatrixXd explained = product(without_errors, dual);
+  const double squares = dot(dual.data(), explained.data(), dual.size()),
+               known = dot(inverse().data(), without_errors.data(), without_errors.size());
+  return (known_before + squares / static_cast<double>(channels())) / (known_before + known);
+}
+
 GONIO_INLINE double sample_process::deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const {
   const discrepancy_model& model = expected().model;
   Eigen::VectorXd with = product(at().rows, row.transpose()) / expected().observations;
