@@ -91,6 +91,14 @@ TEST_CASE("without --spectra, spectra are their colours wherever samples are rea
   CHECK(facts["samples"] == 18);
 }
 
+TEST_CASE("a header line of a thousand wavelengths is read by info, too") {
+  const measured_files files;
+  std::vector<double> wavelengths;
+  for (double wavelength = 400.0; wavelength < 2200.0; wavelength += 1.5) wavelengths.push_back(wavelength);
+  gonio::io::write_samples(files.at("wide.csv"), measured_paint(wavelengths));
+  CHECK(read_json(run("info --json " + files.at("wide.csv")))["wavelengths_nm"].size() == wavelengths.size());
+}
+
 TEST_CASE("a .bsdf has the wavelengths of a file that names them, with --spectra and without") {
   const measured_files files;
   run("reconstruct " + files.at("spectra.csv") + " -o " + files.at("default.bsdf"));

@@ -270,8 +270,10 @@ json describe_csv(const path_type& path, const measurement_options& reading) {
     return {{"kind", "reflectance of a white reference"}};
   }
   const gonio::io::sample_reading how = reading_of(reading);
-  return gonio::io::has_directions_alone(file.start, path.native(), how) ? describe_directions(path, how)
-                                                                         : describe_samples(path, reading);
+  const std::vector<std::byte> bytes = gonio::io::read_bytes(path);  // a header line may be longer than the start
+  return gonio::io::has_directions_alone(gonio::io::as_text(bytes), path.native(), how)
+             ? describe_directions(path, how)
+             : describe_samples(path, reading);
 }
 
 json describe_constraint(const path_type& path) {
