@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <span>
 #include <string>
@@ -31,9 +31,9 @@ GONIO_INLINE channels channels::one_value() {
 
 GONIO_INLINE std::string channels::name(Eigen::Index channel) const {
   if (!wavelengths_.empty()) {
-    std::array<char, 32> digits{};  // as many as the number needs
-    const auto end = std::to_chars(digits.begin(), digits.end(), wavelengths_[channel]).ptr;
-    return std::string(digits.begin(), end) + " nm";
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "%.8g nm", wavelengths_[channel]);
+    return name.data();
   }
   if (size_ == 1) return "value";
   return channel == 0 ? "red" : channel == 1 ? "green" : "blue";
