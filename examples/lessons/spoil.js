@@ -120,8 +120,8 @@ open_lesson("Spoil a sample",
     page.append(element("section", {}, element("h2", {}, "What to try"), element("ul", {},
       element("li", {}, "Spoil any one sample. The fit that counts all of them follows it, and its Delta E rises."),
       element("li", {}, "Spoil the one at 45\u00b0, in the highlight. It is not noticed: who could tell it from a better polish?"),
-      element("li", {}, "Spoil those at 0\u00b0, 5\u00b0 and 10\u00b0. Three that tell the same story support each other."),
-      element("li", {}, "Spoil those from \u221235\u00b0 to \u221220\u00b0. Now the right ones beside them are left out."))),
+      element("li", {}, "Spoil those at 0\u00b0, 5\u00b0 and 10\u00b0. Three that tell the same story support each other, and are found all the same: sets are compared, not single samples."),
+      element("li", {}, "Spoil those from \u221235\u00b0 to \u221220\u00b0: all four are found, and no right one beside them is left out."))),
       paragraph("The estimator is gonio itself, compiled for this page, on the prior that ships; the scan is of red-paint, a formula that the prior does not contain. " +
         "A scan in one plane leaves much open: the error over all directions is not zero without any spoiled sample.", "soft"));
   });
