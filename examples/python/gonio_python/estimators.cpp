@@ -229,7 +229,7 @@ void add_reconstruction(py::module_& m) {
       "reject: leave out samples that the others contradict.");
   type.def(py::init(&estimator_of), py::arg("prior"), py::arg("variance") = gonio::discrepancy_model{}.variance,
            py::arg("noise") = 0.0, py::arg("reject") = true, py::arg("threads") = 0);
-  type.def("fit", &estimator_type::fit<gonio::sample_set>, py::arg("samples"), py::call_guard<py::gil_scoped_release>(),
+  type.def("fit", &estimator_type::fit, py::arg("samples"), py::call_guard<py::gil_scoped_release>(),
            "The BRDF that the samples are of, and how sure that is.");
 }
 

@@ -44,8 +44,7 @@ class errors_in_variables_decomposition {
   }
 
   /// O(16 n k) for n samples beside the solver's cost. Throws gonio::error for unusable samples.
-  template <class Samples>
-  [[nodiscard]] fitted_brdf<pca<Metric>> fit(const Samples& samples) const {
+  [[nodiscard]] fitted_brdf<pca<Metric>> fit(const sample_set& samples) const {
     const located_samples measured = locate_samples(prior_.cells(), samples, threads_);
     const system equations = average(measured);
     const solution first = solve(equations, measured.weights, equations.sample_noise_penalty);

@@ -50,10 +50,6 @@ struct located_samples {
 
 namespace detail {
 
-/// With a weight for each channel if these are `apart`. Throws gonio::error if there is room for none.
-[[nodiscard]] located_samples room_for_samples(Eigen::Index count, bool apart, const gonio::channels& kinds = {});
-/// Without its location but for the angles. `number` is the sample's among all, for the message.
-void put_sample(located_samples& samples, Eigen::Index i, const sample& s, Eigen::Index number);
 /// Completes the locations.
 void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads);
 
@@ -63,27 +59,9 @@ void locate_angles(located_samples& samples, const valid_cells& cells, thread_co
 /// another number.
 [[nodiscard]] located_samples in_colours(located_samples samples);
 
-/// Samples on given cells. Those of weight zero in all channels are left out: whatever looks at all samples, as outlier
-/// weights do, must not see them. Throws gonio::error for unusable ones (`require_usable`), for a reflectance beyond
-/// the range of float, or if all weights are zero. O(samples).
-template <sample_range Samples>
-[[nodiscard]] located_samples locate_samples(const valid_cells& cells, const Samples& samples,
-                                             thread_count threads = {}) {
-  require_usable(samples);
-  Eigen::Index count = 0;
-  for (const sample& s : samples) count += s.weight.counts() ? 1 : 0;
-  located_samples found = detail::room_for_samples(count, weigh_channels_apart(samples));
-  Eigen::Index i = 0;
-  Eigen::Index number = 0;
-  for (const sample& s : samples) {
-    ++number;
-    if (s.weight.counts()) detail::put_sample(found, i++, s, number);
-  }
-  detail::locate_angles(found, cells, threads);
-  return found;
-}
-
-/// The same, in whatever channels they are.
+/// Samples on given cells, in the channels that they have. Those of weight zero in all channels are left out: whatever
+/// looks at all samples, as outlier weights do, must not see them. Throws gonio::error for unusable ones
+/// (`require_usable`), for a reflectance beyond the range of float, or if all weights are zero. O(samples).
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const sample_set& samples,
                                              thread_count threads = {});
 

@@ -64,8 +64,7 @@ class reconstruction {
   /// inliers is told by their colours, or by three bands where no wavelength is visible. n samples, k components and c
   /// centres: O(n^2 (n + k)) up to `most_centres` samples, O(n (k + c)^2) for more. Throws gonio::error for unusable
   /// samples.
-  template <class Samples>
-  [[nodiscard]] result_type fit(const Samples& samples) const {
+  [[nodiscard]] result_type fit(const sample_set& samples) const {
     return fit_located(locate_samples(cells(), samples, threads_), counting_positions(samples));
   }
   /// The same of samples that are located on the prior's cells.

@@ -50,6 +50,9 @@ struct discrepancy_model {
   Eigen::Index most_samples = 200'000;
 };
 
+/// Falls from 1 where light or viewer graze by e with each `reach` in radians that both are above the horizon.
+[[nodiscard]] double grazing_share(const half_difference& angles, double reach) noexcept;
+
 /// The variance of an error at some angles, without noise.
 [[nodiscard]] double error_variance_at(const discrepancy_model& model, const half_difference& angles) noexcept;
 

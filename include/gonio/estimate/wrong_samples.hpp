@@ -32,6 +32,13 @@ struct rejection_rule {
   /// Standard deviations of a wrong sample's error in the metric's domain: of what its channels have in common (where
   /// that is a logarithm, 1.7 is a factor of 5), and of each channel beside.
   double common_error = 1.7, channel_error = 0.3;
+
+  /// Of the error of the channels' mean, times sqrt(3), and of each of their contrasts.
+  [[nodiscard]] double mean_variance() const noexcept {
+    return 3.0 * common_error * common_error + contrast_variance();
+  }
+  [[nodiscard]] double contrast_variance() const noexcept { return channel_error * channel_error; }
+
   /// Of the samples are rejected at most, and at least one.
   double largest_share = 0.6;
 

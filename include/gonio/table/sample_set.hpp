@@ -69,7 +69,7 @@ struct sample {
   [[nodiscard]] const half_difference& angles() const noexcept { return directions.angles(); }
 };
 
-/// Any range of measurements. A laboratory with a struct of its own hands it over in place:
+/// Any range of measurements in colours, of which a `sample_set` is made. A laboratory hands over a struct of its own:
 /// `estimator.fit(readings | std::views::transform(to_sample))`.
 ///
 /// With a model of the library:
@@ -140,6 +140,7 @@ class sample_set {
   explicit sample_set(std::size_t count, const sample& each = {}) : rows_(count, each) {}
   template <std::input_iterator Iterator>
   sample_set(Iterator first, Iterator last) : rows_(first, last) {}
+  /// Any range of samples of colours.
   template <sample_range Samples>
   requires(!std::same_as<std::remove_cvref_t<Samples>, sample_set>) sample_set(const Samples& some)
       : sample_set(std::ranges::begin(some), std::ranges::end(some)) {}
@@ -217,35 +218,12 @@ class sample_set {
 };
 static_assert(sample_range<sample_set>);
 
-namespace detail {
-
-/// `number` counts from 1, for the message.
-void require_usable_sample(const sample& s, Eigen::Index number);
-[[noreturn]] void refuse_no_samples();
-
-}  // namespace detail
-
-/// Refuses what no estimator can use: throws gonio::error naming the first sample that is not finite, has
-/// a negative weight, or has a direction at or below the horizon, or saying that there is none at all.
-template <sample_range Samples>
-void require_usable(const Samples& samples) {
-  Eigen::Index number = 0;
-  for (const sample& s : samples) detail::require_usable_sample(s, ++number);
-  if (number == 0) detail::refuse_no_samples();
-}
+/// Refuses what no estimator can use: throws gonio::error naming the first sample that is not finite or beyond the
+/// range of float, has a negative weight, or has a direction at or below the horizon, or saying that there is none at
+/// all.
 void require_usable(const sample_set& samples);
 
 /// The positions of the measurements that count in any channel, which are those that estimators keep.
-template <sample_range Samples>
-[[nodiscard]] std::vector<Eigen::Index> counting_positions(const Samples& samples) {
-  std::vector<Eigen::Index> positions;
-  Eigen::Index position = 0;
-  for (const sample& s : samples) {
-    if (s.weight.counts()) positions.push_back(position);
-    ++position;
-  }
-  return positions;
-}
 [[nodiscard]] std::vector<Eigen::Index> counting_positions(const sample_set& samples);
 
 /// Does one of the measurements count more in one channel than in another? They are samples, or whatever else has a

@@ -15,23 +15,6 @@
 
 namespace gonio::detail {
 
-GONIO_INLINE located_samples room_for_samples(Eigen::Index count, bool apart, const gonio::channels& kinds) {
-  if (count == 0) refuse("all samples have weight zero: nothing is known");
-  return {std::vector<location>(count), Eigen::MatrixXd(count, kinds.size()), Eigen::MatrixXd(count, apart ? 3 : 1),
-          kinds};
-}
-
-GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sample& s, Eigen::Index number) {
-  for (Eigen::Index channel = 0; channel < 3; ++channel) {
-    if (!std::isfinite(static_cast<float>(s.value[channel])))
-      refuse({"sample ", number, ": a reflectance is beyond the range of float"});
-    samples.values(i, channel) = s.value[channel];
-  }
-  samples.locations[i].angles = s.angles();
-  for (Eigen::Index channel = 0; channel < samples.weights.cols(); ++channel)
-    samples.weights(i, channel) = s.weight[channel];
-}
-
 GONIO_INLINE void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads) {
   for_each_index(
       samples.size(), 1024, [&](Eigen::Index i) { samples.locations[i] = locate(cells, samples.locations[i].angles); },
@@ -102,7 +85,10 @@ GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const samp
   const std::vector<Eigen::Index> counting = counting_positions(samples);
   const gonio::channels& kinds = samples.channels();
   const bool apart = kinds.are_colours() && weigh_channels_apart(samples);
-  located_samples found = detail::room_for_samples(std::ssize(counting), apart, kinds);
+  const Eigen::Index count = std::ssize(counting);
+  if (count == 0) refuse("all samples have weight zero: nothing is known");
+  located_samples found{std::vector<location>(counting.size()), Eigen::MatrixXd(count, kinds.size()),
+                        Eigen::MatrixXd(count, apart ? 3 : 1), kinds};
   for (Eigen::Index i = 0; i < found.size(); ++i) {
     const Eigen::Index from = counting[i];
     found.locations[i].angles = samples.directions(from).angles();

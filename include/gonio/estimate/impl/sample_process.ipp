@@ -60,11 +60,15 @@ GONIO_INLINE Eigen::VectorXd sample_predictions::disagreement() const {
   return found;
 }
 
-GONIO_INLINE double error_variance_at(const discrepancy_model& model, const half_difference& angles) noexcept {
-  if (model.grazing_variance == 0.0) return model.error_variance;
+GONIO_INLINE double grazing_share(const half_difference& angles, double reach) noexcept {
   const cosine_pair cosine = cosines(angles);
   const double above = std::asin(std::clamp(std::min(cosine.i, cosine.o), 0.0, 1.0));
-  return model.error_variance + model.grazing_variance * std::exp(-above / radians(2.5));
+  return std::exp(-above / reach);
+}
+
+GONIO_INLINE double error_variance_at(const discrepancy_model& model, const half_difference& angles) noexcept {
+  if (model.grazing_variance == 0.0) return model.error_variance;
+  return model.error_variance + model.grazing_variance * grazing_share(angles, radians(2.5));
 }
 
 GONIO_INLINE Eigen::MatrixXd expected_covariance::among(const located_rows& all) const {

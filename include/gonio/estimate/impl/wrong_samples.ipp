@@ -61,13 +61,6 @@ inline constexpr double shared_by_mean = 3.0, shared_by_contrast = 0.1;
   return sum;
 }
 
-/// The variance of what a material deviates from its process where light or viewer graze, from sample to sample.
-[[nodiscard]] inline double grazing_variance(const half_difference& angles, const rejection_rule& rule) noexcept {
-  const cosine_pair cosine = cosines(angles);
-  const double above = std::asin(std::clamp(std::min(cosine.i, cosine.o), 0.0, 1.0));
-  return rule.grazing_variance * std::exp(-above / rule.grazing_reach);
-}
-
 /// What wrong samples are told by: the covariances of the mean of the channels and of each contrast, of right samples.
 struct judged_covariances {
   Eigen::MatrixXd mean, contrasts;
@@ -82,7 +75,7 @@ struct judged_covariances {
   found.mean += shared_by_mean * deviation;
   found.contrasts += shared_by_contrast * deviation;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
-    const double grazing = grazing_variance(angles[i], rule);
+    const double grazing = rule.grazing_variance * grazing_share(angles[i], rule.grazing_reach);
     found.mean(i, i) += shared_by_mean * grazing;
     found.contrasts(i, i) += shared_by_contrast * grazing;
   }
@@ -99,8 +92,8 @@ class wrong_sample_set {
   wrong_sample_set(std::shared_ptr<const judged_covariances> covariances, const Eigen::MatrixXd& values,
                    const rejection_rule& rule, std::vector<bool> wrong)
       : covariances_(std::move(covariances)),
-        mean_{3.0 * std::pow(rule.common_error, 2) + std::pow(rule.channel_error, 2)},
-        contrasts_{std::pow(rule.channel_error, 2)},
+        mean_{rule.mean_variance()},
+        contrasts_{rule.contrast_variance()},
         is_wrong_(std::move(wrong)),
         size_(std::ranges::count(is_wrong_, true)),
         expected_number_(rule.expected_number) {
@@ -112,6 +105,10 @@ class wrong_sample_set {
   [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
   [[nodiscard]] bool contains(Eigen::Index i) const { return is_wrong_[i]; }
   [[nodiscard]] const std::vector<bool>& members() const noexcept { return is_wrong_; }
+
+  /// Factors of the covariances, wrong samples having their errors. O(n^3).
+  [[nodiscard]] cholesky mean_factors() const { return mean_.factors(covariances_->mean, is_wrong_); }
+  [[nodiscard]] cholesky contrast_factors() const { return contrasts_.factors(covariances_->contrasts, is_wrong_); }
 
   /// The scale of all variances.
   [[nodiscard]] double scale() const { return (degrees() + squares_ / channels) / (degrees() + count()); }
@@ -187,14 +184,19 @@ class wrong_sample_set {
     Eigen::MatrixXd inverse = {}, dual = {};
     double log_determinant = 0.0;
 
-    /// Returns y' K^-1 y.
-    double factorise(Eigen::MatrixXd covariance, const Eigen::MatrixXd& values, const std::vector<bool>& wrong) {
+    /// Of K: the covariance, and the errors of wrong samples.
+    [[nodiscard]] cholesky factors(Eigen::MatrixXd covariance, const std::vector<bool>& wrong) const {
       for (Eigen::Index i = 0; i < covariance.rows(); ++i)
         if (wrong[i]) covariance(i, i) += error_variance;
-      const cholesky factors = factors_of(covariance);
-      inverse = factors.solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.rows()));
+      return factors_of(covariance);
+    }
+
+    /// Returns y' K^-1 y.
+    double factorise(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values, const std::vector<bool>& wrong) {
+      const cholesky known = factors(covariance, wrong);
+      inverse = known.solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.rows()));
       dual = product(inverse, values);
-      log_determinant = static_cast<double>(values.cols()) * factors.log_determinant();
+      log_determinant = static_cast<double>(values.cols()) * known.log_determinant();
       return dot(dual.data(), values.data(), values.size());
     }
 
@@ -349,14 +351,8 @@ GONIO_INLINE judged_samples judge_samples(const sample_process& samples, const r
   found.at_ = samples.at();
   found.scale_ = set.scale();
   found.log_odds_ = set.log_odds();
-  detail::judged_covariances covariances = detail::covariances_of(samples, search.shared, rule);
-  const double channel = std::pow(rule.channel_error, 2), mean = 3.0 * std::pow(rule.common_error, 2) + channel;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    covariances.mean(i, i) += set.contains(i) ? mean : 0.0;
-    covariances.contrasts(i, i) += set.contains(i) ? channel : 0.0;
-  }
-  found.mean_ = detail::factors_of(covariances.mean);
-  found.contrasts_ = detail::factors_of(covariances.contrasts);
+  found.mean_ = set.mean_factors();
+  found.contrasts_ = set.contrast_factors();
   return found;
 }
 
@@ -378,7 +374,7 @@ GONIO_INLINE Eigen::VectorXd judged_samples::probabilities(const located_rows& o
       const double highlight = detail::highlight_share(angles, rule_.highlight_reach);
       const double before = others.rows.row(i).squaredNorm() / expected_.observations + expected_.model.variance +
                             share * (shared_.everywhere + shared_.in_highlight * highlight * highlight +
-                                     detail::grazing_variance(angles, rule_));
+                                     rule_.grazing_variance * grazing_share(angles, rule_.grazing_reach));
       const double variance = std::max(before - detail::squared_norm(half.col(i)), 0.0) + error_variances[i];
       for (Eigen::Index c = first; c < first + count; ++c) {
         const double off = values(i, c) - predicted(i, c - first);
@@ -388,9 +384,8 @@ GONIO_INLINE Eigen::VectorXd judged_samples::probabilities(const located_rows& o
       }
     }
   };
-  const double channel = std::pow(rule_.channel_error, 2);
-  add(*mean_, detail::shared_by_mean, 3.0 * std::pow(rule_.common_error, 2) + channel, 0, 1);
-  add(*contrasts_, detail::shared_by_contrast, channel, 1, 2);
+  add(*mean_, detail::shared_by_mean, rule_.mean_variance(), 0, 1);
+  add(*contrasts_, detail::shared_by_contrast, rule_.contrast_variance(), 1, 2);
   Eigen::VectorXd found(p);
   for (Eigen::Index i = 0; i < p; ++i) found[i] = 1.0 / (1.0 + std::exp(-log_ratio[i]));
   return found;

@@ -16,6 +16,7 @@
 
 namespace gonio::detail {
 
+/// `number` counts from 1, for the message.
 GONIO_INLINE void require_usable_sample(const sample& s, Eigen::Index number) {
   const auto refuse = [&](const char* what) { gonio::refuse({"sample ", number, ": ", what}); };
   const auto& [theta_h, theta_d, phi_d] = s.angles();
@@ -35,8 +36,6 @@ GONIO_INLINE void require_usable_sample(const sample& s, Eigen::Index number) {
     gonio::refuse({"sample ", number, ": a direction is at or below the horizon (theta_h ", degrees(theta_h),
                    ", theta_d ", degrees(theta_d), ", phi_d ", degrees(phi_d), " degrees)"});
 }
-
-GONIO_INLINE void refuse_no_samples() { gonio::refuse("there are no samples: at least one is needed"); }
 
 }  // namespace gonio::detail
 
@@ -95,7 +94,7 @@ GONIO_INLINE sample_set sample_set::in_three_channels() const {
 }
 
 GONIO_INLINE void require_usable(const sample_set& samples) {
-  if (samples.empty()) detail::refuse_no_samples();
+  if (samples.empty()) refuse("there are no samples: at least one is needed");
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
     const bool has_colour = !samples.channels().are_wavelengths();
     detail::require_usable_sample(
