@@ -3,6 +3,7 @@
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/impl/angular_error.ipp>
+#include <gonio/estimate/impl/aperture_factors.ipp>
 #include <gonio/estimate/impl/highlight_contrast.ipp>
 #include <gonio/estimate/impl/inliers.ipp>
 #include <gonio/estimate/impl/learn_streamed_soft_specular.ipp>

@@ -1,5 +1,6 @@
 // The bodies of table/.
 
+#include <gonio/table/impl/aperture.ipp>
 #include <gonio/table/impl/brdf_table.ipp>
 #include <gonio/table/impl/channels.ipp>
 #include <gonio/table/impl/image.ipp>

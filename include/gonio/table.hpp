@@ -1,6 +1,7 @@
 #pragma once
 /// All of `table/`: grids, valid cells, tables, samples.
 
+#include <gonio/table/aperture.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/cell_matrix.hpp>
 #include <gonio/table/channels.hpp>

@@ -1,5 +1,6 @@
 #include "../io/scratch.hpp"
 #include "../synthetic_materials.hpp"
+#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -243,4 +244,60 @@ TEST_CASE("an impossible model of a discrepancy is refused") {
   refused({.error_variance = 0.0}, {"error variance", "positive"});
   refused({.noise = -0.1}, {"noise", "negative"});
   refused({.most_centres = 0}, {"at least one centre"});
+}
+
+TEST_CASE("readings through an aperture are told apart from those of single directions") {
+  const gonio::valid_cells cells(gonio::grid({40, 9, 12}));
+  const auto prior = learn(synthetic_materials(cells, 12), 12);
+  const gonio::brdf_table truth = synthetic_materials(cells, 12).table(11);  // a lobe of 5 degrees
+  const auto chosen = gonio::random_cells(cells, 120, 5);
+  const gonio::aperture cones{0.0, gonio::radians(6.0)};
+  const sample_set read = gonio::sample_table(truth, chosen, {.aperture = cones}), told = read,
+                   untold = read.through({});
+  CHECK(told.have_apertures());
+  CHECK(!untold.have_apertures());
+  for (const Eigen::Index centres : {1000, 60}) {  // evaluated directly, and by a table
+    CAPTURE(centres);
+    const gonio::reconstruction estimator{prior, {.most_centres = centres}};
+    const auto peak_error = [&](const sample_set& samples) {
+      double sum = 0.0;
+      const auto paint = estimator.fit(samples);
+      for (const double theta_d : {0.2, 0.6, 1.0}) {
+        const auto [wi, wo] = gonio::to_directions({0.0, theta_d, 0.5});
+        sum += std::abs(std::log(paint(wi, wo)[1] / truth(wi, wo)[1])) / 3.0;
+      }
+      return sum;
+    };
+    const double with = peak_error(told), without = peak_error(untold);
+    CAPTURE(with);
+    CAPTURE(without);
+    CHECK(with < 0.5 * without);
+  }
+  // Samples are told of as they were read.
+  const gonio::reconstruction estimator{prior};
+  auto wrong = told;
+  wrong[7].value *= 30.0;
+  const auto paint = estimator.fit(wrong);
+  REQUIRE(paint.rejected().size() >= 1);
+  CHECK(paint.rejected().front() == 7);
+  CHECK((paint.contradicted().front().measured - wrong[7].value).abs().maxCoeff() < 1e-5 * wrong[7].value.maxCoeff());
+  std::vector<double> off;
+  for (const gonio::sample_residual& each : paint.residuals()) {
+    CHECK((each.measured - wrong[each.number].value).abs().maxCoeff() < 1e-5 * each.measured.maxCoeff());
+    off.push_back((each.predicted / each.measured).log().abs().maxCoeff());
+  }
+  CHECK(gonio::median(off) < 0.1);
+  // One channel, and wavelengths, whose factors are their own.
+  sample_set bands(gonio::channels({450.0, 550.0, 650.0, 700.0}));
+  for (const gonio::sample& each : told)
+    bands.add(each.directions, std::array{each.value[0], each.value[1], each.value[2], 0.5 * each.value[1]}, 1.0,
+              cones);
+  const auto [wi, wo] = gonio::to_directions({0.0, 0.6, 0.5});
+  for (const Eigen::Index centres : {1000, 60}) {
+    const gonio::reconstruction any{prior, {.most_centres = centres}};
+    const Eigen::ArrayXd spectrum = any.fit(bands).values(wi, wo);
+    CHECK(spectrum[1] == doctest::Approx(any.fit(told)(wi, wo)[1]).epsilon(0.1));
+    CHECK(spectrum[1] == doctest::Approx(any.fit(bands.channel(1))(wi, wo)[1]).epsilon(0.1));
+    CHECK(spectrum[3] == doctest::Approx(0.5 * spectrum[1]).epsilon(0.1));
+  }
 }

@@ -50,6 +50,29 @@ TEST_CASE("a weight for each channel") {
                      {"line 1", "two ways", "weight_r,weight_g,weight_b"});
 }
 
+TEST_CASE("half angles of readings stand in columns, or above all of them") {
+  const std::string at = "theta_h,theta_d,phi_d,r,g,b";
+  const auto columns = read_samples(
+      at + ",source_half_angle,Receiver Half Angle [rad]\n10,20,30,1,2,3,0.25,0.02\n10,20,30,1,2,3,0,0\n", "x");
+  CHECK(columns[0].aperture.source == doctest::Approx(radians(0.25)));
+  CHECK(columns[0].aperture.receiver == doctest::Approx(0.02));
+  CHECK(columns[1].aperture.is_point());
+  const auto above = read_samples("# receiver-half-angle: 1.5\n" + at + "\n10,20,30,1,2,3\n11,20,30,1,2,3\n", "x");
+  for (const gonio::sample& each : above) CHECK(each.aperture == gonio::aperture{0.0, radians(1.5)});
+  const scratch::folder here;
+  write_samples(here / "a", columns);
+  const auto again = read_samples(here / "a");
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(again[i].aperture.source == doctest::Approx(columns[i].aperture.source));
+    CHECK(again[i].aperture.receiver == doctest::Approx(columns[i].aperture.receiver));
+  }
+  check_text_refused("# receiver-half-angle: wide\n" + at + "\n10,20,30,1,2,3\n",
+                     {"line 1", "receiver-half-angle", "wide", "degrees"});
+  for (const char* angle : {"-1", "46"})
+    check_text_refused(at + ",receiver_half_angle\n10,20,30,1,2,3," + angle + "\n",
+                       {"line 2", "receiver_half_angle", angle, "0 to 45"});
+}
+
 TEST_CASE("all three ways to give directions agree") {
   const gonio::direction wi = gonio::spherical_direction(radians(30), radians(40));
   const gonio::direction wo = gonio::spherical_direction(radians(50), radians(200));

@@ -33,8 +33,10 @@ struct real_materials_options : left_out_options {
   std::vector<Eigen::Index> designed{5, 10, 20}, random{20, 100, 500, 2000};
   std::vector<std::string> methods{"first", "all", "discrepancy", "default"};
   Eigen::Index first_components = 60, repetitions = 2, wrong = 0;
-  double noise = 0.0;
+  double noise = 0.0, receiver_half_angle = 0.0;
   bool surrogates = false;
+
+  [[nodiscard]] gonio::aperture aperture() const { return {0.0, gonio::radians(receiver_half_angle)}; }
 };
 
 std::vector<sampling> samplings(const real_materials_options& given) {
@@ -71,7 +73,8 @@ class experiment : left_out_experiment {
                          material.name, given_.components,
                          given_.noise,  given_.repetitions,
                          given_.set,    given_.surrogates,
-                         given_.wrong,  "shape"};
+                         given_.wrong,  given_.receiver_half_angle,
+                         "shape"};
           by_material[material.name] = once(key, material.turn, where.name + " " + method + " " + material.name,
                                             [&] { return errors_of(material, where, method); });
         }
@@ -106,6 +109,19 @@ class experiment : left_out_experiment {
     const auto metric = gonio::log_relative::to_median_of(set, given_.threads);
     const Eigen::Index components = everything ? given_.components : given_.first_components;
     return priors_.emplace(key, gonio::learn_pca(std::move(set), metric, components, given_.threads)).first->second;
+  }
+
+  /// What the instrument reads: the mean over its receiver.
+  [[nodiscard]] reflectance reading_of(const judged_material& material) const {
+    constexpr int pairs_a_reading = 512;
+    const gonio::aperture cones = given_.aperture();
+    if (cones.is_point()) return material.measured;
+    return [of = material.measured, cones](const gonio::direction_pair& axes) -> gonio::rgb {
+      gonio::rgb sum(0.0, 0.0, 0.0);
+      const auto pairs = gonio::pairs_within(axes, cones, pairs_a_reading);
+      for (const gonio::direction_pair& each : pairs) sum += of(each);
+      return sum / static_cast<double>(pairs.size());
+    };
   }
 
   /// A table, and which samples were left out, the worst first.
@@ -166,7 +182,8 @@ class experiment : left_out_experiment {
       return {components.fit(samples).tabulate(library_.cells(), given_.threads)};
     }
     const gonio::reconstruction both{known, {.noise = given_.noise}, given_.threads};
-    const auto paint = (method == "default" ? both : both.keeping_all()).fit(samples);
+    const auto paint = (method == "discrepancy" ? both.keeping_all() : both)
+                           .fit(method == "untold" ? samples : samples.through(given_.aperture()));
     estimated found{paint.tabulate(library_.cells()), paint.rejected()};
     count_within(found, paint, material.truth);
     found.warned = paint.certainty().highlight_factor > 4.0;
@@ -181,7 +198,7 @@ class experiment : left_out_experiment {
     const auto times = static_cast<double>(where.sets.size());
     for (Eigen::Index r = 0; r < std::ssize(where.sets); ++r) {
       const std::uint64_t seed = 1000 * material.number + r;
-      gonio::sample_set samples = measure(material.measured, where.sets[r], given_.noise, seed);
+      gonio::sample_set samples = measure(reading_of(material), where.sets[r], given_.noise, seed);
       const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_.wrong, seed + 100);
       const estimated found = estimate(method, samples, material);
       const gonio::comparison errors = compare(found.table, material);
@@ -260,6 +277,8 @@ void print(const real_materials_options& given, const json& rows) {
             << " random sets each";
   if (given.noise > 0.0) std::cout << ", noise of " << fixed(100.0 * given.noise, 0) << " %";
   if (given.wrong > 0) std::cout << ", " << given.wrong << " samples ten times too bright or too dark";
+  if (given.receiver_half_angle > 0.0)
+    std::cout << ", a receiver of a half angle of " << fixed(given.receiver_half_angle, 1) << " degrees";
   std::cout
       << ".\n\n| samples | method | mapped rms | Delta E env | Delta E lights | peak, least to largest | peaks beyond "
          "4 times (warned), warned in all | left out | wrong ones first | within 68 % | within 95 % (worst region) | "
@@ -304,8 +323,8 @@ void add_real_materials(command& app, const team& processes) {
       .add_option("--methods", options->methods,
                   "first: components of the first file of networks; all: of all networks and the other measured "
                   "materials; discrepancy: the same and a discrepancy; default: and without samples that the others "
-                  "contradict, as gonio reconstruct does")
-      .check(check::one_of({"first", "all", "discrepancy", "default"}))
+                  "contradict, as gonio reconstruct does; untold: and without the half angle of the receiver")
+      .check(check::one_of({"first", "all", "discrepancy", "default", "untold"}))
       .capture_default_str();
   command.add_option("--first-components", options->first_components, "Components of the prior of the first file")
       .check(check::positive_number())
@@ -317,6 +336,10 @@ void add_real_materials(command& app, const team& processes) {
       .capture_default_str();
   command.add_option("--noise", options->noise, "Relative deviation of the measurements, which the methods know")
       .capture_default_str();
+  command
+      .add_option("--receiver-half-angle", options->receiver_half_angle,
+                  "Degrees: samples are means over the cone of such a receiver")
+      .check(check::range(0.0, 45.0));
   command.add_flag("--surrogates", options->surrogates,
                    "Judge the ten test materials of Nielsen et al. among the networks, not the measured ones");
   do_together(command, processes, options, [](const auto& given) {

@@ -158,6 +158,7 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
   // Declare the samples and the method.
   command.add_input("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
   add_measurement_options(command, options->reading);
+  add_aperture_options(command, options->reading.aperture);
   add_spectra_options(command, *options);
   add_method_option(command, options->method);
   add_prior_option(command, options->materials.prior);

@@ -56,6 +56,7 @@ void add_report(command& app, const std::vector<std::string>& words) {
       "--truth", options->truth,
       "Table that the viewer shows beside the fit (.binary or .binary.gz): the truth, or another material");
   add_measurement_options(command, options->fit.reading);
+  add_aperture_options(command, options->fit.reading.aperture);
   add_prior_option(command, options->fit.materials.prior);
   command.add_option("--noise", options->fit.noise, "Relative deviation of the measured values (0.02 is 2 %)")
       .check(check::range(0.0, 1.0));

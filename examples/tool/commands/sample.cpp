@@ -17,6 +17,7 @@ struct sample_options {
   Eigen::Index count = 0;
   double ratio = 0.0;
   gonio::measurement_defects defects;
+  aperture_option aperture;
   std::uint64_t seed = 0;
 };
 
@@ -42,9 +43,11 @@ void add_sample(command& app) {
   command.add_option("--outliers", options->defects.outlier_ratio,
                      "Share of samples replaced by a random other value of the table");
   command.add_option("--noise", options->defects.noise, "Standard deviation of Gaussian noise relative to the value");
+  add_aperture_options(command, options->aperture);
   command.add_option("--seed", options->seed, "Seed of everything random").capture_default_str();
   command.add_output("-o,--output", options->output, {".csv"}, "Samples to write (.csv)").required();
   command.callback([options] {
+    options->defects.aperture = options->aperture.in_radians();
     const gonio::brdf_table table = gonio::io::read_merl_any(options->table);
     const auto cells = chosen_cells(*options, table.cells());
     gonio::io::write_samples(options->output, gonio::sample_table(table, cells, options->defects, options->seed));

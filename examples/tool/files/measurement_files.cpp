@@ -59,6 +59,17 @@ void add_measurement_options(command& to, measurement_options& options) {
       "towards the mirror direction");
 }
 
+void add_aperture_options(command& to, aperture_option& given) {
+  const auto add = [&to](const std::string& whose, double& half_angle) {
+    to.add_option("--" + whose + "-half-angle", half_angle,
+                  "Degrees: half angle of the cone under which the sample sees the " + whose +
+                      ", over which each reading is a mean (0: a single direction)")
+        .check(check::range(0.0, gonio::degrees(gonio::largest_half_angle)));
+  };
+  add("source", given.source);
+  add("receiver", given.receiver);
+}
+
 bool holds_measurements(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 3> extensions{".csv", ".tsv", ".txt"};
   return std::ranges::find(extensions, lower_extension(path)) != extensions.end() ||
@@ -82,6 +93,13 @@ gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, 
     if (!file.samples.channels().are_wavelengths())
       gonio::refuse({path.native(), ": names no wavelengths, of which --illuminant needs several"});
     file.samples = file.samples.under(*options.light);
+  }
+  if (const gonio::aperture aperture = options.aperture.in_radians(); !aperture.is_point()) {
+    if (file.samples.have_apertures())
+      gonio::refuse({path.native(),
+                     ": says the half angles of its readings: leave out --source-half-angle and "
+                     "--receiver-half-angle"});
+    file.samples = file.samples.through(aperture);
   }
   for (const std::string& sentence : doubts_of({file.samples.in_three_channels(), file.quantity, file.provenance}))
     warn(path.native() + ": " + sentence);

@@ -15,18 +15,29 @@
 
 namespace cli {
 
+/// Half angles in degrees.
+struct aperture_option {
+  double source = 0.0, receiver = 0.0;
+
+  [[nodiscard]] gonio::aperture in_radians() const { return {gonio::radians(source), gonio::radians(receiver)}; }
+};
+
 /// What a user says of a file that does not say it itself.
 struct measurement_options {
   std::string quantity;              ///< a name of `gonio::io::sample_quantity`; empty if it is not stated
   std::vector<std::string> columns;  ///< lists like "theta_o=Winkel,g=Y"
   std::optional<gonio::io::theta_o_sign> sign = {};  ///< of scans without azimuths
   std::optional<gonio::illuminant> light = {};       ///< under which wavelengths are seen; none: D65
+  aperture_option aperture = {};                     ///< of all samples of a file that has none
 
   [[nodiscard]] bool empty() const noexcept { return quantity.empty() && columns.empty() && !sign; }
 };
 
 /// Adds `--quantity`, `--columns` and `--theta-o-sign`, for every subcommand that reads measurements.
 void add_measurement_options(command& to, measurement_options& options);
+
+/// Adds `--source-half-angle` and `--receiver-half-angle`, in degrees.
+void add_aperture_options(command& to, aperture_option& given);
 
 /// How a file is read by these options, what is ignored or assumed being told as warnings on standard error.
 [[nodiscard]] gonio::io::sample_reading reading_of(const measurement_options& options = {});

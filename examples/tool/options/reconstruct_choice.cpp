@@ -58,6 +58,9 @@ reconstruction with_warnings(reconstruction result, const reconstruct_options& o
   if (std::string sentence = warning_of(options.method, std::ssize(gonio::counting_positions(samples)));
       !sentence.empty())
     result.warnings.push_back(std::move(sentence));
+  if (samples.have_apertures() && !result.details.contains("discrepancy"))
+    result.warnings.emplace_back(
+        "readings are taken for those of single directions: --method pca and its discrepancy alone use half angles");
   require_finite(result.table, samples, options);
   return result;
 }
@@ -69,9 +72,26 @@ const std::vector<reconstruct_method>& reconstruct_methods() {
       {"pca",
        "principal components (Nielsen et al. 2015)",
        reconstruct_by_components,
-       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--noise",
-        "--lambda", "--variance", "--misplaced", "--discrepancy", "--no-reject", "--residuals", "--uncertainty",
-        "--uncertainty-image", "--report"}},  // refuses some of them itself, and says why
+       {"--prior",
+        "--networks",
+        "--merl",
+        "--exclude",
+        "--metric",
+        "--root",
+        "--solver",
+        "--eta",
+        "--noise",
+        "--lambda",
+        "--variance",
+        "--misplaced",
+        "--discrepancy",
+        "--no-reject",
+        "--residuals",
+        "--uncertainty",
+        "--uncertainty-image",
+        "--report",
+        "--source-half-angle",
+        "--receiver-half-angle"}},  // refuses some of them itself, and says why
       {"soft-specular",
        "the components of soft or those of specular materials, whichever the contrast of the samples' highlight "
        "chooses, from a prior of gonio learn --split, with a penalty --eta of 40 shared out by their numbers (Nielsen "

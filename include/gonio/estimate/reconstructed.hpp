@@ -131,6 +131,17 @@ class reconstructed {
   /// The weights, the functions that they are of, and the solver's report.
   [[nodiscard]] const fit_type& fit() const noexcept { return fit_; }
 
+  /// For `reconstruction`: samples are told of as they were read, of which the fit is of others.
+  void tell_readings(const located_samples& read) {
+    readings_ = read.kinds.are_colours() ? read.values : read.in_three_channels().values;
+    for (outlying_sample& each : found_.contradicted) {
+      const Eigen::Index i =
+          numbers_.empty() ? each.number : std::ranges::find(numbers_, each.number) - numbers_.begin();
+      each.predicted *= factor(i);
+      each.measured = detail::first_three(readings_, i);
+    }
+  }
+
   // ---- how sure ----
 
   /// The standard deviation of a value in the metric's domain; where that is a logarithm, relative to the value. O(n (n
@@ -216,13 +227,14 @@ class reconstructed {
       const location& at = samples_->locations[i];
       const double offset = offset_at(prior_, at);
       sample_residual each{.number = number_of(i),
-                           .measured = detail::first_three(samples_->values, i),
+                           .measured = detail::first_three(readings_.size() > 0 ? readings_ : samples_->values, i),
                            .predicted = rgb::Zero(),
                            .relative_deviation = std::expm1(others.deviation[i]),
                            .disagreement = disagreement[i],
                            .rejected = found_.weights[i] < 0.5};
       for (Eigen::Index c = 0; c < 3; ++c)
         each.predicted[c] = reflectance_of(prior_.metric(), others.mean(i, c) + offset, at);
+      if (readings_.size() > 0) each.predicted *= factor(i);
       told.push_back(each);
     }
     return told;
@@ -248,6 +260,11 @@ class reconstructed {
     }
     return envelope.next(own, brightness_of(own));
   }
+  /// A reading to what a single direction gives.
+  [[nodiscard]] rgb factor(Eigen::Index i) const {
+    const rgb read = detail::first_three(readings_, i), narrowed = detail::first_three(samples_->values, i);
+    return (narrowed == 0.0).select(1.0, read / narrowed);
+  }
   [[nodiscard]] Eigen::Index number_of(Eigen::Index i) const { return numbers_.empty() ? i : numbers_[i]; }
 
   pca<Metric> prior_;
@@ -260,6 +277,7 @@ class reconstructed {
   std::shared_ptr<const located_samples> samples_;
   std::vector<Eigen::Index> numbers_;
   thread_count threads_;
+  Eigen::MatrixXd readings_ = {};  ///< n x 3, where samples were read through apertures
 };
 
 }  // namespace gonio

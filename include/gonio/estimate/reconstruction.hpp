@@ -7,6 +7,7 @@
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/random.hpp>
+#include <gonio/estimate/aperture_factors.hpp>
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
@@ -64,9 +65,10 @@ class reconstruction {
   /// inliers is told by their colours, or by three bands where no wavelength is visible. n samples, k components and c
   /// centres: O(n^2 (n + k)) up to `most_centres` samples, O(n (k + c)^2) for more. Throws gonio::error for unusable
   /// samples.
-  [[nodiscard]] result_type fit(const sample_set& samples) const {
-    return fit_located(locate_samples(cells(), samples, threads_), counting_positions(samples));
-  }
+  ///
+  /// Samples through an aperture are readings of what a single direction gives, times a factor: the mean of the fit
+  /// over the aperture's cones to the fit in the middle. Three more fits are of samples without that factor.
+  [[nodiscard]] result_type fit(const sample_set& samples) const;
   /// The same of samples that are located on the prior's cells.
   [[nodiscard]] result_type fit_located(located_samples samples, std::vector<Eigen::Index> numbers = {}) const;
 
@@ -91,6 +93,9 @@ class reconstruction {
   [[nodiscard]] sample_process process_of_mapped(const located_samples& mapped) const {
     return {expected_, locate_rows(prior_, mapped.locations), mapped, error_variances(mapped)};
   }
+  /// What apertures make of the values of samples that count, by a fit.
+  [[nodiscard]] Eigen::MatrixXd aperture_factors(const sample_set& samples, const std::vector<Eigen::Index>& numbers,
+                                                 const typename result_type::fit_type& fit) const;
   /// Of the samples that are kept, or of some of them.
   [[nodiscard]] sample_process known_by(const selection& chosen) const;
 
@@ -184,6 +189,43 @@ solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metr
   solution found = equations.solve(tikhonov(expected_.observations * model().error_variance));
   found.weights.bottomRows(smooth.size()) = smooth.covariance_weights(found.weights.bottomRows(smooth.size()));
   return {functions_around(centres), std::move(found)};
+}
+
+template <error_metric Metric>
+typename reconstruction<Metric>::result_type reconstruction<Metric>::fit(const sample_set& samples) const {
+  const std::vector<Eigen::Index> numbers = counting_positions(samples);
+  const located_samples read = locate_samples(cells(), samples, threads_);
+  result_type paint = fit_located(read, numbers);
+  constexpr int rounds = 3;  // two see less of a peak, six make it too bright (docs/decisions/0039)
+  for (int round = 0; round < rounds && samples.have_apertures(); ++round) {
+    const Eigen::MatrixXd factors = aperture_factors(samples, numbers, paint.fit());
+    located_samples narrowed = read;
+    narrowed.values.array() /= factors.array();
+    paint = fit_located(std::move(narrowed), numbers);
+    paint.tell_readings(read);
+  }
+  return paint;
+}
+
+template <error_metric Metric>
+Eigen::MatrixXd reconstruction<Metric>::aperture_factors(const sample_set& samples,
+                                                         const std::vector<Eigen::Index>& numbers,
+                                                         const typename result_type::fit_type& fit) const {
+  if (has_process(samples.size()))
+    return detail::aperture_factors(
+        samples, numbers, [&](const direction& wi, const direction& wo) { return fit.values(wi, wo); }, threads_);
+  // Of more samples a table is read.
+  if (fit.channels().are_wavelengths()) {
+    const spectral_table table = fit.tabulate_spectra(cells(), threads_);
+    return detail::aperture_factors(
+        samples, numbers,
+        [&](const direction& wi, const direction& wo) { return Eigen::ArrayXd(table(wi, wo).template cast<double>()); },
+        threads_);
+  }
+  const brdf_table table = fit.tabulate(cells(), threads_);
+  return detail::aperture_factors(
+      samples, numbers, [&](const direction& wi, const direction& wo) { return Eigen::ArrayXd(table(wi, wo)); },
+      threads_);
 }
 
 template <error_metric Metric>

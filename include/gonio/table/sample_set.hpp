@@ -4,10 +4,12 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>
 #include <gonio/core/spectrum.hpp>
+#include <gonio/table/aperture.hpp>
 #include <gonio/table/channels.hpp>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <functional>
@@ -60,11 +62,13 @@ class sample_directions {
   half_difference angles_;
 };
 
-/// One measurement: where, what (sr^-1, without the cosine; may be negative), and how much it counts.
+/// One measurement: where, what (sr^-1, without the cosine; may be negative), how much it counts, and the cones of
+/// directions that it is the mean over.
 struct sample {
   sample_directions directions = {};
   rgb value{0.0, 0.0, 0.0};
   channel_weights weight = {};
+  gonio::aperture aperture = {};
 
   [[nodiscard]] const half_difference& angles() const noexcept { return directions.angles(); }
 };
@@ -153,9 +157,11 @@ class sample_set {
   // ---- in any channels ----
 
   /// Of as many values as there are channels, sr^-1.
-  void add(const sample_directions& directions, std::span<const double> values, const channel_weights& weight = 1.0);
-  void add(const sample_directions& directions, const Eigen::ArrayXd& values, const channel_weights& weight = 1.0) {
-    add(directions, std::span(values.data(), static_cast<std::size_t>(values.size())), weight);
+  void add(const sample_directions& directions, std::span<const double> values, const channel_weights& weight = 1.0,
+           const gonio::aperture& aperture = {});
+  void add(const sample_directions& directions, const Eigen::ArrayXd& values, const channel_weights& weight = 1.0,
+           const gonio::aperture& aperture = {}) {
+    add(directions, std::span(values.data(), static_cast<std::size_t>(values.size())), weight, aperture);
   }
   [[nodiscard]] const sample_directions& directions(Eigen::Index i) const noexcept { return rows_[i].directions; }
   /// As many as there are channels, sr^-1.
@@ -166,6 +172,14 @@ class sample_set {
   }
   /// Of several wavelengths, all weigh the same.
   [[nodiscard]] const channel_weights& weight(Eigen::Index i) const noexcept { return rows_[i].weight; }
+
+  [[nodiscard]] const gonio::aperture& aperture(Eigen::Index i) const noexcept { return rows_[i].aperture; }
+  /// Is one of the measurements a mean over cones?
+  [[nodiscard]] bool have_apertures() const noexcept {
+    return std::ranges::any_of(rows_, [](const sample& each) { return !each.aperture.is_point(); });
+  }
+  /// The same measurements through one aperture.
+  [[nodiscard]] sample_set through(const gonio::aperture& aperture) const;
 
   /// Some of the measurements, by their positions.
   [[nodiscard]] sample_set subset(std::span<const Eigen::Index> positions) const;

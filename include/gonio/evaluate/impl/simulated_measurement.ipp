@@ -17,6 +17,14 @@
 
 namespace gonio {
 
+GONIO_INLINE rgb read_through(const brdf_table& table, const direction_pair& axes, const aperture& cones) {
+  constexpr int pairs_a_reading = 512;
+  rgb sum(0.0, 0.0, 0.0);
+  const std::vector<direction_pair> pairs = pairs_within(axes, cones, cones.is_point() ? 1 : pairs_a_reading);
+  for (const auto& [wi, wo] : pairs) sum += table(wi, wo);
+  return sum / static_cast<double>(pairs.size());
+}
+
 GONIO_INLINE sample_set sample_table_misplaced(const brdf_table& table, std::span<const direction_pair> pairs,
                                                double angle, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
@@ -51,7 +59,11 @@ GONIO_INLINE sample_set sample_table(const brdf_table& table, std::span<const Ei
                                      const measurement_defects& defects, std::uint64_t seed) {
   sample_set samples;
   samples.reserve(cells.size());
-  for (const Eigen::Index cell : cells) samples.push_back({table.cells().angles(cell), table.at(cell), 1.0});
+  for (const Eigen::Index cell : cells) {
+    const half_difference angles = table.cells().angles(cell);
+    samples.push_back({angles, read_through(table, to_directions(angles), defects.aperture), 1.0, defects.aperture});
+    if (defects.aperture.is_point()) samples.back().value = table.at(cell);
+  }
   std::uniform_int_distribution<Eigen::Index> any_cell(0, table.cells().size() - 1);
   return corrupt(std::move(samples), defects, seed,
                  [&](std::mt19937_64& generator) { return rgb(table.at(any_cell(generator))); });

@@ -36,10 +36,31 @@ struct sample_reading {
 namespace detail {
 
 // The columns, grouped; the numbers below index this list. The last holds text.
-inline constexpr std::array<std::string_view, 23> sample_columns{
-    "theta_h", "theta_d",  "phi_d",    "theta_i",  "phi_i", "theta_o",    "phi_o",   "wi_x",
-    "wi_y",    "wi_z",     "wo_x",     "wo_y",     "wo_z",  "r",          "g",       "b",
-    "weight",  "weight_r", "weight_g", "weight_b", "value", "wavelength", "quantity"};
+inline constexpr std::array<std::string_view, 25> sample_columns{"theta_h",
+                                                                 "theta_d",
+                                                                 "phi_d",
+                                                                 "theta_i",
+                                                                 "phi_i",
+                                                                 "theta_o",
+                                                                 "phi_o",
+                                                                 "wi_x",
+                                                                 "wi_y",
+                                                                 "wi_z",
+                                                                 "wo_x",
+                                                                 "wo_y",
+                                                                 "wo_z",
+                                                                 "r",
+                                                                 "g",
+                                                                 "b",
+                                                                 "weight",
+                                                                 "weight_r",
+                                                                 "weight_g",
+                                                                 "weight_b",
+                                                                 "value",
+                                                                 "wavelength",
+                                                                 "source_half_angle",
+                                                                 "receiver_half_angle",
+                                                                 "quantity"};
 
 struct column_group {
   std::size_t first = 0;
@@ -54,7 +75,8 @@ inline constexpr column_group colour_group{13, 3};
 inline constexpr column_group weight_group{16, 1};
 inline constexpr column_group channel_weight_group{17, 3};
 inline constexpr column_group grey_group{20, 1};
-inline constexpr std::size_t wavelength_column = 21, quantity_column = 22;
+inline constexpr std::size_t wavelength_column = 21, quantity_column = 24;
+inline constexpr column_group half_angle_group{22, 2};
 
 /// A name in the header line as it is written, and without the unit behind it: "Theta In [deg]" is theta_i, degrees.
 struct written_column {

@@ -62,6 +62,7 @@ class sample_rows {
   void check_wavelength();
   void check_weights() const;
   void read_sign(std::string_view value);
+  void read_half_angle(std::size_t column, const comment_entry& entry);
   void look_at_sides();
   void finish() const;
 

@@ -29,6 +29,9 @@ GONIO_INLINE void require_usable_sample(const sample& s, Eigen::Index number) {
   for (Eigen::Index channel = 0; channel < 3; ++channel)
     if (!std::isfinite(s.weight[channel]) || s.weight[channel] < 0.0)
       refuse("the weight must be finite and not negative");
+  for (const double half_angle : {s.aperture.source, s.aperture.receiver})
+    if (!(half_angle >= 0.0 && half_angle <= largest_half_angle))
+      refuse("the half angles of its aperture must be from 0 to 45 degrees");
   const cosine_pair cosine = cosines(s.angles());
   constexpr double right_angle = std::numbers::pi / 2.0;
   const bool in_range = theta_h >= 0.0 && theta_h < right_angle && theta_d >= 0.0 && theta_d < right_angle;
@@ -46,22 +49,28 @@ GONIO_INLINE void sample_set::refuse_wavelengths() const {
 }
 
 GONIO_INLINE void sample_set::add(const sample_directions& directions, std::span<const double> values,
-                                  const channel_weights& weight) {
+                                  const channel_weights& weight, const gonio::aperture& aperture) {
   if (std::ssize(values) != channels_.size())
     refuse({"a sample of ", values.size(), " values, expected one for each of ", channels_.size(), " channels"});
   if (channels_.are_wavelengths()) {
     if (!weight.is_uniform()) refuse("wavelengths have one weight, not one for each channel");
     spectra_.insert(spectra_.end(), values.begin(), values.end());
-    rows_.push_back({directions, rgb::Zero(), weight});
+    rows_.push_back({directions, rgb::Zero(), weight, aperture});
   } else {
-    rows_.push_back({directions, channels_.colour(values), weight});
+    rows_.push_back({directions, channels_.colour(values), weight, aperture});
   }
 }
 
 GONIO_INLINE sample_set sample_set::subset(std::span<const Eigen::Index> positions) const {
   sample_set some(channels_);
-  for (const Eigen::Index i : positions) some.add(directions(i), values(i), weight(i));
+  for (const Eigen::Index i : positions) some.add(directions(i), values(i), weight(i), aperture(i));
   return some;
+}
+
+GONIO_INLINE sample_set sample_set::through(const gonio::aperture& aperture) const {
+  sample_set others = *this;
+  for (sample& each : others.rows_) each.aperture = aperture;
+  return others;
 }
 
 GONIO_INLINE sample_set sample_set::with_values(gonio::channels kinds,
@@ -97,8 +106,9 @@ GONIO_INLINE void require_usable(const sample_set& samples) {
   if (samples.empty()) refuse("there are no samples: at least one is needed");
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
     const bool has_colour = !samples.channels().are_wavelengths();
-    detail::require_usable_sample(
-        {samples.directions(i), has_colour ? samples[i].value : rgb(rgb::Zero()), samples.weight(i)}, i + 1);
+    detail::require_usable_sample({samples.directions(i), has_colour ? samples[i].value : rgb(rgb::Zero()),
+                                   samples.weight(i), samples.aperture(i)},
+                                  i + 1);
     for (Eigen::Index c = 0; !has_colour && c < samples.channels().size(); ++c)
       if (!std::isfinite(static_cast<float>(samples.values(i)[c])))
         refuse({"sample ", i + 1, ": the reflectance at wavelength ", c + 1,

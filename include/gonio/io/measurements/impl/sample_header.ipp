@@ -67,7 +67,9 @@ inline constexpr std::array known_names{known_name{"thetah", 0},
                                         known_name{"percent", 20, sample_quantity::percent},
                                         known_name{"wavelength", 21},
                                         known_name{"lambda", 21},
-                                        known_name{"quantity", 22}};
+                                        known_name{"sourcehalfangle", 22},
+                                        known_name{"receiverhalfangle", 23},
+                                        known_name{"quantity", quantity_column}};
 
 [[gnu::cold]] GONIO_INLINE column_unit unit_named(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, column_unit>, 18> known{
@@ -97,7 +99,8 @@ inline constexpr std::array known_names{known_name{"thetah", 0},
 /// Is it a unit that a column may have?
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE bool fits(column_unit unit, std::size_t column) {
   if (unit == column_unit::none) return true;
-  if (column < vector_group.first) return unit == column_unit::degrees || unit == column_unit::radians;
+  if (column < vector_group.first || half_angle_group.has(column))
+    return unit == column_unit::degrees || unit == column_unit::radians;
   if (colour_group.has(column) || grey_group.has(column))
     return unit == column_unit::percent || unit == column_unit::per_steradian;
   return column == wavelength_column && unit == column_unit::nanometres;

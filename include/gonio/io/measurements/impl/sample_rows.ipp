@@ -48,6 +48,8 @@ GONIO_INLINE bool sample_rows::next() {
   const comment_entry entry = entry_of(comment);
   keep(provenance_, entry);
   if (entry.key == "theta-o-sign") return read_sign(entry.value);
+  if (entry.key == "source-half-angle") return read_half_angle(half_angle_group.first, entry);
+  if (entry.key == "receiver-half-angle") return read_half_angle(half_angle_group.first + 1, entry);
   if (entry.key != "quantity") return;
   const text_place& place = csv_.place();
   if (rows_ > 0) place.refuse("the comment on the quantity stands below a sample, expected above the first");
@@ -65,6 +67,12 @@ GONIO_INLINE bool sample_rows::next() {
   if (sign_.value_or(stated) != stated)
     csv_.place().refuse({"the file says theta-o-sign ", value, ", but --theta-o-sign says the other"});
   sign_ = stated;
+}
+
+/// Of all lines below that have no column of it.
+[[gnu::cold]] GONIO_INLINE void sample_rows::read_half_angle(std::size_t column, const comment_entry& entry) {
+  if (const char* wrong = csv_.read_number(entry.value, numbers_[column]); wrong != nullptr)
+    csv_.place().refuse({entry.key, ": ", in_quotes(entry.value), wrong, ", expected degrees"});
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_header() {

@@ -100,6 +100,17 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
   return row.weights.count == 1 ? channel_weights(first[0]) : channel_weights(rgb(first[0], first[1], first[2]));
 }
 
+[[nodiscard]] GONIO_INLINE aperture row_aperture(const parsed_row& row) {
+  const auto half_angle = [&](std::size_t column) {
+    const double angle = radians(row.numbers[column]);
+    if (!(angle >= 0.0 && angle <= largest_half_angle))
+      row.place.refuse(
+          {sample_columns[column], ": ", shortest(row.numbers[column]), " degrees, expected from 0 to 45"});
+    return angle;
+  };
+  return {half_angle(half_angle_group.first), half_angle(half_angle_group.first + 1)};
+}
+
 /// Refuses numbers that may be of any quantity: those of r,g,b are a BRDF.
 GONIO_INLINE void require_quantity(const parsed_row& row) {
   if (row.quantity || row.values.first == colour_group.first) return;
@@ -203,7 +214,7 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
       row.place.refuse("wavelengths have one weight, expected weight, not one for each channel");
     const sample_directions at = detail::row_directions(row);
     detail::read_row_values(row, at, values);
-    file.samples.add(at, values, detail::row_weight(row));
+    file.samples.add(at, values, detail::row_weight(row), detail::row_aperture(row));
   }
   if (rows.assumes_side()) detail::require_plausible_sides(file.samples, name);
   file.quantity = rows.quantity();
@@ -255,12 +266,15 @@ GONIO_INLINE std::string write_samples(const sample_set& samples, const sample_p
   std::string text = comment_lines(provenance);
   if (!kinds.are_colours()) text += "# quantity: brdf\n";
   text += "theta_h,theta_d,phi_d," + detail::column_names(kinds);
-  text += apart ? "weight_r,weight_g,weight_b\n" : "weight\n";
+  text += apart ? "weight_r,weight_g,weight_b" : "weight";
+  text += samples.have_apertures() ? ",source_half_angle,receiver_half_angle\n" : "\n";
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
     const half_difference& at = samples.directions(i).angles();
     std::vector<double> numbers{degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d))};
     numbers.insert(numbers.end(), samples.values(i).begin(), samples.values(i).end());
     for (Eigen::Index c = 0; c < (apart ? 3 : 1); ++c) numbers.push_back(samples.weight(i)[c]);
+    if (samples.have_apertures())
+      numbers.insert(numbers.end(), {degrees(samples.aperture(i).source), degrees(samples.aperture(i).receiver)});
     for (std::size_t k = 0; k < numbers.size(); ++k) text += (k == 0 ? "" : ",") + shortest(numbers[k]);
     text += '\n';
   }

@@ -1,0 +1,38 @@
+#pragma once
+/// Bodies of estimate/aperture_factors.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/estimate/aperture_factors.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE Eigen::MatrixXd aperture_factors(
+    const sample_set& samples, const std::vector<Eigen::Index>& numbers,
+    const std::function<Eigen::ArrayXd(const direction& wi, const direction& wo)>& values, thread_count threads) {
+  constexpr int pairs_a_sample = 16;
+  constexpr double most = 100.0;
+  Eigen::MatrixXd factors = Eigen::MatrixXd::Ones(numbers.size(), samples.channels().size());
+  for_each_index(
+      numbers.size(), 16,
+      [&](Eigen::Index i) {
+        const Eigen::Index number = numbers[i];
+        if (samples.aperture(number).is_point()) return;
+        const direction_pair& axes = samples.directions(number).pair();
+        const Eigen::ArrayXd middle = values(axes.wi, axes.wo);
+        Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(middle.size());
+        const auto pairs = pairs_within(axes, samples.aperture(number), pairs_a_sample);
+        for (const auto& [wi, wo] : pairs) sum += values(wi, wo);
+        for (Eigen::Index c = 0; c < factors.cols(); ++c) {
+          const double mean = sum[c] / static_cast<double>(pairs.size());
+          if (mean > 0.0 && middle[c] > 0.0) factors(i, c) = std::clamp(mean / middle[c], 1.0 / most, most);
+        }
+      },
+      threads);
+  return factors;
+}
+
+}  // namespace gonio::detail

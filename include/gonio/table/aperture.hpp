@@ -1,0 +1,35 @@
+#pragma once
+/// A reading is an integral: its lamp and its receiver are seen from the sample under cones of directions, and it is
+/// the mean of the reflectance over both. A receiver of half a degree in front of a mirror-like lobe a tenth as wide
+/// reads a hundredth of the peak.
+
+#include <gonio/core/direction.hpp>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gonio {
+
+/// The half angles of the two cones, radians. Zero: a single direction.
+struct aperture {
+  double source = 0.0;
+  double receiver = 0.0;
+
+  [[nodiscard]] bool is_point() const noexcept { return source == 0.0 && receiver == 0.0; }
+  friend bool operator==(const aperture&, const aperture&) = default;
+};
+
+/// The largest half angle, radians.
+inline constexpr double largest_half_angle = radians(45.0);
+
+/// `count` pairs of directions, spread evenly over both cones (Vogel 1979, "A better way to construct the sunflower
+/// head", doi:10.1016/0025-5564(79)90080-4); those below the horizon are left out. A power of two: rings of the one
+/// cone are paired with those of the other by their numbers read backwards, bit by bit (Hammersley's points).
+[[nodiscard]] std::vector<direction_pair> pairs_within(const direction_pair& axes, const aperture& cones, int count);
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/aperture.ipp>
+#endif
