@@ -48,6 +48,7 @@ void add_convert(command& app) {
                  "(.csv, or a format of instruments), told by its first bytes or else by its name")
       .required();
   add_measurement_options(command, options->reading);
+  options->reading.takes_anisotropic = true;
   command
       .add_output(
           "output", options->output, {},

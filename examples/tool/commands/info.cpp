@@ -98,6 +98,7 @@ void add_info(command& app) {
   const auto options = std::make_shared<info_options>();
   command.add_input("file", options->file, "The file").required();
   add_measurement_options(command, options->reading);
+  options->reading.takes_anisotropic = true;
   command.add_output(
       "--components", options->components, {".png"},
       "Of a prior: image to write (.png) of slices at phi_d = 90 degrees, theta_h to the right and theta_d upwards: "

@@ -215,6 +215,7 @@ void add_properties(command& app) {
                  "Table (.binary, .binary.gz or .bsdf) or measurements (.csv, or .brdf in Cornell's text format)")
       .required();
   add_measurement_options(command, options->reading);
+  options->reading.takes_anisotropic = true;
   command
       .add_option("--tolerance", options->tolerance,
                   "Degrees to which the directions of samples must agree to be compared")

@@ -3,10 +3,12 @@
 #include "file_kinds.hpp"
 #include "file_start.hpp"
 #include "measurement_kinds.hpp"
+#include "tool/pages/fixed.hpp"
 #include "tool/pages/sample_warnings.hpp"
 #include "tool/pages/warning.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/text/text.hpp>
+#include <gonio/model/measured_properties.hpp>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +21,14 @@ namespace cli {
 
 namespace {
 
+/// The light's azimuth to a tenth of a degree, where it has one.
+std::optional<double> rotation_of(const gonio::direction_pair& pair) {
+  constexpr double least_incidence = 0.1;
+  if (gonio::degrees(gonio::polar_angle(pair.wi)) < least_incidence) return {};
+  const double azimuth = std::round(10.0 * gonio::degrees(gonio::azimuth(pair.wi))) / 10.0;
+  return azimuth < 0.0 ? azimuth + 360.0 : azimuth + 0.0;
+}
+
 /// Appends the entries of "theta_o=Winkel,g=Y".
 void add_columns(const std::string& list, std::vector<gonio::io::column_name>& columns) {
   std::vector<std::string_view> entries;
@@ -29,6 +39,53 @@ void add_columns(const std::string& list, std::vector<gonio::io::column_name>& c
       gonio::refuse({"--columns ", list, ": '", entry, "' is no pair of names, expected one like theta_o=Winkel"});
     columns.push_back({std::string(entry.substr(0, equals)), std::string(entry.substr(equals + 1))});
   }
+}
+
+/// The light's azimuths in degrees, ascending, where they are few: the rotations of a sample.
+std::vector<double> rotations_of(const gonio::sample_set& samples) {
+  constexpr std::size_t most = 36;
+  std::vector<double> all;
+  for (Eigen::Index i = 0; i < std::ssize(samples) && all.size() <= most; ++i)
+    if (const auto azimuth = rotation_of(samples.directions(i).pair());
+        azimuth && std::ranges::count(all, *azimuth) == 0)
+      all.push_back(*azimuth);
+  if (all.size() > most) all.clear();
+  std::ranges::sort(all);
+  return all;
+}
+
+std::string listed(const std::vector<double>& rotations) {
+  std::string text;
+  for (const double each : rotations) text += (text.empty() ? "" : ", ") + gonio::io::shortest(each);
+  return text;
+}
+
+/// One rotation of the samples, if one is asked for. Refuses samples that differ from rotation to rotation.
+gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::filesystem::path& path,
+                                  const measurement_options& options) {
+  constexpr double noticeable = 0.1, anisotropic = 0.25;
+  constexpr Eigen::Index fewest_pairs = 5;
+  const std::vector<double> rotations = rotations_of(samples);
+  if (options.rotation) {
+    std::vector<Eigen::Index> chosen;
+    for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
+      if (rotation_of(samples.directions(i).pair()) == *options.rotation) chosen.push_back(i);
+    if (chosen.empty())
+      gonio::refuse({path.native(), ": no sample has the light at an azimuth of --rotation ",
+                     gonio::io::shortest(*options.rotation), ", but at ",
+                     rotations.empty() ? "too many to list" : listed(rotations)});
+    return samples.subset(chosen);
+  }
+  if (options.takes_anisotropic || rotations.size() < 2) return samples;
+  const gonio::model::equal_samples turned = gonio::model::compare_equal_samples(samples.in_three_channels()).turned;
+  if (turned.pairs < fewest_pairs || turned.median < noticeable) return samples;
+  const std::string sentence = path.native() + ": turned about the normal, " + std::to_string(turned.pairs) +
+                               " pairs of samples differ by " + fixed(100.0 * turned.median, 0) + " % in the median";
+  if (turned.median > anisotropic)
+    gonio::refuse(
+        {sentence, ": the sample is anisotropic; --rotation takes one of its rotations, ", listed(rotations)});
+  warn(sentence + ": the sample is taken for isotropic");
+  return samples;
 }
 
 }  // namespace
@@ -57,6 +114,9 @@ void add_measurement_options(command& to, measurement_options& options) {
       {{"light", static_cast<int>(theta_o_sign::light)}, {"mirror", static_cast<int>(theta_o_sign::mirror)}},
       "Where theta_o is positive in a .csv file without azimuths: on the light's side of the normal (the default), or "
       "towards the mirror direction");
+  to.add_option("--rotation", options.rotation,
+                "Degrees: take the samples whose light has this azimuth, one rotation of an anisotropic sample")
+      .check(check::range(0.0, 360.0));
 }
 
 void add_aperture_options(command& to, aperture_option& given) {
@@ -94,6 +154,7 @@ gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, 
       gonio::refuse({path.native(), ": names no wavelengths, of which --illuminant needs several"});
     file.samples = file.samples.under(*options.light);
   }
+  file.samples = of_one_rotation(file.samples, path, options);
   if (const gonio::aperture aperture = options.aperture.in_radians(); !aperture.is_point()) {
     if (file.samples.have_apertures())
       gonio::refuse({path.native(),

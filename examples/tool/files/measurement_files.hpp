@@ -28,12 +28,14 @@ struct measurement_options {
   std::vector<std::string> columns;  ///< lists like "theta_o=Winkel,g=Y"
   std::optional<gonio::io::theta_o_sign> sign = {};  ///< of scans without azimuths
   std::optional<gonio::illuminant> light = {};       ///< under which wavelengths are seen; none: D65
+  std::optional<double> rotation = {};               ///< degrees: of the sample, whose other rotations are left out
+  bool takes_anisotropic = false;                    ///< whether or not rotations differ
   aperture_option aperture = {};                     ///< of all samples of a file that has none
 
   [[nodiscard]] bool empty() const noexcept { return quantity.empty() && columns.empty() && !sign; }
 };
 
-/// Adds `--quantity`, `--columns` and `--theta-o-sign`, for every subcommand that reads measurements.
+/// Adds `--quantity`, `--columns`, `--theta-o-sign` and `--rotation`, for every subcommand that reads measurements.
 void add_measurement_options(command& to, measurement_options& options);
 
 /// Adds `--source-half-angle` and `--receiver-half-angle`, in degrees.

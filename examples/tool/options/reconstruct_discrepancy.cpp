@@ -4,6 +4,7 @@
 #include "tool/files/measurement_files.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/measures_as_json.hpp"
+#include "tool/pages/sample_warnings.hpp"
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
@@ -20,13 +21,13 @@ namespace {
 
 using reconstructed_brdf = gonio::reconstructed<gonio::log_relative>;
 
-/// Of the green channel, which has most of the luminance: "sample 6 disagrees, left out: measured 2.09, the others say
+/// Of the one value, or of the green channel, which has most of the luminance: "sample 6 disagrees, left out: measured 2.09, the others say
 /// 0.140 (0.110 to 0.170)".
 std::string told(const gonio::outlying_sample& out, const std::string& what_is_done) {
   const double low = out.predicted.y() * std::exp(-out.deviation), high = out.predicted.y() * std::exp(out.deviation);
   return "sample " + std::to_string(out.number + 1) + " disagrees, " + what_is_done + ": measured " +
          reflectance(out.measured.y()) + ", the others say " + reflectance(out.predicted.y()) + " (" +
-         reflectance(low) + " to " + reflectance(high) + ", green)";
+         reflectance(low) + " to " + reflectance(high) + (is_grey(out.measured) ? ")" : ", green)");
 }
 
 /// docs/reference/formats.md has the columns.

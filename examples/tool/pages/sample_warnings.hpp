@@ -9,6 +9,9 @@
 
 namespace cli {
 
+/// Is it one value in all channels?
+[[nodiscard]] inline bool is_grey(const gonio::rgb& value) { return value.x() == value.y() && value.y() == value.z(); }
+
 /// A sentence for each: noise above 50 %, repeats of the same angles that contradict each other by more than the noise
 /// (relative, 0.02 is 2 %), a largest value that is read so often that the detector may be saturated, more negative
 /// values than others, one value everywhere, and directions that are all in the plane of incidence. Samples are
