@@ -32,6 +32,9 @@ void multiply(const float* a, float* product, Eigen::Index count);
 /// Replaces each number by its exponential, within 2 units of the last place, and the same wherever a number stands.
 void exponentiate(float* numbers, Eigen::Index count);
 
+/// Replaces each number by its natural logarithm.
+void take_logarithms(double* numbers, Eigen::Index count);
+
 /// Calls `map` for sixteen numbers at a time, an array that it replaces by their images; behind the last ones there are
 /// zeros. Eigen rounds functions otherwise where a number stands alone before or after whole vector registers, which
 /// depends on where the memory begins.

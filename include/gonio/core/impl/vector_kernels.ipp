@@ -82,6 +82,11 @@ GONIO_INLINE void exponentiate(float* numbers, Eigen::Index count) {
   map_by_sixteens(numbers, count, [](auto& these) { these = these.exp(); });
 }
 
+GONIO_INLINE void take_logarithms(double* numbers, Eigen::Index count) {
+  Eigen::Map<Eigen::ArrayXd> these(numbers, count);
+  these = these.log();
+}
+
 GONIO_INLINE Eigen::MatrixXf to_float(const Eigen::MatrixXd& numbers) {
   Eigen::MatrixXf copy(numbers.rows(), numbers.cols());
   for (Eigen::Index i = 0; i < copy.size(); ++i) copy.data()[i] = static_cast<float>(numbers.data()[i]);
