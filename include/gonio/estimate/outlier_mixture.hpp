@@ -51,8 +51,9 @@ struct outlier_mixture {
   static constexpr double smallest_scale = 0.01;
 
   /// The density of a good residual.
-  [[nodiscard]] double good_density(double residual) const noexcept {
-    const double tail = tail_weight(residual);
+  [[nodiscard]] double good_density(double residual) const noexcept { return density_on_tail(tail_weight(residual)); }
+  /// The same, given the residual's tail weight.
+  [[nodiscard]] double density_on_tail(double tail) const noexcept {
     return (0.375 / scale) * (tail * tail * std::sqrt(tail));
   }
 
@@ -60,11 +61,6 @@ struct outlier_mixture {
   [[nodiscard]] double probability(double residual, double outliers) const noexcept {
     const double good = inlier_fraction * good_density(residual);
     return good / (good + (1.0 - inlier_fraction) * outliers);
-  }
-
-  /// The density of a residual, good or not, given that of outliers there.
-  [[nodiscard]] double density(double residual, double outliers) const noexcept {
-    return inlier_fraction * good_density(residual) + (1.0 - inlier_fraction) * outliers;
   }
 
   /// What a good measurement counts in a fit: less the farther it is out on the tail.

@@ -174,7 +174,9 @@ template <error_metric Metric>
 solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metric>::solve_around_centres(
     located_samples kept) const {
   if (kept.size() > model().most_samples) kept = kept.subset(random_choice(kept.size(), model().most_samples, 0));
-  kept.weights.array().colwise() *= model().error_variance / error_variances(kept).array();
+  const Eigen::VectorXd variances = error_variances(kept);
+  for (Eigen::Index i = 0; i < kept.weights.size(); ++i)
+    kept.weights.data()[i] *= model().error_variance / variances[i % kept.size()];
   std::vector<half_difference> centres;
   for (const Eigen::Index i : random_choice(kept.size(), model().most_centres, 0))
     centres.push_back(kept.locations[i].angles);

@@ -72,7 +72,7 @@ namespace detail {
   // Sort by neighbourhood, whose number is made of four whole ones below 500.
   std::vector<std::pair<double, Eigen::Index>> sorted;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
-    const Eigen::Vector4d place = discrepancy_place(samples.locations[i].angles, lengths);
+    const discrepancy_place place = place_of(samples.locations[i].angles, lengths);
     double neighbourhood = 0.0;
     for (Eigen::Index c = 0; c < 4; ++c) neighbourhood = 1000.0 * neighbourhood + std::floor(place[c]);
     sorted.emplace_back(neighbourhood, i);
@@ -246,8 +246,11 @@ class sample_judge {
           const std::vector<Eigen::Index> here(others.begin() + range.begin, others.begin() + range.end);
           const located_samples some = mapped_.subset(here);
           Eigen::VectorXd errors(some.size());
-          for (Eigen::Index i = 0; i < errors.size(); ++i)
-            errors[i] = error_variances_[here[i]] / some.weights.row(i).mean();
+          for (Eigen::Index i = 0; i < errors.size(); ++i) {
+            double sum = 0.0;
+            for (Eigen::Index c = 0; c < some.weights.cols(); ++c) sum += some.weights(i, c);
+            errors[i] = error_variances_[here[i]] / (sum / static_cast<double>(some.weights.cols()));
+          }
           const Eigen::VectorXd wrong = judged.probabilities(prior_.rows(some.locations), some.values, errors);
           for (Eigen::Index i = 0; i < errors.size(); ++i) found[here[i]] = wrong[i];
         },

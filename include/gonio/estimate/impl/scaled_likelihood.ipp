@@ -7,10 +7,9 @@
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/scaled_likelihood.hpp>
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace gonio::detail {
@@ -21,28 +20,28 @@ GONIO_INLINE scaled_likelihood locate_mixture(const std::vector<double>& differe
   constexpr double smallest_scale = 0.02;
   constexpr double nu = outlier_mixture::degrees_of_freedom;
   const Eigen::Index count = std::ssize(differences);
-  Eigen::VectorXd shares(count), on_tail(count), squared(count), located(count);
+  std::vector<double> tails(count), densities(count);
   outlier_mixture mixture{0.5, 0.3};
   scaled_likelihood found{start};
   for (int step = 0; step < steps; ++step) {
+    for (Eigen::Index i = 0; i < count; ++i) tails[i] = mixture.tail_weight(differences[i] - found.logarithm_of_factor);
+    double good = 0.0, weight = 0.0, squares = 0.0, located = 0.0;
     for (Eigen::Index i = 0; i < count; ++i) {
       const double residual = differences[i] - found.logarithm_of_factor;
-      shares[i] = mixture.probability(residual, outliers[i]);
-      on_tail[i] = shares[i] * mixture.tail_weight(residual);
-      squared[i] = on_tail[i] * (residual * residual);
-      located[i] = on_tail[i] * differences[i];
+      const double inlier = mixture.inlier_fraction * mixture.density_on_tail(tails[i]);
+      densities[i] = inlier + (1.0 - mixture.inlier_fraction) * outliers[i];
+      const double share = inlier / densities[i], on_tail = share * tails[i];
+      good += share;
+      weight += on_tail;
+      squares += (nu + 1.0) / nu * on_tail * residual * residual;
+      located += on_tail * differences[i];
     }
-    const double good = shares.sum(), weight = on_tail.sum(), squares = (nu + 1.0) / nu * squared.sum();
-    if (step + 1 == steps) {
-      for (Eigen::Index i = 0; i < count; ++i)
-        shares[i] = mixture.density(differences[i] - found.logarithm_of_factor, outliers[i]);
-      take_logarithms(shares.data(), count);
-      found.log_likelihood = shares.sum();
-    }
-    found.logarithm_of_factor = weight > 0.0 ? located.sum() / weight : start;
+    found.logarithm_of_factor = weight > 0.0 ? located / weight : start;
     mixture = {std::clamp(good / static_cast<double>(count), 0.05, 0.99),
                std::max(std::sqrt(squares / std::max(good, 1e-9)), smallest_scale)};
   }
+  take_logarithms(densities.data(), count);
+  found.log_likelihood = std::accumulate(densities.begin(), densities.end(), 0.0);
   return found;
 }
 

@@ -173,7 +173,9 @@ GONIO_INLINE void least_squares_problem::require_no_underflow(const normal_equat
     for (Eigen::Index row = 0; row < equations() && normal.rhs_squared_norm()[column] < least; ++row)
       if (weights()[row] > 0.0 && right_hand_side()(row, column) != 0.0)
         refuse_tiny("right-hand side " + std::to_string(column));
-  if (normal.gram().diagonal().minCoeff() >= least) return;
+  bool is_tiny = false;
+  for (Eigen::Index k = 0; k < normal.unknowns(); ++k) is_tiny = is_tiny || normal.gram()(k, k) < least;
+  if (!is_tiny) return;
   for_each_row_block([&](block range, const row_matrix& part) {
     for (Eigen::Index row = 0; row < part.rows(); ++row)
       for (Eigen::Index column = 0; column < part.cols(); ++column)
