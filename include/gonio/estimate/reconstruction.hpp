@@ -11,6 +11,7 @@
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
 #include <gonio/estimate/reconstructed.hpp>
+#include <gonio/estimate/solve_rows.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <Eigen/Core>
@@ -142,7 +143,7 @@ typename reconstruction<Metric>::selection reconstruction<Metric>::select(const 
   if (!has_process(chosen.kept.size())) return chosen;
   if (!chosen.all)
     chosen.process = process_of_mapped(chosen.kept);
-  else if (chosen.found.weights.minCoeff() == 1.0)
+  else if (std::count(chosen.found.weights.data(), chosen.found.weights.data() + samples.size(), 1.0) == samples.size())
     chosen.process = chosen.all;
   else
     chosen.process = chosen.all->subset(chosen.found.kept(), chosen.found.weights);
@@ -182,9 +183,17 @@ solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metr
     centres.push_back(kept.locations[i].angles);
   const discrepancy_functions smooth(centres, expected_.observations * model().variance, model().lengths);
   const basis_type whitened{prior_, {prior_.cells(), prior_.metric(), smooth}};
-  const auto equations = basis_equations<basis_type>::of_mapped(whitened, std::move(kept), threads_);
-  solution found = equations.solve(tikhonov(expected_.observations * model().error_variance));
-  found.weights.bottomRows(smooth.size()) = smooth.covariance_weights(found.weights.bottomRows(smooth.size()));
+  const row_source rows{kept.size(), whitened.size(), [&](block range, row_block out) {
+                          const std::span<const location> all = kept.locations;
+                          read_rows_at(whitened, all.subspan(range.begin, range.size()), out);
+                        }};
+  solution found = solve_rows(tikhonov(expected_.observations * model().error_variance), rows, kept, threads_);
+  // The last weights are of functions that are combinations of covariances.
+  Eigen::MatrixXd last(smooth.size(), found.weights.cols());
+  const Eigen::Index first = found.weights.rows() - last.rows();
+  for (Eigen::Index c = 0; c < last.cols(); ++c) std::copy_n(&found.weights(first, c), last.rows(), &last(0, c));
+  last = smooth.covariance_weights(last);
+  for (Eigen::Index c = 0; c < last.cols(); ++c) std::copy_n(&last(0, c), last.rows(), &found.weights(first, c));
   return {functions_around(centres), std::move(found)};
 }
 
@@ -212,7 +221,6 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located
 }
 
 #if defined(GONIO_COMPILED)
-extern template class basis_equations<reconstruction<log_relative>::basis_type>;
 extern template class fitted_brdf<reconstruction<log_relative>::basis_type>;
 extern template class reconstruction<log_relative>;
 #endif

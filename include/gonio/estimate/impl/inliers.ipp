@@ -8,6 +8,7 @@
 #include <gonio/estimate/out_of_gamut.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/scaled_likelihood.hpp>
+#include <gonio/estimate/solve_rows.hpp>
 #include <gonio/solve/product.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
@@ -158,14 +159,7 @@ namespace detail {
   row_matrix equations(some.size(), rows.cols());
   for (Eigen::Index i = 0; i < equations.rows(); ++i)
     for (Eigen::Index k = 0; k < equations.cols(); ++k) equations(i, k) = rows(kept[i], k);
-  const row_source source = rows_of(std::move(equations));
-  if (!some.weighs_channels_apart())
-    return solver.solve(least_squares_problem(source, some.values, some.weights_of(0), threads)).weights;
-  Eigen::MatrixXd weights(rows.cols(), 3);
-  for (Eigen::Index c = 0; c < 3; ++c)
-    weights.col(c) =
-        solver.solve(least_squares_problem(source, some.values.col(c), some.weights_of(c), threads)).weights;
-  return weights;
+  return solve_rows(solver, rows_of(std::move(equations)), some, threads).weights;
 }
 
 /// Those that look like outliers beside the prior's components alone: a start that many outliers cannot drag along. The

@@ -24,8 +24,8 @@ GONIO_INLINE Eigen::MatrixXd product_with_transpose(const matrix_view& a) {
 }
 
 GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a) {
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(lower_);  // in place
-  positive_definite_ = factors.info() == Eigen::Success;
+  // What Eigen::LLT does, but for the norm that its estimate of the condition needs; -1: all pivots are positive.
+  positive_definite_ = Eigen::internal::llt_inplace<double, Eigen::Lower>::blocked(lower_) == -1;
   // Eigen takes what is not a number for positive.
   for (Eigen::Index k = 0; k < lower_.rows(); ++k) positive_definite_ = positive_definite_ && lower_(k, k) > 0.0;
 }
