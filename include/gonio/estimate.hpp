@@ -14,6 +14,7 @@
 #include <gonio/estimate/learn_streamed_soft_specular.hpp>
 #include <gonio/estimate/leave_one_material_out_error.hpp>
 #include <gonio/estimate/located_samples.hpp>
+#include <gonio/estimate/map_samples.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
 #include <gonio/estimate/out_of_gamut.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>

@@ -6,7 +6,7 @@
 /// Why so: docs/decisions/0020-wrong-samples.md; results: docs/results/real-materials.md, docs/results/real-methods.md.
 
 #include <gonio/basis/pca.hpp>
-#include <gonio/estimate/basis_equations.hpp>
+#include <gonio/estimate/map_samples.hpp>
 #include <gonio/estimate/sample_process.hpp>
 #include <gonio/estimate/wrong_samples.hpp>
 
@@ -59,6 +59,12 @@ struct inliers {
 [[nodiscard]] located_samples weighted(const located_samples& samples, const inliers& found);
 
 namespace detail {
+
+/// Of samples that are wrong with some probabilities, those that are more likely wrong than not, and so are three of
+/// four samples in their neighbourhood, of a correlation length in size, but not they alone. O(n log n).
+[[nodiscard]] std::vector<Eigen::Index> wrong_neighbours(const located_samples& samples,
+                                                         const Eigen::VectorXd& probabilities,
+                                                         const correlation_lengths& lengths);
 
 /// The first three numbers of a row.
 [[nodiscard]] inline rgb first_three(const Eigen::MatrixXd& values, Eigen::Index row) {

@@ -7,8 +7,8 @@
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/random.hpp>
-#include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/estimator.hpp>
+#include <gonio/estimate/map_samples.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
 #include <gonio/estimate/reconstructed.hpp>
 #include <gonio/estimate/solve_rows.hpp>
@@ -87,6 +87,8 @@ class reconstruction {
     std::optional<sample_process> process;  ///< of those that are kept
   };
 
+  using solved = std::pair<basis_type, solution>;
+
   [[nodiscard]] bool has_process(Eigen::Index samples) const noexcept { return samples <= model().most_centres; }
   [[nodiscard]] selection select(const located_samples& samples) const;
   [[nodiscard]] sample_process process_of_mapped(const located_samples& mapped) const {
@@ -95,9 +97,8 @@ class reconstruction {
   /// Of the samples that are kept, or of some of them.
   [[nodiscard]] sample_process known_by(const selection& chosen) const;
 
-  [[nodiscard]] solved_channels<basis_type> solve(const located_samples& kept,
-                                                  const std::optional<sample_process>& process) const;
-  [[nodiscard]] solved_channels<basis_type> solve_around_centres(located_samples kept) const;
+  [[nodiscard]] solved solve(const located_samples& kept, const std::optional<sample_process>& process) const;
+  [[nodiscard]] solved solve_around_centres(located_samples kept) const;
   /// Components, and a discrepancy as a combination of covariances with its centres.
   [[nodiscard]] basis_type functions_around(const std::vector<half_difference>& centres) const {
     return {prior_, {prior_.cells(), prior_.metric(), discrepancy_functions::covariances(centres, model().lengths)}};
@@ -165,15 +166,14 @@ sample_process reconstruction<Metric>::process_of_inliers(const located_samples&
 }
 
 template <error_metric Metric>
-solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metric>::solve(
+typename reconstruction<Metric>::solved reconstruction<Metric>::solve(
     const located_samples& kept, const std::optional<sample_process>& process) const {
   if (!process) return solve_around_centres(kept);
   return {functions_around(process->at().angles), process->fit()};
 }
 
 template <error_metric Metric>
-solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metric>::solve_around_centres(
-    located_samples kept) const {
+typename reconstruction<Metric>::solved reconstruction<Metric>::solve_around_centres(located_samples kept) const {
   if (kept.size() > model().most_samples) kept = kept.subset(random_choice(kept.size(), model().most_samples, 0));
   const Eigen::VectorXd variances = error_variances(kept);
   for (Eigen::Index i = 0; i < kept.weights.size(); ++i)

@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/random.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/inliers.hpp>
 #include <gonio/estimate/out_of_gamut.hpp>
@@ -65,11 +66,9 @@ namespace detail {
   return some;
 }
 
-/// Of samples that are wrong with some probabilities, those that are more likely wrong than not, and so are three of
-/// four samples in their neighbourhood, of a correlation length in size, but not they alone. O(n log n).
-[[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> wrong_neighbours(const located_samples& samples,
-                                                                      const Eigen::VectorXd& probabilities,
-                                                                      const correlation_lengths& lengths) {
+GONIO_INLINE std::vector<Eigen::Index> wrong_neighbours(const located_samples& samples,
+                                                        const Eigen::VectorXd& probabilities,
+                                                        const correlation_lengths& lengths) {
   // Sort by neighbourhood, whose number is made of four whole ones below 500.
   std::vector<std::pair<double, Eigen::Index>> sorted;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/wrong_samples.hpp>
 #include <gonio/solve/product.hpp>
@@ -17,13 +18,6 @@
 namespace gonio {
 
 namespace detail {
-
-GONIO_INLINE std::vector<Eigen::Index> in_order(std::vector<std::pair<double, Eigen::Index>> keyed) {
-  std::sort(keyed.begin(), keyed.end());
-  std::vector<Eigen::Index> ordered;
-  for (const auto& [key, number] : keyed) ordered.push_back(number);
-  return ordered;
-}
 
 /// The mean of three channels and their two contrasts, an orthonormal turn of them.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd mean_and_contrasts(const Eigen::MatrixXd& values) {
@@ -343,8 +337,7 @@ GONIO_INLINE judged_samples judge_samples(const sample_process& samples, const r
     found.probabilities_[i] = set.probability(i);
     if (set.contains(i)) by_gain.emplace_back(set.gain(i), i);
   }
-  for (const Eigen::Index i : detail::in_order(std::move(by_gain)))
-    found.wrong_.push_back({i, found.probabilities_[i]});
+  for (const Eigen::Index i : in_order(std::move(by_gain))) found.wrong_.push_back({i, found.probabilities_[i]});
   // Keep what others are judged by.
   found.shared_ = search.shared;
   found.expected_ = samples.expected();
