@@ -9,6 +9,7 @@
 #include <gonio/estimate/impl/leave_one_material_out_error.ipp>
 #include <gonio/estimate/impl/located_samples.ipp>
 #include <gonio/estimate/impl/mapped_noise.ipp>
+#include <gonio/estimate/impl/mirror_envelope.ipp>
 #include <gonio/estimate/impl/out_of_gamut.ipp>
 #include <gonio/estimate/impl/outlier_mixture.ipp>
 #include <gonio/estimate/impl/reconstructed.ipp>

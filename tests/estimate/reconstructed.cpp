@@ -197,3 +197,24 @@ TEST_CASE("samples in finer steps, and samples that are all in one region, do no
   CHECK(fine.deviation(beyond) > 0.9 * coarse.deviation(beyond));
   CHECK(fine.deviation(beyond) > 3.0 * fine.deviation(near));
 }
+
+TEST_CASE("no estimate dips in the mirror direction, in its table and where it is evaluated") {
+  const valid_cells& cells = posterior_cells();
+  Eigen::Index filled = 0;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const auto paint =
+        posterior_estimator().fit_located(measured_at(gonio::random_cells(cells, 8, seed + 20), drawn_material(seed)));
+    const gonio::brdf_table table = paint.tabulate(cells), fit = paint.fit().tabulate(cells);
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
+      const gonio::half_difference angles = cells.angles(cell);
+      const auto [wi, wo] = gonio::to_directions(angles);
+      if (wi.z() < 0.02 || wo.z() < 0.02) continue;
+      const gonio::rgb value = paint(wi, wo), told = table.at(cell);
+      REQUIRE((value - told).abs().maxCoeff() <= 1e-3 * told.maxCoeff());
+      REQUIRE((paint.values(wi, wo) - value).abs().maxCoeff() <= 1e-3 * value.maxCoeff());
+      filled += gonio::luminance(told) > 1.01 * gonio::luminance(gonio::rgb(fit.at(cell))) ? 1 : 0;
+      if (angles.theta_h >= gonio::radians(8.0)) REQUIRE((told == gonio::rgb(fit.at(cell))).all());
+    }
+  }
+  CHECK(filled > 0);
+}

@@ -84,7 +84,7 @@ TEST_CASE("the fit is the posterior mean of prior and discrepancy") {
       among(i, j) = covariance(at, located.locations[j]) + (i == j ? model.error_variance : 0);
   }
   const Eigen::VectorXd dual = among.llt().solve(y);
-  const gonio::brdf_table table = fit.tabulate(discrepancy_cells());
+  const gonio::brdf_table table = fit.fit().tabulate(discrepancy_cells());
   for (const Eigen::Index cell : gonio::random_cells(discrepancy_cells(), 40, 9)) {
     const auto at = gonio::locate_cell(discrepancy_cells(), cell);
     double expected = gonio::offset_at(discrepancy_prior(), at);
@@ -112,7 +112,7 @@ TEST_CASE("the mean of the process is the ridge regression of components joined 
     const Eigen::MatrixXd components = ridge.weights.topRows(10);
     CHECK((paint.fit().weights().topRows(10) - components).norm() < 1e-4 * components.norm());
     const auto table = gonio::fitted_brdf(basis, ridge.weights).tabulate(discrepancy_cells());
-    CHECK(mapped_error(paint.tabulate(discrepancy_cells()), table) < 1e-5);
+    CHECK(mapped_error(paint.fit().tabulate(discrepancy_cells()), table) < 1e-5);
     // The same is said of the fit.
     for (Eigen::Index c = 0; c < 3; ++c) {
       CHECK(paint.fit().report()->residual[c] == doctest::Approx(ridge.report.residual[c]).epsilon(1e-4));

@@ -3,6 +3,7 @@
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include "papers/our_own/highlight_shape.hpp"
 #include "papers/our_own/left_out_families.hpp"
 #include "papers/our_own/rank_correlation.hpp"
 #include "tool/files/json.hpp"
@@ -66,9 +67,11 @@ class experiment : left_out_experiment {
       for (const std::string& method : given_.methods) {
         json by_material = json::object();
         for (const judged_material& material : materials) {
-          const json key{method,       where.name,         material.name, given_.components,
-                         given_.noise, given_.repetitions, given_.set,    given_.surrogates,
-                         given_.wrong};
+          const json key{method,        where.name,
+                         material.name, given_.components,
+                         given_.noise,  given_.repetitions,
+                         given_.set,    given_.surrogates,
+                         given_.wrong,  "shape"};
           by_material[material.name] = once(key, material.turn, where.name + " " + method + " " + material.name,
                                             [&] { return errors_of(material, where, method); });
         }
@@ -173,7 +176,7 @@ class experiment : left_out_experiment {
   json errors_of(const judged_material& material, const sampling& where, const std::string& method) {
     std::vector<double> values(8, 0.0), within_68 = values, within_95 = values;
     double rms = 0.0, environment = 0.0, lights = 0.0, low = 1e300, high = 0.0, named = 0.0, left_out = 0.0;
-    double rank = 0.0, peaks_off = 0.0, peaks_off_warned = 0.0, warned = 0.0;
+    double rank = 0.0, peaks_off = 0.0, peaks_off_warned = 0.0, warned = 0.0, dips = 0.0, turning_points = 0.0;
     const std::array<bool, 3> inside = in_gamut(material);
     const auto times = static_cast<double>(where.sets.size());
     for (Eigen::Index r = 0; r < std::ssize(where.sets); ++r) {
@@ -185,6 +188,9 @@ class experiment : left_out_experiment {
       rms += errors.mapped_rms.mean() / times;
       environment += errors.delta_e_env / times;
       lights += errors.delta_e_lights / times;
+      const highlight_shape shape = highlight_shape_of(found.table);
+      dips += shape.mirror < 0.9 ? 1.0 : 0.0;
+      turning_points += shape.turning_points / times;
       bool off = false;
       for (Eigen::Index c = 0; c < 3; ++c) {
         const double ratio = errors.peak_ratio[c];
@@ -220,6 +226,9 @@ class experiment : left_out_experiment {
             {"within_68", within_68},
             {"within_95", within_95},
             {"rank", rank},
+            {"dips", dips},
+            {"turning_points", turning_points},
+            {"true_turning_points", highlight_shape_of(material.truth).turning_points},
             {"peaks_off", peaks_off},
             {"warned", warned},
             {"peaks_off_warned", peaks_off_warned}};
@@ -254,8 +263,8 @@ void print(const real_materials_options& given, const json& rows) {
   std::cout
       << ".\n\n| samples | method | mapped rms | Delta E env | Delta E lights | peak, least to largest | peaks beyond "
          "4 times (warned), warned in all | left out | wrong ones first | within 68 % | within 95 % (worst region) | "
-         "rank "
-         "correlation |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+         "rank correlation | dips | turning points (of the truth) |\n"
+         "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const json& row : rows.elements()) {
     std::map<std::string, std::vector<double>> values;
     for (const auto& [name, errors] : row["materials"].items())
@@ -273,7 +282,9 @@ void print(const real_materials_options& given, const json& rows) {
               << " (" << fixed(total("peaks_off_warned"), 0) << "), " << fixed(total("warned"), 0) << " | "
               << fixed(distribution(values["left_out"]).mean, 2) << " | "
               << (given.wrong == 0 ? "-" : fixed(100.0 * distribution(values["named"]).mean, 0) + " %") << " | "
-              << coverage(row["materials"]) << " | " << fixed(distribution(values["rank"]).mean, 2) << " |\n";
+              << coverage(row["materials"]) << " | " << fixed(distribution(values["rank"]).mean, 2) << " | "
+              << fixed(total("dips"), 0) << " | " << fixed(distribution(values["turning_points"]).mean, 2) << " ("
+              << fixed(distribution(values["true_turning_points"]).mean, 2) << ") |\n";
   }
 }
 

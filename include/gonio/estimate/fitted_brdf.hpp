@@ -67,7 +67,17 @@ class fitted_brdf {
   /// Reflectance in sr^-1 in each channel, at least zero; zero below the horizon.
   [[nodiscard]] Eigen::ArrayXd values(const direction& wi, const direction& wo) const {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return Eigen::ArrayXd::Zero(kinds_.size());
-    return values_at(locate(basis_.cells(), to_half_difference(wi, wo)));
+    return values(locate(basis_.cells(), to_half_difference(wi, wo)));
+  }
+  /// The same at a location on the basis' cells.
+  [[nodiscard]] Eigen::ArrayXd values(const location& place) const {
+    if constexpr (basis<Basis>) {
+      Eigen::ArrayXd all = (row_at(basis_, place) * weights_).transpose().array() + offset_at(basis_, place);
+      for (double& value : all) value = reflectance_of(basis_.metric(), value, place);
+      return all;
+    } else {
+      return at(place);
+    }
   }
 
   /// The cells that locations for `at` are on.
@@ -76,7 +86,7 @@ class fitted_brdf {
   /// Reflectance in sr^-1 at a location on the basis' cells, at least zero.
   [[nodiscard]] rgb at(const location& place) const noexcept {
     if (kinds_.are_wavelengths()) {
-      const Eigen::ArrayXd spectrum = values_at(place);
+      const Eigen::ArrayXd spectrum = values(place);
       return kinds_.colour({spectrum.data(), static_cast<std::size_t>(spectrum.size())});
     }
     return reflectance(mapped_at(place), place);
@@ -138,17 +148,6 @@ class fitted_brdf {
     for (Eigen::Index c = 0; c < 3; ++c)
       std::copy_n(&weights_(0, std::min(first + c, weights_.cols() - 1)), three.rows(), &three(0, c));
     return three;
-  }
-
-  /// In each channel, in double.
-  [[nodiscard]] Eigen::ArrayXd values_at(const location& place) const {
-    if constexpr (basis<Basis>) {
-      Eigen::ArrayXd all = (row_at(basis_, place) * weights_).transpose().array() + offset_at(basis_, place);
-      for (double& value : all) value = reflectance_of(basis_.metric(), value, place);
-      return all;
-    } else {
-      return at(place);
-    }
   }
 
   /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.

@@ -9,6 +9,7 @@
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/inliers.hpp>
+#include <gonio/estimate/mirror_envelope.hpp>
 #include <gonio/estimate/sample_process.hpp>
 
 #include <Eigen/Core>
@@ -100,15 +101,32 @@ class reconstructed {
     for (outlying_sample& each : found_.contradicted) each.number = number_of(each.number);
   }
 
-  /// Reflectance in sr^-1 as a colour, at least zero; zero below the horizon.
-  [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept { return fit_(wi, wo); }
+  /// Reflectance in sr^-1 as a colour, at least zero; zero below the horizon. The fit, and no dip in the mirror
+  /// direction
+  /// (`mirror_envelope`), which takes evaluations of the fit as many as the prior has rows from there to 8 degrees.
+  [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
+    return filled<rgb>(
+        located(wi, wo), [&](const location& at) { return fit_.at(at); }, luminance);
+  }
   /// The same in each channel of the samples.
-  [[nodiscard]] Eigen::ArrayXd values(const direction& wi, const direction& wo) const { return fit_.values(wi, wo); }
+  [[nodiscard]] Eigen::ArrayXd values(const direction& wi, const direction& wo) const {
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return fit_.values(wi, wo);
+    return filled<Eigen::ArrayXd>(
+        located(wi, wo), [&](const location& at) { return fit_.values(at); },
+        [&](const Eigen::ArrayXd& values) { return brightness(fit_.channels(), values); });
+  }
   /// All directions as a table of colours.
-  [[nodiscard]] brdf_table tabulate(const valid_cells& cells) const { return fit_.tabulate(cells, threads_); }
+  [[nodiscard]] brdf_table tabulate(const valid_cells& cells) const {
+    brdf_table table = fit_.tabulate(cells, threads_);
+    fill_mirror_dips(table, threads_);
+    return table;
+  }
   /// All directions as a table of wavelengths, where the samples have some.
   [[nodiscard]] spectral_table tabulate_spectra(const valid_cells& cells) const {
-    return fit_.tabulate_spectra(cells, threads_);
+    spectral_table table = fit_.tabulate_spectra(cells, threads_);
+    fill_mirror_dips(table, fit_.channels(), threads_);
+    return table;
   }
   /// The weights, the functions that they are of, and the solver's report.
   [[nodiscard]] const fit_type& fit() const noexcept { return fit_; }
@@ -150,7 +168,7 @@ class reconstructed {
   }
   /// Around the value in two directions above the horizon.
   [[nodiscard]] reflectance_interval interval(const direction& wi, const direction& wo, confidence_level level) const {
-    return interval(fit_(wi, wo), located(wi, wo), level);
+    return interval((*this)(wi, wo), located(wi, wo), level);
   }
 
   /// By how much a value is known, relative to it, with a probability of 68 %, given its deviation.
@@ -213,6 +231,22 @@ class reconstructed {
  private:
   [[nodiscard]] location located(const direction& wi, const direction& wo) const {
     return locate(prior_.cells(), to_half_difference(wi, wo));
+  }
+  /// A value by the fit, and by the dips of the prior's rows beyond it.
+  template <class Value, class Evaluate, class Brightness>
+  [[nodiscard]] Value filled(const location& at, Evaluate&& evaluate, Brightness&& brightness_of) const {
+    const Value own = evaluate(at);
+    if (!mirror_envelope<Value>::reaches(at.angles)) return own;
+    mirror_envelope<Value> envelope(at.angles.theta_d);
+    const grid& rows = prior_.cells().grid();
+    for (auto row = static_cast<int>(rows.theta_h_coordinate(mirror_envelope<Value>::theta_h)); row >= 0; --row) {
+      half_difference farther = at.angles;
+      farther.theta_h = rows.theta_h(row);
+      if (farther.theta_h <= at.angles.theta_h) break;
+      const Value value = evaluate(locate(prior_.cells(), farther));
+      static_cast<void>(envelope.next(value, brightness_of(value)));
+    }
+    return envelope.next(own, brightness_of(own));
   }
   [[nodiscard]] Eigen::Index number_of(Eigen::Index i) const { return numbers_.empty() ? i : numbers_[i]; }
 
