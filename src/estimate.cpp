@@ -18,6 +18,7 @@
 #include <gonio/estimate/impl/sample_regions.ipp>
 #include <gonio/estimate/impl/scaled_likelihood.ipp>
 #include <gonio/estimate/impl/soft_specular_decomposition.ipp>
+#include <gonio/estimate/impl/solve_rows.ipp>
 #include <gonio/estimate/impl/wrong_samples.ipp>
 
 namespace gonio {

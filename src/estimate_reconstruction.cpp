@@ -4,7 +4,6 @@
 
 namespace gonio {
 
-template class basis_equations<reconstruction<log_relative>::basis_type>;
 template class fitted_brdf<reconstruction<log_relative>::basis_type>;
 template class reconstruction<log_relative>;
 

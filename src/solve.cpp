@@ -2,7 +2,6 @@
 
 #include <gonio/solve/impl/choose_eta.ipp>
 #include <gonio/solve/impl/dual_active_set.ipp>
-#include <gonio/solve/impl/gram.ipp>
 #include <gonio/solve/impl/growing_cholesky.ipp>
 #include <gonio/solve/impl/householder_qr.ipp>
 #include <gonio/solve/impl/kkt.ipp>

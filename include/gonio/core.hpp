@@ -12,6 +12,7 @@
 #include <gonio/core/finite.hpp>
 #include <gonio/core/half.hpp>
 #include <gonio/core/huge_pages.hpp>
+#include <gonio/core/interpolated_colour.hpp>
 #include <gonio/core/lens_distortion.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/pinhole_camera.hpp>

@@ -2,6 +2,7 @@
 /// All of `estimate/`, the heart: from samples to a BRDF on a basis.
 
 #include <gonio/estimate/angular_error.hpp>
+#include <gonio/estimate/aperture_factors.hpp>
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/decomposition_parts.hpp>
@@ -14,7 +15,9 @@
 #include <gonio/estimate/learn_streamed_soft_specular.hpp>
 #include <gonio/estimate/leave_one_material_out_error.hpp>
 #include <gonio/estimate/located_samples.hpp>
+#include <gonio/estimate/map_samples.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
+#include <gonio/estimate/mirror_envelope.hpp>
 #include <gonio/estimate/out_of_gamut.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
@@ -25,5 +28,6 @@
 #include <gonio/estimate/scaled_likelihood.hpp>
 #include <gonio/estimate/soft_or_specular.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>
+#include <gonio/estimate/solve_rows.hpp>
 #include <gonio/estimate/values_at.hpp>
 #include <gonio/estimate/wrong_samples.hpp>

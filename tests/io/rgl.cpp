@@ -1,4 +1,5 @@
 #include "scratch.hpp"
+#include <gonio/core/interpolated_colour.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/rgl.hpp>

@@ -1,4 +1,5 @@
 #include "../io/scratch.hpp"
+#include <gonio/core/interpolated_colour.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/model/smooth_spectra.hpp>
 

@@ -123,9 +123,9 @@ TEST_CASE("the factor of a mixture is found from the differences alone") {
     std::mt19937_64 generator(seed);
     std::normal_distribution<double> normal(logarithm, 0.1);
     std::uniform_real_distribution<double> uniform(-8.0, 8.0);
-    Eigen::ArrayXd differences(400);
+    std::vector<double> differences(400);
     for (Eigen::Index i = 0; i < 400; ++i) differences[i] = i % 2 == 0 ? normal(generator) : uniform(generator);
-    const auto found = gonio::detail::best_factor(differences, Eigen::ArrayXd::Constant(400, 1.0 / 16.0));
+    const auto found = gonio::detail::best_factor(differences, std::vector<double>(400, 1.0 / 16.0));
     // The standard error of the mean of 200 is 0.007; six of these.
     RC_ASSERT(std::abs(found.logarithm_of_factor - logarithm) < 0.045);
     RC_ASSERT(std::isfinite(found.log_likelihood));

@@ -1,6 +1,7 @@
 #pragma once
 /// Tukey's biweight, with which the iteration's weights are compared.
 
+#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/robust/outlier_weights.hpp>
 
@@ -26,8 +27,9 @@ inline channel_values tukey_weights::weigh(const channel_values& measured, const
   channel_values weights(3, measured.cols());
   for (Eigen::Index c = 0; c < 3; ++c) {
     // Rounding is no deviation.
-    const float limit =
-        static_cast<float>(cutoff) * std::max(1.4826f * detail::upper_median_of(deviation.row(c)), 1e-6f);
+    std::vector<float> sorted;
+    for (const float value : deviation.row(c)) sorted.push_back(value);
+    const float limit = static_cast<float>(cutoff) * std::max(1.4826f * upper_median(sorted), 1e-6f);
     weights.row(c) = (1.0f - (deviation.row(c) / limit).square()).max(0.0f).square();
   }
   return weights;

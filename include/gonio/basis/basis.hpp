@@ -2,6 +2,7 @@
 /// The concept of a basis: functions over the cells of a grid, already mapped by an error metric.
 
 #include <gonio/metric/error_metric.hpp>
+#include <gonio/solve/row_source.hpp>
 #include <gonio/table/domain.hpp>
 
 #include <Eigen/Core>
@@ -189,8 +190,8 @@ inline void blend_row(double weight, std::span<const float> values, bool first, 
 
 /// Writes the values of all functions at a location to a row of size() contiguous numbers: interpolated in the metric's
 /// domain if the basis is tabulated, exact if it is computed.
-template <basis Basis, class Row>
-void read_row_at(const Basis& functions, const location& at, Row&& out) {
+template <basis Basis>
+void read_row_at(const Basis& functions, const location& at, function_row out) {
   if constexpr (computed_basis<Basis>) {
     functions.read_row(at, out);
   } else {
@@ -202,12 +203,13 @@ void read_row_at(const Basis& functions, const location& at, Row&& out) {
 
 /// The same at many locations, a row of `out` each: by the basis' own `read_rows` if it has one, because many rows at
 /// once cost it less.
-template <basis Basis, class Rows>
-void read_rows_at(const Basis& functions, std::span<const location> at, Rows&& out) {
+template <basis Basis>
+void read_rows_at(const Basis& functions, std::span<const location> at, row_block out) {
   if constexpr (requires { functions.read_rows(at, out); })
     functions.read_rows(at, out);
   else
-    for (Eigen::Index i = 0; i < std::ssize(at); ++i) read_row_at(functions, at[i], out.row(i));
+    for (Eigen::Index i = 0; i < std::ssize(at); ++i)
+      read_row_at(functions, at[i], Eigen::Map<Eigen::RowVectorXd>(&out(i, 0), out.cols()));
 }
 
 /// The values of all functions at a location: size() numbers. See `read_row_at`.
@@ -221,7 +223,7 @@ template <basis Basis>
 /// The same at many locations: locations x size().
 template <basis Basis>
 [[nodiscard]] Eigen::MatrixXd rows_at(const Basis& functions, std::span<const location> at) {
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> contiguous(std::ssize(at), functions.size());
+  row_matrix contiguous(std::ssize(at), functions.size());
   read_rows_at(functions, at, contiguous);
   Eigen::MatrixXd rows(contiguous.rows(), contiguous.cols());
   for (Eigen::Index i = 0; i < rows.rows(); ++i)

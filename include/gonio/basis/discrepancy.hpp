@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,8 +33,8 @@ struct correlation_lengths {
 namespace detail {
 
 /// Where angles are, in units of the lengths: the first coordinate is theta_h's, the others are of theta_d and phi_d.
-[[nodiscard]] Eigen::Vector4d discrepancy_place(const half_difference& angles,
-                                                const correlation_lengths& lengths) noexcept;
+using discrepancy_place = std::array<double, 4>;
+[[nodiscard]] discrepancy_place place_of(const half_difference& angles, const correlation_lengths& lengths) noexcept;
 
 }  // namespace detail
 
@@ -72,7 +73,7 @@ class discrepancy_functions {
   [[nodiscard]] static discrepancy_functions covariances(std::span<const half_difference> centres,
                                                          const correlation_lengths& lengths = {});
 
-  [[nodiscard]] Eigen::Index size() const noexcept { return shared_->places.cols(); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return std::ssize(shared_->places); }
 
   /// The functions at some angles: size() contiguous numbers. O(size^2) for phi, O(size) for k.
   void read(const half_difference& angles, double* out) const noexcept;
@@ -89,11 +90,8 @@ class discrepancy_functions {
                                            thread_count threads = {}) const;
 
  private:
-  /// A column for each centre: where it is, in units of the lengths.
-  using place_columns = Eigen::Matrix<double, 4, Eigen::Dynamic>;
-
   struct stored {
-    place_columns places;
+    std::vector<detail::discrepancy_place> places;  ///< of the centres
     correlation_lengths lengths;
     double amplitude = 1.0;
     std::optional<cholesky> factors;  ///< L of phi; none of k

@@ -32,14 +32,13 @@ class joined {
   [[nodiscard]] double offset(Eigen::Index cell) const noexcept { return first_.offset(cell) + second_.offset(cell); }
 
   void read_row(const location& at, function_row out) const noexcept {
-    read_row_at(first_, at, out.head(first_size()));
-    read_row_at(second_, at, out.tail(out.size() - first_size()));
+    read_row_at(first_, at, Eigen::Map<Eigen::RowVectorXd>(out.data(), first_size()));
+    read_row_at(second_, at, Eigen::Map<Eigen::RowVectorXd>(out.data() + first_size(), out.size() - first_size()));
   }
 
-  template <class Rows>
-  void read_rows(std::span<const location> at, Rows&& out) const {
-    read_rows_at(first_, at, out.leftCols(first_size()));
-    read_rows_at(second_, at, out.rightCols(out.cols() - first_size()));
+  void read_rows(std::span<const location> at, row_block out) const {
+    read_rows_at(first_, at, columns_of_block(out, 0, first_size()));
+    read_rows_at(second_, at, columns_of_block(out, first_size(), out.cols() - first_size()));
   }
 
   [[nodiscard]] cell_fields<3> combination(const Eigen::MatrixXd& weights, thread_count threads = {}) const requires

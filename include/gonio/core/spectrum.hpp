@@ -122,26 +122,4 @@ class spectral_colour {
   return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
 }
 
-/// What each of some wavelengths adds to red, green and blue (3 x wavelengths) of a reflectance that is linear between
-/// them and constant outside, as renderers read spectra; integrated every nanometre. Throws as `spectral_colour`.
-[[nodiscard]] inline Eigen::MatrixXd interpolated_colour(std::span<const double> wavelengths) {
-  static_cast<void>(spectral_colour(wavelengths));  // refuses what is no spectrum
-  std::vector<double> fine;
-  for (int nanometres = 360; nanometres <= 830; ++nanometres) fine.push_back(nanometres);
-  const spectral_colour colour(fine);
-  Eigen::MatrixXd weights(3, std::ssize(wavelengths));
-  std::vector<double> hat(fine.size());
-  for (Eigen::Index i = 0; i < weights.cols(); ++i) {
-    const double here = wavelengths[i], before = wavelengths[i == 0 ? 0 : i - 1],
-                 after = wavelengths[std::min(i + 1, weights.cols() - 1)];
-    for (std::size_t j = 0; j < fine.size(); ++j) {
-      const double at = fine[j], step = at < here ? here - before : after - here;
-      hat[j] = step > 0.0 ? std::max(1.0 - std::abs(at - here) / step, 0.0) : 1.0;
-    }
-    const rgb here_alone = colour(hat);
-    for (Eigen::Index c = 0; c < 3; ++c) weights(c, i) = here_alone[c];
-  }
-  return weights;
-}
-
 }  // namespace gonio

@@ -5,12 +5,22 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <utility>
+#include <vector>
 
 namespace gonio {
 
 /// Times the median distance from the median, this is the standard deviation of normal numbers, whatever a few others
 /// among them are: 1 over the normal distribution's quantile of 0.75.
 inline constexpr double deviation_by_median = 1.4826;
+
+/// Numbers in the order of what belongs to them, and of themselves where that is the same. O(n log n).
+[[nodiscard]] inline std::vector<std::ptrdiff_t> in_order(std::vector<std::pair<double, std::ptrdiff_t>> keyed) {
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<std::ptrdiff_t> ordered;
+  for (const auto& [key, number] : keyed) ordered.push_back(number);
+  return ordered;
+}
 
 /// The number at a position, from 0 on, when they are sorted. The smaller ones are then before it.
 template <class Numbers>

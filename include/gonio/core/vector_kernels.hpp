@@ -26,11 +26,18 @@ namespace gonio {
 void add_scaled(double factor, const double* a, double* sum, Eigen::Index count);
 void add_scaled(float factor, const float* a, float* sum, Eigen::Index count);
 
+/// The same of matrices of one size.
+void add_scaled(double factor, const Eigen::MatrixXd& a, Eigen::MatrixXd& sum);
+
 /// Multiplies product[i] by a[i].
 void multiply(const float* a, float* product, Eigen::Index count);
 
 /// Replaces each number by its exponential, within 2 units of the last place, and the same wherever a number stands.
 void exponentiate(float* numbers, Eigen::Index count);
+
+/// Replaces each number by its exponential, or by its natural logarithm.
+void exponentiate(double* numbers, Eigen::Index count);
+void take_logarithms(double* numbers, Eigen::Index count);
 
 /// Calls `map` for sixteen numbers at a time, an array that it replaces by their images; behind the last ones there are
 /// zeros. Eigen rounds functions otherwise where a number stands alone before or after whole vector registers, which

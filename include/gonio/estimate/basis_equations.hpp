@@ -3,7 +3,7 @@
 /// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 9; Noell, Koehler and Stricker 2014, Eq. 7.
 
 #include <gonio/basis/pca.hpp>
-#include <gonio/estimate/located_samples.hpp>
+#include <gonio/estimate/map_samples.hpp>
 #include <gonio/solve/solver.hpp>
 
 #include <functional>
@@ -24,24 +24,6 @@ struct solved_channels {
   Basis functions;
   solution found;
 };
-
-/// Samples in the metric's domain of a basis, less its offset at each: what its functions combine to. O(samples).
-template <colour_basis Basis>
-[[nodiscard]] located_samples map_samples(const Basis& functions, located_samples samples, thread_count threads = {}) {
-  if constexpr (!basis<Basis>) samples = in_colours(std::move(samples));
-  for_each_index(
-      samples.locations.size(), 1024,
-      [&](Eigen::Index i) {
-        const location& at = samples.locations[i];
-        double offset = 0.0;
-        for (Eigen::Index c = 0; c < samples.values.cols(); ++c) {
-          if (c == 0 || !basis<Basis>) offset = offset_at(channel_of(functions, c), at);
-          samples.values(i, c) = functions.metric().forward(samples.values(i, c), at) - offset;
-        }
-      },
-      threads);
-  return samples;
-}
 
 /// Measurements seen through a basis. Row i of a system is the basis interpolated at measurement i, the right-hand side
 /// its mapped value minus the offset there; its weight multiplies the squared error. Channels with a basis and weights

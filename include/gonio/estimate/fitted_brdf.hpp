@@ -145,7 +145,8 @@ class fitted_brdf {
   /// Three columns of the weights from one on, the last one again where there are fewer.
   [[nodiscard]] Eigen::MatrixXd three_columns(Eigen::Index first) const {
     Eigen::MatrixXd three(weights_.rows(), 3);
-    for (Eigen::Index c = 0; c < 3; ++c) three.col(c) = weights_.col(std::min(first + c, weights_.cols() - 1));
+    for (Eigen::Index c = 0; c < 3; ++c)
+      std::copy_n(&weights_(0, std::min(first + c, weights_.cols() - 1)), three.rows(), &three(0, c));
     return three;
   }
 
@@ -279,7 +280,8 @@ typename fitted_brdf<Basis>::mapped_fields fitted_brdf<Basis>::mapped_field(thre
       basis_.cells().size(), 4096,
       [&](Eigen::Index cell) {
         if constexpr (at_once) {
-          field.col(cell) += static_cast<float>(basis_.offset(cell));
+          for (Eigen::Index channel = 0; channel < 3; ++channel)
+            field(channel, cell) += static_cast<float>(basis_.offset(cell));
           return;
         }
         const rgb value = mapped(cell);

@@ -6,16 +6,16 @@
 /// Student's t (Lange, Little and Taylor 1989, doi:10.1080/01621459.1989.10478852).
 
 #include <gonio/core/parallel.hpp>
-#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/sample_regions.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <memory>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -40,40 +40,8 @@ class outlier_density {
   std::vector<double> density_;
 };
 
-inline outlier_density::outlier_density(const std::vector<double>& logarithms) : density_(bins, 0.0) {
-  // Count in bins over the range and half a unit beyond.
-  const auto [least, most] = std::ranges::minmax_element(logarithms);
-  const auto n = static_cast<double>(logarithms.size());
-  lowest_ = *least - 0.5;
-  step_ = (*most - *least + 1.0) / static_cast<double>(bins);
-  std::vector<double> counts(bins, 0.0);
-  double mean = 0.0, square = 0.0;
-  for (const double value : logarithms) {
-    counts[std::min(bins - 1, static_cast<Eigen::Index>((value - lowest_) / step_))] += 1.0;
-    mean += value / n;
-    square += value * value / n;
-  }
-  // Smooth by a Gaussian of Silverman's width.
-  const double deviation = std::sqrt(std::max(square - mean * mean, 0.0));
-  const double width = std::max(1.06 * deviation * std::pow(n, -0.2), step_);
-  const auto reach = static_cast<std::ptrdiff_t>(3.0 * width / step_) + 1;
-  for (std::ptrdiff_t i = 0; i < std::ssize(counts); ++i)
-    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(i - reach, 0); j <= std::min(i + reach, std::ssize(counts) - 1);
-         ++j) {
-      const double z = static_cast<double>(i - j) * step_ / width;
-      density_[j] += counts[i] * std::exp(-0.5 * z * z);
-    }
-  // Flatten: a tenth of a measurement is where nothing was measured.
-  double total = 0.0;
-  for (double& value : density_) {
-    value = std::sqrt(std::max(value / (n * width * std::sqrt(2.0 * std::numbers::pi)), 0.1 / n));
-    total += value * step_;
-  }
-  for (double& value : density_) value /= total;
-}
-
 /// Good residuals are `scale` times a variable of Student's t with 4 degrees of freedom, whose tails let the fit be
-/// wrong somewhere; all others are outliers. Residuals and what is known of them are numbers, or arrays of them.
+/// wrong somewhere; all others are outliers.
 struct outlier_mixture {
   double inlier_fraction = 0.8;
   double scale = 0.3;  ///< of the logarithm of reflectance
@@ -83,30 +51,21 @@ struct outlier_mixture {
   static constexpr double smallest_scale = 0.01;
 
   /// The density of a good residual.
-  template <class Number>
-  [[nodiscard]] Number good_density(const Number& residual) const {
-    using std::sqrt;
-    const Number tail = tail_weight(residual);
-    return (0.375 / scale) * (tail * tail * sqrt(tail));
+  [[nodiscard]] double good_density(double residual) const noexcept { return density_on_tail(tail_weight(residual)); }
+  /// The same, given the residual's tail weight.
+  [[nodiscard]] double density_on_tail(double tail) const noexcept {
+    return (0.375 / scale) * (tail * tail * std::sqrt(tail));
   }
 
   /// The probability that a measurement is good, given its residual and the density of outliers there.
-  template <class Number>
-  [[nodiscard]] Number probability(const Number& residual, const Number& outliers) const {
-    const Number good = inlier_fraction * good_density(residual);
+  [[nodiscard]] double probability(double residual, double outliers) const noexcept {
+    const double good = inlier_fraction * good_density(residual);
     return good / (good + (1.0 - inlier_fraction) * outliers);
   }
 
-  /// The density of a residual, good or not, given that of outliers there.
-  template <class Number>
-  [[nodiscard]] Number density(const Number& residual, const Number& outliers) const {
-    return inlier_fraction * good_density(residual) + (1.0 - inlier_fraction) * outliers;
-  }
-
   /// What a good measurement counts in a fit: less the farther it is out on the tail.
-  template <class Number>
-  [[nodiscard]] Number tail_weight(const Number& residual) const {
-    const Number z = residual / scale;
+  [[nodiscard]] double tail_weight(double residual) const noexcept {
+    const double z = residual / scale;
     return 1.0 / (1.0 + z * z / degrees_of_freedom);
   }
 };
@@ -118,24 +77,9 @@ struct outlier_mixture {
 [[nodiscard]] outlier_mixture estimate_mixture(const std::vector<double>& residuals,
                                                const std::vector<double>& outliers, outlier_mixture start = {});
 
-namespace detail {
-
-/// Of an array that stays as it is.
-template <class Values>
-[[nodiscard]] auto upper_median_of(const Values& values) {
-  std::vector<typename Values::Scalar> copy(values.size());
-  for (Eigen::Index i = 0; i < values.size(); ++i) copy[i] = values(i);
-  return upper_median(copy);
-}
-
-}  // namespace detail
-
 /// What is added to reflectance before its logarithm is taken, in sr^-1: a hundredth of the median measurement of a
 /// channel, so that the darkest measurements, which are mostly noise, do not decide; at least 0.0001.
-template <class Measurements>
-[[nodiscard]] double logarithm_offset(const Measurements& measured) {
-  return std::max(1e-4, 0.01 * static_cast<double>(detail::upper_median_of(measured)));
-}
+[[nodiscard]] double logarithm_offset(std::vector<double> measured);
 
 /// Outlier weights without a parameter: the probability that a sample is good, times its weight on the tail. A sample
 /// is judged as a whole: what goes wrong in a measurement is its direction, not one of its colours. The probability is
@@ -155,14 +99,14 @@ struct automatic_weights {
   [[nodiscard]] outlier_mixture mixture(const channel_values& measured, const channel_values& estimated) const;
 
   /// `logarithm_offset` of each channel.
-  [[nodiscard]] static Eigen::Array3f offsets(const channel_values& measured, thread_count threads = {});
+  [[nodiscard]] static std::array<float, 3> offsets(const channel_values& measured);
 
  private:
   struct deviations {
-    Eigen::ArrayXf residual;   // mean of the channels' residuals
-    Eigen::ArrayXf distance;   // root mean square of them
-    Eigen::ArrayXf logarithm;  // mean of the channels' logarithms
-    Eigen::ArrayXd outliers;   // the density of outliers there
+    std::vector<float> residual;   // mean of the channels' residuals
+    std::vector<float> distance;   // root mean square of them
+    std::vector<float> logarithm;  // mean of the channels' logarithms
+    std::vector<double> outliers;  // the density of outliers there
   };
 
   [[nodiscard]] deviations deviate(const channel_values& measured, const channel_values& estimated) const;
@@ -174,8 +118,8 @@ struct automatic_weights {
   [[nodiscard]] double scale_of_distances(const deviations& found, const outlier_mixture& mixture) const;
 
   /// The residual below which half of the good ones among some samples lie, if these are the ones with the least.
-  [[nodiscard]] static double half_of_the_good(const Eigen::ArrayXf& residuals, std::span<const Eigen::Index> samples,
-                                               double inlier_fraction);
+  [[nodiscard]] static double half_of_the_good(const std::vector<float>& residuals,
+                                               std::span<const Eigen::Index> samples, double inlier_fraction);
 
   /// As many samples are good, and their scale is another one; above 1 it would tell nothing.
   [[nodiscard]] static outlier_mixture rescaled(const outlier_mixture& mixture, double ratio);
@@ -183,9 +127,9 @@ struct automatic_weights {
   /// Every so many values, at most 20,000: enough to know two parameters and a density to a percent.
   template <class Values>
   [[nodiscard]] static std::vector<double> subset(const Values& values) {
-    const Eigen::Index step = (values.size() + 19'999) / 20'000;
+    const std::size_t step = (values.size() + 19'999) / 20'000;
     std::vector<double> chosen;
-    for (Eigen::Index i = 0; i < values.size(); i += step) chosen.push_back(values[i]);
+    for (std::size_t i = 0; i < values.size(); i += step) chosen.push_back(values[i]);
     return chosen;
   }
 

@@ -8,10 +8,11 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/estimate/aperture_factors.hpp>
-#include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/estimator.hpp>
+#include <gonio/estimate/map_samples.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
 #include <gonio/estimate/reconstructed.hpp>
+#include <gonio/estimate/solve_rows.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <Eigen/Core>
@@ -88,6 +89,8 @@ class reconstruction {
     std::optional<sample_process> process;  ///< of those that are kept
   };
 
+  using solved = std::pair<basis_type, solution>;
+
   [[nodiscard]] bool has_process(Eigen::Index samples) const noexcept { return samples <= model().most_centres; }
   [[nodiscard]] selection select(const located_samples& samples) const;
   [[nodiscard]] sample_process process_of_mapped(const located_samples& mapped) const {
@@ -99,9 +102,8 @@ class reconstruction {
   /// Of the samples that are kept, or of some of them.
   [[nodiscard]] sample_process known_by(const selection& chosen) const;
 
-  [[nodiscard]] solved_channels<basis_type> solve(const located_samples& kept,
-                                                  const std::optional<sample_process>& process) const;
-  [[nodiscard]] solved_channels<basis_type> solve_around_centres(located_samples kept) const;
+  [[nodiscard]] solved solve(const located_samples& kept, const std::optional<sample_process>& process) const;
+  [[nodiscard]] solved solve_around_centres(located_samples kept) const;
   /// Components, and a discrepancy as a combination of covariances with its centres.
   [[nodiscard]] basis_type functions_around(const std::vector<half_difference>& centres) const {
     return {prior_, {prior_.cells(), prior_.metric(), discrepancy_functions::covariances(centres, model().lengths)}};
@@ -147,7 +149,7 @@ typename reconstruction<Metric>::selection reconstruction<Metric>::select(const 
   if (!has_process(chosen.kept.size())) return chosen;
   if (!chosen.all)
     chosen.process = process_of_mapped(chosen.kept);
-  else if (chosen.found.weights.minCoeff() == 1.0)
+  else if (std::count(chosen.found.weights.data(), chosen.found.weights.data() + samples.size(), 1.0) == samples.size())
     chosen.process = chosen.all;
   else
     chosen.process = chosen.all->subset(chosen.found.kept(), chosen.found.weights);
@@ -169,25 +171,34 @@ sample_process reconstruction<Metric>::process_of_inliers(const located_samples&
 }
 
 template <error_metric Metric>
-solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metric>::solve(
+typename reconstruction<Metric>::solved reconstruction<Metric>::solve(
     const located_samples& kept, const std::optional<sample_process>& process) const {
   if (!process) return solve_around_centres(kept);
   return {functions_around(process->at().angles), process->fit()};
 }
 
 template <error_metric Metric>
-solved_channels<typename reconstruction<Metric>::basis_type> reconstruction<Metric>::solve_around_centres(
-    located_samples kept) const {
+typename reconstruction<Metric>::solved reconstruction<Metric>::solve_around_centres(located_samples kept) const {
   if (kept.size() > model().most_samples) kept = kept.subset(random_choice(kept.size(), model().most_samples, 0));
-  kept.weights.array().colwise() *= model().error_variance / error_variances(kept).array();
+  const Eigen::VectorXd variances = error_variances(kept);
+  for (Eigen::Index i = 0; i < kept.weights.size(); ++i)
+    kept.weights.data()[i] *= model().error_variance / variances[i % kept.size()];
   std::vector<half_difference> centres;
   for (const Eigen::Index i : random_choice(kept.size(), model().most_centres, 0))
     centres.push_back(kept.locations[i].angles);
   const discrepancy_functions smooth(centres, expected_.observations * model().variance, model().lengths);
   const basis_type whitened{prior_, {prior_.cells(), prior_.metric(), smooth}};
-  const auto equations = basis_equations<basis_type>::of_mapped(whitened, std::move(kept), threads_);
-  solution found = equations.solve(tikhonov(expected_.observations * model().error_variance));
-  found.weights.bottomRows(smooth.size()) = smooth.covariance_weights(found.weights.bottomRows(smooth.size()));
+  const row_source rows{kept.size(), whitened.size(), [&](block range, row_block out) {
+                          const std::span<const location> all = kept.locations;
+                          read_rows_at(whitened, all.subspan(range.begin, range.size()), out);
+                        }};
+  solution found = solve_rows(tikhonov(expected_.observations * model().error_variance), rows, kept, threads_);
+  // The last weights are of functions that are combinations of covariances.
+  Eigen::MatrixXd last(smooth.size(), found.weights.cols());
+  const Eigen::Index first = found.weights.rows() - last.rows();
+  for (Eigen::Index c = 0; c < last.cols(); ++c) std::copy_n(&found.weights(first, c), last.rows(), &last(0, c));
+  last = smooth.covariance_weights(last);
+  for (Eigen::Index c = 0; c < last.cols(); ++c) std::copy_n(&last(0, c), last.rows(), &found.weights(first, c));
   return {functions_around(centres), std::move(found)};
 }
 
@@ -252,7 +263,6 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located
 }
 
 #if defined(GONIO_COMPILED)
-extern template class basis_equations<reconstruction<log_relative>::basis_type>;
 extern template class fitted_brdf<reconstruction<log_relative>::basis_type>;
 extern template class reconstruction<log_relative>;
 #endif

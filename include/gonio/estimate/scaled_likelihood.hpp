@@ -4,9 +4,8 @@
 
 #include <gonio/estimate/outlier_mixture.hpp>
 
-#include <Eigen/Core>
-
 #include <limits>
+#include <vector>
 
 namespace gonio::detail {
 
@@ -18,11 +17,12 @@ struct scaled_likelihood {
 
 /// Expectation-maximisation of an `outlier_mixture` whose centre is unknown: `differences` are the logarithms of
 /// measurements less those of a material.
-[[nodiscard]] scaled_likelihood locate_mixture(const Eigen::ArrayXd& differences, const Eigen::ArrayXd& outliers,
-                                               double start);
+[[nodiscard]] scaled_likelihood locate_mixture(const std::vector<double>& differences,
+                                               const std::vector<double>& outliers, double start);
 
 /// The best of several starts, for the mode of the differences may be anywhere.
-[[nodiscard]] scaled_likelihood best_factor(const Eigen::ArrayXd& differences, const Eigen::ArrayXd& outliers);
+[[nodiscard]] scaled_likelihood best_factor(const std::vector<double>& differences,
+                                            const std::vector<double>& outliers);
 
 }  // namespace gonio::detail
 

@@ -95,13 +95,6 @@ class judged_samples {
 [[nodiscard]] judged_samples judge_samples(const sample_process& samples, const rejection_rule& rule = {},
                                            std::span<const std::vector<bool>> starts = {});
 
-namespace detail {
-
-/// Numbers in the order of what belongs to them, and of themselves where that is the same.
-[[nodiscard]] std::vector<Eigen::Index> in_order(std::vector<std::pair<double, Eigen::Index>> keyed);
-
-}  // namespace detail
-
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)

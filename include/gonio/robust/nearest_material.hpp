@@ -5,6 +5,7 @@
 
 #include <gonio/basis/measured.hpp>
 #include <gonio/core/random.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/scaled_likelihood.hpp>
@@ -46,7 +47,8 @@ class nearest_material {
     const located_samples many = samples.subset(random_choice(samples.size(), 20'000, seed_));
     std::array<scaled_material, 3> chosen;
     for (Eigen::Index c = 0; c < 3; ++c) {
-      const double offset = logarithm_offset(samples.values.col(c));
+      const double* values = &samples.values(0, c);
+      const double offset = logarithm_offset({values, values + samples.size()});
       chosen[c] = choose(evidence(few, c, offset), evidence(many, c, offset), c);
     }
     return chosen;
@@ -91,14 +93,16 @@ class nearest_material {
   struct evidence {
     evidence(const located_samples& samples, Eigen::Index channel, double offset_of_logarithm)
         : locations(&samples.locations), offset(offset_of_logarithm) {
-      logarithms = (samples.values.col(channel).array().max(0.0) + offset).log();
-      const outlier_density density({logarithms.begin(), logarithms.end()});
-      outliers = logarithms.unaryExpr([&](double value) { return density(value); });
+      for (Eigen::Index i = 0; i < samples.size(); ++i)
+        logarithms.push_back(std::max(samples.values(i, channel), 0.0) + offset);
+      take_logarithms(logarithms.data(), samples.size());
+      const outlier_density density(logarithms);
+      for (const double value : logarithms) outliers.push_back(density(value));
     }
 
     const std::vector<location>* locations;  // the three channels have the same locations
     double offset;
-    Eigen::ArrayXd logarithms, outliers;
+    std::vector<double> logarithms, outliers;
   };
 
   struct candidate {
@@ -107,12 +111,12 @@ class nearest_material {
   };
 
   /// The logarithms of measurements less those of a material.
-  [[nodiscard]] Eigen::ArrayXd differences(const evidence& seen, const material_channel<Metric>& functions,
-                                           Eigen::Index material) const {
-    Eigen::ArrayXd values(seen.logarithms.size());
+  [[nodiscard]] std::vector<double> differences(const evidence& seen, const material_channel<Metric>& functions,
+                                                Eigen::Index material) const {
+    std::vector<double> values(seen.logarithms);
     for (Eigen::Index i = 0; i < std::ssize(*seen.locations); ++i)
-      values[i] = std::log(reflectance(functions, material, (*seen.locations)[i]) + seen.offset);
-    return seen.logarithms - values;
+      values[i] -= std::log(reflectance(functions, material, (*seen.locations)[i]) + seen.offset);
+    return values;
   }
 
   [[nodiscard]] scaled_material choose(const evidence& few, const evidence& many, Eigen::Index channel) const {

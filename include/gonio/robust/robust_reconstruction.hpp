@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -35,7 +36,7 @@ class reweighted_combination {
 
   /// The factors that turn squared errors of the mapped reflectance into relative ones: the square of the slope of
   /// ln(rho + offset) over that of the metric, at the estimates.
-  [[nodiscard]] channel_values relative(const channel_values& estimates, const Eigen::Array3f& offsets) const;
+  [[nodiscard]] channel_values relative(const channel_values& estimates, const std::array<float, 3>& offsets) const;
 
  private:
   [[nodiscard]] normal_equations equations(Eigen::Index channel, const channel_values& inlier_weights) const;
@@ -195,7 +196,7 @@ channel_values reweighted_combination<Metric>::values(const solution& found) con
 
 template <error_metric Metric>
 channel_values reweighted_combination<Metric>::relative(const channel_values& estimates,
-                                                        const Eigen::Array3f& offsets) const {
+                                                        const std::array<float, 3>& offsets) const {
   constexpr double step = 1e-2;
   channel_values factors(3, estimates.cols());
   for (Eigen::Index i = 0; i < estimates.cols(); ++i)
@@ -295,7 +296,7 @@ typename robust_reconstruction<Metric>::initial_state robust_reconstruction<Metr
     const located_samples& some) const {
   const automatic_weights weighting = detail::weights_by_region(some, threads_);
   const channel_values measured = some.channels();
-  const Eigen::Array3f offsets = automatic_weights::offsets(measured, threads_);
+  const std::array<float, 3> offsets = automatic_weights::offsets(measured);
   const detail::reweighted_combination<Metric> combination(materials_, some, threads_);
 
   const nearest_material<Metric> nearest(materials_, options_.seed, threads_);

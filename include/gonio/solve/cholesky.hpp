@@ -19,6 +19,8 @@ class cholesky {
 
   /// A^-1 B: 2 k^2 operations for each column of B.
   [[nodiscard]] Eigen::MatrixXd solve(const matrix_view& b) const;
+  /// A^-1: 2 k^3 operations.
+  [[nodiscard]] Eigen::MatrixXd inverse() const;
   /// L^-1 B: k^2 operations for each column of B.
   [[nodiscard]] Eigen::MatrixXd solve_lower(const matrix_view& b) const;
   /// L'^-1 B: k^2 operations for each column of B.

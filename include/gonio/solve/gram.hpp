@@ -1,10 +1,8 @@
 #pragma once
-/// Gram matrices of tall matrices, a block of rows at a time: Q = A'WA and A'Wb of Noell et al. 2014, Eq. 10.
+/// Gram matrices of tall matrices, a block of rows at a time.
 
 #include <gonio/core/parallel.hpp>
-#include <gonio/solve/normal_equations.hpp>
 #include <gonio/solve/product_sum.hpp>
-#include <gonio/solve/row_source.hpp>
 
 #include <Eigen/Core>
 
@@ -36,14 +34,4 @@ requires(std::same_as<typename Derived::Scalar, float>&& bool(Derived::IsRowMajo
       .symmetric();
 }
 
-/// The normal equations of weighted rows: A and b side by side, scaled by sqrt(w), give Q, A'Wb and b'Wb as blocks of
-/// one Gram matrix. All in double; reads A once; n (k + r)^2 operations; same bytes for any number of threads. Throws
-/// gonio::error if the result is not finite.
-[[nodiscard]] normal_equations assemble(const row_source& rows, const Eigen::MatrixXd& right_hand_side,
-                                        const Eigen::VectorXd& weights, thread_count threads = {});
-
 }  // namespace gonio
-
-#if !defined(GONIO_COMPILED)
-#include <gonio/solve/impl/gram.ipp>
-#endif

@@ -3,7 +3,7 @@
 /// sides b. Noell, Koehler and Stricker 2014, Eq. 7-10.
 
 #include <gonio/core/error.hpp>
-#include <gonio/solve/gram.hpp>
+#include <gonio/core/parallel.hpp>
 #include <gonio/solve/normal_equations.hpp>
 #include <gonio/solve/row_source.hpp>
 

@@ -19,6 +19,9 @@ using row_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::
 /// Where a block of rows is written: contiguous rows, any distance between them.
 using row_block = Eigen::Ref<row_matrix, 0, Eigen::OuterStride<>>;
 
+/// Some columns of a block, from `first` on.
+[[nodiscard]] row_block columns_of_block(row_block all, Eigen::Index first, Eigen::Index count);
+
 /// `rows` x `columns` numbers. `read(range, out)` writes the rows of a range into `out`, which has that many rows; it
 /// is called from several threads at once.
 ///

@@ -140,17 +140,13 @@ void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis
   const std::array nearer{row(0, run.around[0]), row(0, run.around[1])},
       farther{row(1, run.around[0]), row(1, run.around[1])};
   const auto weight = static_cast<float>(h.weight[1]);
-  const auto at = [](const float* fields) -> fields_of_cell<Fields> {
-    return Eigen::Map<const fields_of_cell<Fields>>(fields);
+  const auto blended = [&](Eigen::Index d, std::size_t i) {
+    return nearer[d][i] + weight * (farther[d][i] - nearer[d][i]);
   };
-  const auto blended = [&](Eigen::Index d, std::size_t i) -> fields_of_cell<Fields> {
-    const fields_of_cell<Fields> near = at(nearer[d] + i);
-    return near + weight * (at(farther[d] + i) - near);
-  };
-  for (std::size_t i = 0; i < first.size(); i += Fields) {
-    const fields_of_cell<Fields> start = blended(0, i), growth = blended(1, i) - start;
-    Eigen::Map<fields_of_cell<Fields>>{&first[i]} = start + run.share * growth;
-    Eigen::Map<fields_of_cell<Fields>>{&step[i]} = run.step * growth;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const float start = blended(0, i), growth = blended(1, i) - start;
+    first[i] = start + run.share * growth;
+    step[i] = run.step * growth;
   }
 }
 
@@ -181,11 +177,11 @@ class phi_d_line {
   void begin_runs(std::span<const float> line) {
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       const axis_run& run = runs_[r];
-      const fields_of_cell<Fields> before = Eigen::Map<const fields_of_cell<Fields>>(&line[Fields * run.around[0]]);
-      const fields_of_cell<Fields> growth =
-          Eigen::Map<const fields_of_cell<Fields>>(&line[Fields * run.around[1]]) - before;
-      Eigen::Map<fields_of_cell<Fields>>{&first_[Fields * r]} = before + run.share * growth;
-      Eigen::Map<fields_of_cell<Fields>>{&step_[Fields * r]} = run.step * growth;
+      for (int f = 0; f < Fields; ++f) {
+        const float before = line[Fields * run.around[0] + f], growth = line[Fields * run.around[1] + f] - before;
+        first_[Fields * r + f] = before + run.share * growth;
+        step_[Fields * r + f] = run.step * growth;
+      }
     }
     if constexpr (Mean == weighted_mean::geometric) {
       exponentiate(first_.data(), std::ssize(first_));

@@ -15,8 +15,7 @@ namespace gonio {
 
 namespace detail {
 
-GONIO_INLINE Eigen::Vector4d discrepancy_place(const half_difference& angles,
-                                               const correlation_lengths& lengths) noexcept {
+GONIO_INLINE discrepancy_place place_of(const half_difference& angles, const correlation_lengths& lengths) noexcept {
   constexpr double right_angle = std::numbers::pi / 2.0;
   const double radius = 0.5 * std::sin(angles.theta_d) / lengths.azimuth;
   return {std::sqrt(std::max(angles.theta_h, 0.0) / right_angle) / lengths.theta_h,
@@ -28,50 +27,45 @@ GONIO_INLINE Eigen::Vector4d discrepancy_place(const half_difference& angles,
   return std::exp(-0.5 * squared_distance);
 }
 
-[[nodiscard]] inline double squared_distance(const double* one, const double* other) noexcept {
+[[nodiscard]] inline double squared_distance(const discrepancy_place& one, const discrepancy_place& other) noexcept {
   double sum = 0.0;
-  for (Eigen::Index c = 0; c < 4; ++c) sum += (one[c] - other[c]) * (one[c] - other[c]);
+  for (std::size_t c = 0; c < 4; ++c) sum += (one[c] - other[c]) * (one[c] - other[c]);
   return sum;
 }
 
 /// k of two places.
-[[nodiscard]] inline double covariance(const double* one, const double* other) noexcept {
+[[nodiscard]] inline double covariance(const discrepancy_place& one, const discrepancy_place& other) noexcept {
   return squared_exponential(squared_distance(one, other));
 }
 
-using discrepancy_places = Eigen::Matrix<double, 4, Eigen::Dynamic>;
-
-/// Where angles are, a column each. Throws gonio::error if one is not finite, or for impossible lengths.
-[[nodiscard]] GONIO_INLINE discrepancy_places places_of(std::span<const half_difference> angles,
-                                                        const correlation_lengths& lengths) {
+/// Where angles are. Throws gonio::error if one is not finite, or for impossible lengths.
+[[nodiscard]] GONIO_INLINE std::vector<discrepancy_place> places_of(std::span<const half_difference> angles,
+                                                                    const correlation_lengths& lengths) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   if (!positive(lengths.theta_h) || !positive(lengths.theta_d) || !positive(lengths.azimuth))
     refuse({"the correlation lengths of a discrepancy must be positive and finite, not ", lengths.theta_h, ", ",
             lengths.theta_d, " and ", lengths.azimuth});
-  discrepancy_places places(4, std::ssize(angles));
-  Eigen::Index column = 0;
+  std::vector<discrepancy_place> places;
   for (const half_difference& each : angles) {
-    places.col(column) = discrepancy_place(each, lengths);
-    if (!std::isfinite(places.col(column).sum())) refuse({"centre ", column + 1, " of a discrepancy is not finite"});
-    ++column;
+    places.push_back(place_of(each, lengths));
+    for (const double coordinate : places.back())
+      if (!std::isfinite(coordinate)) refuse({"centre ", places.size(), " of a discrepancy is not finite"});
   }
   return places;
 }
 
-/// k of one place with others, from number `begin` on.
-GONIO_INLINE void covariances_with(const double* place, const discrepancy_places& others, Eigen::Index begin,
+/// k of one place with others.
+GONIO_INLINE void covariances_with(const discrepancy_place& place, std::span<const discrepancy_place> others,
                                    double* out) {
-  const Eigen::Index count = others.cols() - begin;
-  for (Eigen::Index i = 0; i < count; ++i) out[i] = -0.5 * squared_distance(&others(0, begin + i), place);
-  Eigen::Map<Eigen::ArrayXd> numbers(out, count);
-  numbers = numbers.exp();
+  for (std::size_t i = 0; i < others.size(); ++i) out[i] = -0.5 * squared_distance(others[i], place);
+  exponentiate(out, std::ssize(others));
 }
 
-[[nodiscard]] GONIO_INLINE Eigen::MatrixXd covariance_of(const discrepancy_places& places) {
-  const Eigen::Index n = places.cols();
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd covariance_of(std::span<const discrepancy_place> places) {
+  const Eigen::Index n = std::ssize(places);
   Eigen::MatrixXd all(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    covariances_with(&places(0, j), places, j, &all(j, j));
+    covariances_with(places[j], places.subspan(j), &all(j, j));
     for (Eigen::Index i = j + 1; i < n; ++i) all(j, i) = all(i, j);
   }
   return all;
@@ -86,20 +80,20 @@ GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(std::span<const half_differe
 
 GONIO_INLINE Eigen::VectorXd discrepancy_covariance(std::span<const half_difference> angles,
                                                     const half_difference& place, const correlation_lengths& lengths) {
-  const Eigen::Vector4d here = detail::discrepancy_place(place, lengths);
+  const detail::discrepancy_place here = detail::place_of(place, lengths);
   Eigen::VectorXd with(std::ssize(angles));
   for (Eigen::Index i = 0; i < with.size(); ++i)
-    with[i] = detail::covariance(detail::discrepancy_place(angles[i], lengths).data(), here.data());
+    with[i] = detail::covariance(detail::place_of(angles[i], lengths), here);
   return with;
 }
 
 GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
                                                     std::span<const half_difference> others,
                                                     const correlation_lengths& lengths) {
-  const detail::discrepancy_places places = detail::places_of(others, lengths);
-  const detail::discrepancy_places rows = detail::places_of(angles, lengths);
-  Eigen::MatrixXd all(rows.cols(), places.cols());
-  for (Eigen::Index j = 0; j < all.cols(); ++j) detail::covariances_with(&places(0, j), rows, 0, &all(0, j));
+  const std::vector<detail::discrepancy_place> places = detail::places_of(others, lengths),
+                                               rows = detail::places_of(angles, lengths);
+  Eigen::MatrixXd all(std::ssize(rows), std::ssize(places));
+  for (Eigen::Index j = 0; j < all.cols(); ++j) detail::covariances_with(places[j], rows, &all(0, j));
   return all;
 }
 
@@ -124,24 +118,27 @@ GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_d
 }
 
 GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, double* out) const noexcept {
-  const Eigen::Vector4d here = detail::discrepancy_place(angles, shared_->lengths);
+  const detail::discrepancy_place here = detail::place_of(angles, shared_->lengths);
   const double scale = std::sqrt(shared_->amplitude);
-  for (Eigen::Index i = 0; i < size(); ++i) out[i] = scale * detail::covariance(&shared_->places(0, i), here.data());
+  for (Eigen::Index i = 0; i < size(); ++i) out[i] = scale * detail::covariance(shared_->places[i], here);
   if (shared_->factors) shared_->factors->solve_lower_in_place(out);
 }
 
 GONIO_INLINE void discrepancy_functions::read(std::span<const half_difference> angles, row_block out) const {
   Eigen::MatrixXd columns(size(), std::ssize(angles));
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    detail::covariances_with(detail::discrepancy_place(angles[i], shared_->lengths).data(), shared_->places, 0,
-                             &columns(0, i));
-  if (shared_->factors) columns = std::sqrt(shared_->amplitude) * shared_->factors->solve_lower(columns);
-  out = columns.transpose();
+    detail::covariances_with(detail::place_of(angles[i], shared_->lengths), shared_->places, &columns(0, i));
+  if (shared_->factors) columns = shared_->factors->solve_lower(columns);
+  const double scale = shared_->factors ? std::sqrt(shared_->amplitude) : 1.0;
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    for (Eigen::Index k = 0; k < size(); ++k) out(i, k) = scale * columns(k, i);
 }
 
 GONIO_INLINE Eigen::MatrixXd discrepancy_functions::covariance_weights(const Eigen::MatrixXd& weights) const {
   if (!shared_->factors) return weights;
-  return std::sqrt(shared_->amplitude) * shared_->factors->solve_upper(weights);
+  Eigen::MatrixXd found = shared_->factors->solve_upper(weights);
+  for (Eigen::Index i = 0; i < found.size(); ++i) found.data()[i] *= std::sqrt(shared_->amplitude);
+  return found;
 }
 
 GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::MatrixXd& weights, const valid_cells& cells,
@@ -154,9 +151,9 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
   // The part of theta_h times these: three columns for each theta_h of the grid.
   Eigen::MatrixXd by_height(size(), 3 * heights);
   for (int i = 0; i < heights; ++i) {
-    const double place = detail::discrepancy_place({over.theta_h(i), 0.0, 0.0}, lengths)[0];
+    const double place = detail::place_of({over.theta_h(i), 0.0, 0.0}, lengths)[0];
     for (Eigen::Index centre = 0; centre < size(); ++centre) {
-      const double along = shared_->places(0, centre) - place;
+      const double along = shared_->places[centre][0] - place;
       const double factor = detail::squared_exponential(along * along);
       for (int c = 0; c < 3; ++c) by_height(centre, 3 * i + c) = factor * centre_weights(centre, c);
     }
@@ -167,14 +164,14 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
       rows, 1,
       [&](Eigen::Index row) {
         const int j = static_cast<int>(row);
-        detail::discrepancy_places places(4, columns);
+        std::vector<detail::discrepancy_place> places;
         for (int k = 0; k < columns; ++k)
-          places.col(k) = detail::discrepancy_place({0.0, over.theta_d(j), over.phi_d(k)}, lengths);
+          places.push_back(detail::place_of({0.0, over.theta_d(j), over.phi_d(k)}, lengths));
         Eigen::MatrixXd slice(columns, size());
         for (Eigen::Index centre = 0; centre < size(); ++centre) {
-          Eigen::Vector4d beside = shared_->places.col(centre);
+          detail::discrepancy_place beside = shared_->places[centre];
           beside[0] = 0.0;  // theta_h has its own factor
-          detail::covariances_with(beside.data(), places, 0, &slice(0, centre));
+          detail::covariances_with(beside, places, &slice(0, centre));
         }
         const Eigen::MatrixXd values = product(slice, by_height);
         for (int i = 0; i < heights; ++i)

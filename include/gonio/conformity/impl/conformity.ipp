@@ -178,7 +178,7 @@ inline void adjust(std::vector<compared_direction>& directions) {
 [[nodiscard]] inline Eigen::MatrixXd precision_of(const Eigen::MatrixXd& covariance) {
   const cholesky factors(covariance);
   if (!factors.positive_definite()) refuse("the covariance of part and reference is not positive definite");
-  return factors.solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
+  return factors.inverse();
 }
 
 /// Differences, channels of a direction adjacent: n c; their covariance and what is tolerated.

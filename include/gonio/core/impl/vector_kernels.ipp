@@ -74,12 +74,26 @@ GONIO_INLINE void add_scaled(float factor, const float* a, float* sum, Eigen::In
   Eigen::Map<Eigen::VectorXf>(sum, count) += factor * Eigen::Map<const Eigen::VectorXf>(a, count);
 }
 
+GONIO_INLINE void add_scaled(double factor, const Eigen::MatrixXd& a, Eigen::MatrixXd& sum) {
+  add_scaled(factor, a.data(), sum.data(), sum.size());
+}
+
 GONIO_INLINE void multiply(const float* a, float* product, Eigen::Index count) {
   Eigen::Map<Eigen::ArrayXf>(product, count) *= Eigen::Map<const Eigen::ArrayXf>(a, count);
 }
 
 GONIO_INLINE void exponentiate(float* numbers, Eigen::Index count) {
   map_by_sixteens(numbers, count, [](auto& these) { these = these.exp(); });
+}
+
+GONIO_INLINE void exponentiate(double* numbers, Eigen::Index count) {
+  Eigen::Map<Eigen::ArrayXd> these(numbers, count);
+  these = these.exp();
+}
+
+GONIO_INLINE void take_logarithms(double* numbers, Eigen::Index count) {
+  Eigen::Map<Eigen::ArrayXd> these(numbers, count);
+  these = these.log();
 }
 
 GONIO_INLINE Eigen::MatrixXf to_float(const Eigen::MatrixXd& numbers) {

@@ -73,7 +73,7 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
   const Eigen::MatrixXd products = product(measured.materials(), both);
   Eigen::MatrixXd k = products.leftCols(n);
   for (Eigen::Index i = 0; i < n; ++i) k(i, i) += options_.eta + measured.sample_noise_penalty[i];
-  left.inverse = cholesky(k).solve(Eigen::MatrixXd::Identity(n, n));
+  left.inverse = cholesky(k).inverse();
   // Subtract from each energy what the measurements explain: b'W Y'b - 2 w . b = y . (K^-1 W Y' K^-1 y - 2 K^-1 w),
   // for all observations by one product with Y and W.
   const Eigen::MatrixXd spread = product(left.inverse, product(products.rightCols(n), left.inverse));

@@ -2,12 +2,21 @@
 /// Bodies of estimate/inliers.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/random.hpp>
+#include <gonio/core/statistics.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/inliers.hpp>
+#include <gonio/estimate/out_of_gamut.hpp>
+#include <gonio/estimate/outlier_mixture.hpp>
+#include <gonio/estimate/scaled_likelihood.hpp>
+#include <gonio/estimate/solve_rows.hpp>
+#include <gonio/solve/product.hpp>
+#include <gonio/solve/tikhonov.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,51 +40,276 @@ GONIO_INLINE located_samples weighted(const located_samples& samples, const inli
   return some;
 }
 
-GONIO_INLINE inliers detail::inliers_of(const Eigen::VectorXd& probabilities, const std::vector<Eigen::Index>& first) {
+namespace detail {
+
+/// Of the probabilities that samples are wrong; the worst first, of those that are equally bad `first` before others.
+[[nodiscard]] GONIO_INLINE inliers inliers_of(const Eigen::VectorXd& probabilities,
+                                              const std::vector<Eigen::Index>& first) {
   const Eigen::Index n = probabilities.size();
-  inliers found{Eigen::VectorXd::Ones(n) - probabilities, first};
+  inliers found{Eigen::VectorXd(n), first};
+  for (Eigen::Index i = 0; i < n; ++i) found.weights[i] = 1.0 - probabilities[i];
   std::vector<bool> is_named(n, false);
   for (const Eigen::Index i : first) is_named[i] = true;
   std::vector<std::pair<double, Eigen::Index>> by_weight;
   for (Eigen::Index i = 0; i < n; ++i)
     if (!is_named[i] && found.weights[i] < 0.5) by_weight.emplace_back(found.weights[i], i);
-  for (const Eigen::Index i : detail::in_order(std::move(by_weight))) found.rejected.push_back(i);
+  for (const Eigen::Index i : in_order(std::move(by_weight))) found.rejected.push_back(i);
   if (n > 0) found.outlier_share = probabilities.sum() / static_cast<double>(n);
   return found;
 }
 
-GONIO_INLINE std::vector<Eigen::Index> detail::numbers_at(const std::vector<Eigen::Index>& numbers,
-                                                          const std::vector<Eigen::Index>& positions) {
+/// Numbers of some numbers: those at some positions.
+[[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> numbers_at(const std::vector<Eigen::Index>& numbers,
+                                                                const std::vector<Eigen::Index>& positions) {
   std::vector<Eigen::Index> some;
   for (const Eigen::Index i : positions) some.push_back(numbers[i]);
   return some;
 }
 
-GONIO_INLINE std::vector<Eigen::Index> detail::wrong_neighbours(const located_samples& samples,
-                                                                const Eigen::VectorXd& probabilities,
-                                                                const correlation_lengths& lengths) {
-  // Sort by neighbourhood.
-  std::vector<std::array<Eigen::Index, 4>> where(samples.size());
-  std::vector<Eigen::Index> sorted(samples.size());
+GONIO_INLINE std::vector<Eigen::Index> wrong_neighbours(const located_samples& samples,
+                                                        const Eigen::VectorXd& probabilities,
+                                                        const correlation_lengths& lengths) {
+  // Sort by neighbourhood, whose number is made of four whole ones below 500.
+  std::vector<std::pair<double, Eigen::Index>> sorted;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
-    const Eigen::Vector4d place = discrepancy_place(samples.locations[i].angles, lengths);
-    for (Eigen::Index c = 0; c < 4; ++c) where[i][c] = static_cast<Eigen::Index>(std::floor(place[c]));
-    sorted[i] = i;
+    const discrepancy_place place = place_of(samples.locations[i].angles, lengths);
+    double neighbourhood = 0.0;
+    for (Eigen::Index c = 0; c < 4; ++c) neighbourhood = 1000.0 * neighbourhood + std::floor(place[c]);
+    sorted.emplace_back(neighbourhood, i);
   }
-  std::ranges::stable_sort(sorted, [&](Eigen::Index one, Eigen::Index other) {
-    return std::ranges::lexicographical_compare(where[one], where[other]);
-  });
+  std::sort(sorted.begin(), sorted.end());
   // Take those of neighbourhoods where three of four are wrong.
   std::vector<Eigen::Index> found;
-  for (auto begin = sorted.begin(); begin != sorted.end();) {
-    const auto end = std::find_if(begin, sorted.end(), [&](Eigen::Index i) { return where[i] != where[*begin]; });
-    const auto is_wrong = [&](Eigen::Index i) { return probabilities[i] > 0.5; };
-    const auto wrong = std::count_if(begin, end, is_wrong);
-    if (wrong >= 2 && 4 * wrong >= 3 * (end - begin)) std::copy_if(begin, end, std::back_inserter(found), is_wrong);
-    begin = end;
+  for (auto begin = sorted.begin(), end = begin; begin != sorted.end(); begin = end) {
+    std::vector<Eigen::Index> wrong;
+    for (; end != sorted.end() && end->first == begin->first; ++end)
+      if (probabilities[end->second] > 0.5) wrong.push_back(end->second);
+    if (wrong.size() >= 2 && 4 * std::ssize(wrong) >= 3 * (end - begin))
+      found.insert(found.end(), wrong.begin(), wrong.end());
   }
   std::ranges::sort(found);
   return found;
+}
+
+/// The reflectance of materials, given the weights of a prior's functions in columns, at locations with given rows:
+/// locations x columns.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd materials_at(const prior_functions& prior, const Eigen::MatrixXd& rows,
+                                                        const std::vector<location>& locations,
+                                                        const Eigen::MatrixXd& weights, thread_count threads) {
+  Eigen::MatrixXd values(rows.rows(), weights.cols());
+  for_each_block(
+      rows.rows(), 256,
+      [&](block range) {
+        Eigen::MatrixXd here = product(rows.middleRows(range.begin, range.size()), weights);
+        prior.invert(std::span(locations).subspan(range.begin, range.size()), here);
+        for (Eigen::Index j = 0; j < here.cols(); ++j) std::copy_n(&here(0, j), range.size(), &values(range.begin, j));
+      },
+      threads);
+  return values;
+}
+
+/// As estimators keep them.
+[[nodiscard]] GONIO_INLINE channel_values by_channel(const Eigen::MatrixXd& values) {
+  return located_samples{{}, values, {}}.channels();
+}
+
+/// For each channel the material of the prior, brightened or darkened, under which the samples are most likely a
+/// mixture of inliers and outliers: its reflectance at them. `materials` is that of all, samples x materials. As
+/// `nearest_material`, but no table is expanded. O(n m) for m materials.
+[[nodiscard]] GONIO_INLINE channel_values nearest_at_samples(const Eigen::MatrixXd& materials,
+                                                             const Eigen::MatrixXd& measured, thread_count threads) {
+  const Eigen::Index n = measured.rows();
+  Eigen::MatrixXd estimates(n, 3);
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    // Find the likelihood of each material, each with its best factor.
+    std::vector<double> logarithms(&measured(0, c), &measured(0, c) + n), outliers;
+    const double offset = logarithm_offset(logarithms);
+    for (double& value : logarithms) value = std::max(value, 0.0) + offset;
+    take_logarithms(logarithms.data(), n);
+    const outlier_density density(logarithms);
+    for (const double value : logarithms) outliers.push_back(density(value));
+    std::vector<scaled_likelihood> found(materials.cols());
+    for_each_block(
+        materials.cols(), 1,
+        [&](block one) {
+          std::vector<double> differences(&materials(0, one.begin), &materials(0, one.begin) + n);
+          for (double& value : differences) value += offset;
+          take_logarithms(differences.data(), n);
+          for (Eigen::Index i = 0; i < n; ++i) differences[i] = logarithms[i] - differences[i];
+          found[one.begin] = best_factor(differences, outliers);
+        },
+        threads);
+    // Take the best one.
+    Eigen::Index best = 0;
+    for (Eigen::Index j = 1; j < materials.cols(); ++j)
+      if (found[j].log_likelihood > found[best].log_likelihood) best = j;
+    const double factor = std::exp(found[best].logarithm_of_factor);
+    for (Eigen::Index i = 0; i < n; ++i) estimates(i, c) = factor * materials(i, best);
+  }
+  return by_channel(estimates);
+}
+
+/// The weights of a prior's functions, k x 3, by those samples that count, at which the functions have given rows.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd fit_components(const Eigen::MatrixXd& rows, const located_samples& mapped,
+                                                          const inliers& found, const tikhonov& solver,
+                                                          thread_count threads) {
+  const std::vector<Eigen::Index> kept = found.kept();
+  const located_samples some = weighted(mapped, found);
+  row_matrix equations(some.size(), rows.cols());
+  for (Eigen::Index i = 0; i < equations.rows(); ++i)
+    for (Eigen::Index k = 0; k < equations.cols(); ++k) equations(i, k) = rows(kept[i], k);
+  return solve_rows(solver, rows_of(std::move(equations)), some, threads).weights;
+}
+
+/// Those that look like outliers beside the prior's components alone: a start that many outliers cannot drag along. The
+/// components are fitted in turns with the probabilities that samples are inliers (Holland and Welsch 1977,
+/// doi:10.1080/03610927708827533, with outlier_mixture.hpp), from the nearest material on. `rows` are those of the
+/// prior's functions at the samples. O(n k^2 + n m k).
+[[nodiscard]] GONIO_INLINE std::vector<bool> outliers_by_components(const prior_functions& prior,
+                                                                    const Eigen::MatrixXd& rows,
+                                                                    const located_samples& samples,
+                                                                    const located_samples& mapped,
+                                                                    double error_variance, thread_count threads) {
+  constexpr int rounds = 8;
+  const tikhonov solver(static_cast<double>(prior.coefficients.cols()) * error_variance);
+  const automatic_weights weighting{.down_weight_tail = false, .threads = threads};
+  const channel_values measured = samples.channels();
+  const auto reflectance = [&](const Eigen::MatrixXd& weights) {
+    return materials_at(prior, rows, samples.locations, weights, threads);
+  };
+  inliers found = all_inliers(samples.size());
+  const auto weigh = [&](const channel_values& estimated) {
+    const channel_values weights = weighting.weigh(measured, estimated);
+    for (Eigen::Index i = 0; i < found.weights.size(); ++i) found.weights[i] = double{weights(0, i)};
+  };
+  weigh(nearest_at_samples(reflectance(prior.coefficients), samples.values, threads));
+  for (int round = 0; round < rounds && !found.kept().empty(); ++round)
+    weigh(by_channel(reflectance(fit_components(rows, mapped, found, solver, threads))));
+  std::vector<bool> wrong(samples.size());
+  for (Eigen::Index i = 0; i < samples.size(); ++i) wrong[i] = found.weights[i] < 0.5;
+  return wrong;
+}
+
+/// What the samples that are not contradicted make of the first of those that are, of samples that a process is of.
+[[nodiscard]] GONIO_INLINE std::vector<outlying_sample> told_by_others(const prior_functions& prior,
+                                                                       const located_samples& samples,
+                                                                       const sample_process& process,
+                                                                       const std::vector<wrong_sample>& wrong) {
+  std::vector<Eigen::Index> numbers;
+  for (const wrong_sample& each : wrong) numbers.push_back(each.number);
+  if (numbers.empty()) return {};
+  sample_predictions others = process.predicted_without(numbers);
+  prior.invert(samples.subset(numbers).locations, others.mean);
+  std::vector<outlying_sample> told;
+  for (Eigen::Index i = 0; i < std::min(std::ssize(wrong), most_contradicted); ++i)
+    told.push_back({numbers[i], first_three(samples.values, numbers[i]), first_three(others.mean, i),
+                    others.deviation[i], wrong[i].probability});
+  return told;
+}
+
+/// Judges samples of a material in groups. `mapped` are all of them in the prior's domain.
+class sample_judge {
+ public:
+  sample_judge(const prior_functions& prior, const expected_covariance& expected, const located_samples& mapped,
+               const Eigen::VectorXd& error_variances, thread_count threads)
+      : prior_(prior), expected_(expected), mapped_(mapped), error_variances_(error_variances), threads_(threads) {}
+
+  [[nodiscard]] sample_process process_of(const std::vector<Eigen::Index>& positions) const {
+    const located_samples some = mapped_.subset(positions);
+    Eigen::VectorXd errors(some.size());
+    for (Eigen::Index i = 0; i < errors.size(); ++i) errors[i] = error_variances_[positions[i]];
+    return {expected_, prior_.rows(some.locations), some, errors};
+  }
+
+  /// The probabilities that samples are wrong: of those that were judged, at `positions`, and by them of all others.
+  [[nodiscard]] Eigen::VectorXd probabilities(const judged_samples& judged,
+                                              const std::vector<Eigen::Index>& positions) const {
+    Eigen::VectorXd found(mapped_.size());
+    std::vector<bool> is_judged(mapped_.size(), false);
+    for (Eigen::Index i = 0; i < std::ssize(positions); ++i) {
+      found[positions[i]] = judged.probabilities()[i];
+      is_judged[positions[i]] = true;
+    }
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index i = 0; i < mapped_.size(); ++i)
+      if (!is_judged[i]) others.push_back(i);
+    for_each_block(
+        std::ssize(others), 512,
+        [&](block range) {
+          const std::vector<Eigen::Index> here(others.begin() + range.begin, others.begin() + range.end);
+          const located_samples some = mapped_.subset(here);
+          Eigen::VectorXd errors(some.size());
+          for (Eigen::Index i = 0; i < errors.size(); ++i) {
+            double sum = 0.0;
+            for (Eigen::Index c = 0; c < some.weights.cols(); ++c) sum += some.weights(i, c);
+            errors[i] = error_variances_[here[i]] / (sum / static_cast<double>(some.weights.cols()));
+          }
+          const Eigen::VectorXd wrong = judged.probabilities(prior_.rows(some.locations), some.values, errors);
+          for (Eigen::Index i = 0; i < errors.size(); ++i) found[here[i]] = wrong[i];
+        },
+        threads_);
+    return found;
+  }
+
+  /// Of those that are called wrong, none whose neighbours are, too, is wrong if a judgement of these and others
+  /// together does not say so: a narrow highlight of which a random choice has one sample.
+  [[nodiscard]] Eigen::VectorXd heard_again(Eigen::VectorXd wrong, const std::vector<Eigen::Index>& first) const {
+    const std::vector<Eigen::Index> doubted = wrong_neighbours(mapped_, wrong, rejection_rule{}.highlight_lengths);
+    if (doubted.empty()) return wrong;
+    std::vector<Eigen::Index> together = numbers_at(doubted, random_choice(std::ssize(doubted), most_judged / 3, 0));
+    const auto others = numbers_at(first, random_choice(std::ssize(first), most_judged - std::ssize(together), 0));
+    together.insert(together.end(), others.begin(), others.end());
+    std::ranges::sort(together);
+    together.erase(std::unique(together.begin(), together.end()), together.end());
+    std::vector<std::vector<bool>> starts(1);
+    for (const Eigen::Index i : together) starts[0].push_back(wrong[i] > 0.5);
+    const judged_samples judged = judge_samples(process_of(together), {}, starts);
+    const Eigen::VectorXd again = probabilities(judged, together);
+    for (const Eigen::Index i : doubted) wrong[i] = std::min(wrong[i], again[i]);
+    return wrong;
+  }
+
+ private:
+  const prior_functions& prior_;
+  const expected_covariance& expected_;
+  const located_samples& mapped_;
+  const Eigen::VectorXd& error_variances_;
+  thread_count threads_;
+};
+
+}  // namespace detail
+
+GONIO_INLINE inliers detail::find_inliers(const prior_functions& prior, const expected_covariance& expected,
+                                          const located_samples& samples, const located_samples& mapped,
+                                          const Eigen::VectorXd& error_variances,
+                                          const std::optional<sample_process>& all, thread_count threads) {
+  // A logarithm does not tell apart what is negative.
+  const std::optional<located_samples> in_gamut = out_of_gamut_as_xyz(samples);
+  const located_samples& judged = in_gamut ? *in_gamut : samples;
+  const located_samples judged_mapped = in_gamut ? prior.map(judged) : mapped;
+
+  // Judge some together, and all others by these.
+  const sample_judge judge(prior, expected, judged_mapped, error_variances, threads);
+  const std::vector<Eigen::Index> positions = random_choice(samples.size(), most_judged, 0);
+  const located_samples some = judged.subset(positions), some_mapped = judged_mapped.subset(positions);
+  const bool has_all = all && samples.size() <= most_judged;
+  const sample_process process = has_all ? all->with_values(some_mapped.values) : judge.process_of(positions);
+  const std::vector<std::vector<bool>> starts{
+      outliers_by_components(prior, process.at().rows, some, some_mapped, expected.model.error_variance, threads)};
+  const judged_samples found = judge_samples(process, {}, starts);
+  Eigen::VectorXd wrong = judge.probabilities(found, positions);
+  if (samples.size() > most_judged) wrong = judge.heard_again(std::move(wrong), positions);
+  // Name them, and tell what the others say, in the colours that were measured.
+  std::vector<wrong_sample> worst;
+  std::vector<Eigen::Index> numbers;
+  for (const wrong_sample& each : found.wrong())
+    if (wrong[positions[each.number]] > 0.5) worst.push_back(each);
+  for (const wrong_sample& each : worst) numbers.push_back(positions[each.number]);
+  inliers told = inliers_of(wrong, numbers);
+  told.contradicted =
+      told_by_others(prior, samples.subset(positions), process.with_values(mapped.subset(positions).values), worst);
+  for (outlying_sample& each : told.contradicted) each.number = positions[each.number];
+  return told;
 }
 
 }  // namespace gonio

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <vector>
@@ -37,7 +38,9 @@ GONIO_INLINE located_samples in_colours(located_samples samples) {
   if (samples.kinds.are_colours()) return samples;
   if (samples.values.cols() != 1)
     refuse({"samples at ", samples.values.cols(), " wavelengths are no colours, which this estimator needs"});
-  samples.values = samples.values.replicate(1, 3).eval();
+  const Eigen::MatrixXd grey = samples.values;
+  samples.values.resize(grey.rows(), 3);
+  for (Eigen::Index c = 0; c < 3; ++c) std::copy_n(grey.data(), grey.rows(), &samples.values(0, c));
   samples.kinds = {};
   return samples;
 }
@@ -56,7 +59,8 @@ GONIO_INLINE located_samples located_samples::in_three_channels() const {
   std::vector<double> row(values.cols());
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
     for (Eigen::Index c = 0; c < values.cols(); ++c) row[c] = values(i, c);
-    three.values.row(i) = kinds.three(row).matrix().transpose();
+    const rgb here = kinds.three(row);
+    for (Eigen::Index c = 0; c < 3; ++c) three.values(i, c) = here[c];
   }
   return three;
 }
@@ -94,10 +98,8 @@ GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const samp
     found.locations[i].angles = samples.directions(from).angles();
     for (Eigen::Index c = 0; c < kinds.size(); ++c) found.values(i, c) = samples.values(from)[c];
     const channel_weights& weight = samples.weight(from);
-    if (apart)
-      found.weights.row(i) = weight.of_each().matrix().transpose();
-    else
-      found.weights(i, 0) = weight.is_uniform() ? weight[0] : weight.mean();
+    for (Eigen::Index c = 0; c < found.weights.cols(); ++c)
+      found.weights(i, c) = apart || weight.is_uniform() ? weight[c] : weight.mean();
   }
   detail::locate_angles(found, cells, threads);
   return found;

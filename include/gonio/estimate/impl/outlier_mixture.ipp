@@ -19,6 +19,38 @@
 
 namespace gonio {
 
+GONIO_INLINE outlier_density::outlier_density(const std::vector<double>& logarithms) : density_(bins, 0.0) {
+  // Count in bins over the range and half a unit beyond.
+  const auto [least, most] = std::ranges::minmax_element(logarithms);
+  const auto n = static_cast<double>(logarithms.size());
+  lowest_ = *least - 0.5;
+  step_ = (*most - *least + 1.0) / static_cast<double>(bins);
+  std::vector<double> counts(bins, 0.0);
+  double mean = 0.0, square = 0.0;
+  for (const double value : logarithms) {
+    counts[std::min(bins - 1, static_cast<Eigen::Index>((value - lowest_) / step_))] += 1.0;
+    mean += value / n;
+    square += value * value / n;
+  }
+  // Smooth by a Gaussian of Silverman's width.
+  const double deviation = std::sqrt(std::max(square - mean * mean, 0.0));
+  const double width = std::max(1.06 * deviation * std::pow(n, -0.2), step_);
+  const auto reach = static_cast<std::ptrdiff_t>(3.0 * width / step_) + 1;
+  for (std::ptrdiff_t i = 0; i < std::ssize(counts); ++i)
+    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(i - reach, 0); j <= std::min(i + reach, std::ssize(counts) - 1);
+         ++j) {
+      const double z = static_cast<double>(i - j) * step_ / width;
+      density_[j] += counts[i] * std::exp(-0.5 * z * z);
+    }
+  // Flatten: a tenth of a measurement is where nothing was measured.
+  double total = 0.0;
+  for (double& value : density_) {
+    value = std::sqrt(std::max(value / (n * width * std::sqrt(2.0 * std::numbers::pi)), 0.1 / n));
+    total += value * step_;
+  }
+  for (double& value : density_) value /= total;
+}
+
 namespace detail {
 
 /// Samples whose weights are computed together: their logarithms stay in the cache.
@@ -26,9 +58,14 @@ inline constexpr Eigen::Index samples_at_once = 4096;
 
 /// The share p at which the sum of ln(p g + (1 - p) o) + ln p is largest: g and o are what good ones' and outliers'
 /// densities are at each measurement. By bisection of its slope, which falls with p.
-[[nodiscard]] GONIO_INLINE double most_probable_share(const Eigen::ArrayXd& good, const Eigen::ArrayXd& outliers) {
-  const Eigen::ArrayXd difference = good - outliers;
-  const auto slope = [&](double share) { return (difference / (outliers + share * difference)).sum() + 1.0 / share; };
+[[nodiscard]] GONIO_INLINE double most_probable_share(const Eigen::VectorXd& good,
+                                                      const std::vector<double>& outliers) {
+  Eigen::VectorXd term(good.size());
+  const auto slope = [&](double share) {
+    for (Eigen::Index i = 0; i < term.size(); ++i)
+      term[i] = (good[i] - outliers[i]) / (outliers[i] + share * (good[i] - outliers[i]));
+    return term.sum() + 1.0 / share;
+  };
   double low = 0.02, high = 0.999;
   if (slope(high) >= 0.0) return high;
   for (int step = 0; step < 30; ++step) {
@@ -43,15 +80,17 @@ inline constexpr Eigen::Index samples_at_once = 4096;
 GONIO_INLINE outlier_mixture estimate_mixture(const std::vector<double>& residuals, const std::vector<double>& outliers,
                                               outlier_mixture start) {
   constexpr double nu = outlier_mixture::degrees_of_freedom;
-  const Eigen::ArrayXd all = Eigen::ArrayXd::Map(residuals.data(), std::ssize(residuals));
-  const Eigen::ArrayXd densities = Eigen::ArrayXd::Map(outliers.data(), std::ssize(outliers));
+  Eigen::VectorXd shares(std::ssize(residuals)), on_tail(shares.size()), densities(shares.size());
   outlier_mixture now = start;
   for (int step = 0; step < 50; ++step) {
-    const Eigen::ArrayXd shares = now.probability(all, densities);
-    const double good = shares.sum();
-    const double squares = (nu + 1.0) / nu * (shares * now.tail_weight(all) * all.square()).sum();
+    for (Eigen::Index i = 0; i < shares.size(); ++i) {
+      shares[i] = now.probability(residuals[i], outliers[i]);
+      on_tail[i] = shares[i] * now.tail_weight(residuals[i]) * (residuals[i] * residuals[i]);
+    }
+    const double good = shares.sum(), squares = (nu + 1.0) / nu * on_tail.sum();
     outlier_mixture next{now.inlier_fraction, std::max(std::sqrt(squares / good), outlier_mixture::smallest_scale)};
-    next.inlier_fraction = detail::most_probable_share(next.good_density(all), densities);
+    for (Eigen::Index i = 0; i < shares.size(); ++i) densities[i] = next.good_density(residuals[i]);
+    next.inlier_fraction = detail::most_probable_share(densities, outliers);
     const bool settled = std::abs(next.inlier_fraction - now.inlier_fraction) < 1e-4 &&
                          std::abs(next.scale - now.scale) < 1e-3 * now.scale;
     now = next;
@@ -65,8 +104,9 @@ GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measu
   deviations found = deviate(measured, estimated);
   const outlier_mixture mixture = estimate_from(found);
   // Distances are larger than residuals, the more so the less the channels have in common.
-  found.distance *= static_cast<float>(mixture.scale / scale_of_distances(found, mixture));
-  Eigen::ArrayXf weights(measured.cols());
+  const auto scale = static_cast<float>(mixture.scale / scale_of_distances(found, mixture));
+  for (float& distance : found.distance) distance *= scale;
+  std::vector<float> weights(measured.cols());
   if (regions) {
     const double typical = half_of_the_good(found.distance, regions->all(), mixture.inlier_fraction);
     for_each_index(
@@ -83,8 +123,8 @@ GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measu
         weights.size(), detail::samples_at_once, [&](Eigen::Index i) { weights[i] = weigh(mixture, found, i); },
         threads);
   }
-  channel_values each(3, weights.size());
-  for (Eigen::Index i = 0; i < weights.size(); ++i)
+  channel_values each(3, std::ssize(weights));
+  for (Eigen::Index i = 0; i < each.cols(); ++i)
     for (Eigen::Index c = 0; c < 3; ++c) each(c, i) = weights[i];
   return each;
 }
@@ -94,18 +134,26 @@ GONIO_INLINE outlier_mixture automatic_weights::mixture(const channel_values& me
   return estimate_from(deviate(measured, estimated));
 }
 
-GONIO_INLINE Eigen::Array3f automatic_weights::offsets(const channel_values& measured, thread_count threads) {
-  Eigen::Array3f found;
-  for_each_index(
-      3, 1, [&](Eigen::Index c) { found[c] = static_cast<float>(logarithm_offset(measured.row(c))); }, threads);
+GONIO_INLINE double logarithm_offset(std::vector<double> measured) {
+  return std::max(1e-4, 0.01 * upper_median(measured));
+}
+
+GONIO_INLINE std::array<float, 3> automatic_weights::offsets(const channel_values& measured) {
+  std::array<float, 3> found{};
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    std::vector<double> channel(measured.cols());
+    for (Eigen::Index i = 0; i < measured.cols(); ++i) channel[i] = double{measured(c, i)};
+    found[c] = static_cast<float>(logarithm_offset(std::move(channel)));
+  }
   return found;
 }
 
 GONIO_INLINE automatic_weights::deviations automatic_weights::deviate(const channel_values& measured,
                                                                       const channel_values& estimated) const {
   const Eigen::Index count = measured.cols();
-  const Eigen::Array3f offset = offsets(measured, threads);
-  deviations found{Eigen::ArrayXf(count), Eigen::ArrayXf(count), Eigen::ArrayXf(count), Eigen::ArrayXd(count)};
+  const std::array<float, 3> offset = offsets(measured);
+  std::vector<float> zeros(count);
+  deviations found{zeros, zeros, zeros, std::vector<double>(count)};
   for_each_index(
       count, detail::samples_at_once,
       [&](Eigen::Index i) {
@@ -137,9 +185,9 @@ GONIO_INLINE float automatic_weights::weigh(const outlier_mixture& mixture, cons
 GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& found,
                                                           const outlier_mixture& mixture) const {
   constexpr double nu = outlier_mixture::degrees_of_freedom;
-  const Eigen::Index count = found.residual.size();
+  const Eigen::Index count = std::ssize(found.residual);
   // Squared distances, and how much each counts: its probability to be good.
-  Eigen::ArrayXd squares(count), good(count);
+  std::vector<double> squares(count), good(count);
   for_each_index(
       count, detail::samples_at_once,
       [&](Eigen::Index i) {
@@ -168,14 +216,14 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
   return scale;
 }
 
-GONIO_INLINE double automatic_weights::half_of_the_good(const Eigen::ArrayXf& residuals,
+GONIO_INLINE double automatic_weights::half_of_the_good(const std::vector<float>& residuals,
                                                         std::span<const Eigen::Index> samples, double inlier_fraction) {
-  std::vector<float> sorted;
+  std::vector<double> sorted;
   sorted.reserve(samples.size());
-  for (const Eigen::Index sample : samples) sorted.push_back(residuals[sample]);
+  for (const Eigen::Index sample : samples) sorted.push_back(double{residuals[sample]});
   // Of n values, not of the n - 1 steps between them as `quantile` has it: a region may have but eight samples.
   const auto middle = static_cast<std::ptrdiff_t>(0.5 * inlier_fraction * static_cast<double>(sorted.size()));
-  return std::max(double{nth_smallest(sorted, middle)}, 1e-6);
+  return std::max(nth_smallest(sorted, middle), 1e-6);
 }
 
 GONIO_INLINE outlier_mixture automatic_weights::rescaled(const outlier_mixture& mixture, double ratio) {

@@ -35,6 +35,16 @@ namespace detail {
   return part;
 }
 
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd divided(Eigen::MatrixXd numbers, double by) {
+  for (Eigen::Index i = 0; i < numbers.size(); ++i) numbers.data()[i] /= by;
+  return numbers;
+}
+
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd difference(Eigen::MatrixXd a, const Eigen::MatrixXd& b) {
+  add_scaled(-1.0, b, a);
+  return a;
+}
+
 [[nodiscard]] GONIO_INLINE double squared_norm(const matrix_view& a) {
   double sum = 0.0;
   for (Eigen::Index j = 0; j < a.cols(); ++j)
@@ -72,16 +82,18 @@ GONIO_INLINE double error_variance_at(const discrepancy_model& model, const half
 }
 
 GONIO_INLINE Eigen::MatrixXd expected_covariance::among(const located_rows& all) const {
-  Eigen::MatrixXd sum = product_with_transpose(all.rows) / observations;
-  if (model.variance != 0.0) sum += model.variance * discrepancy_covariance(all.angles, model.lengths);
-  if (doubts) sum += model.doubt.variance * discrepancy_covariance(all.angles, model.doubt.lengths);
+  Eigen::MatrixXd sum = detail::divided(product_with_transpose(all.rows), observations);
+  if (model.variance != 0.0) add_scaled(model.variance, discrepancy_covariance(all.angles, model.lengths), sum);
+  if (doubts) add_scaled(model.doubt.variance, discrepancy_covariance(all.angles, model.doubt.lengths), sum);
   return sum;
 }
 
 GONIO_INLINE Eigen::MatrixXd expected_covariance::between(const located_rows& some, const located_rows& others) const {
-  Eigen::MatrixXd sum = product(some.rows, others.rows.transpose()) / observations;
-  if (model.variance != 0.0) sum += model.variance * discrepancy_covariance(some.angles, others.angles, model.lengths);
-  if (doubts) sum += model.doubt.variance * discrepancy_covariance(some.angles, others.angles, model.doubt.lengths);
+  Eigen::MatrixXd sum = detail::divided(product(some.rows, others.rows.transpose()), observations);
+  if (model.variance != 0.0)
+    add_scaled(model.variance, discrepancy_covariance(some.angles, others.angles, model.lengths), sum);
+  if (doubts)
+    add_scaled(model.doubt.variance, discrepancy_covariance(some.angles, others.angles, model.doubt.lengths), sum);
   return sum;
 }
 
@@ -92,7 +104,8 @@ GONIO_INLINE sample_process::stored::stored(expected_covariance model, located_r
       sample_weights(std::move(weights)),
       error_variances(std::move(errors)),
       covariance(std::move(without_errors)) {
-  covariance.diagonal() += errors_of(*this);
+  const Eigen::VectorXd on_diagonal = errors_of(*this);
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i) covariance(i, i) += on_diagonal[i];
 }
 
 GONIO_INLINE sample_process::sample_process(const expected_covariance& expected, located_rows at,
@@ -123,8 +136,7 @@ GONIO_INLINE const cholesky& sample_process::factors() const {
 }
 
 GONIO_INLINE const Eigen::MatrixXd& sample_process::inverse() const {
-  std::call_once(shared_->inverted,
-                 [&] { shared_->inverse = factors().solve(Eigen::MatrixXd::Identity(size(), size())); });
+  std::call_once(shared_->inverted, [&] { shared_->inverse = factors().inverse(); });
   return shared_->inverse;
 }
 
@@ -137,7 +149,8 @@ GONIO_INLINE sample_process sample_process::with_doubts() const {
   expected_covariance doubting = expected();
   doubting.doubts = true;
   Eigen::MatrixXd among = doubting.among(at());
-  among += doubting.model.doubt.shared_error_variance * discrepancy_covariance(at().angles, doubting.model.lengths);
+  add_scaled(doubting.model.doubt.shared_error_variance, discrepancy_covariance(at().angles, doubting.model.lengths),
+             among);
   return {std::make_shared<const stored>(doubting, at(), shared_->sample_weights, shared_->error_variances,
                                          std::move(among)),
           values_};
@@ -176,19 +189,20 @@ GONIO_INLINE solution sample_process::fit() const {
     std::optional<cholesky> own_factors;
     if (apart) {
       own_covariance = covariance();
-      own_covariance.diagonal() += errors - mean_errors;
+      for (Eigen::Index i = 0; i < n; ++i) own_covariance(i, i) += errors[i] - mean_errors[i];
       own_factors = detail::factors_of(own_covariance);
     }
     const Eigen::MatrixXd& among = apart ? own_covariance : covariance();
     const cholesky& by = apart ? *own_factors : factors();
     const Eigen::MatrixXd y = values_.middleCols(first, together);
     Eigen::MatrixXd dual = by.solve(y);
-    dual += by.solve(y - product(among, dual));
-    const Eigen::MatrixXd off = y - product(among, dual);
+    add_scaled(1.0, by.solve(detail::difference(y, product(among, dual))), dual);
+    const Eigen::MatrixXd off = detail::difference(y, product(among, dual));
 
-    found.weights.block(0, first, k, together) = product(at().rows.transpose(), dual) / expected().observations;
-    found.weights.block(k, first, n, together) = expected().model.variance * dual;
+    const Eigen::MatrixXd components = detail::divided(product(at().rows.transpose(), dual), expected().observations);
     for (Eigen::Index c = 0; c < together; ++c) {
+      std::copy_n(&components(0, c), k, &found.weights(0, first + c));
+      for (Eigen::Index i = 0; i < n; ++i) found.weights(k + i, first + c) = expected().model.variance * dual(i, c);
       // With the weights error_variance / E of the rows, and eta = m error_variance.
       const double unit = expected().model.error_variance;
       double squares = 0.0, gain = 0.0, largest = 0.0, worst = 0.0;
@@ -246,10 +260,7 @@ GONIO_INLINE double sample_process::scale_of_material() const {
 
 GONIO_INLINE double sample_process::deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const {
   const discrepancy_model& model = expected().model;
-  Eigen::VectorXd with = product(at().rows, row.transpose()) / expected().observations;
-  if (model.variance != 0.0) with += model.variance * discrepancy_covariance(at().angles, angles, model.lengths);
-  if (expected().doubts)
-    with += model.doubt.variance * discrepancy_covariance(at().angles, angles, model.doubt.lengths);
+  Eigen::MatrixXd with = expected().between(at(), {row, {angles}});
   const double before = dot(row.data(), row.data(), row.size()) / expected().observations + model.variance +
                         (expected().doubts ? model.doubt.variance : 0.0) + error_variance_at(model, angles);
   factors().solve_lower_in_place(with.data());
@@ -261,7 +272,7 @@ GONIO_INLINE process_prediction sample_process::predict(const located_rows& plac
   const Eigen::MatrixXd with = expected().between(places, at());
   const Eigen::MatrixXd gain = factors().solve(with.transpose());
   process_prediction found{product(gain.transpose(), values_), std::move(covariance_before)};
-  found.covariance -= product(with, gain);
+  add_scaled(-1.0, product(with, gain), found.covariance);
   return found;
 }
 

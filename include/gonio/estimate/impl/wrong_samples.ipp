@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/wrong_samples.hpp>
 #include <gonio/solve/product.hpp>
@@ -17,13 +18,6 @@
 namespace gonio {
 
 namespace detail {
-
-GONIO_INLINE std::vector<Eigen::Index> in_order(std::vector<std::pair<double, Eigen::Index>> keyed) {
-  std::sort(keyed.begin(), keyed.end());
-  std::vector<Eigen::Index> ordered;
-  for (const auto& [key, number] : keyed) ordered.push_back(number);
-  return ordered;
-}
 
 /// The mean of three channels and their two contrasts, an orthonormal turn of them.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd mean_and_contrasts(const Eigen::MatrixXd& values) {
@@ -50,7 +44,7 @@ inline constexpr double shared_by_mean = 3.0, shared_by_contrast = 0.1;
                                                              std::span<const half_difference> others) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(std::ssize(angles), std::ssize(others));
   if (shared.everywhere > 0.0)
-    sum += shared.everywhere * discrepancy_covariance(angles, others, rule.everywhere_lengths);
+    add_scaled(shared.everywhere, discrepancy_covariance(angles, others, rule.everywhere_lengths), sum);
   if (!(shared.in_highlight > 0.0)) return sum;
   const Eigen::MatrixXd correlation = discrepancy_covariance(angles, others, rule.highlight_lengths);
   for (Eigen::Index j = 0; j < sum.cols(); ++j) {
@@ -72,8 +66,8 @@ struct judged_covariances {
   judged_covariances found{samples.covariance(), samples.covariance()};
   const std::vector<half_difference>& angles = samples.at().angles;
   const Eigen::MatrixXd deviation = shared_covariance(shared, rule, angles, angles);
-  found.mean += shared_by_mean * deviation;
-  found.contrasts += shared_by_contrast * deviation;
+  add_scaled(shared_by_mean, deviation, found.mean);
+  add_scaled(shared_by_contrast, deviation, found.contrasts);
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
     const double grazing = rule.grazing_variance * grazing_share(angles[i], rule.grazing_reach);
     found.mean(i, i) += shared_by_mean * grazing;
@@ -194,7 +188,7 @@ class wrong_sample_set {
     /// Returns y' K^-1 y.
     double factorise(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values, const std::vector<bool>& wrong) {
       const cholesky known = factors(covariance, wrong);
-      inverse = known.solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.rows()));
+      inverse = known.inverse();
       dual = product(inverse, values);
       log_determinant = static_cast<double>(values.cols()) * known.log_determinant();
       return dot(dual.data(), values.data(), values.size());
@@ -343,8 +337,7 @@ GONIO_INLINE judged_samples judge_samples(const sample_process& samples, const r
     found.probabilities_[i] = set.probability(i);
     if (set.contains(i)) by_gain.emplace_back(set.gain(i), i);
   }
-  for (const Eigen::Index i : detail::in_order(std::move(by_gain)))
-    found.wrong_.push_back({i, found.probabilities_[i]});
+  for (const Eigen::Index i : in_order(std::move(by_gain))) found.wrong_.push_back({i, found.probabilities_[i]});
   // Keep what others are judged by.
   found.shared_ = search.shared;
   found.expected_ = samples.expected();
@@ -362,17 +355,21 @@ GONIO_INLINE Eigen::VectorXd judged_samples::probabilities(const located_rows& o
   if (!mean_) return Eigen::VectorXd::Zero(p);
   const Eigen::MatrixXd values = detail::mean_and_contrasts(mapped), with = expected_.between(at_, others),
                         deviation = detail::shared_covariance(shared_, rule_, at_.angles, others.angles);
-  Eigen::VectorXd log_ratio = Eigen::VectorXd::Constant(p, log_odds_);
+  std::vector<double> log_ratio(p, log_odds_), squares_of_rows(p, 0.0);
+  for (Eigen::Index k = 0; k < others.rows.cols(); ++k)
+    for (Eigen::Index i = 0; i < p; ++i) squares_of_rows[i] += others.rows(i, k) * others.rows(i, k);
   // Of wrong and right, the densities of the mean and of the contrasts.
   const auto add = [&](const cholesky& factors, double share, double wrong_variance, Eigen::Index first,
                        Eigen::Index count) {
-    const Eigen::MatrixXd half = factors.solve_lower(with + share * deviation),
+    Eigen::MatrixXd sum = with;
+    add_scaled(share, deviation, sum);
+    const Eigen::MatrixXd half = factors.solve_lower(sum),
                           known = factors.solve_lower(values_.middleCols(first, count)),
                           predicted = product(half.transpose(), known);
     for (Eigen::Index i = 0; i < p; ++i) {
       const half_difference& angles = others.angles[i];
       const double highlight = detail::highlight_share(angles, rule_.highlight_reach);
-      const double before = others.rows.row(i).squaredNorm() / expected_.observations + expected_.model.variance +
+      const double before = squares_of_rows[i] / expected_.observations + expected_.model.variance +
                             share * (shared_.everywhere + shared_.in_highlight * highlight * highlight +
                                      rule_.grazing_variance * grazing_share(angles, rule_.grazing_reach));
       const double variance = std::max(before - detail::squared_norm(half.col(i)), 0.0) + error_variances[i];

@@ -2,6 +2,7 @@
 /// Bodies of model/smooth_spectra.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/interpolated_colour.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/model/smooth_spectra.hpp>
 #include <gonio/solve/least_squares_problem.hpp>

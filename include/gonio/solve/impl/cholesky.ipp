@@ -25,8 +25,9 @@ GONIO_INLINE Eigen::MatrixXd product_with_transpose(const matrix_view& a) {
 
 GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a) {
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(lower_);  // in place
+  positive_definite_ = factors.info() == Eigen::Success;
   // Eigen takes what is not a number for positive.
-  positive_definite_ = factors.info() == Eigen::Success && (lower_.diagonal().array() > 0.0).all();
+  for (Eigen::Index k = 0; k < lower_.rows(); ++k) positive_definite_ = positive_definite_ && lower_(k, k) > 0.0;
 }
 
 GONIO_INLINE void cholesky::solve_lower_in_place(double* b) const noexcept {
@@ -47,6 +48,12 @@ GONIO_INLINE Eigen::MatrixXd cholesky::solve_upper(const matrix_view& b) const {
 }
 
 GONIO_INLINE Eigen::MatrixXd cholesky::solve(const matrix_view& b) const { return solve_upper(solve_lower(b)); }
+
+GONIO_INLINE Eigen::MatrixXd cholesky::inverse() const {
+  Eigen::MatrixXd identity = Eigen::MatrixXd::Zero(lower_.rows(), lower_.rows());
+  for (Eigen::Index k = 0; k < lower_.rows(); ++k) identity(k, k) = 1.0;
+  return solve(identity);
+}
 
 GONIO_INLINE double cholesky::log_determinant() const {
   double sum = 0.0;

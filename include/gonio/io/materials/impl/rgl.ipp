@@ -2,6 +2,7 @@
 /// Bodies of io/materials/rgl.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/interpolated_colour.hpp>
 #include <gonio/core/printable.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/io/bytes/byte_stream.hpp>
