@@ -180,3 +180,51 @@ TEST_CASE("numbers that look like something else are accepted with a warning") {
   file.warns(dull_scan("brdf", with_cosine), "away from highlights the values fall like the cosine");
   file.is_silent_on(dull_scan("value", with_cosine), " --quantity brdf-cosine");
 }
+
+TEST_CASE("rotations of an anisotropic sample are not averaged") {
+  const one_file scan;
+  const auto brushed = [&](double strength) {
+    std::string text = "# quantity: brdf\n" + angles + "value\n";
+    for (const int rotation : {0, 90})
+      for (int theta_o = 5; theta_o <= 75; theta_o += 10)
+        for (const int beside : {0, 90})
+          text += "30," + std::to_string(rotation) + "," + std::to_string(theta_o) + "," +
+                  std::to_string(rotation + beside) + "," +
+                  std::to_string(0.1 * (1.0 + strength * (rotation == 90 ? 1.0 : 0.0))) + "\n";
+    return text;
+  };
+  scan.refuses(brushed(1.0), {"scan.csv", "16 pairs", "50 %", "anisotropic", "--rotation", "0, 90"});
+  scan.refuses(brushed(1.0), {"--rotation 45", "0, 90"}, " --rotation 45");
+  CHECK(scan.info(brushed(1.0)).find("samples: 32") != std::string::npos);  // is told of, whatever it is
+  CHECK(scan.info(brushed(1.0), " --rotation 90").find("samples: 16") != std::string::npos);
+  const std::string output = " -o " + (scan.folder / "out.binary").string();
+  scan.put(brushed(0.2));
+  CHECK(run("reconstruct " + scan.path + output).find("taken for isotropic") != std::string::npos);
+  scan.put(brushed(0.05));
+  CHECK(run("reconstruct " + scan.path + output).find("isotropic") == std::string::npos);
+  scan.put(brushed(1.0));
+  refuses("check " + scan.path + " --reference " + scan.path + " --noise 0.02", {"--rotation"});
+  CHECK(run("check " + scan.path + " --reference " + scan.path + " --noise 0.02 --rotation 90")
+            .find("no difference found") != std::string::npos);
+}
+
+TEST_CASE("half angles of readings are given once, and to whom uses them") {
+  const one_file scan;
+  const std::string output = " -o " + (scan.folder / "out.binary").string(),
+                    rows = "10,0,10,180,8,8,8\n10,0,20,180,0.2,0.2,0.2\n40,0,40,180,7,7,7\n40,0,0,0,0.1,0.1,0.1\n";
+  const auto bytes = [&](const std::string& text, const std::string& options) {
+    scan.put(text);
+    run("reconstruct " + scan.path + options + output);
+    return scratch::get(scan.folder / "out.binary");
+  };
+  const std::string file = angles + "r,g,b\n" + rows, stated = "# receiver-half-angle: 2\n" + file;
+  CHECK(bytes(stated, "") == bytes(file, " --receiver-half-angle 2"));
+  CHECK(bytes(stated, "") != bytes(file, ""));
+  std::filesystem::remove(scan.folder / "out.binary");
+  scan.refuses(stated, {"scan.csv", "half angles", "--receiver-half-angle"}, " --receiver-half-angle 2");
+  scan.refuses(file, {"--receiver-half-angle", "45"}, " --receiver-half-angle 46");
+  scan.refuses(file, {"--source-half-angle needs --method pca"}, " --source-half-angle 1 --method scattered");
+  scan.put(stated);
+  CHECK(run("reconstruct " + scan.path + " --method scattered" + output).find("taken for those of single directions") !=
+        std::string::npos);
+}

@@ -4,6 +4,7 @@
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/colour_shift.hpp"
+#include "papers/our_own/conformity_channels.hpp"
 #include "papers/our_own/detection_rates.hpp"
 #include "papers/our_own/left_out_families.hpp"
 #include "tool/pages/fixed.hpp"
@@ -81,6 +82,7 @@ class conformity_experiment {
       compare_same_directions(without, surface);
       compare_with_tolerance(without, surface);
       compare_other_directions(without, surface);
+      compare_channels(without, surface);
       judge_familiarity(without, surface, "unseen");
     }
     const estimator all = learned([](const std::string&) { return true; });
@@ -92,6 +94,7 @@ class conformity_experiment {
     print_roc();
     print_tolerance();
     print_other_directions();
+    print_channels();
     print_familiarity();
   }
 
@@ -222,6 +225,41 @@ class conformity_experiment {
       }
   }
 
+  /// Parts that are alike, in other channels: a row's name behind that of the channels says where.
+  void compare_channels(const estimator& known, const known_surface& surface) {
+    const double noise = middle_noise();
+    const directions designed = designed_.rbegin()->second, in_plane = directions_in_plane();
+    directions twice = designed;
+    twice.insert(twice.end(), designed.begin(), designed.end());
+    const gonio::valid_cells all, &cells = known.prior().cells();
+    const auto alike = [&](const std::string& row, const gonio::channels& kinds, const directions& part,
+                           const directions& reference, bool stated) {
+      results_.add(row, surface.name, repeated(given_.repetitions / 2, [&](std::uint64_t first, std::uint64_t second) {
+                     directions others = reference;
+                     if (others.empty())
+                       for (const Eigen::Index cell : gonio::random_cells(all, 20, second))
+                         others.push_back(all.angles(cell));
+                     const auto a = gonio::locate_samples(
+                                    cells, measure_channels(surface.measured, kinds, part, noise, first), {1}),
+                                b = gonio::locate_samples(
+                                    cells, measure_channels(surface.measured, kinds, others, noise, second), {1});
+                     gonio::conformity_options options{.part = {noise}, .reference = {noise}};
+                     if (!stated)
+                       options.part = options.reference =
+                           gonio::pooled_noise(gonio::noise_of_repeats(known.prior().metric(), a),
+                                               gonio::noise_of_repeats(known.prior().metric(), b));
+                     return gonio::check_conformity(known, a, b, options).p_value;
+                   }));
+    };
+    for (const auto& [name, kinds] : compared_channels()) {
+      alike(name + channel_rows[0], kinds, designed, designed, true);
+      alike(name + channel_rows[1], kinds, twice, twice, false);
+      alike(name + channel_rows[2], kinds, in_plane, in_plane, true);
+      alike(name + channel_rows[3], kinds, designed, {}, true);
+      alike(name + channel_rows[4], kinds, designed, in_plane, true);
+    }
+  }
+
   /// The samples as they are, and as none of the materials is: in another order.
   void judge_familiarity(const estimator& known, const known_surface& surface, const std::string& whether) {
     constexpr double noise = 0.02;
@@ -257,8 +295,11 @@ class conformity_experiment {
   void print_roc() const;
   void print_tolerance() const;
   void print_other_directions() const;
+  void print_channels() const;
   void print_familiarity() const;
 
+  static constexpr std::array channel_rows{" | designed", " | designed, twice each, unknown noise", " | in plane",
+                                           " | designed, from 20 others", " | designed, from those in plane"};
   static constexpr double tolerated = 0.05;
   static constexpr std::array tolerance_factors{1.0, 1.05, 1.07, 1.1};
 
@@ -337,6 +378,15 @@ void conformity_experiment::print_other_directions() const {
         std::cout << " | " << percent(p_values::below(results_.all(row + " predicted" + what), 0.01));
       std::cout << " |\n";
     }
+}
+
+void conformity_experiment::print_channels() const {
+  std::cout << "\nParts that are alike, in other channels; noise of " << fixed(100.0 * middle_noise(), 0)
+            << " %.\n\n| channels | directions | false alarms at 1 % (95 % interval) | at 5 % |\n|---|---|---|---|\n";
+  for (const auto& [name, kinds] : compared_channels())
+    for (const char* row : channel_rows)
+      std::cout << "| " << name << row << " | " << with_interval(results_.all(name + row), 0.01) << " | "
+                << with_interval(results_.all(name + row), 0.05) << " |\n";
 }
 
 void conformity_experiment::print_familiarity() const {
