@@ -21,8 +21,8 @@ namespace {
 
 using reconstructed_brdf = gonio::reconstructed<gonio::log_relative>;
 
-/// Of the one value, or of the green channel, which has most of the luminance: "sample 6 disagrees, left out: measured 2.09, the others say
-/// 0.140 (0.110 to 0.170)".
+/// Of the one value, or of the green channel, which has most of the luminance: "sample 6 disagrees, left out:
+/// measured 2.09, the others say 0.140 (0.110 to 0.170)".
 std::string told(const gonio::outlying_sample& out, const std::string& what_is_done) {
   const double low = out.predicted.y() * std::exp(-out.deviation), high = out.predicted.y() * std::exp(out.deviation);
   return "sample " + std::to_string(out.number + 1) + " disagrees, " + what_is_done + ": measured " +
