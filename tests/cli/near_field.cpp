@@ -130,6 +130,16 @@ TEST_CASE("samples that may be off their directions count less where that matter
   const auto trusting = run(" --json"), expecting = run(" --misplaced 1 --json");
   REQUIRE_MESSAGE(expecting.exit_code == 0, expecting.output);
   CHECK(expecting.output != trusting.output);
+  // How sure it is, is said as without the angle, and less is known.
+  const auto known_to = [](const std::string& output) {
+    const std::string key = "\"known_to\": ";
+    return std::stod(output.substr(output.find(key) + key.size()));
+  };
+  CHECK(known_to(expecting.output) > known_to(trusting.output));
+  const auto everything = run(" --misplaced 1 --residuals " + shots.at("r.csv") + " --uncertainty " +
+                              shots.at("u.binary") + " --report " + shots.at("r.html") + " -o " + shots.at("o.binary"));
+  CHECK_MESSAGE(everything.exit_code == 0, everything.output);
+  for (const char* written : {"r.csv", "u.binary", "r.html", "o.binary"}) CHECK(shots.has(written));
   for (const auto& [arguments, words] :
        {std::pair{" --misplaced 1 --eta gcv", "--noise or a number as its --eta"},
         std::pair{" --misplaced 1 --solver lasso", "--solver tikhonov"},

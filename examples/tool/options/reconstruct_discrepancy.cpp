@@ -5,6 +5,9 @@
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/measures_as_json.hpp"
 #include "tool/pages/sample_warnings.hpp"
+#include <gonio/estimate/angular_error.hpp>
+#include <gonio/estimate/errors_in_variables_decomposition.hpp>
+#include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
@@ -12,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -100,20 +104,6 @@ void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, re
     result.sentence += ", about " + fixed(100.0 * paint.outlier_share(), 1) + " % outliers";
 }
 
-/// Says what is known beside the fit.
-reconstruction described(reconstruction result, const reconstructed_brdf& paint, Eigen::Index samples,
-                         const reconstruct_options& options) {
-  if (!options.residuals.empty() || (options.tells_residuals() && samples <= most_residuals))
-    result.residuals = paint.residuals();
-  if (!options.residuals.empty()) write_residuals(options, result.residuals);
-  result.rejected = paint.rejected();
-  result.details["discrepancy"] = options.discrepancy;
-  if (!options.keeps_all) describe_rejected(paint, samples, result);
-  describe(paint.certainty(), result);
-  if (options.wants_uncertainty()) result.uncertainty = uncertainty_table(paint, options.threads);
-  return result;
-}
-
 gonio::reconstruction<gonio::log_relative> estimator_of(const reconstruct_options& options,
                                                         const gonio::log_relative_pca& prior, Eigen::Index samples) {
   if (!options.residuals.empty() && samples > most_residuals)
@@ -122,6 +112,34 @@ gonio::reconstruction<gonio::log_relative> estimator_of(const reconstruct_option
   const gonio::reconstruction estimator{
       prior, {.variance = options.discrepancy, .noise = options.noise.value_or(0.0)}, options.threads};
   return options.keeps_all ? estimator.keeping_all() : estimator;
+}
+
+/// Those that count of some samples, as much as a reconstruction says; it names those of which it says how much.
+gonio::sample_set as_much_as_they_count(const gonio::sample_set& samples, const std::vector<Eigen::Index>& counting,
+                                        const reconstructed_brdf& known) {
+  std::map<Eigen::Index, double> shares;
+  for (const Eigen::Index i : known.rejected()) shares[i] = 0.0;
+  for (const gonio::outlying_sample& each : known.contradicted()) shares[each.number] = 1.0 - each.probability;
+  gonio::sample_set agreeing(samples.channels());
+  for (const Eigen::Index i : counting) {
+    const double share = shares.contains(i) ? shares[i] : 1.0;
+    if (share > 0.01)
+      agreeing.add(samples.directions(i), samples.values(i), gonio::rgb(share * samples.weight(i).of_each()));
+  }
+  return agreeing;
+}
+
+/// Says what is known beside the fit.
+reconstruction described(reconstruction result, const reconstructed_brdf& paint, Eigen::Index samples,
+                         const reconstruct_options& options) {
+  if (!options.residuals.empty() || (options.tells_residuals() && samples <= most_residuals))
+    result.residuals = paint.residuals();
+  if (!options.residuals.empty()) write_residuals(options, result.residuals);
+  result.rejected = paint.rejected();
+  if (!options.keeps_all) describe_rejected(paint, samples, result);
+  describe(paint.certainty(), result);
+  if (options.wants_uncertainty()) result.uncertainty = uncertainty_table(paint, options.threads);
+  return result;
 }
 
 }  // namespace
@@ -134,7 +152,28 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
   reconstruction result = options.fits_spectra ? described_spectra(paint.tabulate_spectra(cells), options)
                                                : reconstruction{paint.tabulate(cells)};
   describe_residuals(*paint.fit().report(), paint.kept(), result);
+  result.details["discrepancy"] = options.discrepancy;
   return described(std::move(result), paint, count, options);
+}
+
+reconstruction reconstruct_misplaced(const reconstruct_options& options, const gonio::log_relative_pca& prior,
+                                     const gonio::sample_set& samples) {
+  const std::string& stated = options.solver.eta;
+  if ((!options.solver.name.empty() && options.solver.name != "tikhonov") || stated == "gcv" || stated == "loo")
+    gonio::refuse("--misplaced needs --solver tikhonov, and --noise or a number as its --eta");
+  // How sure it is, and which samples disagree, is asked of a reconstruction that knows of the angle.
+  const double angle = gonio::radians(options.angular_error);
+  const std::vector<Eigen::Index> counting = gonio::counting_positions(samples);
+  const auto estimator = estimator_of(options, prior, std::ssize(counting));
+  const auto known = estimator.fit(gonio::weighted_as_misplaced(samples.through({}), prior, estimator.model(), angle));
+  const gonio::sample_set agreeing = as_much_as_they_count(samples, counting, known);
+  const double eta = stated.empty() ? gonio::eta_of_noise(prior, agreeing, options.noise.value_or(0.0), options.threads)
+                                    : number_of_eta(stated);
+  const auto fitted = gonio::errors_in_variables_decomposition{prior, eta, angle, options.threads}.fit(agreeing);
+  reconstruction result = tabulated(fitted, options);
+  describe_residuals(*fitted.report(), std::ssize(agreeing), result);
+  result.details["eta"] = eta;
+  return described(std::move(result), known, std::ssize(counting), options);
 }
 
 }  // namespace cli

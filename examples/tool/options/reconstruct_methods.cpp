@@ -10,7 +10,6 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/errors_in_variables_decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/interpolate/pull_push.hpp>
@@ -54,22 +53,6 @@ reconstruction fit(const Basis& basis, const Solver& solver, const gonio::sample
   return described(gonio::decomposition{basis, solver, options.threads}.fit(samples), samples, options);
 }
 
-/// Samples whose light and viewer may be off their directions. Noise that is not stated is taken for none:
-/// cross-validation would take what is misplaced for noise.
-reconstruction reconstruct_misplaced(const reconstruct_options& options, const gonio::log_relative_pca& prior,
-                                     const gonio::sample_set& samples) {
-  const std::string& stated = options.solver.eta;
-  if ((!options.solver.name.empty() && options.solver.name != "tikhonov") || stated == "gcv" || stated == "loo")
-    gonio::refuse("--misplaced needs --solver tikhonov, and --noise or a number as its --eta");
-  const double eta = stated.empty() ? gonio::eta_of_noise(prior, samples, options.noise.value_or(0.0), options.threads)
-                                    : number_of_eta(stated);
-  const gonio::errors_in_variables_decomposition estimator{prior, eta, gonio::radians(options.angular_error),
-                                                           options.threads};
-  reconstruction result = described(estimator.fit(samples), samples, options);
-  result.details["eta"] = eta;
-  return result;
-}
-
 component_choice choose_components(const reconstruct_options& options) {
   const bool penalised = options.solver.name.empty() || options.solver.name == "tikhonov";
   if (options.noise && !options.solver.eta.empty())
@@ -89,14 +72,14 @@ component_choice choose_components(const reconstruct_options& options) {
   component_choice chosen{gonio::io::read_prior(options.materials.prior), solver};
   chosen.is_penalised = penalised && options.solver.eta.empty();
   chosen.has_discrepancy = options.discrepancy != 0.0 && chosen.is_penalised && options.angular_error == 0.0;
-  if (chosen.has_discrepancy) return chosen;
+  if (chosen.has_discrepancy || options.angular_error != 0.0) return chosen;
   if (options.keeps_all || !options.residuals.empty() || options.wants_uncertainty())
     gonio::refuse(
         "--no-reject, --residuals, --report, --uncertainty and --uncertainty-image need a discrepancy: they go with "
         "none of "
-        "--discrepancy 0, --misplaced, --eta and other solvers than tikhonov");
+        "--discrepancy 0, --eta and other solvers than tikhonov");
   if (options.discrepancy != 0.0 && options.discrepancy != reconstruct_options{}.discrepancy)
-    gonio::refuse("--discrepancy goes with none of --misplaced, --eta and other solvers than tikhonov");
+    gonio::refuse("--discrepancy goes with none of --eta and other solvers than tikhonov");
   return chosen;
 }
 

@@ -89,6 +89,13 @@ struct reconstruction {
                                                           const gonio::log_relative_pca& prior,
                                                           const gonio::sample_set& samples);
 
+/// The components alone, of samples whose light and viewer may be off their directions, without those that a
+/// reconstruction rejects, which knows of it; that one says how sure it is. Noise that is not stated is taken for none:
+/// cross-validation would take what is misplaced for noise.
+[[nodiscard]] reconstruction reconstruct_misplaced(const reconstruct_options& options,
+                                                   const gonio::log_relative_pca& prior,
+                                                   const gonio::sample_set& samples);
+
 /// The components of soft or of specular materials, whichever the samples choose (Nielsen et al. 2015, section 8).
 [[nodiscard]] reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options,
                                                              const gonio::sample_set& samples);
