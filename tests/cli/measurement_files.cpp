@@ -181,6 +181,20 @@ TEST_CASE("numbers that look like something else are accepted with a warning") {
   file.is_silent_on(dull_scan("value", with_cosine), " --quantity brdf-cosine");
 }
 
+TEST_CASE("a long comment hides no format") {
+  const scratch::folder here;
+  std::string text;
+  for (int line = 0; line < 200; ++line) text += "# " + std::string(70, 'x') + "\n";
+  text +=
+      "Source Measured\nSymmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\nSampleRotation 1\n0\n"
+      "AngleOfIncidence 1\n30\nScatterAzimuth 1\n0\nScatterRadial 3\n0 20 50\nMonochrome\nDataBegin\nTIS 0.5\n9 1 "
+      "0.1\nDataEnd\n";
+  const std::string path = (here / "long.bsdf").string();
+  scratch::put(path, text);
+  CHECK(run("info " + path).find("Zemax") != std::string::npos);
+  CHECK(run("reconstruct " + path + " -o " + (here / "o.binary").string()).find("3 samples") != std::string::npos);
+}
+
 TEST_CASE("rotations of an anisotropic sample are not averaged") {
   const one_file scan;
   const auto brushed = [&](double strength) {

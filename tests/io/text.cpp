@@ -22,6 +22,15 @@ TEST_CASE("lines: without blanks, comments and a byte order mark, and counted") 
   const decltype(lines) expected{{1, "one"}, {5, "two  2"}, {7, "last"}};
   CHECK(lines == expected);
   check_refused([&]() -> int { place.refuse("is wrong"); }, {"a file, line 7: is wrong"});
+  // Line ends of old Macintoshes, alone and among others.
+  const auto split = [](std::string_view text) {
+    std::vector<std::pair<Eigen::Index, std::string>> found;
+    text_place at{"a file"};
+    for_each_line(text, at, [&](std::string_view line) { found.emplace_back(at.line, line); });
+    return found;
+  };
+  CHECK(split("one\r\rtwo\rlast") == decltype(lines){{1, "one"}, {3, "two"}, {4, "last"}});
+  CHECK(split("one\rtwo\r\nthree\nlast\r") == decltype(lines){{1, "one"}, {2, "two"}, {3, "three"}, {4, "last"}});
 }
 
 TEST_CASE("numbers read back as they were written") {

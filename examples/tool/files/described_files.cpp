@@ -49,7 +49,7 @@ struct file_look {
 
   path_type path;
   std::string extension;  ///< with the dot, in lower case
-  std::string start;      ///< the first 4096 bytes
+  std::string start;      ///< `file_start`
   std::uintmax_t size = 0;
 };
 

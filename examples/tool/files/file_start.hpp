@@ -6,7 +6,7 @@
 
 namespace cli {
 
-/// Its first 4096 bytes, or all if it has fewer; nothing if it cannot be opened, or is no regular file: its reader then
+/// Its first 65,536 bytes, or all if it has fewer; nothing if it cannot be opened, or is no regular file: its reader then
 /// says why.
 [[nodiscard]] std::string file_start(const std::filesystem::path& path);
 

@@ -9,6 +9,7 @@
 #include <locale.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -61,9 +62,12 @@ GONIO_INLINE std::string_view without_byte_order_mark(std::string_view text) noe
 GONIO_INLINE bool next_whole_line(std::string_view& text, text_place& place, std::string_view& line) {
   while (!text.empty()) {
     ++place.line;
-    const std::size_t end = text.find('\n');
+    std::size_t end = std::min(text.find('\n'), text.size());
+    // A carriage return that no line feed follows ends a line, too.
+    if (const std::size_t alone = text.substr(0, end).find('\r'); alone != std::string_view::npos && alone + 1 < end)
+      end = alone;
     line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    text.remove_prefix(std::min(end + 1, text.size()));
     if (line.find_first_not_of(blanks) != std::string_view::npos) return true;
   }
   return false;
