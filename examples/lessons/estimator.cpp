@@ -50,8 +50,9 @@ constexpr double light = 45.0, last_sample = 75.0, sample_step = 5.0, last_of_cu
 constexpr double scan_noise = 0.02;
 
 gonio::direction_pair in_plane(double theta_o) {
-  return {gonio::spherical_direction(gonio::radians(light), std::numbers::pi),
-          gonio::spherical_direction(gonio::radians(theta_o), 0.0)};
+  // Without a turn by pi, whose rounding would give the half vector of the mirror direction an azimuth.
+  return {gonio::spherical_direction(gonio::radians(light), 0.0),
+          gonio::spherical_direction(gonio::radians(-theta_o), 0.0)};
 }
 
 /// From -last to last.

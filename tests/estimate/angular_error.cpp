@@ -68,22 +68,3 @@ TEST_CASE("each cell has its own, the same for any number of threads") {
     CHECK(one[cell] == gonio::angular_error_penalty(moved_prior(), gonio::to_directions(small_cells().angles(cell)),
                                                     gonio::radians(0.5)));
 }
-
-TEST_CASE("samples that may be misplaced keep what is left of their weights beside the model's error") {
-  const gonio::log_relative_pca prior = learn(synthetic_materials(small_cells(), 8), 6);
-  const gonio::discrepancy_model model;
-  gonio::sample_set samples(gonio::channels({450.0, 550.0}));
-  const double angle = gonio::radians(3.0), observations = 24.0;
-  for (const Eigen::Index cell : {5, 80, 200}) samples.add(small_cells().angles(cell), std::array{0.2, 0.3}, 2.0);
-  const auto weighted = gonio::weighted_as_misplaced(samples, prior, model, angle);
-  REQUIRE(weighted.size() == 3);
-  CHECK(weighted.channels() == samples.channels());
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const double error = gonio::error_variance_at(model, samples.directions(i).angles());
-    const double variance = gonio::angular_error_penalty(prior, samples.directions(i).pair(), angle) / observations;
-    CHECK(weighted.weight(i)[0] == doctest::Approx(2.0 * error / (error + variance)));
-    CHECK(weighted.weight(i)[0] < 2.0);
-    CHECK(weighted.values(i)[1] == 0.3);
-  }
-  CHECK(gonio::weighted_as_misplaced(samples, prior, model, 0.0).weight(1)[0] == doctest::Approx(2.0));
-}

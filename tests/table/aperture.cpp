@@ -44,6 +44,15 @@ TEST_CASE("pairs lie within both cones, as many in each equal part of either") {
   }));
 }
 
+TEST_CASE("the mean over cones is the integral: of a cosine it is known") {
+  const direction_pair axes = around(0.0, 0.0);
+  for (const double half_angle : {0.1, 0.4, 0.7}) {
+    const auto cosine = [](const direction&, const direction& wo) { return wo.z(); };
+    const double mean = gonio::mean_within(axes, {0.0, half_angle}, 256, cosine);
+    CHECK(mean == doctest::Approx(0.5 * (1.0 + std::cos(half_angle))).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("no cones are one direction, and what is below the horizon is left out") {
   const direction_pair axes = around(20.0, 88.0);
   for (const auto& [wi, wo] : gonio::pairs_within(axes, {}, 16)) {

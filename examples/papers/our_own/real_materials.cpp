@@ -14,6 +14,7 @@
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/reconstruction.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/materials/networks.hpp>
 
@@ -113,14 +114,11 @@ class experiment : left_out_experiment {
 
   /// What the instrument reads: the mean over its receiver.
   [[nodiscard]] reflectance reading_of(const judged_material& material) const {
-    constexpr int pairs_a_reading = 512;
     const gonio::aperture cones = given_.aperture();
     if (cones.is_point()) return material.measured;
-    return [of = material.measured, cones](const gonio::direction_pair& axes) -> gonio::rgb {
-      gonio::rgb sum(0.0, 0.0, 0.0);
-      const auto pairs = gonio::pairs_within(axes, cones, pairs_a_reading);
-      for (const gonio::direction_pair& each : pairs) sum += of(each);
-      return sum / static_cast<double>(pairs.size());
+    return [of = material.measured, cones](const gonio::direction_pair& axes) {
+      const auto value = [&](const gonio::direction& wi, const gonio::direction& wo) { return of({wi, wo}); };
+      return gonio::mean_within(axes, cones, gonio::measurement_defects::pairs_a_reading, value);
     };
   }
 

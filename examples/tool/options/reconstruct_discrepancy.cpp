@@ -15,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <span>
 #include <utility>
 
@@ -114,17 +113,14 @@ gonio::reconstruction<gonio::log_relative> estimator_of(const reconstruct_option
   return options.keeps_all ? estimator.keeping_all() : estimator;
 }
 
-/// Those that count of some samples, as much as a reconstruction says; it names those of which it says how much.
+/// Some samples, each as much as a reconstruction says that it counts.
 gonio::sample_set as_much_as_they_count(const gonio::sample_set& samples, const std::vector<Eigen::Index>& counting,
-                                        const reconstructed_brdf& known) {
-  std::map<Eigen::Index, double> shares;
-  for (const Eigen::Index i : known.rejected()) shares[i] = 0.0;
-  for (const gonio::outlying_sample& each : known.contradicted()) shares[each.number] = 1.0 - each.probability;
+                                        const Eigen::VectorXd& inlier_weights) {
   gonio::sample_set agreeing(samples.channels());
-  for (const Eigen::Index i : counting) {
-    const double share = shares.contains(i) ? shares[i] : 1.0;
-    if (share > 0.01)
-      agreeing.add(samples.directions(i), samples.values(i), gonio::rgb(share * samples.weight(i).of_each()));
+  for (std::size_t k = 0; k < counting.size(); ++k) {
+    const Eigen::Index i = counting[k];
+    agreeing.add(samples.directions(i), samples.values(i),
+                 gonio::rgb(inlier_weights[static_cast<Eigen::Index>(k)] * samples.weight(i).of_each()));
   }
   return agreeing;
 }
@@ -166,12 +162,12 @@ reconstruction reconstruct_misplaced(const reconstruct_options& options, const g
   const std::vector<Eigen::Index> counting = gonio::counting_positions(samples);
   const auto estimator = estimator_of(options, prior, std::ssize(counting));
   const auto known = estimator.fit(gonio::weighted_as_misplaced(samples.through({}), prior, estimator.model(), angle));
-  const gonio::sample_set agreeing = as_much_as_they_count(samples, counting, known);
+  const gonio::sample_set agreeing = as_much_as_they_count(samples, counting, known.inlier_weights());
   const double eta = stated.empty() ? gonio::eta_of_noise(prior, agreeing, options.noise.value_or(0.0), options.threads)
                                     : number_of_eta(stated);
   const auto fitted = gonio::errors_in_variables_decomposition{prior, eta, angle, options.threads}.fit(agreeing);
   reconstruction result = tabulated(fitted, options);
-  describe_residuals(*fitted.report(), std::ssize(agreeing), result);
+  describe_residuals(*fitted.report(), known.kept(), result);
   result.details["eta"] = eta;
   return described(std::move(result), known, std::ssize(counting), options);
 }

@@ -6,6 +6,7 @@
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/located_samples.hpp>
+#include <gonio/estimate/sample_process.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <Eigen/Core>
@@ -155,5 +156,22 @@ class errors_in_variables_decomposition {
 };
 
 static_assert(estimator<errors_in_variables_decomposition<log_relative>>);
+
+/// Samples whose weights are those that a `reconstruction` by such a prior should give them, each being off by an
+/// angle: e / (e + v) of what they were, with the model's error variance e and the variance v of the mapped error. O(n
+/// k).
+template <error_metric Metric>
+[[nodiscard]] sample_set weighted_as_misplaced(const sample_set& samples, const pca<Metric>& prior,
+                                               const discrepancy_model& model, double angle) {
+  const double observations = static_cast<double>(prior.coefficients().rows());
+  sample_set weighted(samples.channels());
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
+    const double error = error_variance_at(model, samples.directions(i).angles()),
+                 misplaced = angular_error_penalty(prior, samples.directions(i).pair(), angle) / observations;
+    weighted.add(samples.directions(i), samples.values(i),
+                 rgb(samples.weight(i).of_each() * error / (error + misplaced)), samples.aperture(i));
+  }
+  return weighted;
+}
 
 }  // namespace gonio

@@ -72,8 +72,11 @@ class fitted_brdf {
   /// The same at a location on the basis' cells.
   [[nodiscard]] Eigen::ArrayXd values(const location& place) const {
     if constexpr (basis<Basis>) {
-      Eigen::ArrayXd all = (row_at(basis_, place) * weights_).transpose().array() + offset_at(basis_, place);
-      for (double& value : all) value = reflectance_of(basis_.metric(), value, place);
+      const Eigen::RowVectorXd row = row_at(basis_, place);
+      const double offset = offset_at(basis_, place);
+      Eigen::ArrayXd all(weights_.cols());
+      for (Eigen::Index c = 0; c < all.size(); ++c)
+        all[c] = reflectance_of(basis_.metric(), dot(row.data(), &weights_(0, c), row.size()) + offset, place);
       return all;
     } else {
       return at(place);

@@ -206,6 +206,8 @@ class reconstructed {
 
   // ---- which samples ----
 
+  /// What each sample counts that has a weight, from 0 to 1.
+  [[nodiscard]] const Eigen::VectorXd& inlier_weights() const noexcept { return found_.weights; }
   /// Positions of samples that count less than half, or not at all, the worst first.
   [[nodiscard]] const std::vector<Eigen::Index>& rejected() const noexcept { return found_.rejected; }
   /// Samples that the others contradict, the worst first; see `inliers`.

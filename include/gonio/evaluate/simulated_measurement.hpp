@@ -24,8 +24,9 @@ struct measurement_defects {
   double outlier_ratio = 0.0;
   /// Standard deviation of Gaussian noise relative to the value, independent in each channel.
   double noise = 0.0;
-  /// Values are means over its cones.
+  /// Values are means over its cones, of so many pairs of directions.
   gonio::aperture aperture = {};
+  static constexpr int pairs_a_reading = 512;
 };
 
 /// A direction above the horizon turned by an angle in radians towards a random side; kept above the horizon.
@@ -39,9 +40,6 @@ template <class Generator>
 /// samples of the directions that were meant.
 [[nodiscard]] sample_set sample_table_misplaced(const brdf_table& table, std::span<const direction_pair> pairs,
                                                 double angle, std::uint64_t seed = 0);
-
-/// The mean of a table over the cones around two directions.
-[[nodiscard]] rgb read_through(const brdf_table& table, const direction_pair& axes, const aperture& cones);
 
 /// How many of `all` a share of them, between 0 and 1, is: at least one.
 [[nodiscard]] inline Eigen::Index share_of(Eigen::Index all, double share) noexcept {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace gonio {
@@ -27,6 +28,17 @@ inline constexpr double largest_half_angle = radians(45.0);
 /// head", doi:10.1016/0025-5564(79)90080-4); those below the horizon are left out. A power of two: rings of the one
 /// cone are paired with those of the other by their numbers read backwards, bit by bit (Hammersley's points).
 [[nodiscard]] std::vector<direction_pair> pairs_within(const direction_pair& axes, const aperture& cones, int count);
+
+/// What a reading is: the mean over `count` such pairs of what `value` says of light and receiver.
+template <class Value>
+[[nodiscard]] auto mean_within(const direction_pair& axes, const aperture& cones, int count, Value&& value) {
+  const std::vector<direction_pair> pairs = pairs_within(axes, cones, count);
+  if (pairs.empty()) return value(axes.wi, axes.wo);  // all below the horizon
+  auto mean = value(pairs.front().wi, pairs.front().wo);
+  for (std::size_t i = 1; i < pairs.size(); ++i) mean += value(pairs[i].wi, pairs[i].wo);
+  mean /= static_cast<double>(pairs.size());
+  return mean;
+}
 
 }  // namespace gonio
 

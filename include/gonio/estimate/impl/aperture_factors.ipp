@@ -23,13 +23,9 @@ GONIO_INLINE Eigen::MatrixXd aperture_factors(
         if (samples.aperture(number).is_point()) return;
         const direction_pair& axes = samples.directions(number).pair();
         const Eigen::ArrayXd middle = values(axes.wi, axes.wo);
-        Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(middle.size());
-        const auto pairs = pairs_within(axes, samples.aperture(number), pairs_a_sample);
-        for (const auto& [wi, wo] : pairs) sum += values(wi, wo);
-        for (Eigen::Index c = 0; c < factors.cols(); ++c) {
-          const double mean = sum[c] / static_cast<double>(pairs.size());
-          if (mean > 0.0 && middle[c] > 0.0) factors(i, c) = std::clamp(mean / middle[c], 1.0 / most, most);
-        }
+        const Eigen::ArrayXd mean = mean_within(axes, samples.aperture(number), pairs_a_sample, values);
+        for (Eigen::Index c = 0; c < factors.cols(); ++c)
+          if (mean[c] > 0.0 && middle[c] > 0.0) factors(i, c) = std::clamp(mean[c] / middle[c], 1.0 / most, most);
       },
       threads);
   return factors;

@@ -17,14 +17,6 @@
 
 namespace gonio {
 
-GONIO_INLINE rgb read_through(const brdf_table& table, const direction_pair& axes, const aperture& cones) {
-  constexpr int pairs_a_reading = 512;
-  rgb sum(0.0, 0.0, 0.0);
-  const std::vector<direction_pair> pairs = pairs_within(axes, cones, cones.is_point() ? 1 : pairs_a_reading);
-  for (const auto& [wi, wo] : pairs) sum += table(wi, wo);
-  return sum / static_cast<double>(pairs.size());
-}
-
 GONIO_INLINE sample_set sample_table_misplaced(const brdf_table& table, std::span<const direction_pair> pairs,
                                                double angle, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
@@ -61,8 +53,10 @@ GONIO_INLINE sample_set sample_table(const brdf_table& table, std::span<const Ei
   samples.reserve(cells.size());
   for (const Eigen::Index cell : cells) {
     const half_difference angles = table.cells().angles(cell);
-    samples.push_back({angles, read_through(table, to_directions(angles), defects.aperture), 1.0, defects.aperture});
-    if (defects.aperture.is_point()) samples.back().value = table.at(cell);
+    const rgb value = defects.aperture.is_point() ? rgb(table.at(cell))
+                                                  : mean_within(to_directions(angles), defects.aperture,
+                                                                measurement_defects::pairs_a_reading, table);
+    samples.push_back({angles, value, 1.0, defects.aperture});
   }
   std::uniform_int_distribution<Eigen::Index> any_cell(0, table.cells().size() - 1);
   return corrupt(std::move(samples), defects, seed,
