@@ -34,7 +34,11 @@ golden_columns golden_csv(const std::string& name) {
   return columns;
 }
 
-nlohmann::json read_json(const std::string& text) { return nlohmann::json::parse(text); }
+nlohmann::json read_json(const std::string& text) {
+  std::size_t begin = 0;
+  while (text.compare(begin, 16, "gonio: warning: ") == 0) begin = text.find('\n', begin) + 1;
+  return nlohmann::json::parse(text.begin() + static_cast<std::ptrdiff_t>(begin), text.end());
+}
 
 nlohmann::json golden_json(const std::string& name) {
   std::ifstream file = open(name);

@@ -5,7 +5,8 @@
 
 #include <string>
 
-/// Throws nlohmann::json::parse_error if it is none.
+/// Of a text, or of what is behind a tool's warnings, each a line of it. Throws nlohmann::json::parse_error if there is
+/// none.
 [[nodiscard]] nlohmann::json read_json(const std::string& text);
 
 /// A file of tests/data.

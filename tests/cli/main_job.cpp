@@ -102,7 +102,7 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     CHECK(std::ranges::count(residuals, '\n') == 21);
     CHECK(residuals.find("\n6,") != std::string::npos);
     const std::string output = gonio_tool("reconstruct --json " + at("wrong.csv")).output;
-    const auto fit = read_json(output.substr(output.find('{')));  // after the warning, on standard error
+    const auto fit = read_json(output);
     REQUIRE(fit["left_out"].size() == 1);
     CHECK(fit["left_out"][0]["probability_wrong"].get<double>() > 0.75);
     CHECK(fit["left_out"][0]["sample"] == 6);
@@ -115,6 +115,18 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
           .get<double>();
     };
     CHECK(error("without.binary") < 0.7 * error("with.binary"));
+  }
+  SUBCASE("reconstruct says how sure it is far from all samples") {
+    std::string near = "theta_h,theta_d,phi_d,r,g,b\n";
+    for (int i = 0; i < 12; ++i) near += std::to_string(i + 1) + ',' + std::to_string(5 * i) + ",30,0.1,0.1,0.1\n";
+    scratch::put(at("near.csv"), near);
+    const std::string output = gonio_tool("reconstruct --json " + at("near.csv")).output;
+    CHECK(output.find("no sample's half vector is more than 12 degrees from the normal: farther away, half of all "
+                      "directions are known to ") != std::string::npos);
+    const auto fit = read_json(output);
+    CHECK(fit["known_to_beyond_the_samples"].get<double>() > fit["known_to"].get<double>());
+    CHECK_FALSE(read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output)
+                    .contains("known_to_beyond_the_samples"));
   }
   SUBCASE("reconstruct says how sure it is") {
     const auto known = [&](const std::string& noise) {

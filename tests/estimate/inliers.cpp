@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -190,21 +191,25 @@ TEST_CASE("few samples support no large share of outliers") {
   for (Eigen::Index n = 1; n < 1000; ++n) CHECK(gonio::largest_outlier_share(n) <= gonio::largest_outlier_share(n + 1));
 }
 
-TEST_CASE("wrong samples have neighbours that are wrong, too, where three of four are") {
+TEST_CASE("of many samples those of a narrow highlight are among those that are judged together") {
   gonio::located_samples samples;
-  for (const double theta_h : {0.3, 0.31, 0.312, 0.9, 0.91, 0.92})
-    samples.locations.push_back(gonio::locate(outlying_cells(), {theta_h, 0.2, 0.1}));
-  samples.values = Eigen::MatrixXd::Ones(6, 3);
-  const auto wrong = [&](std::initializer_list<double> probabilities) {
-    return gonio::detail::wrong_neighbours(
-        samples, Eigen::VectorXd::Map(probabilities.begin(), std::ssize(probabilities)), {0.1, 0.2, 0.4});
-  };
-  CHECK(wrong({0.9, 0.1, 0.1, 0.1, 0.1, 0.1}).empty());
-  CHECK(wrong({0.9, 0.8, 0.1, 0.1, 0.1, 0.6}).empty());
-  CHECK(wrong({0.1, 0.1, 0.1, 0.6, 0.6, 0.6}) == std::vector<Eigen::Index>{3, 4, 5});
-  // One alone has no neighbours.
-  samples.locations[0] = gonio::locate(outlying_cells(), {0.02, 0.2, 0.1});
-  CHECK(wrong({0.9, 0.1, 0.1, 0.1, 0.1, 0.1}).empty());
+  for (int i = 0; i < 20'000; ++i)
+    samples.locations.push_back(gonio::locate(outlying_cells(), {0.5 + 1e-5 * i, 0.2 + 1e-5 * i, 0.1}));
+  const std::vector<Eigen::Index> highlight{11, 4'000, 9'000, 9'001, 19'999};
+  for (const Eigen::Index i : highlight) samples.locations[i] = gonio::locate(outlying_cells(), {0.01, 0.2, 0.1});
+  samples.values = Eigen::MatrixXd::Ones(20'000, 3);
+  const auto chosen = gonio::detail::judged_together(samples);
+  CHECK(std::ssize(chosen) == gonio::most_judged);
+  CHECK(std::ranges::adjacent_find(chosen, std::greater_equal<>{}) == chosen.end());  // each once, in order
+  CHECK(std::ranges::includes(chosen, highlight));
+  // Two thirds are from everywhere: of a tenth of all about a tenth of these.
+  CHECK(std::ranges::count_if(chosen, [](Eigen::Index i) { return i < 2'000; }) > 25);
+  // All of few, and all but one of one more.
+  std::vector<Eigen::Index> some(gonio::most_judged + 1);
+  std::iota(some.begin(), some.end(), Eigen::Index{0});
+  CHECK(std::ssize(gonio::detail::judged_together(samples.subset(some))) == gonio::most_judged);
+  some.resize(7);
+  CHECK(gonio::detail::judged_together(samples.subset(some)) == some);
 }
 
 TEST_CASE("of many samples, what is off by more than a factor of three counts less than half") {

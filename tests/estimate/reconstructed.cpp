@@ -118,7 +118,7 @@ TEST_CASE("more samples make surer, and intervals are nested and not negative") 
   const auto many =
       posterior_estimator().fit_located(measured_at(gonio::random_cells(posterior_cells(), 80, 1), table));
   const auto coarse = valid_cells(gonio::grid({6, 5, 6}));
-  const auto with_few = few.deviations(coarse), with_many = many.deviations(coarse);
+  const auto with_few = few.known_to(coarse), with_many = many.known_to(coarse);
   double sum_few = 0.0, sum_many = 0.0;
   for (Eigen::Index i = 0; i < std::ssize(coarse); ++i) {
     sum_few += with_few[i];
@@ -151,6 +151,7 @@ TEST_CASE("certainty is the median of what is said of each direction") {
   CHECK(known.known_to == doctest::Approx(gonio::median(everywhere)).epsilon(1e-3));
   CHECK(known.known_to_at_grazing == doctest::Approx(gonio::median(grazing)).epsilon(1e-3));
   CHECK(known.highlight_factor > 1.0);
+  CHECK(known.known_to_beyond == 0.0);  // samples are all over
   // The more is measured in the highlight, the better it is known.
   auto more = gonio::sample_table(table, gonio::random_cells(posterior_cells(), 12, 1));
   for (const double theta_d : {0.3, 0.7, 1.1}) {
@@ -196,6 +197,17 @@ TEST_CASE("samples in finer steps, and samples that are all in one region, do no
   const auto coarse = scan(8), fine = scan(64);
   CHECK(fine.deviation(beyond) > 0.9 * coarse.deviation(beyond));
   CHECK(fine.deviation(beyond) > 3.0 * fine.deviation(near));
+  // What is unknown altogether is off as normal numbers are, what is nearly known by more or by less.
+  const auto deviations_reached = [&](const gonio::location& at, gonio::confidence_level level) {
+    return fine.reach(at, level) / fine.deviation(at);
+  };
+  CHECK(deviations_reached(beyond, gonio::confidence_level::sixty_eight_percent) > 0.75);
+  CHECK(deviations_reached(near, gonio::confidence_level::sixty_eight_percent) < 0.55);
+  CHECK(deviations_reached(near, gonio::confidence_level::ninety_five_percent) == doctest::Approx(1.85));
+  // What lies far from all half vectors is told apart.
+  const gonio::certainty known = fine.certainty();
+  CHECK(gonio::degrees(known.measured_to) == doctest::Approx(15.0 * 63.0 / 64.0));
+  CHECK(known.known_to_beyond > known.known_to);
 }
 
 TEST_CASE("no estimate dips in the mirror direction, in its table and where it is evaluated") {

@@ -157,5 +157,6 @@ TEST_CASE("doubts are beside the process, and what neighbours err together does 
                         gonio::error_variance_at(model, place);
   const double variance = before - (with.transpose() * expected.llt().solve(with))(0, 0);
   CHECK(doubting.deviation(row, place) == doctest::Approx(std::sqrt(variance)));
+  CHECK(doubting.deviation_before(row, place) == doctest::Approx(std::sqrt(before)));
   CHECK(doubting.deviation(row, place) > process.deviation(row, place));
 }

@@ -200,7 +200,8 @@ TEST_CASE("bad lines are refused by line, column and value") {
                      {"line 2", "column weight", "-0.5 is negative"});
   const std::string angles = "theta_i,phi_i,theta_o,phi_o,r,g,b\n";
   check_text_refused(angles + "95,0,10,0,1,1,1\n", {"line 2", "column theta_i", "95 degrees", "below the horizon"});
-  check_text_refused(angles + "10,0,-90,0,1,1,1\n", {"line 2", "column theta_o", "-90 degrees", "below the horizon"});
+  check_text_refused(angles + "10,0,-91,0,1,1,1\n", {"line 2", "column theta_o", "-91 degrees", "below the horizon"});
+  check_text_refused(angles + "10,0,-90,0,1,1,1\n", {"no sample above the horizon"});
   check_text_refused(angles + "10,999,0,0,1,1,1\n", {"line 2", "column phi_i", "999 degrees"});
   const std::string vectors = "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,r,g,b\n";
   check_text_refused(vectors + "0,0,1,0,0,1.2,1,1,1\n", {"line 2", "wo_x to wo_z", "length 1.2", "expected 1"});
@@ -208,6 +209,17 @@ TEST_CASE("bad lines are refused by line, column and value") {
   check_text_refused(vectors + "0,0.6,-0.8,0,0,1,1,1,1\n", {"line 2", "wi_x to wi_z", "horizon", "-0.8"});
   check_text_refused(vectors + "1,0,0,0,0,1,1,1,1\n", {"line 2", "wi_x to wi_z", "horizon"});
   check_text_refused(vectors + "1e200,0,1,0,0,1,1,1,1\n", {"line 2", "wi_x to wi_z", "length"});
+}
+
+TEST_CASE("rows of measurements at 90 degrees are left out and counted") {
+  std::vector<std::string> notes;
+  gonio::io::sample_reading reading;
+  reading.note = [&](const std::string& note) { notes.push_back(note); };
+  const auto samples = gonio::io::read_samples(
+      "theta_i,phi_i,theta_o,phi_o,r,g,b\n10,0,-90,0,1,1,1\n10,0,20,0,1,2,3\n90,0,20,0,7,7,7\n", "arm.csv", reading);
+  REQUIRE(samples.size() == 1);
+  CHECK(samples[0].value.y() == 2.0);
+  CHECK(notes == std::vector<std::string>{"arm.csv: 2 rows are left out: light or viewer is at 90 degrees"});
 }
 
 TEST_CASE("a direction that grazes the surface is refused as a sample, a direction and a pair, or accepted as all") {

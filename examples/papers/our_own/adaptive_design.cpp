@@ -8,6 +8,7 @@
 #include "tool/files/json.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/progress_bar.hpp"
+#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
@@ -106,10 +107,14 @@ class adaptive_experiment : left_out_experiment {
   }
 
   json errors_of(const judged_material& material, const gonio::sample_set& samples, const family_setup& with) {
-    const auto table = with.estimator.fit(samples).tabulate(library_.cells());
-    const gonio::comparison errors = compare(table, material);
+    const auto paint = with.estimator.fit(samples);
+    const gonio::comparison errors = compare(paint.tabulate(library_.cells()), material);
+    const gonio::valid_cells& candidates = with.chooser.candidates().geometry().cells();
+    std::vector<double> deviations(candidates.size());
+    for (Eigen::Index cell = 0; cell < candidates.size(); ++cell)
+      deviations[cell] = paint.deviation(gonio::locate(with.estimator.cells(), candidates.angles(cell)));
     return {{"mapped_rms", errors.mapped_rms.mean()},     {"delta_e_env", errors.delta_e_env},
-            {"delta_e_lights", errors.delta_e_lights},    {"deviation", with.chooser.median_deviation(samples)},
+            {"delta_e_lights", errors.delta_e_lights},    {"deviation", gonio::median(deviations)},
             {"least_peak", errors.peak_ratio.minCoeff()}, {"largest_peak", errors.peak_ratio.maxCoeff()}};
   }
 

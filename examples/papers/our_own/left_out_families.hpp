@@ -125,6 +125,7 @@ class left_out_experiment {
 struct sampling {
   std::string name;
   std::vector<std::vector<gonio::half_difference>> sets;
+  double judged_from = 0.0;  ///< theta_h in radians: coverage is counted there and beyond
 };
 
 /// "20 random": cells of MERL's grid at random, others each time.

@@ -6,6 +6,7 @@
 #include "papers/our_own/highlight_shape.hpp"
 #include "papers/our_own/left_out_families.hpp"
 #include "papers/our_own/rank_correlation.hpp"
+#include "papers/our_own/scan_samplings.hpp"
 #include "tool/files/json.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/progress_bar.hpp"
@@ -34,13 +35,14 @@ struct real_materials_options : left_out_options {
   std::vector<Eigen::Index> designed{5, 10, 20}, random{20, 100, 500, 2000};
   std::vector<std::string> methods{"first", "all", "discrepancy", "default"};
   Eigen::Index first_components = 60, repetitions = 2, wrong = 0;
-  double noise = 0.0, receiver_half_angle = 0.0;
-  bool surrogates = false;
+  double noise = 0.0, receiver_half_angle = 0.0, lobe_width = 1.0;
+  bool surrogates = false, scans = false;
 
   [[nodiscard]] gonio::aperture aperture() const { return {0.0, gonio::radians(receiver_half_angle)}; }
 };
 
 std::vector<sampling> samplings(const real_materials_options& given) {
+  if (given.scans) return scan_samplings();
   std::vector<sampling> all;
   for (const Eigen::Index count : given.designed) {
     const auto points = written_points(given.folder, given.set, count);
@@ -49,6 +51,19 @@ std::vector<sampling> samplings(const real_materials_options& given) {
   }
   for (const Eigen::Index count : given.random) all.push_back(random_sampling(count, given.repetitions));
   return all;
+}
+
+/// A material whose lobes are so many times as wide: theta_h is another one, the more so the smaller it is.
+judged_material with_lobes(judged_material material, double width) {
+  material.measured = [of = material.measured, width](const gonio::direction_pair& pair) {
+    gonio::half_difference angles = gonio::to_half_difference(pair.wi, pair.wo);
+    angles.theta_h *= 1.0 + (1.0 / width - 1.0) * std::exp(-gonio::degrees(angles.theta_h) / 10.0);
+    const gonio::direction_pair moved = gonio::to_directions(angles);
+    return of(moved.wi.z() > 0.02 && moved.wo.z() > 0.02 ? moved : pair);
+  };
+  for (Eigen::Index cell = 0; cell < material.truth.cells().size(); ++cell)
+    material.truth.set(cell, material.measured(gonio::to_directions(material.truth.cells().angles(cell))));
+  return material;
 }
 
 /// Makes some samples, chosen at random, ten times too bright and too dark by turns. Returns which.
@@ -75,7 +90,7 @@ class experiment : left_out_experiment {
                          given_.noise,  given_.repetitions,
                          given_.set,    given_.surrogates,
                          given_.wrong,  given_.receiver_half_angle,
-                         "shape"};
+                         "shape",       given_.lobe_width};
           by_material[material.name] = once(key, material.turn, where.name + " " + method + " " + material.name,
                                             [&] { return errors_of(material, where, method); });
         }
@@ -86,8 +101,13 @@ class experiment : left_out_experiment {
 
  private:
   [[nodiscard]] std::vector<judged_material> judged() const {
-    if (!given_.surrogates) return measured_materials(given_.materials, library_);
     std::vector<judged_material> all;
+    if (!given_.surrogates) {
+      all = measured_materials(given_.materials, library_);
+      if (given_.lobe_width != 1.0)
+        for (judged_material& each : all) each = with_lobes(std::move(each), given_.lobe_width);
+      return all;
+    }
     const auto known = gonio::io::read_networks(given_.networks.front());
     for (const std::string& name : gonio::nielsen_test_materials()) {
       const Eigen::Index i = library_.first().find(name);
@@ -134,11 +154,12 @@ class experiment : left_out_experiment {
 
   /// Of every 37th cell; regions by theta_h (2, 10 and 30 degrees) and theta_d (45).
   void count_within(estimated& found, const gonio::reconstruction<gonio::log_relative>::result_type& known,
-                    const gonio::brdf_table& truth) const {
+                    const gonio::brdf_table& truth, double judged_from) const {
     std::vector<double> deviations, errors;
     for (Eigen::Index cell = 0; cell < library_.cells().size(); cell += 37) {
       const gonio::location at = gonio::locate_cell(library_.cells(), cell);
       const double theta_h = gonio::degrees(at.angles.theta_h);
+      if (at.angles.theta_h < judged_from) continue;
       const int region = 2 * (theta_h < 2.0    ? 0
                               : theta_h < 10.0 ? 1
                               : theta_h < 30.0 ? 2
@@ -171,7 +192,8 @@ class experiment : left_out_experiment {
     return inside;
   }
 
-  estimated estimate(const std::string& method, const gonio::sample_set& samples, const judged_material& material) {
+  estimated estimate(const std::string& method, const gonio::sample_set& samples, const judged_material& material,
+                     double judged_from) {
     const gonio::log_relative_pca& known = prior(method != "first", material.family);
     if (method == "first" || method == "all") {
       const double eta = given_.noise > 0.0 ? gonio::eta_of_noise(known, samples, given_.noise, given_.threads)
@@ -183,7 +205,7 @@ class experiment : left_out_experiment {
     const auto paint = (method == "discrepancy" ? both.keeping_all() : both)
                            .fit(method == "untold" ? samples : samples.through(given_.aperture()));
     estimated found{paint.tabulate(library_.cells()), paint.rejected()};
-    count_within(found, paint, material.truth);
+    count_within(found, paint, material.truth, judged_from);
     found.warned = paint.certainty().highlight_factor > 4.0;
     return found;
   }
@@ -198,7 +220,7 @@ class experiment : left_out_experiment {
       const std::uint64_t seed = 1000 * material.number + r;
       gonio::sample_set samples = measure(reading_of(material), where.sets[r], given_.noise, seed);
       const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_.wrong, seed + 100);
-      const estimated found = estimate(method, samples, material);
+      const estimated found = estimate(method, samples, material, where.judged_from);
       const gonio::comparison errors = compare(found.table, material);
       rms += errors.mapped_rms.mean() / times;
       environment += errors.delta_e_env / times;
@@ -265,7 +287,8 @@ std::string coverage(const json& materials) {
   const auto sum = [](const std::vector<double>& all) { return std::accumulate(all.begin(), all.end(), 0.0); };
   if (sum(values) == 0.0) return "- | -";
   double worst = 1.0;
-  for (int region = 0; region < 8; ++region) worst = std::min(worst, within_95[region] / values[region]);
+  for (int region = 0; region < 8; ++region)
+    if (values[region] > 0.0) worst = std::min(worst, within_95[region] / values[region]);
   return fixed(100.0 * sum(within_68) / sum(values), 1) + " | " + fixed(100.0 * sum(within_95) / sum(values), 1) +
          " (" + fixed(100.0 * worst, 1) + ")";
 }
@@ -275,6 +298,7 @@ void print(const real_materials_options& given, const json& rows) {
             << " random sets each";
   if (given.noise > 0.0) std::cout << ", noise of " << fixed(100.0 * given.noise, 0) << " %";
   if (given.wrong > 0) std::cout << ", " << given.wrong << " samples ten times too bright or too dark";
+  if (given.lobe_width != 1.0) std::cout << ", lobes " << fixed(given.lobe_width, 1) << " times as wide";
   if (given.receiver_half_angle > 0.0)
     std::cout << ", a receiver of a half angle of " << fixed(given.receiver_half_angle, 1) << " degrees";
   std::cout
@@ -338,6 +362,10 @@ void add_real_materials(command& app, const team& processes) {
       .add_option("--receiver-half-angle", options->receiver_half_angle,
                   "Degrees: samples are means over the cone of such a receiver")
       .check(check::range(0.0, 45.0));
+  command.add_flag("--scans", options->scans,
+                   "Samples below some theta_h, where what lies 8 degrees beyond is judged, and in planes");
+  command.add_option("--lobe-width", options->lobe_width, "The lobes of materials are so many times as wide")
+      .check(check::range(0.1, 10.0));
   command.add_flag("--surrogates", options->surrogates,
                    "Judge the ten test materials of Nielsen et al. among the networks, not the measured ones");
   do_together(command, processes, options, [](const auto& given) {

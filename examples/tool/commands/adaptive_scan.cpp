@@ -50,10 +50,10 @@ gonio::sample_set adaptive_choice::samples_of(const gonio::io::recorded_scan& sc
 std::optional<gonio::direction_pair> adaptive_choice::next(
     const gonio::io::recorded_scan& scan, const std::function<bool(const gonio::direction_pair&)>& is_reachable) const {
   const gonio::sample_set samples = samples_of(scan);
-  const double deviation = chooser_.median_deviation(samples);
-  std::cout << samples.size() << " samples: the material is known to " << fixed(100.0 * deviation, 1)
-            << " % in the median\n";
-  if (deviation <= options_.until) return std::nullopt;
+  const double known_to = chooser_.known_to(samples);
+  std::cout << samples.size() << " samples: half of all directions are known to " << fixed(100.0 * known_to, 1)
+            << " %\n";
+  if (known_to <= options_.until) return std::nullopt;
   if (std::ssize(scan.poses) >= options_.most) {
     std::cout << "stopped at --most " << options_.most << " poses, before --until "
               << gonio::io::shortest(options_.until) << " was reached\n";

@@ -16,7 +16,7 @@ namespace cli {
 
 struct adaptive_options {
   std::filesystem::path prior, reference;
-  double until = 0.2;      ///< the median deviation, relative, at which there is enough
+  double until = 0.1;      ///< enough is measured when half of all directions are known to this, relative
   Eigen::Index most = 40;  ///< poses
 };
 

@@ -88,20 +88,20 @@ void run_given(const design_command& command) {
       gonio::io::read_prior(command.prior), {.noise = command.design.noise}, command.design.threads};
   const gonio::measurement_chooser chooser{estimator, command.design.near_field.constraint,
                                            gonio::design::default_candidates(), command.design.threads};
-  const double deviation = chooser.median_deviation(samples);
+  const double known_to = chooser.known_to(samples);
   const auto chosen = chooser.choose(samples, command.design.count);
   std::vector<gonio::direction_pair> poses;
   for (const gonio::next_measurement& next : chosen) poses.push_back(next.pose);
   gonio::io::write_direction_pairs(command.output, poses);
-  const std::string sentence = std::to_string(samples.size()) + " samples leave a median deviation of " +
-                               fixed(100.0 * deviation, 1) + " %; " + std::to_string(poses.size()) +
+  const std::string sentence = std::to_string(samples.size()) + " samples: half of all directions are known to " +
+                               fixed(100.0 * known_to, 0) + " %; " + std::to_string(poses.size()) +
                                (poses.size() == 1 ? " more leaves" : " more leave") + " an expected Delta E of " +
                                fixed(chosen.back().expected_delta_e, 2);
   if (command.report.is_given()) write_report(command, poses, sentence, samples);
   if (command.print_json) {
     json all{{"measurements", poses.size()}, {"given", samples.size()}};
     all.update(facts_of(measured));
-    all["median_deviation"] = deviation;
+    all["known_to"] = known_to;
     all["expected_delta_e"] = chosen.back().expected_delta_e;
     std::cout << all.dump(2) << '\n';
     return;

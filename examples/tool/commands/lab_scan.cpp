@@ -215,9 +215,10 @@ void add_lab_scan(command& lab) {
   command.add_input("--reference", options->choice.reference,
                     "With --adaptive: a scan of the white reference, at poses with about the same lights (.scan)");
   command
-      .add_option("--until", options->choice.until,
-                  "With --adaptive: the deviation, relative and in the median, at which there is enough; 0.08 stays, "
-                  "whatever is measured")
+      .add_option(
+          "--until", options->choice.until,
+          "With --adaptive: stop when half of all directions are known to this, relative; 0.04 stays, whatever is "
+          "measured")
       .check(check::range(0.001, 1.0))
       .capture_default_str();
   command.add_option("--most", options->choice.most, "With --adaptive: poses in all")

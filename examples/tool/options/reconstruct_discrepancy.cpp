@@ -64,6 +64,13 @@ void describe(const gonio::certainty& known, reconstruction& result) {
   if (factor > 4.0)
     result.warnings.push_back("the highlight " + how_well +
                               ": measure more directions whose half vector is within 5 degrees of the normal");
+  if (known.known_to_beyond > 0.0) {
+    const std::string farthest = fixed(gonio::degrees(known.measured_to), 0);
+    result.warnings.push_back("no sample's half vector is more than " + farthest +
+                              " degrees from the normal: farther away, half of all directions are known to " +
+                              fixed(100.0 * known.known_to_beyond, 0) + " %");
+    result.details["known_to_beyond_the_samples"] = known.known_to_beyond;
+  }
   result.details["known_to"] = known.known_to;
   result.details["known_to_beyond_80_degrees"] = known.known_to_at_grazing;
   result.sentence += "; half of all directions are known to " + fixed(100.0 * known.known_to, 0) +
@@ -73,9 +80,8 @@ void describe(const gonio::certainty& known, reconstruction& result) {
 /// The relative deviation in all directions as a table, the same in all channels.
 gonio::brdf_table uncertainty_table(const reconstructed_brdf& paint, gonio::thread_count threads) {
   gonio::brdf_table coarse(gonio::valid_cells(gonio::grid({30, 15, 18})));
-  const std::vector<double> all = paint.deviations(coarse.cells());
-  for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell)
-    coarse.set(cell, gonio::rgb::Constant(paint.known_to(all[cell])));
+  const std::vector<double> all = paint.known_to(coarse.cells());
+  for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell) coarse.set(cell, gonio::rgb::Constant(all[cell]));
   return gonio::resample(coarse, gonio::valid_cells(), threads);
 }
 
@@ -96,6 +102,11 @@ void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, re
     result.warnings.push_back(std::to_string(unnamed) +
                               (unnamed == 1 ? " more sample disagrees" : " more samples disagree") + ", left out" +
                               (samples <= most_residuals ? ": --residuals has what all others say of each" : ""));
+  const auto rejected = std::ssize(paint.rejected());
+  if (rejected >= 2 && 10 * rejected > samples)
+    result.warnings.push_back(std::to_string(rejected) + " of " + std::to_string(samples) +
+                              " samples disagree with the others: if they have something in common, that is the "
+                              "material, not an error (--no-reject keeps them)");
   result.details["left_out"] = contradicted;
   result.details["outliers"] = paint.outlier_share();
   result.details["down_weighted"] = static_cast<double>(paint.rejected().size()) / static_cast<double>(samples);

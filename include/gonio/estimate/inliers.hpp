@@ -1,9 +1,8 @@
 #pragma once
 /// Which samples of a material to believe, at any number of them: those that their process does not call wrong
-/// (wrong_samples.hpp). Of more than `most_judged` samples so many at random are judged together, and each of the
-/// others by these; those that are called wrong where most samples are called so are heard again, together. The search
-/// for wrong samples starts from what the nearest material of the prior says, too, which outliers cannot drag along.
-/// Why so: docs/decisions/0020-wrong-samples.md; results: docs/results/real-materials.md, docs/results/real-methods.md.
+/// (wrong_samples.hpp). Of many samples some are judged together, and each of the others by these. The search for wrong
+/// samples starts from what the nearest material of the prior says, too, which outliers cannot drag along. Why so:
+/// docs/decisions/0020-wrong-samples.md; results: docs/results/real-materials.md, docs/results/real-methods.md.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/estimate/map_samples.hpp>
@@ -20,7 +19,7 @@
 
 namespace gonio {
 
-/// So many samples are judged together, by a process of all of them.
+/// At most so many samples are judged together, by a process of all of them.
 inline constexpr Eigen::Index most_judged = 500;
 /// Of so many that the others contradict, what these say is told.
 inline constexpr Eigen::Index most_contradicted = 20;
@@ -60,11 +59,10 @@ struct inliers {
 
 namespace detail {
 
-/// Of samples that are wrong with some probabilities, those that are more likely wrong than not, and so are three of
-/// four samples in their neighbourhood, of a correlation length in size, but not they alone. O(n log n).
-[[nodiscard]] std::vector<Eigen::Index> wrong_neighbours(const located_samples& samples,
-                                                         const Eigen::VectorXd& probabilities,
-                                                         const correlation_lengths& lengths);
+/// The positions of those samples that are judged together: all of up to `most_judged`. Of more, two thirds of so many
+/// are chosen at random, and a third from all neighbourhoods alike, so that a narrow highlight has its samples among
+/// them. O(n log n).
+[[nodiscard]] std::vector<Eigen::Index> judged_together(const located_samples& samples);
 
 /// The first three numbers of a row.
 [[nodiscard]] inline rgb first_three(const Eigen::MatrixXd& values, Eigen::Index row) {

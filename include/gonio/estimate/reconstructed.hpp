@@ -31,11 +31,12 @@ struct reflectance_interval {
 /// Probabilities that intervals are offered for.
 enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 
-/// To how many of the model's deviations an interval reaches, given the number of samples: one number for up to 500,
-/// from the conformal factors of measured materials whose families the prior has not seen, the quantiles of their
-/// errors in such deviations (Lee, Barber and Willett 2023, doi:10.48550/arXiv.2306.06342): of samples all over, below
-/// some theta_h and in planes. A promise for materials like those, averaged over directions.
-[[nodiscard]] double deviations_of(confidence_level level, Eigen::Index samples) noexcept;
+/// To how many of the model's deviations an interval reaches, from the conformal factors of measured materials whose
+/// families the prior has not seen, the quantiles of their errors in such deviations (Lee, Barber and Willett 2023,
+/// doi:10.48550/arXiv.2306.06342): of samples all over, below some theta_h and in planes. `unknown` is the share of the
+/// variance before measuring that is left: errors near samples have heavy tails, errors far from all of them do not.
+/// The number of samples counts from 500 on. A promise for materials like those, averaged over directions.
+[[nodiscard]] double deviations_of(confidence_level level, Eigen::Index samples, double unknown) noexcept;
 
 /// How sure a reconstruction is.
 struct certainty {
@@ -46,6 +47,9 @@ struct certainty {
   /// To which factor the highlight is known, with a probability of 95 %: the median over half vectors within 5 degrees
   /// of the normal and difference angles up to 70 degrees.
   double highlight_factor = 1.0;
+  /// The largest angle in radians between the normal and the half vector of a sample that counts, and to what half of
+  /// the directions are known whose half vector is more than 4 degrees farther away; 0 if less than a fifth of all are.
+  double measured_to = 0.0, known_to_beyond = 0.0;
 };
 
 /// A sample beside what all others say of it.
@@ -60,12 +64,11 @@ struct sample_residual {
 
 namespace detail {
 
-[[nodiscard]] certainty certainty_of(std::vector<double> everywhere, std::vector<double> grazing,
-                                     std::vector<double> highlight, Eigen::Index samples);
+/// By how far intervals reach: of 68 % at all of `certainty_cells`, of 95 % at all of `highlight_angles`.
+[[nodiscard]] certainty certainty_of(std::vector<double> everywhere, std::vector<double> highlight, double measured_to);
 
 /// Directions all over the half sphere, and in the highlight, by which certainty is stated.
 [[nodiscard]] const valid_cells& certainty_cells();
-[[nodiscard]] bool is_grazing(const half_difference& angles);
 [[nodiscard]] std::vector<half_difference> highlight_angles();
 
 }  // namespace detail
@@ -152,53 +155,52 @@ class reconstructed {
   /// In two directions above the horizon.
   [[nodiscard]] double deviation(const direction& wi, const direction& wo) const { return deviation(located(wi, wo)); }
 
-  /// The deviations at all of some cells: choose a coarse grid, deviations are smooth.
-  [[nodiscard]] std::vector<double> deviations(const valid_cells& cells) const {
-    std::vector<double> all(cells.size());
-    for_each_index(
-        cells.size(), 64, [&](Eigen::Index cell) { all[cell] = deviation(locate(prior_.cells(), cells.angles(cell))); },
-        threads_);
-    return all;
-  }
-
-  /// To how many deviations an interval reaches to either side.
-  [[nodiscard]] double deviations_of(confidence_level level) const noexcept {
-    return gonio::deviations_of(level, kept_);
+  /// By how far an interval reaches from a value to either side, in the metric's domain.
+  [[nodiscard]] double reach(const location& at, confidence_level level) const {
+    const Eigen::RowVectorXd row = row_at(prior_, at);
+    const double after = doubting_.deviation(row, at.angles),
+                 unknown = after / doubting_.deviation_before(row, at.angles);
+    return deviations_of(level, kept_, unknown * unknown) * std::sqrt(scale_) * after;
   }
 
   /// Around a value at a location, each channel on its own; never below zero.
   [[nodiscard]] reflectance_interval interval(const rgb& value, const location& at, confidence_level level) const {
-    const double reach = deviations_of(level) * deviation(at);
+    const double far = reach(at, level);
     const auto moved = [&](double by) {
       rgb other;
       for (Eigen::Index c = 0; c < 3; ++c)
         other[c] = reflectance_of(prior_.metric(), prior_.metric().forward(value[c], at) + by, at);
       return other;
     };
-    return {moved(-reach), moved(reach)};
+    return {moved(-far), moved(far)};
   }
   /// Around the value in two directions above the horizon.
   [[nodiscard]] reflectance_interval interval(const direction& wi, const direction& wo, confidence_level level) const {
     return interval((*this)(wi, wo), located(wi, wo), level);
   }
 
-  /// By how much a value is known, relative to it, with a probability of 68 %, given its deviation.
-  [[nodiscard]] double known_to(double deviation) const {
-    return std::expm1(deviations_of(confidence_level::sixty_eight_percent) * deviation);
+  /// By how much a value is known, relative to it, with a probability of 68 %.
+  [[nodiscard]] double known_to(const location& at) const {
+    return std::expm1(reach(at, confidence_level::sixty_eight_percent));
   }
   /// In two directions above the horizon.
-  [[nodiscard]] double known_to(const direction& wi, const direction& wo) const { return known_to(deviation(wi, wo)); }
+  [[nodiscard]] double known_to(const direction& wi, const direction& wo) const { return known_to(located(wi, wo)); }
+  /// At all of some cells: choose a coarse grid, what is known is smooth.
+  [[nodiscard]] std::vector<double> known_to(const valid_cells& cells) const {
+    std::vector<double> all = reach_at(cells);
+    for (double& each : all) each = std::expm1(each);
+    return all;
+  }
 
   /// O(1,800 deviations).
   [[nodiscard]] gonio::certainty certainty() const {
-    const valid_cells& cells = detail::certainty_cells();
-    const std::vector<double> everywhere = deviations(cells);
-    std::vector<double> grazing, highlight;
-    for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
-      if (detail::is_grazing(cells.angles(cell))) grazing.push_back(everywhere[cell]);
+    std::vector<double> highlight;
     for (const half_difference& angles : detail::highlight_angles())
-      highlight.push_back(deviation(locate(prior_.cells(), angles)));
-    return detail::certainty_of(everywhere, grazing, highlight, kept_);
+      highlight.push_back(reach(locate(prior_.cells(), angles), confidence_level::ninety_five_percent));
+    double measured_to = 0.0;
+    for (const Eigen::Index i : found_.kept())
+      measured_to = std::max(measured_to, samples_->locations[i].angles.theta_h);
+    return detail::certainty_of(reach_at(detail::certainty_cells()), std::move(highlight), measured_to);
   }
 
   /// Is this a material like those of the prior?
@@ -243,6 +245,17 @@ class reconstructed {
   }
 
  private:
+  /// Of 68 % at all of some cells.
+  [[nodiscard]] std::vector<double> reach_at(const valid_cells& cells) const {
+    std::vector<double> all(cells.size());
+    for_each_index(
+        cells.size(), 64,
+        [&](Eigen::Index cell) {
+          all[cell] = reach(locate(prior_.cells(), cells.angles(cell)), confidence_level::sixty_eight_percent);
+        },
+        threads_);
+    return all;
+  }
   [[nodiscard]] location located(const direction& wi, const direction& wo) const {
     return locate(prior_.cells(), to_half_difference(wi, wo));
   }

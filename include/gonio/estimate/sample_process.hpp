@@ -164,6 +164,8 @@ class sample_process {
   /// The standard deviation of the mapped value at one location, error included, for a scale of 1; `row` has k numbers.
   /// Eq. 2.26. O(n (n + k)).
   [[nodiscard]] double deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const;
+  /// The same before anything was measured. O(k).
+  [[nodiscard]] double deviation_before(const Eigen::RowVectorXd& row, const half_difference& angles) const;
   /// Eq. 2.25 and 2.26, without errors and the scale. O(n^3 + p^2 n).
   [[nodiscard]] process_prediction predict(const located_rows& places, Eigen::MatrixXd covariance_before) const;
 

@@ -3,7 +3,6 @@
 /// becomes least. Materials that shine ask for other directions than matte ones. Results on measured materials, with
 /// families left out: docs/results/adaptive-design.md.
 
-#include <gonio/core/statistics.hpp>
 #include <gonio/design/search.hpp>
 #include <gonio/design/sequential_design.hpp>
 #include <gonio/estimate/reconstruction.hpp>
@@ -83,10 +82,10 @@ class measurement_chooser {
     return chosen;
   }
 
-  /// The median, over the candidates, of the deviation that `reconstructed` states for the estimate from some samples:
-  /// relative to the values, where the metric is a logarithm. Throws gonio::error for unusable samples.
-  [[nodiscard]] double median_deviation(const sample_set& samples) const {
-    return median(design_.estimator().fit(samples).deviations(design_.geometry().cells()));
+  /// To what half of all directions are known from some samples: `certainty::known_to`. Throws gonio::error for
+  /// unusable samples.
+  [[nodiscard]] double known_to(const sample_set& samples) const {
+    return design_.estimator().fit(samples).certainty().known_to;
   }
 
  private:

@@ -14,8 +14,11 @@
 #include <gonio/solve/tikhonov.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <random>
 #include <span>
 #include <utility>
 #include <vector>
@@ -58,37 +61,40 @@ namespace detail {
   return found;
 }
 
-/// Numbers of some numbers: those at some positions.
-[[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> numbers_at(const std::vector<Eigen::Index>& numbers,
-                                                                const std::vector<Eigen::Index>& positions) {
-  std::vector<Eigen::Index> some;
-  for (const Eigen::Index i : positions) some.push_back(numbers[i]);
-  return some;
+/// The number of a neighbourhood, made of four whole ones below 500.
+[[nodiscard]] GONIO_INLINE double neighbourhood_of(const half_difference& angles, const correlation_lengths& lengths) {
+  double number = 0.0;
+  for (const double coordinate : place_of(angles, lengths)) number = 1000.0 * number + std::floor(coordinate);
+  return number;
 }
 
-GONIO_INLINE std::vector<Eigen::Index> wrong_neighbours(const located_samples& samples,
-                                                        const Eigen::VectorXd& probabilities,
-                                                        const correlation_lengths& lengths) {
-  // Sort by neighbourhood, whose number is made of four whole ones below 500.
-  std::vector<std::pair<double, Eigen::Index>> sorted;
-  for (Eigen::Index i = 0; i < samples.size(); ++i) {
-    const discrepancy_place place = place_of(samples.locations[i].angles, lengths);
-    double neighbourhood = 0.0;
-    for (Eigen::Index c = 0; c < 4; ++c) neighbourhood = 1000.0 * neighbourhood + std::floor(place[c]);
-    sorted.emplace_back(neighbourhood, i);
+GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& samples) {
+  const Eigen::Index n = samples.size();
+  if (n <= most_judged) return random_choice(n, n, 0);
+  // Sort by neighbourhood, at random within each.
+  std::mt19937_64 generator(0);
+  std::vector<std::array<double, 2>> keys;
+  for (const location& at : samples.locations)
+    keys.push_back({neighbourhood_of(at.angles, rejection_rule{}.everywhere_lengths), uniform_number(generator)});
+  const auto key = [&](Eigen::Index i) { return keys[i]; };
+  std::vector<Eigen::Index> spread(n);
+  std::iota(spread.begin(), spread.end(), 0);
+  std::ranges::sort(spread, {}, key);
+  // The first of each comes before the second of each, and so on.
+  double rank = 0.0, last = -1.0;
+  for (const Eigen::Index i : spread) {
+    rank = keys[i][0] == last ? rank + 1.0 : 0.0;
+    last = std::exchange(keys[i][0], rank);
   }
-  std::sort(sorted.begin(), sorted.end());
-  // Take those of neighbourhoods where three of four are wrong.
-  std::vector<Eigen::Index> found;
-  for (auto begin = sorted.begin(), end = begin; begin != sorted.end(); begin = end) {
-    std::vector<Eigen::Index> wrong;
-    for (; end != sorted.end() && end->first == begin->first; ++end)
-      if (probabilities[end->second] > 0.5) wrong.push_back(end->second);
-    if (wrong.size() >= 2 && 4 * std::ssize(wrong) >= 3 * (end - begin))
-      found.insert(found.end(), wrong.begin(), wrong.end());
-  }
-  std::ranges::sort(found);
-  return found;
+  std::ranges::partial_sort(spread, spread.begin() + most_judged, {}, key);
+  // Take two thirds at random, and the others in this order.
+  std::vector<Eigen::Index> chosen = random_choice(n, 2 * most_judged / 3, 0);
+  std::vector<bool> is_chosen(n, false);
+  for (const Eigen::Index i : chosen) is_chosen[i] = true;
+  for (auto next = spread.begin(); std::ssize(chosen) < most_judged; ++next)
+    if (!is_chosen[*next]) chosen.push_back(*next);
+  std::ranges::sort(chosen);
+  return chosen;
 }
 
 /// The reflectance of materials, given the weights of a prior's functions in columns, at locations with given rows:
@@ -251,24 +257,6 @@ class sample_judge {
     return found;
   }
 
-  /// Of those that are called wrong, none whose neighbours are, too, is wrong if a judgement of these and others
-  /// together does not say so: a narrow highlight of which a random choice has one sample.
-  [[nodiscard]] Eigen::VectorXd heard_again(Eigen::VectorXd wrong, const std::vector<Eigen::Index>& first) const {
-    const std::vector<Eigen::Index> doubted = wrong_neighbours(mapped_, wrong, rejection_rule{}.highlight_lengths);
-    if (doubted.empty()) return wrong;
-    std::vector<Eigen::Index> together = numbers_at(doubted, random_choice(std::ssize(doubted), most_judged / 3, 0));
-    const auto others = numbers_at(first, random_choice(std::ssize(first), most_judged - std::ssize(together), 0));
-    together.insert(together.end(), others.begin(), others.end());
-    std::ranges::sort(together);
-    together.erase(std::unique(together.begin(), together.end()), together.end());
-    std::vector<std::vector<bool>> starts(1);
-    for (const Eigen::Index i : together) starts[0].push_back(wrong[i] > 0.5);
-    const judged_samples judged = judge_samples(process_of(together), {}, starts);
-    const Eigen::VectorXd again = probabilities(judged, together);
-    for (const Eigen::Index i : doubted) wrong[i] = std::min(wrong[i], again[i]);
-    return wrong;
-  }
-
  private:
   const prior_functions& prior_;
   const expected_covariance& expected_;
@@ -290,15 +278,14 @@ GONIO_INLINE inliers detail::find_inliers(const prior_functions& prior, const ex
 
   // Judge some together, and all others by these.
   const sample_judge judge(prior, expected, judged_mapped, error_variances, threads);
-  const std::vector<Eigen::Index> positions = random_choice(samples.size(), most_judged, 0);
+  const std::vector<Eigen::Index> positions = judged_together(samples);
   const located_samples some = judged.subset(positions), some_mapped = judged_mapped.subset(positions);
   const bool has_all = all && samples.size() <= most_judged;
   const sample_process process = has_all ? all->with_values(some_mapped.values) : judge.process_of(positions);
   const std::vector<std::vector<bool>> starts{
       outliers_by_components(prior, process.at().rows, some, some_mapped, expected.model.error_variance, threads)};
   const judged_samples found = judge_samples(process, {}, starts);
-  Eigen::VectorXd wrong = judge.probabilities(found, positions);
-  if (samples.size() > most_judged) wrong = judge.heard_again(std::move(wrong), positions);
+  const Eigen::VectorXd wrong = judge.probabilities(found, positions);
   // Name them, and tell what the others say, in the colours that were measured.
   std::vector<wrong_sample> worst;
   std::vector<Eigen::Index> numbers;

@@ -12,11 +12,12 @@
 
 namespace gonio {
 
-GONIO_INLINE double deviations_of(confidence_level level, Eigen::Index samples) noexcept {
+GONIO_INLINE double deviations_of(confidence_level level, Eigen::Index samples, double unknown) noexcept {
   const auto n = static_cast<double>(std::max<Eigen::Index>(samples, 1));
   // Of more than 500 samples the posterior knows 500; what the estimate gains by the others was measured to 20,000.
   const double many = std::pow(std::clamp(500.0 / n, 1.0 / 40.0, 1.0), 1.0 / 7.0);
-  return many * (level == confidence_level::sixty_eight_percent ? 0.51 : 1.85);
+  if (level == confidence_level::ninety_five_percent) return 1.85 * many;
+  return 0.49 * (many + unknown * std::sqrt(unknown));
 }
 
 namespace detail {
@@ -24,11 +25,6 @@ namespace detail {
 GONIO_INLINE const valid_cells& certainty_cells() {
   static const valid_cells cells(grid({15, 9, 12}));
   return cells;
-}
-
-GONIO_INLINE bool is_grazing(const half_difference& angles) {
-  const cosine_pair cosine = cosines(angles);
-  return std::min(cosine.i, cosine.o) < std::cos(radians(80.0));
 }
 
 GONIO_INLINE std::vector<half_difference> highlight_angles() {
@@ -39,13 +35,21 @@ GONIO_INLINE std::vector<half_difference> highlight_angles() {
   return all;
 }
 
-GONIO_INLINE certainty certainty_of(std::vector<double> everywhere, std::vector<double> grazing,
-                                    std::vector<double> highlight, Eigen::Index samples) {
-  const double reach = deviations_of(confidence_level::sixty_eight_percent, samples),
-               far_reach = deviations_of(confidence_level::ninety_five_percent, samples);
-  return {.known_to = std::expm1(reach * median(std::move(everywhere))),
-          .known_to_at_grazing = std::expm1(reach * median(std::move(grazing))),
-          .highlight_factor = std::exp(far_reach * median(std::move(highlight)))};
+GONIO_INLINE certainty certainty_of(std::vector<double> everywhere, std::vector<double> highlight, double measured_to) {
+  const valid_cells& cells = certainty_cells();
+  std::vector<double> grazing, beyond;
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
+    const half_difference angles = cells.angles(cell);
+    const cosine_pair cosine = cosines(angles);
+    if (std::min(cosine.i, cosine.o) < std::cos(radians(80.0))) grazing.push_back(everywhere[cell]);
+    if (angles.theta_h > measured_to + radians(4.0)) beyond.push_back(everywhere[cell]);
+  }
+  certainty known{.known_to = std::expm1(median(std::move(everywhere))),
+                  .known_to_at_grazing = std::expm1(median(std::move(grazing))),
+                  .highlight_factor = std::exp(median(std::move(highlight))),
+                  .measured_to = measured_to};
+  if (5 * std::ssize(beyond) >= cells.size()) known.known_to_beyond = std::expm1(median(std::move(beyond)));
+  return known;
 }
 
 }  // namespace detail

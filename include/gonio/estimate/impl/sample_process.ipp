@@ -259,12 +259,17 @@ GONIO_INLINE double sample_process::scale_of_material() const {
 }
 
 GONIO_INLINE double sample_process::deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const {
-  const discrepancy_model& model = expected().model;
   Eigen::MatrixXd with = expected().between(at(), {row, {angles}});
-  const double before = dot(row.data(), row.data(), row.size()) / expected().observations + model.variance +
-                        (expected().doubts ? model.doubt.variance : 0.0) + error_variance_at(model, angles);
+  const double before = deviation_before(row, angles);
   factors().solve_lower_in_place(with.data());
-  return std::sqrt(std::max(before - dot(with.data(), with.data(), with.size()), 0.0));
+  return std::sqrt(std::max(before * before - dot(with.data(), with.data(), with.size()), 0.0));
+}
+
+GONIO_INLINE double sample_process::deviation_before(const Eigen::RowVectorXd& row,
+                                                     const half_difference& angles) const {
+  const discrepancy_model& model = expected().model;
+  return std::sqrt(dot(row.data(), row.data(), row.size()) / expected().observations + model.variance +
+                   (expected().doubts ? model.doubt.variance : 0.0) + error_variance_at(model, angles));
 }
 
 GONIO_INLINE process_prediction sample_process::predict(const located_rows& places,

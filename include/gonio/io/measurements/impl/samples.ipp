@@ -95,6 +95,12 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
   return at;
 }
 
+/// Does a row measure where light or viewer graze the surface, at 90 degrees? Arms go there, but there is no BRDF.
+[[nodiscard]] GONIO_INLINE bool is_at_horizon(const parsed_row& row) {
+  if (row.has_half_difference() || row.group.first == vector_group.first) return false;
+  return std::abs(row.numbers[3]) == 90.0 || std::abs(row.numbers[5]) == 90.0;
+}
+
 [[nodiscard]] GONIO_INLINE channel_weights row_weight(const parsed_row& row) {
   const double* first = &row.numbers[row.weights.first];
   return row.weights.count == 1 ? channel_weights(first[0]) : channel_weights(rgb(first[0], first[1], first[2]));
@@ -207,8 +213,13 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
   sample_file file;
   detail::sample_rows rows(text, name, true, reading);
   std::vector<double> values;
+  Eigen::Index at_horizon = 0;
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
+    if (detail::is_at_horizon(row)) {
+      ++at_horizon;
+      continue;
+    }
     if (file.samples.empty()) file.samples = sample_set(detail::channels_of(rows));
     if (row.weights.count > 1 && file.samples.channels().are_wavelengths())
       row.place.refuse("wavelengths have one weight, expected weight, not one for each channel");
@@ -216,6 +227,10 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
     detail::read_row_values(row, at, values);
     file.samples.add(at, values, detail::row_weight(row), detail::row_aperture(row));
   }
+  if (file.samples.empty()) gonio::refuse({name, ": has no sample above the horizon, expected at least one"});
+  if (at_horizon > 0 && reading.note)
+    reading.note(message_of({name, ": ", at_horizon, at_horizon == 1 ? " row is" : " rows are",
+                             " left out: light or viewer is at 90 degrees"}));
   if (rows.assumes_side()) detail::require_plausible_sides(file.samples, name);
   file.quantity = rows.quantity();
   file.provenance = rows.provenance();

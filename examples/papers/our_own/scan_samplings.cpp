@@ -1,0 +1,53 @@
+#include "scan_samplings.hpp"
+
+#include "tool/pages/fixed.hpp"
+#include <gonio/core/random.hpp>
+#include <gonio/table/valid_cells.hpp>
+
+#include <cmath>
+
+namespace papers {
+
+namespace {
+
+/// Cells of MERL's grid at random, below some degrees of theta_h; what lies 8 degrees beyond is judged.
+sampling below(Eigen::Index count, double theta_h) {
+  const gonio::valid_cells cells;
+  std::vector<gonio::half_difference> all, directions;
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
+    if (gonio::degrees(cells.angles(cell).theta_h) < theta_h) all.push_back(cells.angles(cell));
+  for (const Eigen::Index i : gonio::random_choice(std::ssize(all), count, 0)) directions.push_back(all[i]);
+  return {std::to_string(count) + " below " + cli::fixed(theta_h, 0), {directions}, gonio::radians(theta_h + 8.0)};
+}
+
+/// Viewers from -80 to 80 degrees in steps, but next to the light, in planes at some azimuths from that of incidence.
+sampling in_planes(const std::vector<double>& incidences, const std::vector<double>& azimuths, double step) {
+  std::vector<gonio::half_difference> directions;
+  for (const double theta_i : incidences)
+    for (const double azimuth : azimuths)
+      for (double theta_o = -80.0; theta_o <= 80.0; theta_o += step) {
+        if (azimuth == 0.0 && std::abs(theta_o - theta_i) < 3.0) continue;
+        directions.push_back(
+            gonio::to_half_difference(gonio::spherical_direction(gonio::radians(theta_i), 0.0),
+                                      gonio::spherical_direction(gonio::radians(theta_o), gonio::radians(azimuth))));
+      }
+  const std::string plane = azimuths.size() > 1 ? "two planes" : "one plane";
+  return {plane + ", " + std::to_string(incidences.size()) + " incidences, steps of " + cli::fixed(step, 1),
+          {directions}};
+}
+
+}  // namespace
+
+std::vector<sampling> scan_samplings() {
+  std::vector<sampling> all{below(500, 10.0), below(500, 20.0), below(500, 30.0), below(60, 20.0), below(20, 10.0)};
+  for (const double step : {1.0, 2.0, 5.0, 10.0})
+    for (const double theta_i : {15.0, 45.0}) {
+      all.push_back(in_planes({theta_i}, {0.0}, step));
+      all.back().name += " at " + cli::fixed(theta_i, 0);
+    }
+  for (const double step : {1.5, 5.0}) all.push_back(in_planes({0.0, 20.0, 40.0, 60.0}, {0.0}, step));
+  all.push_back(in_planes({0.0, 20.0, 40.0, 60.0}, {0.0, 90.0}, 5.0));
+  return all;
+}
+
+}  // namespace papers
