@@ -199,7 +199,7 @@ TEST_CASE("samples in finer steps, and samples that are all in one region, do no
   CHECK(fine.deviation(beyond) > 3.0 * fine.deviation(near));
   // What is unknown altogether is off as normal numbers are, what is nearly known by more or by less.
   const auto deviations_reached = [&](const gonio::location& at, gonio::confidence_level level) {
-    return fine.reach(at, level) / fine.deviation(at);
+    return fine.half_width(at, level) / fine.deviation(at);
   };
   CHECK(deviations_reached(beyond, gonio::confidence_level::sixty_eight_percent) > 0.75);
   CHECK(deviations_reached(near, gonio::confidence_level::sixty_eight_percent) < 0.55);

@@ -294,8 +294,8 @@ std::string coverage(const json& materials) {
 }
 
 void print(const real_materials_options& given, const json& rows) {
-  std::cout << "Means (medians) over " << rows[0]["materials"].size() << " materials, " << given.repetitions
-            << " random sets each";
+  std::cout << "Means (medians) over " << rows[0]["materials"].size() << " materials";
+  if (!given.scans) std::cout << ", " << given.repetitions << " random sets each";
   if (given.noise > 0.0) std::cout << ", noise of " << fixed(100.0 * given.noise, 0) << " %";
   if (given.wrong > 0) std::cout << ", " << given.wrong << " samples ten times too bright or too dark";
   if (given.lobe_width != 1.0) std::cout << ", lobes " << fixed(given.lobe_width, 1) << " times as wide";

@@ -31,9 +31,10 @@ sampling in_planes(const std::vector<double>& incidences, const std::vector<doub
             gonio::to_half_difference(gonio::spherical_direction(gonio::radians(theta_i), 0.0),
                                       gonio::spherical_direction(gonio::radians(theta_o), gonio::radians(azimuth))));
       }
-  const std::string plane = azimuths.size() > 1 ? "two planes" : "one plane";
-  return {plane + ", " + std::to_string(incidences.size()) + " incidences, steps of " + cli::fixed(step, 1),
-          {directions}};
+  const std::string planes = azimuths.size() > 1 ? "two planes, " : "one plane, ",
+                    lights = incidences.size() > 1 ? std::to_string(incidences.size()) + " lights"
+                                                   : "light at " + cli::fixed(incidences[0], 0);
+  return {planes + lights + ", steps of " + cli::fixed(step, 1), {directions}};
 }
 
 }  // namespace
@@ -41,10 +42,7 @@ sampling in_planes(const std::vector<double>& incidences, const std::vector<doub
 std::vector<sampling> scan_samplings() {
   std::vector<sampling> all{below(500, 10.0), below(500, 20.0), below(500, 30.0), below(60, 20.0), below(20, 10.0)};
   for (const double step : {1.0, 2.0, 5.0, 10.0})
-    for (const double theta_i : {15.0, 45.0}) {
-      all.push_back(in_planes({theta_i}, {0.0}, step));
-      all.back().name += " at " + cli::fixed(theta_i, 0);
-    }
+    for (const double theta_i : {15.0, 45.0}) all.push_back(in_planes({theta_i}, {0.0}, step));
   for (const double step : {1.5, 5.0}) all.push_back(in_planes({0.0, 20.0, 40.0, 60.0}, {0.0}, step));
   all.push_back(in_planes({0.0, 20.0, 40.0, 60.0}, {0.0, 90.0}, 5.0));
   return all;

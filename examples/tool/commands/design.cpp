@@ -88,7 +88,7 @@ void run_given(const design_command& command) {
       gonio::io::read_prior(command.prior), {.noise = command.design.noise}, command.design.threads};
   const gonio::measurement_chooser chooser{estimator, command.design.near_field.constraint,
                                            gonio::design::default_candidates(), command.design.threads};
-  const double known_to = chooser.known_to(samples);
+  const double known_to = estimator.fit(samples).certainty().known_to;
   const auto chosen = chooser.choose(samples, command.design.count);
   std::vector<gonio::direction_pair> poses;
   for (const gonio::next_measurement& next : chosen) poses.push_back(next.pose);

@@ -64,7 +64,7 @@ struct sample_residual {
 
 namespace detail {
 
-/// By how far intervals reach: of 68 % at all of `certainty_cells`, of 95 % at all of `highlight_angles`.
+/// By half the widths of intervals: of 68 % at all of `certainty_cells`, of 95 % at all of `highlight_angles`.
 [[nodiscard]] certainty certainty_of(std::vector<double> everywhere, std::vector<double> highlight, double measured_to);
 
 /// Directions all over the half sphere, and in the highlight, by which certainty is stated.
@@ -155,8 +155,8 @@ class reconstructed {
   /// In two directions above the horizon.
   [[nodiscard]] double deviation(const direction& wi, const direction& wo) const { return deviation(located(wi, wo)); }
 
-  /// By how far an interval reaches from a value to either side, in the metric's domain.
-  [[nodiscard]] double reach(const location& at, confidence_level level) const {
+  /// Half the width of an interval in the metric's domain.
+  [[nodiscard]] double half_width(const location& at, confidence_level level) const {
     const Eigen::RowVectorXd row = row_at(prior_, at);
     const double after = doubting_.deviation(row, at.angles),
                  unknown = after / doubting_.deviation_before(row, at.angles);
@@ -165,14 +165,14 @@ class reconstructed {
 
   /// Around a value at a location, each channel on its own; never below zero.
   [[nodiscard]] reflectance_interval interval(const rgb& value, const location& at, confidence_level level) const {
-    const double far = reach(at, level);
+    const double half = half_width(at, level);
     const auto moved = [&](double by) {
       rgb other;
       for (Eigen::Index c = 0; c < 3; ++c)
         other[c] = reflectance_of(prior_.metric(), prior_.metric().forward(value[c], at) + by, at);
       return other;
     };
-    return {moved(-far), moved(far)};
+    return {moved(-half), moved(half)};
   }
   /// Around the value in two directions above the horizon.
   [[nodiscard]] reflectance_interval interval(const direction& wi, const direction& wo, confidence_level level) const {
@@ -181,13 +181,13 @@ class reconstructed {
 
   /// By how much a value is known, relative to it, with a probability of 68 %.
   [[nodiscard]] double known_to(const location& at) const {
-    return std::expm1(reach(at, confidence_level::sixty_eight_percent));
+    return std::expm1(half_width(at, confidence_level::sixty_eight_percent));
   }
   /// In two directions above the horizon.
   [[nodiscard]] double known_to(const direction& wi, const direction& wo) const { return known_to(located(wi, wo)); }
   /// At all of some cells: choose a coarse grid, what is known is smooth.
   [[nodiscard]] std::vector<double> known_to(const valid_cells& cells) const {
-    std::vector<double> all = reach_at(cells);
+    std::vector<double> all = half_widths(cells);
     for (double& each : all) each = std::expm1(each);
     return all;
   }
@@ -196,11 +196,11 @@ class reconstructed {
   [[nodiscard]] gonio::certainty certainty() const {
     std::vector<double> highlight;
     for (const half_difference& angles : detail::highlight_angles())
-      highlight.push_back(reach(locate(prior_.cells(), angles), confidence_level::ninety_five_percent));
+      highlight.push_back(half_width(locate(prior_.cells(), angles), confidence_level::ninety_five_percent));
     double measured_to = 0.0;
     for (const Eigen::Index i : found_.kept())
       measured_to = std::max(measured_to, samples_->locations[i].angles.theta_h);
-    return detail::certainty_of(reach_at(detail::certainty_cells()), std::move(highlight), measured_to);
+    return detail::certainty_of(half_widths(detail::certainty_cells()), std::move(highlight), measured_to);
   }
 
   /// Is this a material like those of the prior?
@@ -246,12 +246,12 @@ class reconstructed {
 
  private:
   /// Of 68 % at all of some cells.
-  [[nodiscard]] std::vector<double> reach_at(const valid_cells& cells) const {
+  [[nodiscard]] std::vector<double> half_widths(const valid_cells& cells) const {
     std::vector<double> all(cells.size());
     for_each_index(
         cells.size(), 64,
         [&](Eigen::Index cell) {
-          all[cell] = reach(locate(prior_.cells(), cells.angles(cell)), confidence_level::sixty_eight_percent);
+          all[cell] = half_width(locate(prior_.cells(), cells.angles(cell)), confidence_level::sixty_eight_percent);
         },
         threads_);
     return all;

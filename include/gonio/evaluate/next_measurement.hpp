@@ -82,12 +82,6 @@ class measurement_chooser {
     return chosen;
   }
 
-  /// To what half of all directions are known from some samples: `certainty::known_to`. Throws gonio::error for
-  /// unusable samples.
-  [[nodiscard]] double known_to(const sample_set& samples) const {
-    return design_.estimator().fit(samples).certainty().known_to;
-  }
-
  private:
   [[nodiscard]] located_samples locate(const sample_set& samples) const {
     return locate_samples(design_.estimator().prior().cells(), samples, threads_);
