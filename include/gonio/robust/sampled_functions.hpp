@@ -5,6 +5,7 @@
 #include <gonio/basis/basis.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/gram.hpp>
+#include <gonio/solve/normal_equations.hpp>
 #include <gonio/table/material_set.hpp>
 
 #include <Eigen/Core>

@@ -56,6 +56,8 @@ class dual_active_set {
  private:
   // Relative to `terms` a violation or a multiplier of this size is rounding.
   static constexpr double rounding = 1e-13;
+  // Relative to `terms` a solution is refined before a violation below this is believed.
+  static constexpr double small_violation = 1e-9;
 
   // Constraints count from 0 for the bounds and from k for the rows.
   struct direction {

@@ -73,7 +73,8 @@ GONIO_INLINE void dual_active_set::settle() {
     resolve();
     if (drop_wrong_sign()) continue;
     choose_violated();
-    if (violated_ >= 0) return;
+    // A small violation may be the solution's own rounding.
+    if (violated_ >= 0 && violation(violated_) > small_violation * terms()) return;
     refine();
     update_bound_multipliers();
     again = drop_wrong_sign();
