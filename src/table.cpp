@@ -11,3 +11,4 @@
 #include <gonio/table/impl/tensor_view.ipp>
 #include <gonio/table/impl/upsample.ipp>
 #include <gonio/table/impl/valid_cells.ipp>
+#include <gonio/table/impl/viewer_side.ipp>

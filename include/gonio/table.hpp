@@ -18,3 +18,4 @@
 #include <gonio/table/tensor_view.hpp>
 #include <gonio/table/upsample.hpp>
 #include <gonio/table/valid_cells.hpp>
+#include <gonio/table/viewer_side.hpp>

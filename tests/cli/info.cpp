@@ -38,7 +38,8 @@ const std::string ssdd_file =
     "VERSION 0.3\nDATA_TYPE brdf\nCOLOR_MODEL monochrome\nPARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 10 40\n"
     "PARAM2_LIST 20\nPARAM3_LIST 0 90 180\nDATA ascii\n.1\n.2\n.3\n.4\n.5\n.6\n";
 const std::string bird_json =
-    "{\"metadata\":{},\"data\":{\"theta_i\":{\"unit\":\"deg\",\"values\":[10,20,30]},\"phi_i\":{\"unit\":\"deg\","
+    "{\"metadata\":{\"instrumentation\":{\"detection_system\":{\"solid_angle\":{\"value\":0.002194,\"unit\":\"sr\"}}}},"
+    "\"data\":{\"theta_i\":{\"unit\":\"deg\",\"values\":[10,20,30]},\"phi_i\":{\"unit\":\"deg\","
     "\"values\":[0,0,0]},\"theta_r\":{\"unit\":\"deg\",\"values\":[40,50,60]},\"phi_r\":{\"unit\":\"deg\",\"values\":"
     "[180,90,45]},\"BRDF\":{\"unit\":\"sr^-1\",\"values\":[0.1,0.2,0.3]}}}";
 
@@ -64,6 +65,7 @@ TEST_CASE("info knows the files of other programs by how they begin, and reconst
   check("metal.ssdd", ssdd_file, "SSDD", 6);
   check("tile.brdf", bird_json, "BiRD", 3);
   check("tile.json", bird_json, "BiRD", 3);
+  CHECK(facts_of_file(given.at("tile.json"))["receiver_half_angle"][0] == doctest::Approx(1.514).epsilon(1e-3));
   check("spectra.brdf", "2\n450 650\n0.5 0 0.4 3 .1 .2\n0.1 0 0.4 2 .1 .2\n0.2 0 0.5 1 .1 .3\n",
         "spectral samples of Cornell", 3);
 }

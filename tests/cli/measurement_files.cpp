@@ -155,8 +155,32 @@ TEST_CASE("options on samples need samples") {
   run("expand --formula red-paint -o " + table);
   for (const std::string command : {"fit ", "info ", "properties "})
     refuses(command + table + " --quantity percent",
-            {"paint.binary: --quantity, --columns and --theta-o-sign need a .csv file"});
-  refuses("design -n 1 --quantity percent -o " + out, {"--quantity and --columns need --given"});
+            {"paint.binary: --quantity, --columns and --theta-o-sign need a file of samples"});
+  refuses("design -n 1 --quantity percent -o " + out, {"--quantity, --columns and --theta-o-sign need --given"});
+}
+
+TEST_CASE("a highlight on the light's side is told of, and turned by an option in any format") {
+  const one_file file;
+  std::string rows;
+  for (const char* theta : {"20", "40", "60"})
+    for (const auto& [phi, value] : {std::pair("0", "9"), std::pair("180", "1")})
+      rows += std::string(theta) + ",0," + theta + "," + phi + "," + value + "," + value + "," + value + "\n";
+  const std::string scan = angles + "r,g,b\n" + rows;
+  file.warns(scan, "where light and viewer meet, it is 9.0 times as bright as in the mirror direction");
+  for (const char* sign : {"light", "mirror"}) file.is_silent_on(scan, std::string(" --theta-o-sign ") + sign);
+  file.is_silent_on("# theta-o-sign: light\n" + scan);
+  const std::string foreign = (file.folder / "scan.json").string();
+  const auto variable = [](const std::string& name, const std::string& unit, const std::string& values) {
+    return "\"" + name + "\":{\"unit\":\"" + unit + "\",\"values\":[" + values + "]}";
+  };
+  scratch::put(foreign, "{\"metadata\":{},\"data\":{" + variable("theta_i", "deg", "30,30") + "," +
+                            variable("phi_i", "deg", "0,0") + "," + variable("theta_r", "deg", "30,30") + "," +
+                            variable("phi_r", "deg", "0,180") + "," + variable("BRDF", "sr^-1", "8,1") + "}}");
+  CHECK(run("info " + foreign).find("it is 8.0 times as bright") != std::string::npos);
+  const std::string converted = (file.folder / "samples.csv").string();
+  run("convert " + foreign + " --theta-o-sign mirror " + converted);
+  CHECK(gonio::io::read_samples(converted)[0].angles().theta_h < 1e-6);
+  refuses("info " + foreign + " --quantity percent", {"says what its values are", "need a .csv file"});
 }
 
 TEST_CASE("numbers that look like something else are accepted with a warning") {

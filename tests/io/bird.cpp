@@ -188,3 +188,19 @@ TEST_CASE("BiRD: the consortium's own example has one direction in four waveleng
   const std::array wavelengths{550.0, 650.0, 750.0, 850.0}, values{0.2585, 0.27, 0.288, 0.2985};
   CHECK((samples.colours()[0].value - gonio::spectral_colour(wavelengths)(values)).abs().maxCoeff() < 1e-9);
 }
+
+TEST_CASE("BiRD: solid angle and divergence are the cones of receiver and source") {
+  const auto with = [](const std::string& receiver, const std::string& beam) {
+    return "{\"metadata\":{\"type\":\"BRDF\",\"instrumentation\":{\"name\":\"x\",\"illumination_system\":{\"beam\":{" +
+           beam + "}},\"detection_system\":{\"sensors\":[{\"value\":7}],\"solid_angle\":{\"unit\":\"sr\",\"value\":" +
+           receiver + "}}}},\"data\":{" + three_directions + "," + variable("BRDF", "sr^-1", "0.1,0.3,0.5") + "}}";
+  };
+  const auto samples = read_bird(with("0.002194", "\"divergence\":{\"value\":0.5,\"unit\":\"deg\"}"), "tile.json");
+  CHECK(gonio::degrees(samples.aperture(1).receiver) == doctest::Approx(1.5144).epsilon(1e-4));
+  CHECK(gonio::degrees(samples.aperture(1).source) == doctest::Approx(0.25));
+  const auto in_radians = read_bird(with("0", "\"divergence\":{\"unit\":\"rad\",\"value\":0.02}"), "tile.json");
+  CHECK(in_radians.aperture(0) == gonio::aperture{0.01, 0.0});
+  CHECK(!read_bird(with("0", "\"shape\":\"circular\""), "tile.json").have_apertures());
+  check_bird_refused(with("7", ""), {"detection_system.solid_angle", "expected from 0 to 1.84"});
+  check_bird_refused(with("0", "\"divergence\":{\"value\":200,\"unit\":\"deg\"}"), {"beam.divergence", "0 to 90"});
+}

@@ -50,6 +50,19 @@ TEST_CASE("OpenMATERIAL: rows of one wavelength are grey samples of light and vi
   CHECK((samples[1].value == 0.03).all());
 }
 
+TEST_CASE("OpenMATERIAL: the receiver's solid angle is that of its cone") {
+  const auto file_with = [](const std::string& angles) {
+    return "{\"brdf\": {\"wavelengths\": [9e-7], \"receiverSolidAngles\": " + angles +
+           ", \"lookupTable\": [[9e-7, 0.5, 0.25, 3, 0.02]]}}";
+  };
+  const auto samples =
+      read_openmaterial(file_with("[{\"wavelength\": 9e-7, \"solidAngle\": 0.001}, {\"solidAngle\": 0.003}]"), "x");
+  CHECK(samples.aperture(0).source == 0.0);
+  CHECK(degrees(samples.aperture(0).receiver) == doctest::Approx(1.4459).epsilon(1e-4));  // of 0.002 sr
+  CHECK(!read_openmaterial(file_with("[]"), "x").have_apertures());
+  check_xompt_refused(file_with("[{\"solidAngle\": 3}]"), {"line 1", "receiverSolidAngles", "solid angle of 3"});
+}
+
 TEST_CASE("OpenMATERIAL: a direction is one sample; rows with null and at the horizon are none") {
   const auto samples = parsed(
       "[9e-7, 0, 0.25, 0, 0.1], [9e-7, 0, 0.25, 1.5, 0.3], [9e-7, 0.4, 0.25, 0, 1], [9e-7, 0.4, 0.25, 6.283185, 3],"

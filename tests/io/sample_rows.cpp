@@ -149,5 +149,18 @@ TEST_CASE("the sign of theta_o in a scan without azimuths is stated, or told by 
                 {"theta-o-sign light", "says the other"});
   check_refused(
       [&] { return gonio::io::read_samples("theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n", "paint.csv", as_light); },
-      {"paint.csv", "--theta-o-sign says nothing"});
+      {"paint.csv", "theta-o-sign says nothing"});
+}
+
+TEST_CASE("azimuths are counted from the mirror direction where theta-o-sign says so") {
+  const std::string rows = "theta_i,phi_i,theta_o,phi_o,r,g,b\n30,10,30,10,1,1,1\n20,0,40,50,1,1,1\n";
+  const gonio::io::sample_reading as_mirror{.sign = gonio::io::theta_o_sign::mirror};
+  const auto check_turned = [](const gonio::io::sample_file& file) {
+    CHECK(file.sign == gonio::io::theta_o_sign::mirror);
+    CHECK(file.samples[0].angles().theta_h < 1e-6);
+    CHECK(gonio::degrees(gonio::azimuth(file.samples[1].directions.pair().wo)) == doctest::Approx(-130.0));
+  };
+  check_turned(gonio::io::read_sample_file(rows, "x", as_mirror));
+  check_turned(gonio::io::read_sample_file("# theta-o-sign: mirror\n" + rows, "x", {}));
+  CHECK(gonio::io::read_samples(rows, "x")[0].angles().theta_d < 1e-6);
 }

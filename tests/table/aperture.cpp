@@ -1,3 +1,4 @@
+#include <gonio/core/error.hpp>
 #include <gonio/table/aperture.hpp>
 
 #include <doctest/doctest.h>
@@ -51,6 +52,14 @@ TEST_CASE("the mean over cones is the integral: of a cosine it is known") {
     const double mean = gonio::mean_within(axes, {0.0, half_angle}, 256, cosine);
     CHECK(mean == doctest::Approx(0.5 * (1.0 + std::cos(half_angle))).epsilon(1e-12));
   }
+}
+
+TEST_CASE("the half angle of a cone of a solid angle") {
+  CHECK(gonio::half_angle_of(0.0) == 0.0);
+  CHECK(gonio::half_angle_of(2.0 * std::numbers::pi * (1.0 - std::cos(0.3))) == doctest::Approx(0.3));
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::half_angle_of(2.0)), doctest::Contains("solid angle of 2"),
+                       gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(gonio::half_angle_of(-0.1)), gonio::error);
 }
 
 TEST_CASE("no cones are one direction, and what is below the horizon is left out") {

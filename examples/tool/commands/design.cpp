@@ -197,7 +197,7 @@ void run(design_command command, const team& processes) {
     if (processes.writes()) run_given(command);
     return;
   }
-  if (!command.reading.empty()) gonio::refuse("--quantity and --columns need --given");
+  if (!command.reading.empty()) gonio::refuse("--quantity, --columns and --theta-o-sign need --given");
   const auto prior = gonio::io::read_prior(command.prior);
   command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
   command.design.near_field.step = gonio::radians(command.step);

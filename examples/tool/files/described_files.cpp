@@ -142,12 +142,26 @@ json describe_svbrdf(const path_type& path) {
           {"share_of_disagreement_above_3", contradicted / divisor}};
 }
 
+/// The least and the largest, degrees.
+json half_angles_of(const gonio::sample_set& samples, double gonio::aperture::*half_angle) {
+  double least = gonio::largest_half_angle, most = 0.0;
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
+    least = std::min(least, samples.aperture(i).*half_angle);
+    most = std::max(most, samples.aperture(i).*half_angle);
+  }
+  return {rounded_degrees(least), rounded_degrees(most)};
+}
+
 json describe_samples(const path_type& path, const measurement_options& reading) {
   const gonio::io::sample_file file = read_measurement_file(path, reading);
   json facts{{"kind", "samples"}};
   if (const measurement_kind* kind = measurement_kind_of(path)) facts["format"] = kind->name;
   facts.update(facts_of(file.samples.in_three_channels()));
   facts.update(facts_of(file));
+  if (file.samples.have_apertures())
+    for (const auto& [key, half_angle] : {std::pair("source_half_angle", &gonio::aperture::source),
+                                          std::pair("receiver_half_angle", &gonio::aperture::receiver)})
+      facts[key] = half_angles_of(file.samples, half_angle);
   return facts;
 }
 

@@ -9,6 +9,7 @@
 #include <gonio/core/error.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/model/measured_properties.hpp>
+#include <gonio/table/viewer_side.hpp>
 
 #include <algorithm>
 #include <array>
@@ -112,8 +113,9 @@ void add_measurement_options(command& to, measurement_options& options) {
   to.add_choice(
       "--theta-o-sign", [&options](int sign) { options.sign = static_cast<theta_o_sign>(sign); },
       {{"light", static_cast<int>(theta_o_sign::light)}, {"mirror", static_cast<int>(theta_o_sign::mirror)}},
-      "Where theta_o is positive in a .csv file without azimuths: on the light's side of the normal (the default), or "
-      "towards the mirror direction");
+      "Where theta_o is positive, azimuths being equal or none: on the light's side of the normal, or towards the "
+      "mirror "
+      "direction. Without it the file's format says it, and who reads a highlight on the light's side is told");
   to.add_option("--rotation", options.rotation,
                 "Degrees: take the samples whose light has this azimuth, one rotation of an anisotropic sample")
       .check(check::range(0.0, 360.0));
@@ -138,14 +140,17 @@ bool holds_measurements(const std::filesystem::path& path) {
 
 void require_unused(const measurement_options& options, const std::filesystem::path& path) {
   if (!options.empty())
-    gonio::refuse({path.native(), ": --quantity, --columns and --theta-o-sign need a .csv file of samples"});
+    gonio::refuse({path.native(), ": --quantity, --columns and --theta-o-sign need a file of samples"});
 }
 
 gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, const measurement_options& options) {
   gonio::io::sample_file file;
   if (const measurement_kind* kind = measurement_kind_of(path)) {
-    require_unused(options, path);  // such a file says what its values are
+    if (!options.quantity.empty() || !options.columns.empty())
+      gonio::refuse({path.native(), ": says what its values are: --quantity and --columns need a .csv file"});
     file.samples = kind->read(path);
+    file.sign = options.sign;
+    if (file.sign == gonio::io::theta_o_sign::mirror) file.samples = gonio::with_viewers_turned(file.samples);
   } else {
     file = gonio::io::read_sample_file(path, reading_of(options));
   }
@@ -162,8 +167,8 @@ gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, 
                      "--receiver-half-angle"});
     file.samples = file.samples.through(aperture);
   }
-  for (const std::string& sentence : doubts_of({file.samples.in_three_channels(), file.quantity, file.provenance}))
-    warn(path.native() + ": " + sentence);
+  const gonio::io::sample_file seen{file.samples.in_three_channels(), file.quantity, file.sign, file.provenance};
+  for (const std::string& sentence : doubts_of(seen)) warn(path.native() + ": " + sentence);
   return file;
 }
 

@@ -26,11 +26,11 @@ struct aperture_option {
 struct measurement_options {
   std::string quantity;              ///< a name of `gonio::io::sample_quantity`; empty if it is not stated
   std::vector<std::string> columns;  ///< lists like "theta_o=Winkel,g=Y"
-  std::optional<gonio::io::theta_o_sign> sign = {};  ///< of scans without azimuths
-  std::optional<gonio::illuminant> light = {};       ///< under which wavelengths are seen; none: D65
-  std::optional<double> rotation = {};               ///< degrees: of the sample, whose other rotations are left out
-  bool takes_anisotropic = false;                    ///< whether or not rotations differ
-  aperture_option aperture = {};                     ///< of all samples of a file that has none
+  std::optional<gonio::io::theta_o_sign> sign = {};
+  std::optional<gonio::illuminant> light = {};  ///< under which wavelengths are seen; none: D65
+  std::optional<double> rotation = {};          ///< degrees: of the sample, whose other rotations are left out
+  bool takes_anisotropic = false;               ///< whether or not rotations differ
+  aperture_option aperture = {};                ///< of all samples of a file that has none
 
   [[nodiscard]] bool empty() const noexcept { return quantity.empty() && columns.empty() && !sign; }
 };
@@ -47,7 +47,7 @@ void add_aperture_options(command& to, aperture_option& given);
 /// Do name or beginning say that the file holds measurements?
 [[nodiscard]] bool holds_measurements(const std::filesystem::path& path);
 
-/// Refuses these options for a file that holds no measurements.
+/// Refuses options of how measurements are read, for a file that holds none.
 void require_unused(const measurement_options& options, const std::filesystem::path& path);
 
 /// Measurements in the channels that the file has: samples as CSV, or in a format of the field that is recognised

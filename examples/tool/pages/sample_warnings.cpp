@@ -2,6 +2,7 @@
 
 #include "fixed.hpp"
 #include <gonio/core/statistics.hpp>
+#include <gonio/table/viewer_side.hpp>
 
 #include <Eigen/Core>
 
@@ -173,6 +174,12 @@ std::vector<std::string> doubts_of(const gonio::io::sample_file& file) {
     sentences.emplace_back(
         "away from highlights the values fall like the cosine of the viewer's angle: do they contain it (--quantity "
         "brdf-cosine)?");
+  if (const double ratio = file.sign ? 0.0 : gonio::brightness_towards_light(file.samples);
+      ratio > gonio::implausible_brightness_towards_light)
+    sentences.push_back("where light and viewer meet, it is " + fixed(ratio, 1) +
+                        " times as bright as in the mirror direction: does the material reflect light back "
+                        "(--theta-o-sign light), or is theta_o or its azimuth counted from the mirror direction "
+                        "(--theta-o-sign mirror)?");
   return sentences;
 }
 

@@ -24,6 +24,10 @@ struct aperture {
 /// The largest half angle, radians.
 inline constexpr double largest_half_angle = radians(45.0);
 
+/// The half angle, in radians, of a cone of this solid angle, in steradians. Throws gonio::error unless it is from 0 to
+/// that of the largest half angle.
+[[nodiscard]] double half_angle_of(double solid_angle);
+
 /// `count` pairs of directions, spread evenly over both cones (Vogel 1979, "A better way to construct the sunflower
 /// head", doi:10.1016/0025-5564(79)90080-4); those below the horizon are left out. A power of two: rings of the one
 /// cone are paired with those of the other by their numbers read backwards, bit by bit (Hammersley's points).

@@ -21,6 +21,9 @@ namespace gonio::io {
 /// directions they become colours (linear Rec. 709 under D65). The states of illumination must average to unpolarised
 /// light (s and p, or opposite Stokes vectors).
 ///
+/// The cone of the receiver is that of `metadata.instrumentation.detection_system.solid_angle`, the cone of the source
+/// half of `metadata.instrumentation.illumination_system.beam.divergence` wide, where the file has them.
+///
 /// A sample's weight is (m / u)^2, from 0.01 to 100, where u is its relative uncertainty (root mean square of what it
 /// is a mean of) and m the median of the file's, whatever their coverage factor. Without uncertainty it is 1.
 ///

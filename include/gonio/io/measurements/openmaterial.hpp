@@ -69,7 +69,8 @@ void write_openmaterial(const std::filesystem::path& path, const std::string& te
 /// Samples from the text of such a file; `name` is what errors call it. Rows of the same directions become one sample:
 /// the mean of those of the same wavelength; samples ascend by their angles. Where wavelengths differ between pairs of
 /// directions they become colours (linear Rec. 709 under D65). Rows with a null and directions at the horizon are none.
-/// Throws gonio::error naming the line of what is wrong, and for tables of other properties. O(rows log rows).
+/// The cone of the receiver is that of the mean of `receiverSolidAngles`, if there are any. Throws gonio::error naming
+/// the line of what is wrong, and for tables of other properties. O(rows log rows).
 [[nodiscard]] sample_set read_openmaterial(std::string_view text, const std::string& name);
 
 /// Reads such a file.

@@ -3,6 +3,7 @@
 
 #include <gonio/core/direction.hpp>
 #include <gonio/io/text/text.hpp>
+#include <gonio/table/aperture.hpp>
 #include <gonio/table/channels.hpp>
 #include <gonio/table/sample_set.hpp>
 
@@ -38,6 +39,9 @@ class sample_collector {
   /// become colours. Throws gonio::error unless they ascend.
   void use_wavelengths(std::span<const double> wavelengths);
 
+  /// The cones of all samples.
+  void use_aperture(const aperture& cones) noexcept { aperture_ = cones; }
+
   /// Of as many values as there are channels.
   void add(const direction_pair& pair, std::span<const double> values, double weight = 1.0);
 
@@ -46,6 +50,7 @@ class sample_collector {
 
  private:
   channels kinds_;  ///< of what is added
+  aperture aperture_;
   bool are_xyz_ = false, are_mixed_ = false, have_colours_ = true;
   sample_set samples_;
 };

@@ -21,8 +21,8 @@ struct column_name {
   std::string column, in_file;
 };
 
-/// Where theta_o is positive in a scan without azimuths, theta_i being positive: on the light's side of the normal, so
-/// that the mirror direction is at theta_o = -theta_i, or on the mirror direction's side.
+/// Where theta_o is positive, theta_i being positive and azimuths, if there are any, equal: on the light's side of the
+/// normal, so that the mirror direction is at theta_o = -theta_i, or on the mirror direction's side.
 enum class theta_o_sign { light, mirror };
 
 /// What the reader of a file is told beside it.
@@ -30,7 +30,7 @@ struct sample_reading {
   std::vector<column_name> columns = {};              ///< compared in letters of either case
   std::optional<sample_quantity> quantity = {};       ///< needed where the file does not say it
   std::function<void(const std::string&)> note = {};  ///< is told in a sentence what is ignored or assumed
-  std::optional<theta_o_sign> sign = {};              ///< of files without azimuths that do not say it
+  std::optional<theta_o_sign> sign = {};              ///< of files that do not say it
 };
 
 namespace detail {

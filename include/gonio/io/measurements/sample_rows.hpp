@@ -51,6 +51,9 @@ class sample_rows {
   [[nodiscard]] const sample_provenance& provenance() const noexcept { return provenance_; }
   /// Has the file no azimuths, and did nobody say on which side of the normal theta_o is positive?
   [[nodiscard]] bool assumes_side() const noexcept { return header_.is_in_plane() && !sign_; }
+  [[nodiscard]] const std::optional<theta_o_sign>& sign() const noexcept { return sign_; }
+  /// Are azimuths counted from the mirror direction? Without azimuths rows say it by their signs.
+  [[nodiscard]] bool turns_viewers() const noexcept { return !header_.is_in_plane() && sign_ == theta_o_sign::mirror; }
 
  private:
   void read_comment(std::string_view comment);

@@ -28,6 +28,7 @@ namespace gonio::io {
 struct sample_file {
   sample_set samples = {};                       ///< sr^-1, whatever quantity the file has
   std::optional<sample_quantity> quantity = {};  ///< as stated in the file or by its reader; r,g,b need none
+  std::optional<theta_o_sign> sign = {};         ///< as stated in the file or by its reader
   sample_provenance provenance = {};
 };
 

@@ -2,6 +2,7 @@
 /// Bodies of table/aperture.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/table/aperture.hpp>
 
 #include <cmath>
@@ -9,6 +10,13 @@
 #include <vector>
 
 namespace gonio {
+
+GONIO_INLINE double half_angle_of(double solid_angle) {
+  const double half_angle = std::acos(1.0 - solid_angle / (2.0 * std::numbers::pi));
+  if (!(solid_angle >= 0.0 && half_angle <= largest_half_angle))
+    refuse({"a solid angle of ", solid_angle, " sr, expected from 0 to 1.84 (a half angle of 45 degrees)"});
+  return half_angle;
+}
 
 GONIO_INLINE std::vector<direction_pair> pairs_within(const direction_pair& axes, const aperture& cones, int count) {
   // Rings of equal solid angle, each a golden section of a turn further than the one before.

@@ -201,6 +201,7 @@ GONIO_INLINE sample_collector bird_samples::make() {
     if (std::isfinite(u)) finite.push_back(u);
   const double usual = finite.empty() ? 0.0 : median(finite);
   sample_collector collector;
+  collector.use_aperture(data_.cones);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     require_unpolarised(groups[i]);
     // A value of 0 has no relative uncertainty.

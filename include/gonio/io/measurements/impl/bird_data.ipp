@@ -5,6 +5,7 @@
 #include <gonio/core/error.hpp>
 #include <gonio/io/text/json_reader.hpp>
 #include <gonio/io/text/text.hpp>
+#include <gonio/table/aperture.hpp>
 
 #include <algorithm>
 #include <array>
@@ -35,6 +36,7 @@ using stokes_states = std::vector<std::array<double, 3>>;
 struct bird_data {
   std::map<std::string, bird_variable, std::less<>> variables;
   stokes_states illumination;
+  aperture cones;
 
   [[nodiscard]] const bird_variable* find(std::string_view variable) const {
     const auto found = variables.find(variable);
@@ -50,6 +52,9 @@ class bird_reader {
   [[nodiscard]] bird_data read();
 
  private:
+  void read_metadata(const std::string& path);
+  void read_solid_angle(const std::string& path);
+  void read_divergence(const std::string& path);
   void read_data();
   void read_entry(const std::string& key);
   [[nodiscard]] bird_variable read_variable(const std::string& key);
@@ -67,7 +72,9 @@ GONIO_INLINE bird_data bird_reader::read() {
   bool has_data = false;
   json_.open_object("the file");
   while (const auto key = json_.next_key()) {
-    if (*key != "data")
+    if (*key == "metadata" && json_.peek() == '{')
+      read_metadata(*key);
+    else if (*key != "data")
       json_.skip();
     else if (std::exchange(has_data, true))
       json_.refuse({"'data' appears twice"});
@@ -77,6 +84,50 @@ GONIO_INLINE bird_data bird_reader::read() {
   json_.finish();
   if (!has_data) gonio::refuse({name_, ": there is no object 'data'"});
   return std::move(data_);
+}
+
+/// Goes into the objects in which cones are said, and past the others.
+GONIO_INLINE void bird_reader::read_metadata(const std::string& path) {
+  constexpr std::string_view receiver = "metadata.instrumentation.detection_system.solid_angle.value",
+                             source = "metadata.instrumentation.illumination_system.beam.divergence";
+  if (path == source) return read_divergence(path);
+  json_.open_object(path);
+  while (const auto key = json_.next_key()) {
+    const std::string inner = path + '.' + *key, above = inner + '.';
+    if (inner == receiver)
+      read_solid_angle(inner);
+    else if (json_.peek() == '{' && (receiver.starts_with(above) || (std::string(source) + '.').starts_with(above)))
+      read_metadata(inner);
+    else
+      json_.skip();
+  }
+}
+
+GONIO_INLINE void bird_reader::read_solid_angle(const std::string& path) {
+  const double value = json_.read_number(path);
+  try {
+    data_.cones.receiver = half_angle_of(value);
+  } catch (const error& reason) {
+    json_.refuse({path, ": ", reason.what()});
+  }
+}
+
+/// The full angle of a beam.
+GONIO_INLINE void bird_reader::read_divergence(const std::string& path) {
+  double value = 0.0;
+  std::string unit;
+  json_.open_object(path);
+  while (const auto key = json_.next_key()) {
+    if (*key == "value")
+      value = json_.read_number(path);
+    else if (*key == "unit")
+      unit = json_.read_string(path + ".unit");
+    else
+      json_.skip();
+  }
+  data_.cones.source = 0.5 * value * (unit == "rad" ? 1.0 : radians(1.0));
+  if (!(data_.cones.source >= 0.0 && data_.cones.source <= largest_half_angle))
+    json_.refuse({path, ": ", shortest(value), ' ', unit, ", expected from 0 to 90 degrees"});
 }
 
 GONIO_INLINE void bird_reader::read_data() {

@@ -10,6 +10,7 @@
 #include <gonio/io/text/json_reader.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/model/smooth_spectra.hpp>
+#include <gonio/table/aperture.hpp>
 
 #include <algorithm>
 #include <array>
@@ -176,6 +177,10 @@ class openmaterial_reader {
   void read_brdf() {
     json_.open_object("brdf");
     while (const auto key = json_.next_key()) {
+      if (*key == "receiverSolidAngles") {
+        read_solid_angles();
+        continue;
+      }
       if (*key != "lookupTable") {
         json_.skip();
         continue;
@@ -184,6 +189,29 @@ class openmaterial_reader {
       json_.open_array("brdf.lookupTable");
       while (json_.next_element())
         if (const std::optional<row> values = read_row()) rows_.push_back(checked(*values));
+    }
+  }
+
+  /// One for each wavelength; a sample has one receiver.
+  void read_solid_angles() {
+    double sum = 0.0, count = 0.0;
+    json_.open_array("brdf.receiverSolidAngles");
+    while (json_.next_element()) {
+      json_.open_object("a receiver's solid angle");
+      while (const auto key = json_.next_key()) {
+        if (*key == "solidAngle") {
+          sum += json_.read_number("solidAngle");
+          count += 1.0;
+        } else {
+          json_.skip();
+        }
+      }
+    }
+    if (count == 0.0) return;
+    try {
+      receiver_.receiver = half_angle_of(sum / count);
+    } catch (const error& reason) {
+      json_.refuse({"receiverSolidAngles: ", reason.what()});
     }
   }
 
@@ -232,6 +260,7 @@ class openmaterial_reader {
       return std::equal(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(numbers), other.begin());
     };
     sample_collector collector;
+    collector.use_aperture(receiver_);
     std::vector<double> wavelengths, values;
     for (std::size_t i = 0; i < rows_.size();) {
       const row first = rows_[i];
@@ -253,6 +282,7 @@ class openmaterial_reader {
   json_reader json_;
   const text_place& place_;
   bool has_table_ = false;
+  aperture receiver_;
   std::vector<row> rows_;
 };
 

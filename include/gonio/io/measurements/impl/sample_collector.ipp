@@ -71,7 +71,7 @@ GONIO_INLINE sample_set sample_collector::samples(const std::string& name) && {
     gonio::refuse({name,
                    ": has other wavelengths in one pair of directions than in another, and not all make a colour, "
                    "expected the same in all"});
-  return std::move(samples_);
+  return aperture_.is_point() ? std::move(samples_) : samples_.through(aperture_);
 }
 
 }  // namespace gonio::io::detail

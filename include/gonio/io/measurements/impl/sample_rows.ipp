@@ -163,8 +163,8 @@ GONIO_INLINE void sample_rows::check_weights() const {
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::finish() const {
   if (rows_ == 0) gonio::refuse({csv_.place().name, ": has a header line but no samples, expected at least one"});
-  if (reading_.sign && !header_.is_in_plane())
-    gonio::refuse({csv_.place().name, ": has azimuths, so that --theta-o-sign says nothing of it"});
+  if (sign_ && header_.directions().first == half_difference_group.first)
+    gonio::refuse({csv_.place().name, ": has half vectors, so that theta-o-sign says nothing of it"});
   if (line_of_unknown_side_ > 0 && !has_signed_angle_)
     text_place{csv_.place().name, line_of_unknown_side_}.refuse(
         "on which sides of the normal are light and viewer? There are no columns phi_i and phi_o, and no angle of the "

@@ -3,7 +3,6 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
-#include <gonio/core/statistics.hpp>
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/measurements/sample_header.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
@@ -11,12 +10,12 @@
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/table/sample_set.hpp>
+#include <gonio/table/viewer_side.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -149,42 +148,10 @@ GONIO_INLINE void read_row_values(const parsed_row& row, const sample_directions
   return rows.wavelength() ? channels({*rows.wavelength()}) : channels::one_value();
 }
 
-/// How much brighter the light's side of the normal is at the angle of incidence than the other side in the mirror
-/// direction or, where that was not measured, anywhere: the median over incidences of 10 degrees and more; 0 if none
-/// has both sides. Samples are in a plane.
-[[nodiscard]] GONIO_INLINE double brightness_towards_light(const sample_set& samples) {
-  constexpr double least_incidence = 10.0, reach = 5.0;  // degrees
-  struct sides {
-    std::optional<double> light, mirror, elsewhere;  ///< the brightest sample
-  };
-  std::map<long, sides> incidences;
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
-    const auto& [wi, wo] = samples.directions(i).pair();
-    const double theta_i = degrees(gonio::polar_angle(wi)), theta_o = degrees(gonio::polar_angle(wo));
-    if (theta_i < least_incidence) continue;
-    const double value = std::ranges::max(samples.values(i));
-    largest = std::max(largest, value);
-    sides& both = incidences[std::lround(2.0 * theta_i)];
-    const bool is_towards_light = wi.x() * wo.x() + wi.y() * wo.y() > 0.0,
-               is_near = std::abs(theta_o - theta_i) <= reach;
-    if (is_towards_light && !is_near) continue;
-    std::optional<double>& side = is_towards_light ? both.light : is_near ? both.mirror : both.elsewhere;
-    side = std::max(side.value_or(value), value);
-  }
-  std::vector<double> ratios;
-  const double floor = 1e-3 * largest;  // a receiver before the lamp reads nothing
-  for (const auto& [angle, both] : incidences)
-    if (const auto other = both.mirror ? both.mirror : both.elsewhere; both.light && other && floor > 0.0)
-      ratios.push_back(*both.light / std::max(*other, floor));
-  return ratios.empty() ? 0.0 : median(ratios);
-}
-
 /// Refuses a scan without azimuths that is bright where the light comes from and dark in the mirror direction.
 GONIO_INLINE void require_plausible_sides(const sample_set& samples, const std::string& name) {
-  constexpr double implausible = 2.0;
   const double ratio = brightness_towards_light(samples);
-  if (ratio > implausible)
+  if (ratio > implausible_brightness_towards_light)
     gonio::refuse(
         {name, ": at theta_o = theta_i it is ", shortest(std::round(10.0 * ratio) / 10.0),
          " times as bright as on the other side of the normal: is theta_o positive towards the mirror direction? Then "
@@ -232,7 +199,9 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
     reading.note(message_of({name, ": ", at_horizon, at_horizon == 1 ? " row is" : " rows are",
                              " left out: light or viewer is at 90 degrees"}));
   if (rows.assumes_side()) detail::require_plausible_sides(file.samples, name);
+  if (rows.turns_viewers()) file.samples = with_viewers_turned(file.samples);
   file.quantity = rows.quantity();
+  file.sign = rows.sign();
   file.provenance = rows.provenance();
   return file;
 }
