@@ -136,6 +136,30 @@ TEST_CASE("a mask leaves pixels out, and the region's pixels are those that brin
   CHECK_THROWS_WITH_AS(static_cast<void>(near_field_samples(picture, setup)), doctest::Contains("mask"), gonio::error);
 }
 
+TEST_CASE("a sample's cones are the light's, and a receiver's that blurs half vectors as its block does") {
+  // Light and camera straight above: half vectors turn by half of what the view does.
+  constexpr double focal_length = 2000.0;
+  const gonio::lens_camera camera(gonio::pinhole_camera::look_at({100, 100, focal_length, focal_length, 50.0, 50.0},
+                                                                 {0.0, 0.0, 8.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}));
+  gonio::capture::near_field_setup setup{.camera = camera,
+                                         .light = gonio::directional_light{{0.0, 0.0, 1.0}, rgb::Ones(), 0.02},
+                                         .disc = gonio::capture::sample_disc{0.1}};
+  for (const std::size_t block : {1, 10}) {
+    setup.block = block;
+    const auto samples = near_field_samples(lab::photograph(paint, *setup.disc, setup), setup);
+    const double expected = static_cast<double>(block) / focal_length / std::sqrt(3.0);
+    for (const gonio::sample& s : samples) {
+      CHECK(s.aperture.source == 0.02);
+      CHECK(s.aperture.receiver == doctest::Approx(expected).epsilon(0.01));
+    }
+  }
+  // A lamp as far away as the camera: they turn together.
+  setup.light = gonio::capture::point_lamp{{0.0, 0.0, 8.0}, rgb::Ones(), 0.4};
+  const auto samples = near_field_samples(lab::photograph(paint, *setup.disc, setup), setup);
+  CHECK(samples[0].aperture.receiver == doctest::Approx(2.0 * 10.0 / focal_length / std::sqrt(3.0)).epsilon(0.01));
+  CHECK(samples[0].aperture.source == doctest::Approx(0.05).epsilon(0.01));
+}
+
 TEST_CASE("blocks average their pixels, and count by their share") {
   auto setup = ordinary_setup();
   const image picture = lab::photograph(paint, *setup.disc, setup);

@@ -69,6 +69,22 @@ TEST_CASE("a photograph of a sphere under a lamp is the paint's values") {
   CHECK(median_error(found.samples) < 0.004);
 }
 
+TEST_CASE("a pixel's receiver blurs half vectors as the sphere's normals within it do") {
+  // In the middle of the sphere normals turn by a pixel over the radius, which is 430 / 11 pixels.
+  const auto surface = surface_of(photographed_sphere, photograph_camera());
+  auto lamp = photograph_lamp;
+  lamp.radius = 0.2;
+  double nearest = 1.0, receiver = 0.0, source = 0.0;
+  for (const gonio::sample& s : samples_of(take(), surface, photograph_camera(), lamp).samples)
+    if (const double off = 1.0 - s.directions.pair().wo.z(); off < nearest) {
+      nearest = off;
+      receiver = s.aperture.receiver;
+      source = s.aperture.source;
+    }
+  CHECK(receiver == doctest::Approx(2.0 / std::sqrt(3.0) * 11.0 / 430.0).epsilon(0.1));
+  CHECK(source == doctest::Approx(0.2 / (photograph_lamp.position.norm() - 0.7)).epsilon(0.05));
+}
+
 TEST_CASE("a white image takes away vignetting and falloff, which spoil a photograph alone") {
   const auto surface = surface_of(photographed_sphere, photograph_camera());
   const lab::camera_defects dark{.vignetting = true};

@@ -19,17 +19,31 @@
 
 namespace {
 
-const std::string directions = std::string(GONIO_SOURCE_DIR) + "/examples/data/nielsen-20.csv";
+/// The paint, 20 samples of it and what is made of them: once for all tests, which add files of their own.
+class measured_paint {
+ public:
+  measured_paint() {
+    run("expand --formula red-paint -o " + at("truth.binary"));
+    run("sample " + at("truth.binary") + " --directions " + GONIO_SOURCE_DIR + "/examples/data/nielsen-20.csv -o " +
+        at("samples.csv"));
+    run("reconstruct " + at("samples.csv") + " -o " + at("estimate.binary") + " --image " + at("sphere.png"));
+  }
+
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+
+ private:
+  scratch::folder folder_;
+};
+
+std::string at(const std::string& name) {
+  static const measured_paint made;
+  return made.at(name);
+}
 
 }  // namespace
 
 TEST_CASE("expand, sample, reconstruct, compare, render") {
-  const scratch::folder folder;
-  const auto at = [&](const char* name) { return (folder / name).string(); };
-  run("expand --formula red-paint -o " + at("truth.binary"));
-  run("sample " + at("truth.binary") + " --directions " + directions + " -o " + at("samples.csv"));
   CHECK(gonio::io::read_samples(at("samples.csv")).size() == 20);
-  run("reconstruct " + at("samples.csv") + " -o " + at("estimate.binary") + " --image " + at("sphere.png"));
   CHECK(std::filesystem::file_size(at("estimate.binary")) == 34'992'012);
   run("render " + at("estimate.binary") + " " + at("truth.binary") + " -o " + at("spheres.png"));
   run("render " + at("truth.binary") + " --slices -o " + at("slices.png"));
@@ -58,115 +72,122 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
   CHECK(natural["delta_e_natural"].get<double>() < 5.0);
   CHECK(gonio_tool(under + at("truth.binary") + " " + at("truth.binary")).output.find("Delta E, natural  0.00") !=
         std::string::npos);
+}
 
-  SUBCASE("the same seed gives the same file, another seed another") {
-    const std::string measure = "sample " + at("truth.binary") + " --count 50 --outliers 0.2 --noise 0.02 --seed ";
-    run(measure + "1 -o " + at("a.csv"));
-    run(measure + "1 -o " + at("b.csv"));
-    run(measure + "2 -o " + at("c.csv"));
-    CHECK(scratch::get(at("a.csv")) == scratch::get(at("b.csv")));
-    CHECK(scratch::get(at("a.csv")) != scratch::get(at("c.csv")));
-  }
-  SUBCASE("the number of threads does not change a byte") {
-    run("reconstruct " + at("samples.csv") + " --threads 1 -o " + at("one.binary"));
-    CHECK(scratch::get(at("one.binary")) == scratch::get(at("estimate.binary")));
-  }
-  SUBCASE("info knows each kind of file") {
-    const auto kind = [&](const std::string& file) {
-      return read_json(gonio_tool("info --json " + file).output)["kind"];
-    };
-    CHECK(kind(at("truth.binary")) == "MERL table");
-    CHECK(kind(at("samples.csv")) == "samples");
-    scratch::put(at("spectra.brdf"), "2\n450 650\n0.5 0 0.4 3 .1 .2\n0.1 0 0.4 2 .1 .2\n");
-    CHECK(kind(at("spectra.brdf")) == "samples");
-    CHECK(gonio_tool("reconstruct " + at("spectra.brdf") + " -o " + at("red.binary")).output.find("\n2 samples,") !=
-          std::string::npos);
-    CHECK(kind(std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior") == "prior");
-  }
-  SUBCASE("the prior expands to the materials it was learned from") {
-    run("expand --name blue-rubber -o " + at("rubber.binary"));
-    const auto rubber = gonio::io::read_merl(at("rubber.binary"));
-    const auto [wi, wo] = gonio::to_directions({gonio::radians(50), gonio::radians(10), gonio::radians(90)});
-    CHECK(rubber(wi, wo).z() > 1.5 * rubber(wi, wo).x());  // away from the highlight it is blue
-  }
-  SUBCASE("a sample that the others contradict is named and left out") {
-    auto samples = gonio::io::read_samples(at("samples.csv"));
-    const double truth = samples[5].value.y();
-    samples[5].value *= 10.0;
-    scratch::put(at("wrong.csv"), gonio::io::write_samples(samples));
-    const std::string files = " --residuals " + at("residuals.csv") + " -o " + at("without.binary");
-    const auto told = gonio_tool("reconstruct " + at("wrong.csv") + files);
-    CHECK(told.exit_code == 0);
-    CHECK(told.output.starts_with("gonio: warning: sample 6 disagrees, left out: measured "));
-    const std::string residuals = scratch::get(at("residuals.csv"));
-    CHECK(std::ranges::count(residuals, '\n') == 21);
-    CHECK(residuals.find("\n6,") != std::string::npos);
-    const std::string output = gonio_tool("reconstruct --json " + at("wrong.csv")).output;
-    const auto fit = read_json(output);
-    REQUIRE(fit["left_out"].size() == 1);
-    CHECK(fit["left_out"][0]["probability_wrong"].get<double>() > 0.75);
-    CHECK(fit["left_out"][0]["sample"] == 6);
-    CHECK(fit["left_out"][0]["others"][1].get<double>() == doctest::Approx(truth).epsilon(0.3));
-    CHECK(read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output)["left_out"].empty());
-    const auto kept = gonio_tool("reconstruct --no-reject " + at("wrong.csv") + " -o " + at("with.binary"));
-    CHECK(kept.output.starts_with("20 samples,"));
-    const auto error = [&](const char* file) {
-      return read_json(gonio_tool("compare --json " + at(file) + ' ' + at("truth.binary")).output)["mapped_rms"]
-          .get<double>();
-    };
-    CHECK(error("without.binary") < 0.7 * error("with.binary"));
-  }
-  SUBCASE("reconstruct says how sure it is far from all samples") {
-    std::string near = "theta_h,theta_d,phi_d,r,g,b\n";
-    for (int i = 0; i < 12; ++i) near += std::to_string(i + 1) + ',' + std::to_string(5 * i) + ",30,0.1,0.1,0.1\n";
-    scratch::put(at("near.csv"), near);
-    const std::string output = gonio_tool("reconstruct --json " + at("near.csv")).output;
-    CHECK(output.find("no sample's half vector is more than 12 degrees from the normal: farther away, half of all "
-                      "directions are known to ") != std::string::npos);
-    const auto fit = read_json(output);
-    CHECK(fit["known_to_beyond_the_samples"].get<double>() > fit["known_to"].get<double>());
-    CHECK_FALSE(read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output)
-                    .contains("known_to_beyond_the_samples"));
-  }
-  SUBCASE("reconstruct says how sure it is") {
-    const auto known = [&](const std::string& noise) {
-      const auto result = gonio_tool("reconstruct --json " + at("samples.csv") + noise);
-      REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-      return read_json(result.output);
-    };
-    const auto fit = known(" --uncertainty " + at("known.binary"));
-    CHECK(fit["known_to"].get<double>() < fit["known_to_beyond_80_degrees"].get<double>());
-    CHECK(fit["known_to"].get<double>() < known(" --noise 0.3")["known_to"].get<double>());
-    const auto table = gonio::io::read_merl(at("known.binary"));
-    std::vector<float> values(table.values().begin(), table.values().end());
-    CHECK(std::ranges::min(values) > 0.0f);
-    CHECK(gonio::median(values) == doctest::Approx(fit["known_to"].get<double>()).epsilon(0.15));
-    // The sphere turns from light to dark as less is known.
-    const auto lightness = [&](const std::string& noise) {
-      known(noise + " --uncertainty-image " + at("known.png"));
-      const gonio::image sphere = gonio::io::read_png(at("known.png"));
-      gonio::rgb sum = gonio::rgb::Zero();
-      for (std::size_t row = 0; row < sphere.shape(0); ++row)
-        for (std::size_t column = 0; column < sphere.shape(1); ++column) sum += gonio::pixel(sphere, row, column);
-      return gonio::luminance(sum);
-    };
-    CHECK(lightness(" --noise 0.3") < lightness(""));
-  }
-  SUBCASE("reconstruct says how the fit went") {
-    const auto fit = read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output);
-    CHECK(fit["samples"] == 20);
-    CHECK(fit["kkt_residual"][0].get<double>() < 1e-9);
-    const auto eta = [&](const std::string& noise) {
-      const auto result = gonio_tool("reconstruct --json --discrepancy 0 " + at("samples.csv") + noise);
-      REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-      return read_json(result.output)["eta"].get<double>();
-    };
-    CHECK(eta(" --noise 0") < eta(" --noise 0.1"));
-    CHECK(eta(" --noise 0.1") < eta(" --noise 0.3"));
-    CHECK(eta("") >= eta(" --noise 0"));
-    CHECK(eta("") <= eta(" --noise 0.3"));
-    CHECK_FALSE(read_json(gonio_tool("reconstruct --json --eta 40 " + at("samples.csv")).output).contains("eta"));
-  }
+TEST_CASE("the same seed gives the same file, another seed another") {
+  const std::string measure = "sample " + at("truth.binary") + " --count 50 --outliers 0.2 --noise 0.02 --seed ";
+  run(measure + "1 -o " + at("a.csv"));
+  run(measure + "1 -o " + at("b.csv"));
+  run(measure + "2 -o " + at("c.csv"));
+  CHECK(scratch::get(at("a.csv")) == scratch::get(at("b.csv")));
+  CHECK(scratch::get(at("a.csv")) != scratch::get(at("c.csv")));
+}
+
+TEST_CASE("the number of threads does not change a byte") {
+  run("reconstruct " + at("samples.csv") + " --threads 1 -o " + at("one.binary"));
+  CHECK(scratch::get(at("one.binary")) == scratch::get(at("estimate.binary")));
+}
+
+TEST_CASE("info knows each kind of file") {
+  const auto kind = [&](const std::string& file) {
+    return read_json(gonio_tool("info --json " + file).output)["kind"];
+  };
+  CHECK(kind(at("truth.binary")) == "MERL table");
+  CHECK(kind(at("samples.csv")) == "samples");
+  scratch::put(at("spectra.brdf"), "2\n450 650\n0.5 0 0.4 3 .1 .2\n0.1 0 0.4 2 .1 .2\n");
+  CHECK(kind(at("spectra.brdf")) == "samples");
+  CHECK(gonio_tool("reconstruct " + at("spectra.brdf") + " -o " + at("red.binary")).output.find("\n2 samples,") !=
+        std::string::npos);
+  CHECK(kind(std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior") == "prior");
+}
+
+TEST_CASE("the prior expands to the materials it was learned from") {
+  run("expand --name blue-rubber -o " + at("rubber.binary"));
+  const auto rubber = gonio::io::read_merl(at("rubber.binary"));
+  const auto [wi, wo] = gonio::to_directions({gonio::radians(50), gonio::radians(10), gonio::radians(90)});
+  CHECK(rubber(wi, wo).z() > 1.5 * rubber(wi, wo).x());  // away from the highlight it is blue
+}
+
+TEST_CASE("a sample that the others contradict is named and left out") {
+  auto samples = gonio::io::read_samples(at("samples.csv"));
+  const double truth = samples[5].value.y();
+  samples[5].value *= 10.0;
+  scratch::put(at("wrong.csv"), gonio::io::write_samples(samples));
+  const std::string files = " --residuals " + at("residuals.csv") + " -o " + at("without.binary");
+  const auto told = gonio_tool("reconstruct " + at("wrong.csv") + files);
+  CHECK(told.exit_code == 0);
+  CHECK(told.output.starts_with("gonio: warning: sample 6 disagrees, left out: measured "));
+  const std::string residuals = scratch::get(at("residuals.csv"));
+  CHECK(std::ranges::count(residuals, '\n') == 21);
+  CHECK(residuals.find("\n6,") != std::string::npos);
+  const std::string output = gonio_tool("reconstruct --json " + at("wrong.csv")).output;
+  const auto fit = read_json(output);
+  REQUIRE(fit["left_out"].size() == 1);
+  CHECK(fit["left_out"][0]["probability_wrong"].get<double>() > 0.75);
+  CHECK(fit["left_out"][0]["sample"] == 6);
+  CHECK(fit["left_out"][0]["others"][1].get<double>() == doctest::Approx(truth).epsilon(0.3));
+  CHECK(read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output)["left_out"].empty());
+  const auto kept = gonio_tool("reconstruct --no-reject " + at("wrong.csv") + " -o " + at("with.binary"));
+  CHECK(kept.output.starts_with("20 samples,"));
+  const auto error = [&](const char* file) {
+    return read_json(gonio_tool("compare --json " + at(file) + ' ' + at("truth.binary")).output)["mapped_rms"]
+        .get<double>();
+  };
+  CHECK(error("without.binary") < 0.7 * error("with.binary"));
+}
+
+TEST_CASE("reconstruct says how sure it is far from all samples") {
+  std::string near = "theta_h,theta_d,phi_d,r,g,b\n";
+  for (int i = 0; i < 12; ++i) near += std::to_string(i + 1) + ',' + std::to_string(5 * i) + ",30,0.1,0.1,0.1\n";
+  scratch::put(at("near.csv"), near);
+  const std::string output = gonio_tool("reconstruct --json " + at("near.csv")).output;
+  CHECK(output.find("no sample's half vector is more than 12 degrees from the normal: farther away, half of all "
+                    "directions are known to ") != std::string::npos);
+  const auto fit = read_json(output);
+  CHECK(fit["known_to_beyond_the_samples"].get<double>() > fit["known_to"].get<double>());
+  CHECK_FALSE(
+      read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output).contains("known_to_beyond_the_samples"));
+}
+
+TEST_CASE("reconstruct says how sure it is") {
+  const auto known = [&](const std::string& noise) {
+    const auto result = gonio_tool("reconstruct --json " + at("samples.csv") + noise);
+    REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+    return read_json(result.output);
+  };
+  const auto fit = known(" --uncertainty " + at("known.binary"));
+  CHECK(fit["known_to"].get<double>() < fit["known_to_beyond_80_degrees"].get<double>());
+  CHECK(fit["known_to"].get<double>() < known(" --noise 0.3")["known_to"].get<double>());
+  const auto table = gonio::io::read_merl(at("known.binary"));
+  std::vector<float> values(table.values().begin(), table.values().end());
+  CHECK(std::ranges::min(values) > 0.0f);
+  CHECK(gonio::median(values) == doctest::Approx(fit["known_to"].get<double>()).epsilon(0.15));
+  // The sphere turns from light to dark as less is known.
+  const auto lightness = [&](const std::string& noise) {
+    known(noise + " --uncertainty-image " + at("known.png"));
+    const gonio::image sphere = gonio::io::read_png(at("known.png"));
+    gonio::rgb sum = gonio::rgb::Zero();
+    for (std::size_t row = 0; row < sphere.shape(0); ++row)
+      for (std::size_t column = 0; column < sphere.shape(1); ++column) sum += gonio::pixel(sphere, row, column);
+    return gonio::luminance(sum);
+  };
+  CHECK(lightness(" --noise 0.3") < lightness(""));
+}
+
+TEST_CASE("reconstruct says how the fit went") {
+  const auto fit = read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output);
+  CHECK(fit["samples"] == 20);
+  CHECK(fit["kkt_residual"][0].get<double>() < 1e-9);
+  const auto eta = [&](const std::string& noise) {
+    const auto result = gonio_tool("reconstruct --json --discrepancy 0 " + at("samples.csv") + noise);
+    REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+    return read_json(result.output)["eta"].get<double>();
+  };
+  CHECK(eta(" --noise 0") < eta(" --noise 0.1"));
+  CHECK(eta(" --noise 0.1") < eta(" --noise 0.3"));
+  CHECK(eta("") >= eta(" --noise 0"));
+  CHECK(eta("") <= eta(" --noise 0.3"));
+  CHECK_FALSE(read_json(gonio_tool("reconstruct --json --eta 40 " + at("samples.csv")).output).contains("eta"));
 }
 
 TEST_CASE("learning from a folder of tables") {

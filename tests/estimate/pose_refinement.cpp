@@ -138,7 +138,8 @@ TEST_CASE("no step makes it worse, and samples come out where they were found to
       return Eigen::Vector3d(*part, *part, *part) / 1000.0;
     };
     const auto truth = material(*rc::gen::inRange<std::size_t>(0, 12));
-    const std::vector<sample_set> images{image_of(truth, 0.7, {turn(), turn()})};
+    const gonio::aperture image_aperture{0.01, 0.02};
+    const std::vector<sample_set> images{image_of(truth, 0.7, {turn(), turn()}).through(image_aperture)};
     pose_refinement refinement(image_prior(), images, {.eta = eta, .deviation = radians(2.0)});
     for (int i = 0; i < 4 && !refinement.converged(); ++i) {
       const double before = refinement.objective();
@@ -147,6 +148,7 @@ TEST_CASE("no step makes it worse, and samples come out where they were found to
     }
     const auto samples = refinement.samples();
     RC_ASSERT(samples.size() == images[0].size());
+    RC_ASSERT(samples.aperture(0) == image_aperture);
     const auto again = gonio::decomposition{image_prior(), gonio::tikhonov{eta}}.fit(samples);
     RC_ASSERT((again.weights() - refinement.result().weights()).norm() < 1e-6 * again.weights().norm());
   }));

@@ -116,6 +116,10 @@ TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
   refused(with("region 1", "window -1 0 8 6"), {"line 6", "-1 is not a whole number from 0"});
   refused(with("light 0 0 2", "lamp 1 0 0"), {"the light is at or below"});
   refused(smallest + "lamp 1 0 1\n", {"line 5", "'lamp' says already where the light is"});
+  refused(smallest + "lamp_radius 1\n", {"line 7", "'lamp_radius'", "light_half_angle"});
+  refused(smallest + "light_half_angle 50\n", {"line 7", "'light_half_angle'", "0 to 45"});
+  refused(with("light 0 0 2", "lamp 1 0 1\nlight_half_angle 1"), {"'light_half_angle'", "lamp_radius"});
+  refused(with("light 0 0 2", "lamp 1 0 1\nlamp_radius -1"), {"'lamp_radius'", "must not be negative"});
   refused(smallest + "intensity 2\n", {"line 7", "of a distant light give irradiance"});
   refused(smallest + "distortion -2000 0 0 0\n", {"folds within the image"});
   refused(smallest + "white_plane 0 0 0 0 0 1\n", {"needs 'white_reflectance'"});
@@ -125,14 +129,15 @@ TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
 }
 
 TEST_CASE("a lens, a lamp and a white reference are read as those of a sphere") {
-  const auto setup =
-      read_near_field_setup(with("light 0 0 2",
-                                 "lamp 3 4 5\nintensity 2\ndistortion -0.2 0.05 0.001 0.002\nwhite_reflectance 0.98\n"
-                                 "white_plane 0 0 -1 0 0 1"),
-                            "first.txt");
+  const auto setup = read_near_field_setup(
+      with("light 0 0 2",
+           "lamp 3 4 5\nintensity 2\nlamp_radius 0.25\ndistortion -0.2 0.05 0.001 0.002\nwhite_reflectance 0.98\n"
+           "white_plane 0 0 -1 0 0 1"),
+      "first.txt");
   const auto& lamp = std::get<gonio::capture::point_lamp>(setup.light);
   CHECK(lamp.position == Eigen::Vector3d(3.0, 4.0, 5.0));
   CHECK((lamp.intensity == 2.0).all());
+  CHECK(lamp.radius == 0.25);
   CHECK(setup.camera.distortion().k2 == 0.05);
   CHECK(setup.white_reflectance == 0.98);
   CHECK(setup.white_plane->point.z() == -1.0);

@@ -81,6 +81,9 @@ struct near_field_reading {
                                                            const std::optional<white_reference>& white, std::size_t row,
                                                            std::size_t column);
 
+/// The cones of a block of pixels whose middle is at a place of the image.
+[[nodiscard]] aperture block_aperture(const near_field_setup& setup, double row, double column);
+
 /// What the pixels of a block that see the region add up to.
 struct pixel_block {
   rgb values = rgb::Zero();
@@ -105,8 +108,9 @@ struct pixel_block {
 /// One sample for each block of pixels that see the region of interest, row by row from the image's (or the
 /// window's) top left corner. Value and directions are the means of those pixels, the weight is their share of
 /// the block. With a white reference each pixel's value is divided by that of the white image; pixels at which that is
-/// dark do not count. Throws gonio::error as `require_usable` does, if an image's size is not the camera's, naming a
-/// pixel of the region that is not finite, or if nothing of the sample is seen. O(pixels).
+/// dark do not count. A sample's cones are the light's and that of its block (`pixel_aperture`). Throws gonio::error as
+/// `require_usable` does, if an image's size is not the camera's, naming a pixel of the region that is not finite, or
+/// if nothing of the sample is seen. O(pixels).
 /// ```cpp
 /// const gonio::directional_light lamp{gonio::spherical_direction(theta_i, 0.0)};
 /// const auto samples = gonio::capture::near_field_samples(

@@ -9,6 +9,7 @@
 #include <gonio/capture/relative_reflectance.hpp>
 #include <gonio/core/directional_light.hpp>
 #include <gonio/core/pinhole_camera.hpp>
+#include <gonio/table/aperture.hpp>
 #include <gonio/table/image.hpp>
 #include <gonio/table/surface_image.hpp>
 
@@ -34,6 +35,7 @@ void require_size(const image& picture, const camera_intrinsics& size, const cha
 struct point_lamp {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   rgb intensity = rgb::Ones();  ///< irradiance at distance 1 of a surface that faces the lamp
+  double radius = 0.0;
 };
 
 /// A lamp at a finite distance, or one so far away that its direction is the same everywhere.
@@ -44,12 +46,19 @@ struct lit_point {
   direction towards;             ///< the light
   rgb irradiance = rgb::Ones();  ///< of a surface that faces it
   double distance = 1.0;         ///< 1 of a distant light
+  double half_angle = 0.0;       ///< under which the light is seen, radians
 };
 
 [[nodiscard]] lit_point light_at(const surface_light& light, const Eigen::Vector3d& position);
 
+/// The cones of a pixel, or of a block of pixels: the source's is the light's. From the left to the right of what it
+/// sees of the surface the half vector turns against the normal by `across`, from top to bottom by `down`; the
+/// receiver's cone has half vectors that scatter as much.
+[[nodiscard]] aperture pixel_aperture(const lit_point& lit, const Eigen::Vector3d& across, const Eigen::Vector3d& down);
+
 /// Throws gonio::error unless the direction of a distant light has length 1, the place of a lamp is finite, and what
-/// they send is finite and positive in each channel.
+/// they send is finite and positive in each channel; a lamp's radius and a distant light's half angle are at least 0,
+/// the half angle at most 45 degrees.
 void require_usable(const surface_light& light);
 
 /// What a white surface looked like under the same light, by the same camera.

@@ -39,9 +39,9 @@ struct photograph_samples {
 
 /// The samples of a photograph. Pixels at the surface's border, with a neighbour that does not see it, are skipped:
 /// what they see is mixed. All pixels whose half and difference angles lie in one cell are averaged to one sample: its
-/// directions and its value are their means. Its weight is, in each channel, `weight_of` the relative deviation of the
-/// mean of n pixels, s / sqrt(n), with s the median scatter of pixels within cells of four and more. Surfaces that
-/// shade themselves are not known as such.
+/// directions, its value and its cones (`pixel_aperture`) are their means. Its weight is, in each channel, `weight_of`
+/// the relative deviation of the mean of n pixels, s / sqrt(n), with s the median scatter of pixels within cells of
+/// four and more. Surfaces that shade themselves are not known as such.
 ///
 /// Throws gonio::error if a photograph or the reference's surface has another size than the camera's image, naming a
 /// pixel of the surface that is not a number, if the lamp is inside the surface, if a surface has no positions that the

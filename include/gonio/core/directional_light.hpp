@@ -11,6 +11,8 @@ struct directional_light {
   direction towards;
   /// Radiance times solid angle: the irradiance of a surface that faces the light.
   rgb irradiance = rgb::Ones();
+  /// Under which it is seen, radians.
+  double half_angle = 0.0;
 };
 
 }  // namespace gonio

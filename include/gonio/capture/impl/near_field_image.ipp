@@ -99,6 +99,21 @@ GONIO_INLINE std::optional<near_field_reading> read_pixel(const image& picture, 
   return reading;
 }
 
+GONIO_INLINE aperture block_aperture(const near_field_setup& setup, double row, double column) {
+  const double half = 0.5 * static_cast<double>(setup.block);
+  const auto half_vector_at = [&](double down, double right) -> std::optional<Eigen::Vector3d> {
+    const ray line = setup.camera.ray_through(column + right * half, row + down * half);
+    const auto place = line.at_ground();
+    if (!place) return {};
+    return (light_at(setup.light, *place).towards - line.towards).normalized();
+  };
+  const auto left = half_vector_at(0.0, -1.0), right = half_vector_at(0.0, 1.0), top = half_vector_at(-1.0, 0.0),
+             bottom = half_vector_at(1.0, 0.0);
+  const auto middle = setup.camera.ray_through(column, row).at_ground();
+  if (!left || !right || !top || !bottom || !middle) return {};  // it goes beyond the horizon
+  return pixel_aperture(light_at(setup.light, *middle), *right - *left, *bottom - *top);
+}
+
 GONIO_INLINE void pixel_block::add(const near_field_reading& reading) {
   saturated = saturated || reading.saturated;
   values += reading.value;
@@ -165,7 +180,10 @@ GONIO_INLINE sample_set near_field_samples(const image& picture, const near_fiel
       const cosine_pair cosine = cosines(to_half_difference(seen.wi, seen.wo));
       if (!(cosine.i > 0.0 && cosine.o > 0.0)) continue;
       const auto pixels = static_cast<double>(block.pixels);
-      samples.push_back({seen, block.values / pixels, pixels / pixels_of_block});
+      const double half = 0.5 * static_cast<double>(setup.block);
+      samples.push_back(
+          {seen, block.values / pixels, pixels / pixels_of_block,
+           detail::block_aperture(setup, static_cast<double>(row) + half, static_cast<double>(column) + half)});
     }
   if (samples.empty())
     gonio::refuse(any_saturated ? "all that the image sees of the sample is saturated"

@@ -34,11 +34,19 @@ GONIO_INLINE void require_size(const image& picture, const camera_intrinsics& si
 namespace gonio::capture {
 
 GONIO_INLINE lit_point light_at(const surface_light& light, const Eigen::Vector3d& position) {
-  if (const auto* distant = std::get_if<directional_light>(&light)) return {distant->towards, distant->irradiance};
+  if (const auto* distant = std::get_if<directional_light>(&light))
+    return {distant->towards, distant->irradiance, 1.0, distant->half_angle};
   const point_lamp& lamp = std::get<point_lamp>(light);
   const Eigen::Vector3d away = lamp.position - position;
   const double distance = away.norm();
-  return {away / distance, lamp.intensity / (distance * distance), distance};
+  return {away / distance, lamp.intensity / (distance * distance), distance, std::atan2(lamp.radius, distance)};
+}
+
+GONIO_INLINE aperture pixel_aperture(const lit_point& lit, const Eigen::Vector3d& across, const Eigen::Vector3d& down) {
+  // A disc of half vectors has a half of its squared radius as its variance, a parallelogram a twelfth of the sum of
+  // its squared sides. Half vectors turn by half of what the receiver turns by.
+  const double of_half_vectors = std::sqrt((across.squaredNorm() + down.squaredNorm()) / 6.0);
+  return {std::min(lit.half_angle, largest_half_angle), std::min(2.0 * of_half_vectors, largest_half_angle)};
 }
 
 GONIO_INLINE void require_usable(const surface_light& light) {
@@ -49,11 +57,14 @@ GONIO_INLINE void require_usable(const surface_light& light) {
   if (const auto* distant = std::get_if<directional_light>(&light)) {
     require(std::abs(distant->towards.norm() - 1.0) < 1e-6, "the light's direction must have length 1");
     require(positive(distant->irradiance), "the light's irradiance must be finite and positive in each channel");
+    require(distant->half_angle >= 0.0 && distant->half_angle <= largest_half_angle,
+            "the light's half angle must be from 0 to 45 degrees");
     return;
   }
   const point_lamp& lamp = std::get<point_lamp>(light);
   require(lamp.position.allFinite(), "the lamp's position must be finite");
   require(positive(lamp.intensity), "the lamp's intensity must be finite and positive in each channel");
+  require(std::isfinite(lamp.radius) && lamp.radius >= 0.0, "the lamp's radius must be finite and not negative");
 }
 
 GONIO_INLINE void require_usable(const white_reference& white, const camera_intrinsics& size) {

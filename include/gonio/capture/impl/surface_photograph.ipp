@@ -65,6 +65,7 @@ GONIO_INLINE direction_pair around_normal(const Eigen::Vector3d& normal, const d
 struct pixel_reading {
   direction_pair pair;
   rgb value;
+  aperture cones;
 };
 
 /// Reads pixels of a photograph, one at a time.
@@ -86,15 +87,25 @@ class pixel_reader {
     const std::optional<rgb> radiance = value_of(photograph_, "the photograph", row, column);
     if (!(pair.wi.z() >= options_.smallest_cosine && pair.wo.z() >= options_.smallest_cosine)) return {};
     if (!radiance) return {};
-    if (!white_) return pixel_reading{pair, *radiance / (lit.irradiance * pair.wi.z())};
-    const std::optional<rgb> value = relative_value(*radiance, pair.wi.z(), lit.distance, row, column);
+    std::optional<rgb> value = *radiance / (lit.irradiance * pair.wi.z());
+    if (white_) value = relative_value(*radiance, pair.wi.z(), lit.distance, row, column);
     if (!value) return {};
-    return pixel_reading{pair, *value};
+    const Eigen::Vector3d across = turned_half_vector(row, column + 1) - turned_half_vector(row, column - 1),
+                          down = turned_half_vector(row + 1, column) - turned_half_vector(row - 1, column);
+    return pixel_reading{pair, *value, pixel_aperture(lit, 0.5 * across, 0.5 * down)};
   }
 
   [[nodiscard]] Eigen::Index saturated() const noexcept { return saturated_; }
 
  private:
+  /// The half vector, relative to the normal.
+  [[nodiscard]] Eigen::Vector3d turned_half_vector(std::size_t row, std::size_t column) const {
+    const Eigen::Index number = surface_.pixel(row, column);
+    const lit_point lit = light_at(light_, surface_.positions.col(number));
+    const ray line = camera_.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
+    return (lit.towards - line.towards).normalized() - surface_.normals.col(number);
+  }
+
   /// Nothing if it is saturated; refuses what is no number.
   [[nodiscard]] std::optional<rgb> value_of(const image& picture, const char* what, std::size_t row,
                                             std::size_t column) {
@@ -134,18 +145,24 @@ struct cell_mean {
   direction_pair first;
   half_difference angles;  ///< sums
   rgb sum = rgb::Zero(), squares = rgb::Zero();
+  aperture cones;  ///< sums
 
   void add(const pixel_reading& reading, const half_difference& at) {
     if (pixels++ == 0) first = reading.pair;
     angles = {angles.theta_h + at.theta_h, angles.theta_d + at.theta_d, angles.phi_d + at.phi_d};
     sum += reading.value;
     squares += reading.value.square();
+    cones = {cones.source + reading.cones.source, cones.receiver + reading.cones.receiver};
   }
 
   [[nodiscard]] sample_directions directions() const {
     if (pixels == 1) return first;
     const auto n = static_cast<double>(pixels);
     return half_difference{angles.theta_h / n, angles.theta_d / n, angles.phi_d / n};
+  }
+  [[nodiscard]] aperture mean_cones() const {
+    const auto n = static_cast<double>(pixels);
+    return {cones.source / n, cones.receiver / n};
   }
   [[nodiscard]] rgb mean() const { return sum / static_cast<double>(pixels); }
   /// Relative standard deviation of one pixel.
@@ -182,7 +199,7 @@ GONIO_INLINE sample_set samples_of_cells(const cell_means& cells, const rgb& dev
     rgb weight;
     for (Eigen::Index c = 0; c < 3; ++c)
       weight[c] = weight_of(deviation[c] / std::sqrt(static_cast<double>(cell.pixels)));
-    samples.push_back({at, cell.mean(), weight});
+    samples.push_back({at, cell.mean(), weight, cell.mean_cones()});
   }
   return samples;
 }

@@ -34,7 +34,7 @@ namespace gonio::detail {
   const direction wi = turned_by(nominal_wi, turns.light), wo = turned_by(nominal_wo, turns.camera);
   if (!(wi.z() > 0.0 && wo.z() > 0.0)) return s;
   const double cosines = by_irradiance ? nominal_wi.z() / wi.z() : 1.0;
-  return {direction_pair{wi, wo}, cosines * s.value, s.weight};
+  return {direction_pair{wi, wo}, cosines * s.value, s.weight, s.aperture};
 }
 
 GONIO_INLINE pose_iteration::pose_iteration(std::vector<std::vector<sample_set>> materials,

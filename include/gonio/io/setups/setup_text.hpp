@@ -30,7 +30,7 @@ struct setup_entry {
 };
 
 /// What every set-up may say.
-inline constexpr std::array<setup_entry, 17> photograph_entries{{{"size", 2},
+inline constexpr std::array<setup_entry, 19> photograph_entries{{{"size", 2},
                                                                  {"focal_length", 1, 2},
                                                                  {"field_of_view", 1},
                                                                  {"principal_point", 2},
@@ -44,6 +44,8 @@ inline constexpr std::array<setup_entry, 17> photograph_entries{{{"size", 2},
                                                                  {"irradiance", 1, 3},
                                                                  {"lamp", 3},
                                                                  {"intensity", 1, 3},
+                                                                 {"lamp_radius", 1},
+                                                                 {"light_half_angle", 1},
                                                                  {"white_reflectance", 1},
                                                                  {"white_plane", 6},
                                                                  {"saturation", 1}}};

@@ -246,18 +246,18 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
 
 GONIO_INLINE std::string write_samples(const sample_set& samples, const sample_provenance& provenance) {
   const channels& kinds = samples.channels();
-  const bool apart = !kinds.are_wavelengths() && weigh_channels_apart(samples);
+  const bool apart = !kinds.are_wavelengths() && weigh_channels_apart(samples), through = samples.have_apertures();
   std::string text = comment_lines(provenance);
   if (!kinds.are_colours()) text += "# quantity: brdf\n";
   text += "theta_h,theta_d,phi_d," + detail::column_names(kinds);
   text += apart ? "weight_r,weight_g,weight_b" : "weight";
-  text += samples.have_apertures() ? ",source_half_angle,receiver_half_angle\n" : "\n";
+  text += through ? ",source_half_angle,receiver_half_angle\n" : "\n";
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
     const half_difference& at = samples.directions(i).angles();
     std::vector<double> numbers{degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d))};
     numbers.insert(numbers.end(), samples.values(i).begin(), samples.values(i).end());
     for (Eigen::Index c = 0; c < (apart ? 3 : 1); ++c) numbers.push_back(samples.weight(i)[c]);
-    if (samples.have_apertures())
+    if (through)
       numbers.insert(numbers.end(), {degrees(samples.aperture(i).source), degrees(samples.aperture(i).receiver)});
     for (std::size_t k = 0; k < numbers.size(); ++k) text += (k == 0 ? "" : ",") + shortest(numbers[k]);
     text += '\n';

@@ -153,6 +153,9 @@ GONIO_INLINE directional_light distant_light(const setup_text& text) {
     light.towards = spherical_direction(radians(theta), radians(phi));
   }
   light.irradiance = setup_colour(text, "irradiance");
+  if (text.has("light_half_angle")) light.half_angle = radians(text.numbers("light_half_angle")[0]);
+  if (!(light.half_angle >= 0.0 && light.half_angle <= largest_half_angle))
+    text.refuse("light_half_angle", "expected from 0 to 45 degrees");
   return light;
 }
 
@@ -162,10 +165,16 @@ GONIO_INLINE capture::surface_light setup_light(const setup_text& text) {
     text.require_one_of(one, other, "where the light is");
   if (!text.has("lamp")) {
     if (text.has("intensity")) text.refuse("intensity", "is that of a lamp, of a distant light give irradiance");
+    if (text.has("lamp_radius"))
+      text.refuse("lamp_radius", "is that of a lamp, of a distant light give light_half_angle");
     return distant_light(text);
   }
   if (text.has("irradiance")) text.refuse("irradiance", "is that of a distant light, of a lamp give intensity");
-  return capture::point_lamp{text.vector("lamp"), setup_colour(text, "intensity")};
+  if (text.has("light_half_angle"))
+    text.refuse("light_half_angle", "is that of a distant light, of a lamp give lamp_radius");
+  const double radius = text.has("lamp_radius") ? text.numbers("lamp_radius")[0] : 0.0;
+  if (!(radius >= 0.0)) text.refuse("lamp_radius", "must not be negative");
+  return capture::point_lamp{text.vector("lamp"), setup_colour(text, "intensity"), radius};
 }
 
 GONIO_INLINE white_entries setup_white(const setup_text& text) {
