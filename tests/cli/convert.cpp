@@ -83,6 +83,18 @@ TEST_CASE("convert: a table becomes a measurement of MDL, with the steps that it
     CHECK(said.find(words) != std::string::npos);
 }
 
+TEST_CASE("convert: tables for renderers are as fine as the albedo needs, or as is asked for") {
+  const scratch::folder folder;
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  run("expand --formula red-paint -o " + at("t.binary"));
+  run("convert " + at("t.binary") + " " + at("usual.bsdf"));
+  run("convert --albedo-tolerance 0.0001 " + at("t.binary") + " " + at("fine.bsdf"));
+  CHECK(std::filesystem::file_size(at("usual.bsdf")) < 7'000'000);
+  CHECK(std::filesystem::file_size(at("fine.bsdf")) > 23'000'000);
+  refuses("convert --albedo-tolerance 0.1 " + at("t.binary") + " " + at("t.npy"),
+          {"--albedo-tolerance needs", ".bsdf"});
+}
+
 TEST_CASE("convert: arrays of half floats are half as large") {
   const small_files files;
   files.convert("t.binary", "t.npy");

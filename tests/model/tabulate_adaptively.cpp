@@ -143,12 +143,17 @@ TEST_CASE("bad values and resolutions of adaptive tables are refused") {
 TEST_CASE("finer tables keep the albedo of narrow highlights, others stay as small as they are") {
   const gonio::model::ggx narrow{.alpha = 0.1, .f0 = rgb::Constant(0.04)}, wide{.alpha = 0.4};
   const double usual = gonio::model::albedo_error(narrow, tabulate_adaptively(narrow));
-  const adaptive_brdf kept = gonio::model::tabulate_keeping_albedo(narrow);
+  const adaptive_brdf kept = gonio::model::tabulate_keeping_albedo(narrow, 0.001);
   CHECK(usual > 0.004);
   CHECK(gonio::model::albedo_error(narrow, kept) < 0.6 * usual);
   CHECK(kept.parts().reflectance.rows == 144);
   CHECK(gonio::model::albedo_error(narrow, kept, {1}) == gonio::model::albedo_error(narrow, kept, {3}));
+  const adaptive_brdf between = gonio::model::tabulate_keeping_albedo(narrow, 0.7 * usual);
+  CHECK(between.parts().theta_i.size() == 60);
+  CHECK(between.parts().reflectance.rows == 96);
+  CHECK(gonio::model::albedo_error(narrow, between) < 0.7 * usual);
   const adaptive_brdf small = gonio::model::tabulate_keeping_albedo(wide);
+  CHECK(small.parts().theta_i.size() == 32);
   CHECK(small.parts().reflectance.rows == 96);
   CHECK(gonio::model::albedo_error(wide, small) < 0.004);
 }

@@ -1,6 +1,8 @@
 #include "file_kinds.hpp"
 
 #include "file_start.hpp"
+#include "tool/pages/fixed.hpp"
+#include "tool/pages/warning.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/table_npy.hpp>
@@ -37,10 +39,10 @@ gonio::brdf_table as_table(const fs::path& path, const file_content& content, go
   return with_brdf(path, content, [&](const auto& f) { return gonio::tabulate(f, gonio::valid_cells(), threads); });
 }
 
-io::rgl_material as_rgl(const fs::path& path, const file_content& content, gonio::thread_count threads) {
+io::rgl_material as_rgl(const fs::path& path, const file_content& content, const writing& how) {
   if (const auto* material = std::get_if<io::rgl_material>(&content)) return *material;
   return with_brdf(path, content, [&](const auto& f) -> io::rgl_material {
-    return {gonio::model::tabulate_keeping_albedo(f, threads), path.stem().string(), {}};
+    return {gonio::model::tabulate_keeping_albedo(f, how.albedo_tolerance, how.threads), path.stem().string(), {}};
   });
 }
 
@@ -79,8 +81,16 @@ void write_array(const fs::path& path, const file_content& content, const writin
 }
 
 void write_rgl(const fs::path& path, const file_content& content, const writing& how) {
-  io::rgl_material material = as_rgl(path, content, how.threads);
-  if (how.as_spectra && !material.spectra) material.spectra = io::upsampled_spectra(material.material);
+  constexpr double large = 100.0;
+  if (const auto* given = std::get_if<io::rgl_material>(&content); given != nullptr && given->spectra) {
+    const double megabytes = 4e-6 * static_cast<double>(given->spectra->values.values.size());
+    if (megabytes > large)
+      warn(path.native() + ": " + std::to_string(given->spectra->wavelengths.size()) + " wavelengths take " +
+           fixed(megabytes, 0) + " MB");
+    return io::write_rgl(path, *given);  // not a copy of it
+  }
+  io::rgl_material material = as_rgl(path, content, how);
+  if (how.as_spectra) material.spectra = io::upsampled_spectra(material.material);
   io::write_rgl(path, material);
 }
 

@@ -6,6 +6,7 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/io/materials/mbsdf.hpp>
 #include <gonio/io/materials/rgl.hpp>
+#include <gonio/model/tabulate_adaptively.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
@@ -28,8 +29,9 @@ using file_content =
 struct writing {
   bool as_spectra = false;  ///< .bsdf: reflectance at wavelengths, instead of in RGB
   Eigen::Index polar_steps =
-      0;                   ///< .mbsdf, .xompt: steps of each polar angle, twice as many of the azimuth; 0: the usual
-  bool as_halves = false;  ///< .npy: half floats instead of float32
+      0;  ///< .mbsdf, .xompt: steps of each polar angle, twice as many of the azimuth; 0: the usual
+  double albedo_tolerance = gonio::model::usual_albedo_tolerance;  ///< .bsdf
+  bool as_halves = false;                                          ///< .npy: half floats instead of float32
   gonio::thread_count threads;
 };
 

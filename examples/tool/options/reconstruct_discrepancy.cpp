@@ -155,9 +155,9 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
                                             const gonio::sample_set& samples) {
   const Eigen::Index count = std::ssize(gonio::counting_positions(samples));
   const auto paint = estimator_of(options, prior, count).fit(samples);
-  const gonio::valid_cells cells;
-  reconstruction result = options.fits_spectra ? described_spectra(paint.tabulate_spectra(cells), options)
-                                               : reconstruction{paint.tabulate(cells)};
+  reconstruction result =
+      options.fits_spectra ? described_spectra(paint.tabulate_spectra(options.cells_of_spectra(prior.cells())), options)
+                           : reconstruction{paint.tabulate(gonio::valid_cells())};
   describe_residuals(*paint.fit().report(), paint.kept(), result);
   result.details["discrepancy"] = options.discrepancy;
   return described(std::move(result), paint, count, options);

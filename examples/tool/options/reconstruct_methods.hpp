@@ -57,6 +57,10 @@ struct reconstruct_options {
     return (output.empty() || lower_extension(output) == ".bsdf") && image.empty() && uncertainty_image.empty() &&
            !report.is_given();
   }
+  /// Those of a table of spectra: a file of nothing else is made of what a basis has over its own.
+  [[nodiscard]] gonio::valid_cells cells_of_spectra(const gonio::valid_cells& of_basis) const {
+    return holds_spectra_alone() ? of_basis : gonio::valid_cells();
+  }
   [[nodiscard]] bool tells_residuals() const { return keeps_residuals || report.is_given(); }
   [[nodiscard]] bool wants_uncertainty() const {
     return keeps_uncertainty || !uncertainty.empty() || !uncertainty_image.empty() || report.is_given();
@@ -131,7 +135,8 @@ template <class Fit>
 [[nodiscard]] reconstruction tabulated(const Fit& fitted, const reconstruct_options& options) {
   if constexpr (requires { fitted.tabulate_spectra(gonio::valid_cells(), options.threads); })
     if (options.fits_spectra)
-      return described_spectra(fitted.tabulate_spectra(gonio::valid_cells(), options.threads), options);
+      return described_spectra(
+          fitted.tabulate_spectra(options.cells_of_spectra(fitted.functions().cells()), options.threads), options);
   return {fitted.tabulate(gonio::valid_cells(), options.threads)};
 }
 /// What a method for colours makes of samples, three wavelengths at a time taking the places of red, green and blue.

@@ -53,6 +53,9 @@ template <brdf Brdf>
   return adaptive_brdf(detail::tabulated_adaptively(evaluated, resolution, threads));
 }
 
+/// What tables may change a material's albedo by, relative to it, unless a user says otherwise.
+inline constexpr double usual_albedo_tolerance = 0.01;
+
 /// The largest difference between the albedos of a BRDF and of its tables as measured, relative to the former, at 0,
 /// 20, 40, 60 and 80 degrees of wi: a certificate of the tables. 800,000 evaluations of both.
 template <brdf Brdf>
@@ -74,14 +77,16 @@ template <brdf Brdf>
   return *std::ranges::max_element(errors);
 }
 
-/// A BRDF's tables of the usual resolution if these keep its albedo within `tolerance`; else of half as many rows and
-/// columns more, and nearly twice the angles: where a narrow highlight grows towards grazing angles, what is linear
-/// between nodes is too bright. A file of them has 15 MB instead of 3.5. Throws as `tabulate_adaptively`.
+/// A BRDF's tables of the usual resolution if these keep its albedo within `tolerance`; else of nearly twice the
+/// angles, or of these and half as many rows and columns more: where a narrow highlight grows towards grazing angles,
+/// what is linear between nodes is too bright. A file of them has 7, 13 or 24 MB. Throws as `tabulate_adaptively`.
 template <brdf Brdf>
-[[nodiscard]] adaptive_brdf tabulate_keeping_albedo(const Brdf& f, thread_count threads = {},
-                                                    double tolerance = 0.004) {
-  adaptive_brdf usual = tabulate_adaptively(f, {}, threads);
-  if (albedo_error(f, usual, threads) <= tolerance) return usual;
+[[nodiscard]] adaptive_brdf tabulate_keeping_albedo(const Brdf& f, double tolerance = usual_albedo_tolerance,
+                                                    thread_count threads = {}) {
+  for (const adaptive_resolution& smaller : {adaptive_resolution{}, adaptive_resolution{.theta_i = 60}}) {
+    adaptive_brdf found = tabulate_adaptively(f, smaller, threads);
+    if (albedo_error(f, found, threads) <= tolerance) return found;
+  }
   return tabulate_adaptively(f, {.theta_i = 60, .values = 144}, threads);
 }
 

@@ -77,9 +77,7 @@ struct rgl_material {
 [[nodiscard]] std::vector<std::byte> write_rgl(const rgl_material& material);
 
 /// Writes a file beside its target and renames it.
-inline void write_rgl(const std::filesystem::path& path, const rgl_material& material) {
-  write_atomically(path, write_rgl(material));
-}
+void write_rgl(const std::filesystem::path& path, const rgl_material& material);
 
 /// The same of any BRDF, in RGB: `tabulate_keeping_albedo` makes its tables, unless it has some.
 template <brdf Brdf>

@@ -158,14 +158,15 @@ inline void require_spectra(const rgl_spectra& spectra, std::size_t angles) {
   return spectra;
 }
 
-/// The arrays of a container that is written.
+/// The arrays of a container that is written, which must outlive this: spectra take hundreds of megabytes.
 class tensor_writer {
  public:
   using extents = std::vector<std::uint64_t>;
 
   void add(const std::string& name, const extents& shape, std::span<const std::byte> elements, std::uint8_t type) {
-    fields_.push_back({name, type, shape, {elements.begin(), elements.end()}});
+    fields_.push_back({name, type, shape, elements});
   }
+  void add(const std::string& name, const extents& shape, std::vector<float>&&) = delete;
   void add(const std::string& name, const extents& shape, const std::vector<float>& numbers) {
     add(name, shape, std::as_bytes(std::span(numbers)), tensor_float32);
   }
@@ -176,7 +177,15 @@ class tensor_writer {
     add(name, shape, tables.values);
   }
 
-  [[nodiscard]] std::vector<std::byte> bytes() const {
+  /// Calls `write(bytes)` for one part after the other.
+  template <class Write>
+  void write_parts(Write&& write) const {
+    write(std::span<const std::byte>(head()));
+    for (const field& each : fields_) write(each.elements);
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::byte> head() const {
     std::uint64_t position = tensor_magic.size() + 2 + sizeof(std::uint32_t);
     for (const field& each : fields_) position += 13 + each.name.size() + 8 * each.shape.size();
     byte_writer writer;
@@ -193,16 +202,14 @@ class tensor_writer {
       writer.write_all(std::span(each.shape));
       position += each.elements.size();
     }
-    for (const field& each : fields_) writer.write_all(std::span(each.elements));
     return std::move(writer).bytes();
   }
 
- private:
   struct field {
     std::string name;
     std::uint8_t type = 0;
     extents shape;
-    std::vector<std::byte> elements;
+    std::span<const std::byte> elements;
   };
 
   std::vector<field> fields_;
@@ -227,6 +234,35 @@ class tensor_writer {
     for (Eigen::Index i = 0; i < size; ++i) all[angle * size + i] = std::max(all[angle * size + i], least);
   }
   return all;
+}
+
+/// Calls `write(bytes)` for one part of the file after the other.
+template <class Write>
+void write_rgl_parts(const rgl_material& material, Write&& write) {
+  const model::adaptive_brdf_parts& parts = material.material.parts();
+  const model::unit_square_tables& values = material.spectra ? material.spectra->values : parts.reflectance;
+  if (material.spectra) require_spectra(*material.spectra, parts.theta_i.size());
+  if (values.rows != values.columns || values.rows != parts.reflectance.rows)
+    gonio::refuse({"a .bsdf file needs square tables of reflectance, not ", values.rows, " x ", values.columns});
+  const auto size = static_cast<std::uint64_t>(values.rows), angles = static_cast<std::uint64_t>(parts.theta_i.size());
+  const std::string description = material.description.empty() ? "gonio" : material.description;
+  const std::vector<float> phi_i{0.0f}, theta_i(parts.theta_i.begin(), parts.theta_i.end()),
+      luminance = luminances(parts.reflectance);
+  std::vector<float> wavelengths;
+  if (material.spectra) wavelengths.assign(material.spectra->wavelengths.begin(), material.spectra->wavelengths.end());
+  tensor_writer file;
+  file.add("description", {description.size()}, std::as_bytes(std::span(description)), tensor_uint8);
+  file.add("phi_i", {1}, phi_i);
+  file.add("theta_i", {angles}, theta_i);
+  file.add("sigma", {}, parts.projected_area);
+  file.add("ndf", {}, parts.normals);
+  file.add("vndf", {1, angles}, parts.visible_normals);
+  file.add("luminance", {1, angles, size, size}, luminance);
+  if (material.spectra) file.add("wavelengths", {wavelengths.size()}, wavelengths);
+  const auto channels = static_cast<std::uint64_t>(values.tables) / angles;
+  file.add(material.spectra ? "spectra" : "rgb", {1, angles, channels}, values);
+  file.add("jacobian", {1}, std::as_bytes(std::span("\1", 1)), tensor_uint8);
+  file.write_parts(std::forward<Write>(write));
 }
 
 }  // namespace gonio::io::detail
@@ -256,29 +292,16 @@ GONIO_INLINE rgl_spectra upsampled_spectra(const model::adaptive_brdf& material,
 }
 
 GONIO_INLINE std::vector<std::byte> write_rgl(const rgl_material& material) {
-  const model::adaptive_brdf_parts& parts = material.material.parts();
-  const model::unit_square_tables& values = material.spectra ? material.spectra->values : parts.reflectance;
-  if (material.spectra) detail::require_spectra(*material.spectra, parts.theta_i.size());
-  if (values.rows != values.columns || values.rows != parts.reflectance.rows)
-    gonio::refuse({"a .bsdf file needs square tables of reflectance, not ", values.rows, " x ", values.columns});
-  const auto size = static_cast<std::uint64_t>(values.rows), angles = static_cast<std::uint64_t>(parts.theta_i.size());
-  const std::string description = material.description.empty() ? "gonio" : material.description;
-  detail::tensor_writer file;
-  file.add("description", {description.size()}, std::as_bytes(std::span(description)), detail::tensor_uint8);
-  file.add("phi_i", {1}, std::vector<float>{0.0f});
-  file.add("theta_i", {angles}, std::vector<float>(parts.theta_i.begin(), parts.theta_i.end()));
-  file.add("sigma", {}, parts.projected_area);
-  file.add("ndf", {}, parts.normals);
-  file.add("vndf", {1, angles}, parts.visible_normals);
-  file.add("luminance", {1, angles, size, size}, detail::luminances(parts.reflectance));
-  if (material.spectra) {
-    const std::vector<double>& wavelengths = material.spectra->wavelengths;
-    file.add("wavelengths", {wavelengths.size()}, std::vector<float>(wavelengths.begin(), wavelengths.end()));
-  }
-  const auto channels = static_cast<std::uint64_t>(values.tables) / angles;
-  file.add(material.spectra ? "spectra" : "rgb", {1, angles, channels}, values);
-  file.add("jacobian", {1}, std::as_bytes(std::span("\1", 1)), detail::tensor_uint8);
-  return file.bytes();
+  std::vector<std::byte> all;
+  detail::write_rgl_parts(material,
+                          [&](std::span<const std::byte> part) { all.insert(all.end(), part.begin(), part.end()); });
+  return all;
+}
+
+GONIO_INLINE void write_rgl(const std::filesystem::path& path, const rgl_material& material) {
+  write_atomically(path, [&](file_writer& file) {
+    detail::write_rgl_parts(material, [&](std::span<const std::byte> part) { file.write(part); });
+  });
 }
 
 GONIO_INLINE rgl_material read_rgl(std::span<const std::byte> bytes, const std::string& name) {
