@@ -54,7 +54,7 @@ template <brdf Brdf>
 }
 
 /// What tables may change a material's albedo by, relative to it, unless a user says otherwise.
-inline constexpr double usual_albedo_tolerance = 0.01;
+inline constexpr double usual_albedo_tolerance = 0.006;
 
 /// The largest difference between the albedos of a BRDF and of its tables as measured, relative to the former, at 0,
 /// 20, 40, 60 and 80 degrees of wi: a certificate of the tables. 800,000 evaluations of both.
