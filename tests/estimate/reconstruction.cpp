@@ -164,6 +164,16 @@ TEST_CASE("beyond the most centres, samples are still all heard") {
   CHECK(mapped_error(fewer.tabulate(discrepancy_cells()), truth) < 1.3 * mapped_error(all, truth));
 }
 
+TEST_CASE("the process of the inliers is of some of many samples: its memory does not grow with their square") {
+  const auto located = [](Eigen::Index count) {
+    const auto cells = gonio::random_cells(discrepancy_cells(), count, 5);
+    return gonio::locate_samples(discrepancy_cells(), gonio::sample_table(wavy_material(), cells));
+  };
+  const auto estimator = keeping_all(discrepancy_prior(), {.most_centres = 40});
+  CHECK(estimator.process_of_inliers(located(40)).size() == 40);
+  CHECK(estimator.process_of_inliers(located(600)).size() == 500);
+}
+
 TEST_CASE("of more samples than are fitted some are chosen at random") {
   const sample_set samples = gonio::sample_table(wavy_material(), gonio::random_cells(discrepancy_cells(), 90, 5));
   sample_set some;

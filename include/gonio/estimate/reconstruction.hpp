@@ -77,7 +77,7 @@ class reconstruction {
   [[nodiscard]] sample_process process_of(const located_samples& samples) const {
     return process_of_mapped(map_samples(prior_, samples, threads_));
   }
-  /// The process of those that `fit` would keep.
+  /// The process of those that `fit` would keep; of more than `most_centres`, of some of them.
   [[nodiscard]] sample_process process_of_inliers(const located_samples& samples) const;
 
  private:
@@ -167,7 +167,7 @@ sample_process reconstruction<Metric>::known_by(const selection& chosen) const {
 template <error_metric Metric>
 sample_process reconstruction<Metric>::process_of_inliers(const located_samples& samples) const {
   const selection chosen = select(samples);
-  return chosen.process ? *chosen.process : process_of_mapped(chosen.kept);
+  return chosen.process ? *chosen.process : known_by(chosen);
 }
 
 template <error_metric Metric>
