@@ -22,8 +22,7 @@ namespace cli {
 /// radians (light and viewer of all samples are within 3.2 degrees of the normal), reflectance factors or percent (away
 /// from highlights, at half angles above 30 degrees, half of the samples reflect more than a white diffuser), a BRDF
 /// times the cosine of the viewer's angle (there the values fall like that cosine), the highlight on the light's side
-/// of the normal, unless the file's side is stated. How often that is right: docs/results/implausible-samples.md. O(n
-/// log n).
+/// of the normal, unless it is stated. How often that is right: docs/results/implausible-samples.md. O(n log n).
 [[nodiscard]] std::vector<std::string> doubts_of(const gonio::io::sample_file& file);
 
 /// How many samples that count have the directions of one before, to a thousandth of a degree. O(n log n).
