@@ -201,6 +201,7 @@ TEST_CASE("BiRD: solid angle and divergence are the cones of receiver and source
   const auto in_radians = read_bird(with("0", "\"divergence\":{\"unit\":\"rad\",\"value\":0.02}"), "tile.json");
   CHECK(in_radians.aperture(0) == gonio::aperture{0.01, 0.0});
   CHECK(!read_bird(with("0", "\"shape\":\"circular\""), "tile.json").have_apertures());
-  check_bird_refused(with("7", ""), {"detection_system.solid_angle", "expected from 0 to 1.84"});
-  check_bird_refused(with("0", "\"divergence\":{\"value\":200,\"unit\":\"deg\"}"), {"beam.divergence", "0 to 90"});
+  check_bird_refused(with("7", ""), {"the receiver has a solid angle of 7", "expected from 0 to 1.84"});
+  check_bird_refused(with("0", "\"divergence\":{\"value\":200,\"unit\":\"deg\"}"),
+                     {"the beam has a divergence of 200 deg", "0 to 90"});
 }

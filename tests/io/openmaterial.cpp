@@ -60,7 +60,7 @@ TEST_CASE("OpenMATERIAL: the receiver's solid angle is that of its cone") {
   CHECK(samples.aperture(0).source == 0.0);
   CHECK(degrees(samples.aperture(0).receiver) == doctest::Approx(1.4459).epsilon(1e-4));  // of 0.002 sr
   CHECK(!read_openmaterial(file_with("[]"), "x").have_apertures());
-  check_xompt_refused(file_with("[{\"solidAngle\": 3}]"), {"line 1", "receiverSolidAngles", "solid angle of 3"});
+  check_xompt_refused(file_with("[{\"solidAngle\": 3}]"), {"line 1", "the receiver has a solid angle of 3"});
 }
 
 TEST_CASE("OpenMATERIAL: a direction is one sample; rows with null and at the horizon are none") {

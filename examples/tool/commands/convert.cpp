@@ -68,8 +68,8 @@ void add_convert(command& app) {
       .check(check::range(2, 360));
   command
       .add_option("--albedo-tolerance", options->how.albedo_tolerance,
-                  "Of a .bsdf file of what is none yet: by what its tables may change the albedo, relative to it; they "
-                  "take 7, 13 or 24 MB")
+                  "Of a .bsdf file that is made of another kind of file: how much its tables may change the albedo, "
+                  "relative to it; they take 7, 13 or 24 MB")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
   command.add_flag("--half", options->how.as_halves,

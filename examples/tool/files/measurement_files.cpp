@@ -114,8 +114,7 @@ void add_measurement_options(command& to, measurement_options& options) {
       "--theta-o-sign", [&options](int sign) { options.sign = static_cast<theta_o_sign>(sign); },
       {{"light", static_cast<int>(theta_o_sign::light)}, {"mirror", static_cast<int>(theta_o_sign::mirror)}},
       "Where theta_o is positive, azimuths being equal or none: on the light's side of the normal, or towards the "
-      "mirror "
-      "direction. Without it the file's format says it, and who reads a highlight on the light's side is told");
+      "mirror direction. Without it the file's format says it, and a highlight on the light's side is warned of");
   to.add_option("--rotation", options.rotation,
                 "Degrees: take the samples whose light has this azimuth, one rotation of an anisotropic sample")
       .check(check::range(0.0, 360.0));

@@ -57,7 +57,8 @@ struct reconstruct_options {
     return (output.empty() || lower_extension(output) == ".bsdf") && image.empty() && uncertainty_image.empty() &&
            !report.is_given();
   }
-  /// Those of a table of spectra: a file of nothing else is made of what a basis has over its own.
+  /// Over which spectra are tabulated: the basis's own have all that it knows, and take a fifteenth of the memory,
+  /// which is enough for a .bsdf; other files have the cells of MERL's tables.
   [[nodiscard]] gonio::valid_cells cells_of_spectra(const gonio::valid_cells& of_basis) const {
     return holds_spectra_alone() ? of_basis : gonio::valid_cells();
   }

@@ -90,16 +90,15 @@ class pixel_reader {
     std::optional<rgb> value = *radiance / (lit.irradiance * pair.wi.z());
     if (white_) value = relative_value(*radiance, pair.wi.z(), lit.distance, row, column);
     if (!value) return {};
-    const Eigen::Vector3d across = turned_half_vector(row, column + 1) - turned_half_vector(row, column - 1),
-                          down = turned_half_vector(row + 1, column) - turned_half_vector(row - 1, column);
+    const Eigen::Vector3d across = half_vector_off_normal(row, column + 1) - half_vector_off_normal(row, column - 1),
+                          down = half_vector_off_normal(row + 1, column) - half_vector_off_normal(row - 1, column);
     return pixel_reading{pair, *value, pixel_aperture(lit, 0.5 * across, 0.5 * down)};
   }
 
   [[nodiscard]] Eigen::Index saturated() const noexcept { return saturated_; }
 
  private:
-  /// The half vector, relative to the normal.
-  [[nodiscard]] Eigen::Vector3d turned_half_vector(std::size_t row, std::size_t column) const {
+  [[nodiscard]] Eigen::Vector3d half_vector_off_normal(std::size_t row, std::size_t column) const {
     const Eigen::Index number = surface_.pixel(row, column);
     const lit_point lit = light_at(light_, surface_.positions.col(number));
     const ray line = camera_.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);

@@ -2,6 +2,7 @@
 /// Samples out of the tables of other programs: what the numbers of a direction are, and which directions count.
 
 #include <gonio/core/direction.hpp>
+#include <gonio/io/text/json_reader.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/table/aperture.hpp>
 #include <gonio/table/channels.hpp>
@@ -21,6 +22,10 @@ void require_float_range(double reflectance, const text_place& place);
 /// Is the direction above the horizon by more than the rounding of angles? Tables go to 90 degrees, where nothing can
 /// be measured, and those about the specular direction go on below.
 [[nodiscard]] inline bool is_above_horizon(const direction& w) noexcept { return w.z() > 1e-6; }
+
+/// The half angle of a receiver by its solid angle, in steradians, which was read last. Refuses one beyond the largest
+/// half angle.
+[[nodiscard]] double receiver_half_angle(double solid_angle, const json_reader& read);
 
 /// Which of azimuths, in degrees, are not the same as one before, or a turn apart. O(n log n).
 [[nodiscard]] std::vector<bool> are_new_azimuths(std::span<const double> azimuths);

@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/io/measurements/sample_collector.hpp>
 #include <gonio/io/text/json_reader.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/table/aperture.hpp>
@@ -53,8 +54,8 @@ class bird_reader {
 
  private:
   void read_metadata(const std::string& path);
-  void read_solid_angle(const std::string& path);
-  void read_divergence(const std::string& path);
+  [[nodiscard]] std::pair<double, std::string> read_quantity(const std::string& path);
+  [[nodiscard]] double half_divergence(const std::pair<double, std::string>& quantity) const;
   void read_data();
   void read_entry(const std::string& key);
   [[nodiscard]] bird_variable read_variable(const std::string& key);
@@ -73,7 +74,7 @@ GONIO_INLINE bird_data bird_reader::read() {
   json_.open_object("the file");
   while (const auto key = json_.next_key()) {
     if (*key == "metadata" && json_.peek() == '{')
-      read_metadata(*key);
+      read_metadata(*key + '.');
     else if (*key != "data")
       json_.skip();
     else if (std::exchange(has_data, true))
@@ -86,48 +87,46 @@ GONIO_INLINE bird_data bird_reader::read() {
   return std::move(data_);
 }
 
-/// Goes into the objects in which cones are said, and past the others.
+/// Goes into the objects in which cones are said, and past the others. Paths end with a point.
 GONIO_INLINE void bird_reader::read_metadata(const std::string& path) {
-  constexpr std::string_view receiver = "metadata.instrumentation.detection_system.solid_angle.value",
-                             source = "metadata.instrumentation.illumination_system.beam.divergence";
-  if (path == source) return read_divergence(path);
+  constexpr std::string_view receiver = "metadata.instrumentation.detection_system.solid_angle.",
+                             source = "metadata.instrumentation.illumination_system.beam.divergence.";
   json_.open_object(path);
   while (const auto key = json_.next_key()) {
-    const std::string inner = path + '.' + *key, above = inner + '.';
-    if (inner == receiver)
-      read_solid_angle(inner);
-    else if (json_.peek() == '{' && (receiver.starts_with(above) || (std::string(source) + '.').starts_with(above)))
-      read_metadata(inner);
-    else
+    const std::string inner = path + *key + '.';
+    if (json_.peek() != '{' || !(receiver.starts_with(inner) || source.starts_with(inner)))
       json_.skip();
+    else if (inner == receiver)
+      data_.cones.receiver = receiver_half_angle(read_quantity(inner).first, json_);
+    else if (inner == source)
+      data_.cones.source = half_divergence(read_quantity(inner));
+    else
+      read_metadata(inner);
   }
 }
 
-GONIO_INLINE void bird_reader::read_solid_angle(const std::string& path) {
-  const double value = json_.read_number(path);
-  try {
-    data_.cones.receiver = half_angle_of(value);
-  } catch (const error& reason) {
-    json_.refuse({path, ": ", reason.what()});
-  }
-}
-
-/// The full angle of a beam.
-GONIO_INLINE void bird_reader::read_divergence(const std::string& path) {
-  double value = 0.0;
-  std::string unit;
+/// A value and its unit.
+GONIO_INLINE std::pair<double, std::string> bird_reader::read_quantity(const std::string& path) {
+  std::pair<double, std::string> quantity{0.0, ""};
   json_.open_object(path);
   while (const auto key = json_.next_key()) {
     if (*key == "value")
-      value = json_.read_number(path);
+      quantity.first = json_.read_number(path + *key);
     else if (*key == "unit")
-      unit = json_.read_string(path + ".unit");
+      quantity.second = json_.read_string(path + *key);
     else
       json_.skip();
   }
-  data_.cones.source = 0.5 * value * (unit == "rad" ? 1.0 : radians(1.0));
-  if (!(data_.cones.source >= 0.0 && data_.cones.source <= largest_half_angle))
-    json_.refuse({path, ": ", shortest(value), ' ', unit, ", expected from 0 to 90 degrees"});
+  return quantity;
+}
+
+/// Half of the full angle of a beam, radians.
+GONIO_INLINE double bird_reader::half_divergence(const std::pair<double, std::string>& quantity) const {
+  const auto& [value, unit] = quantity;
+  const double half_angle = 0.5 * value * (unit == "rad" ? 1.0 : radians(1.0));
+  if (!(half_angle >= 0.0 && half_angle <= largest_half_angle))
+    json_.refuse({"the beam has a divergence of ", shortest(value), ' ' + unit, ", expected from 0 to 90 degrees"});
+  return half_angle;
 }
 
 GONIO_INLINE void bird_reader::read_data() {

@@ -207,12 +207,7 @@ class openmaterial_reader {
         }
       }
     }
-    if (count == 0.0) return;
-    try {
-      receiver_.receiver = half_angle_of(sum / count);
-    } catch (const error& reason) {
-      json_.refuse({"receiverSolidAngles: ", reason.what()});
-    }
+    if (count > 0.0) receiver_.receiver = receiver_half_angle(sum / count, json_);
   }
 
   /// Nothing if one of the numbers is null.

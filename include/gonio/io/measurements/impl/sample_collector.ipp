@@ -6,6 +6,7 @@
 #include <gonio/core/rgb.hpp>
 #include <gonio/io/measurements/sample_collector.hpp>
 #include <gonio/io/text/text.hpp>
+#include <gonio/table/aperture.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <algorithm>
@@ -22,6 +23,14 @@ namespace gonio::io::detail {
 GONIO_INLINE void require_float_range(double reflectance, const text_place& place) {
   if (std::abs(reflectance) > double{std::numeric_limits<float>::max()})
     place.refuse({shortest(reflectance), " sr^-1 is beyond the range of float"});
+}
+
+GONIO_INLINE double receiver_half_angle(double solid_angle, const json_reader& read) {
+  try {
+    return half_angle_of(solid_angle);
+  } catch (const error& reason) {
+    read.refuse({"the receiver has ", reason.what()});
+  }
 }
 
 GONIO_INLINE std::vector<bool> are_new_azimuths(std::span<const double> azimuths) {
