@@ -10,12 +10,12 @@ if(ONLY)
   set(parts ${ONLY})
 endif()
 gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} ${gonio_test_packages} ${gonio_python_packages}
-             ${gonio_mpi_packages}
+             ${gonio_mpi_packages} wasi-libc lld-19 libclang-rt-19-dev-wasm32 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32
              clang-19 libclang-rt-19-dev libc++-19-dev libc++abi-19-dev clang-format-14 time)
 
 if("format" IN_LIST parts)
   set(sources)
-  foreach(folder IN ITEMS include src examples tests bench docs)
+  foreach(folder IN ITEMS include src examples tests bench docs shape mpi)
     file(GLOB_RECURSE found "${source}/${folder}/*.hpp" "${source}/${folder}/*.ipp" "${source}/${folder}/*.cpp")
     list(APPEND sources ${found})
   endforeach()
@@ -38,17 +38,17 @@ if("bundle" IN_LIST parts)
   include("${CMAKE_CURRENT_LIST_DIR}/bundle.cmake")
 endif()
 
-# In the build of cmake/test.cmake: programs of the headers alone, projects that know the installed package alone, the
-# quick runs of the papers' experiments, 50 kills of each long command, the Python module, ranks of MPI jobs, and pages in
-# a browser.
+# In the build of cmake/test.cmake: programs of the headers alone, 50 kills of each long command, the Python module, pages
+# in a browser; projects that know the installed package alone, a reader's and those beside the library with their tests:
+# shape, mpi, the quick runs of the papers' experiments, the programs of examples/learn, the lessons.
 if("others" IN_LIST parts)
   include("${CMAKE_CURRENT_LIST_DIR}/browser.cmake")
   step("others: configure" ${cmake} -S . -B build/test -G Ninja
        -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
-       -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON -D GONIO_TEST_CONSUMERS=ON
+       -D GONIO_BUILD_BENCH=OFF -D GONIO_TEST_CONSUMERS=ON
        -D GONIO_BUILD_PYTHON=ON -D Python_EXECUTABLE=/usr/bin/python3)
   step("others: build" ${cmake} --build build/test --parallel ${cores})
-  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers|kills|python|browser|mpi")
+  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|projects|kills|python|browser")
 endif()
 
 # Clang with another standard library: the library, the tool and the tests of what differs, numbers and threads.
@@ -64,7 +64,7 @@ endif()
 if("sanitize" IN_LIST parts)
   set(dir build/sanitize)
   step("clang, sanitized: configure" ${cmake} --preset sanitize -B ${dir} -D GONIO_TEST_HEADERS_ALONE=ON
-       -D GONIO_BUILD_PAPERS=OFF -D GONIO_BUILD_LEARN=OFF -D GONIO_TEST_CONSUMERS=OFF)
+       -D GONIO_BUILD_SHAPE=ON -D GONIO_TEST_CONSUMERS=OFF)
   step("clang, sanitized: build" ${cmake} --build ${dir} --parallel ${cores})
   step("clang, sanitized: test" ${ctest} --preset sanitize --test-dir ${dir})
 endif()

@@ -23,7 +23,7 @@ int main(int count, char**) {
 
 # compile(FILE OPTION...): sets `hundredths` of a second and `megabytes`.
 function(compile file)
-  execute_process(COMMAND "${time}" -f "%U %M" g++ -std=c++20 "-I${source}/include" -isystem /usr/include/eigen3
+  execute_process(COMMAND "${time}" -f "%U %M" g++ -std=c++20 "-I${source}/include" "-I${source}/shape/include" -isystem /usr/include/eigen3
                           ${ARGN} -c "${file}" -o "${scratch}/object.o"
                   ERROR_VARIABLE used COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCH "([0-9]+)[.]([0-9][0-9]) ([0-9]+)\n$" line "${used}")

@@ -1,4 +1,4 @@
-# cmake -P cmake/demo.cmake: builds the gonio tool, but for `gonio shape`, then measures a known material at 20 directions,
+# cmake -P cmake/demo.cmake: builds a gonio tool of the subcommands that it runs, then measures a known material at 20 directions,
 # reconstructs it, and judges and shows the result.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 set(results "${source}/build/demo-results")
@@ -8,8 +8,8 @@ gonio_set_up(${gonio_library_packages})
 message("-- Building the gonio tool")
 execute_process(COMMAND "${CMAKE_COMMAND}" -S "${source}" -B "${source}/build/demo" -G Ninja
                         -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" -D GONIO_NATIVE=ON
-                        -D GONIO_BUILD_SHAPE=OFF -D GONIO_BUILD_TESTS=OFF -D GONIO_BUILD_BENCH=OFF
-                        -D GONIO_BUILD_PAPERS=OFF
+                        -D GONIO_BUILD_TESTS=OFF -D GONIO_BUILD_BENCH=OFF
+                        "-DGONIO_TOOL_COMMANDS=expand;sample;reconstruct;report;render;compare"
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${source}/build/demo" --target gonio_tool
                         --parallel ${cores}

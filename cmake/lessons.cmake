@@ -1,10 +1,16 @@
-# cmake [-D OUTPUT=DIR] -P cmake/lessons.cmake: the pages of the lessons that compute, as files that ask no network, in
-# build/lessons or DIR (examples/lessons/README.md). The estimator is compiled to WebAssembly by Debian's clang and
+# cmake [-D OUTPUT=DIR] [-D PREFIX=DIR] -P cmake/lessons.cmake: the pages of the lessons that compute, as files that ask no
+# network, in build/lessons or OUTPUT, of this library or the one installed in PREFIX (examples/lessons/README.md). The estimator is compiled to WebAssembly by Debian's clang and
 # wasi-libc; once these packages are there, no network is needed.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 gonio_set_up(libeigen3-dev clang-19 lld-19 wasi-libc libclang-rt-19-dev-wasm32 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32)
 if(NOT OUTPUT)
   set(OUTPUT "${source}/build/lessons")
+endif()
+set(include "${source}/include")
+set(materials "${source}/examples/data/materials.prior")
+if(PREFIX)
+  set(include "${PREFIX}/include")
+  set(materials "${PREFIX}/share/gonio/materials.prior")
 endif()
 set(lessons "${source}/examples/lessons")
 set(report "${source}/examples/report")
@@ -15,7 +21,7 @@ find_program(clang NAMES clang++-19 clang++ NO_CACHE REQUIRED)
 # An index has 32 bits there: that a cell's number fits into one is no news.
 set(estimator "${OUTPUT}/estimator.wasm")
 step("lessons: the estimator" "${clang}" --target=wasm32-wasi -mexec-model=reactor -msimd128 -std=c++20 -O2 -DNDEBUG
-     -Wno-c++11-narrowing "-I${lessons}/single_threaded" "-I${source}/include" -isystem "${eigen}" -Wl,--strip-all
+     -Wno-c++11-narrowing "-I${lessons}/single_threaded" "-I${include}" -isystem "${eigen}" -Wl,--strip-all
      "${lessons}/estimator.cpp" -o "${estimator}")
 
 # base64(RESULT FILE FIRST): the bytes of a file from the FIRST on, which is 1.
@@ -26,7 +32,7 @@ endfunction()
 
 # The payload of the prior follows a head of 25 bytes (docs/reference/formats.md).
 base64(module "${estimator}" 1)
-base64(prior "${source}/examples/data/materials.prior" 26)
+base64(prior "${materials}" 26)
 set(data "{\"estimator\": \"${module}\", \"prior\": \"${prior}\"}")
 file(REMOVE "${estimator}")
 

@@ -8,7 +8,7 @@ set(gonio_library_packages
 set(gonio_shape_packages libdlib-dev libblas-dev liblapack-dev libnanoflann-dev)
 set(gonio_python_packages pybind11-dev python3-dev python3-numpy python3-venv)
 set(gonio_mpi_packages libopenmpi-dev openmpi-bin)
-set(gonio_test_packages doctest-dev librapidcheck-dev libopenexr-dev libtiff-dev libexif-dev)
+set(gonio_test_packages doctest-dev librapidcheck-dev libopenexr-dev libtiff-dev libexif-dev libnanoflann-dev)
 
 # package, kind and name of the file that stands for it
 set(gonio_packages

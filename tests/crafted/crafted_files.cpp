@@ -3,6 +3,7 @@
 
 #include "limited_child.hpp"
 #include "made_files.hpp"
+#include "refusals.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,32 +14,8 @@
 
 using crafted::byte_vector;
 using crafted::bytes_of;
-
-namespace {
-
-void refuses(const std::string& reader, const byte_vector& file, const std::string& words) {
-  const crafted::report result = crafted::read_in_child(crafted::reader_named(reader), file);
-  INFO(reader << ": " << result.message);
-  CHECK(result.how == crafted::outcome::refused);
-  CHECK(result.message.find(words) != std::string::npos);
-}
-
-void refuses(const std::string& reader, const std::string& text, const std::string& words) {
-  refuses(reader, bytes_of(text), words);
-}
-
-void reads(const std::string& reader, const byte_vector& file) {
-  const crafted::report result = crafted::read_in_child(crafted::reader_named(reader), file);
-  INFO(reader << ": " << result.message);
-  CHECK(result.how == crafted::outcome::read);
-}
-
-byte_vector content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return bytes_of(std::string(std::istreambuf_iterator<char>(file), {}));
-}
-
-}  // namespace
+using crafted::reads;
+using crafted::refuses;
 
 TEST_CASE("a prior's counts are not believed before its bytes are there") {
   refuses("prior", crafted::prior_of({.materials = 100'000'000 - 100}, 100'000'000), "not believable");
@@ -60,17 +37,6 @@ TEST_CASE("a prior of nothing but zeros is read in the memory that it takes") {
   // 90 x 90 x 180 cells, of which 1,096,216 are valid: a float each for reference, mean and component.
   const std::uint64_t rest = 8 + 4 * 2 + (8 + 12) + 2 * (8 + 2 * 1'096'216) + (8 + 1'096'216);
   reads("prior", crafted::prior_of({.theta_h = 90, .theta_d = 90, .phi_d = 180}, rest));
-}
-
-TEST_CASE("a shape model's counts are not believed before its bytes are there") {
-  constexpr std::uint32_t most = 0xFFFFFFFF;
-  refuses("shape_model", crafted::shapes_of({1, 1, 1, 100'000'000}, 100'000'000), "not believable");
-  refuses("shape_model", crafted::shapes_of({1, 1, 1, 2'000'000 - 100}, 2'000'000), "impossible");
-  refuses("shape_model", crafted::shapes_of({most, most, most, most}, 7 << 20), "impossible");
-  // 3 x vertices x components wraps round to a few bytes in 64 bits.
-  refuses("shape_model", crafted::shapes_of({1u << 31, 1, 1u << 31, 1u << 31}, 7 << 20), "impossible");
-  refuses("shape_model", crafted::shapes_of({200'000, 300'000, 1, 1}, 8 + 8 + 3'600'000 + 12 + 4'800'000),
-          "one vertex twice");
 }
 
 TEST_CASE("a gzip file of zeros does not become a table of gigabytes") {
@@ -119,21 +85,6 @@ TEST_CASE("a small file is no large image") {
   reads("hdr", crafted::flat_hdr(1024));
 }
 
-TEST_CASE("a mesh's counts are not believed before its bytes are there") {
-  const std::string vertices =
-      "ply\nformat binary_little_endian 1.0\nelement vertex 2147483647\nproperty float x\n"
-      "property float y\nproperty float z\nelement face 18446744073709551615\n"
-      "property list uint int vertex_indices\nend_header\n";
-  refuses("ply", vertices, "truncated");
-  refuses("ply",
-          "ply\nformat ascii 1.0\nelement face 18446744073709551615\nproperty list uint int vertex_indices\n"
-          "end_header\n4294967295 0 0 0\n",
-          "vertex 0 of a mesh of 0");
-  refuses("ply", "ply\nformat ascii 1.0\nelement other 9\nproperty list uint int x\nend_header\n4294967295 0 0 0\n",
-          "ends before");
-  refuses("obj", "v 0 0 0\nf 1 1 9223372036854775807\n", "names vertex");
-}
-
 TEST_CASE("a message does not steer the terminal") {
   const auto npy = [](const std::string& dictionary) {
     return std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(dictionary.size()) + '\0' + dictionary;
@@ -150,23 +101,4 @@ TEST_CASE("a direction that grazes the surface is refused in every way of readin
                           "89.99999,10,89.99999,190"})
     crafted::read_in_child(crafted::reader_named("samples"),
                            bytes_of("theta_i,phi_i,theta_o,phi_o\n" + std::string(row) + "\n"));
-}
-
-TEST_CASE("small files that were made by hand, and those that fuzzers found, are read or refused") {
-  std::size_t files = 0;
-  for (const char* folder : {"seeds", "found"})
-    for (const fuzz::reader& reader : fuzz::readers()) {
-      const std::filesystem::path here =
-          std::filesystem::path(GONIO_SOURCE_DIR) / "tests" / "fuzz" / folder / reader.name;
-      if (!std::filesystem::exists(here)) continue;
-      for (const auto& entry : std::filesystem::directory_iterator(here)) {
-        INFO(entry.path());
-        const crafted::report result = crafted::read_in_child(reader, content_of(entry.path()));
-        // Seeds are of the kind, or a fuzzer would begin with nothing; one grazes the surface.
-        if (folder == std::string("seeds") && entry.path().filename() != "directions.csv")
-          CHECK_MESSAGE(result.how == crafted::outcome::read, result.message);
-        ++files;
-      }
-    }
-  CHECK(files >= 2 * fuzz::readers().size());
 }

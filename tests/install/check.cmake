@@ -1,6 +1,6 @@
-# Installs BUILD_DIR into an empty prefix, then builds and runs projects that know only that prefix.
+# Builds and runs programs and projects that know only what was installed in PREFIX, and in a prefix of headers alone.
 cmake_minimum_required(VERSION 3.25)
-file(REMOVE_RECURSE "${SCRATCH}")
+file(REMOVE_RECURSE "${SCRATCH}/build" "${SCRATCH}/shape_build" "${SCRATCH}/headers")
 
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
@@ -13,13 +13,11 @@ function(build_and_run project build)
       -G "${GENERATOR}"
       -D "CMAKE_CXX_COMPILER=${COMPILER}"
       -D "CMAKE_BUILD_TYPE=${CONFIG}"
-      -D "CMAKE_PREFIX_PATH=${SCRATCH}/prefix"
+      -D "CMAKE_PREFIX_PATH=${PREFIX}"
       ${ARGN})
   run("${CMAKE_COMMAND}" --build "${SCRATCH}/${build}" --config "${CONFIG}")
   run("${CMAKE_CTEST_COMMAND}" --test-dir "${SCRATCH}/${build}" -C "${CONFIG}" --output-on-failure --no-tests=error)
 endfunction()
-
-run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --config "${CONFIG}" --prefix "${SCRATCH}/prefix")
 
 function(ask_pkg_config result)
   execute_process(COMMAND pkg-config ${ARGN} OUTPUT_VARIABLE answer OUTPUT_STRIP_TRAILING_WHITESPACE
@@ -53,7 +51,7 @@ find_program(pkg_config pkg-config NO_CACHE)
 if(pkg_config)
   build_with_pkg_config(gonio "${SCRATCH}/headers")
   if(EXISTS "${BUILD_DIR}/gonio-compiled.pc")
-    build_with_pkg_config(gonio-compiled "${SCRATCH}/prefix")
+    build_with_pkg_config(gonio-compiled "${PREFIX}")
   endif()
 endif()
 

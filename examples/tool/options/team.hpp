@@ -1,5 +1,5 @@
 #pragma once
-/// Who does a command's work: this process alone, or all processes of a job together (examples/mpi).
+/// Who does a command's work: this process alone, or all processes of a job together (mpi/programs).
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/solve/row_groups.hpp>

@@ -1,0 +1,114 @@
+# What the library's build and the projects beside it share (shape/, mpi/, examples/papers/, examples/learn/). Such a project
+# is built within the library's build, or alone with an installed gonio (alone.cmake).
+cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH gonio_source)
+
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
+endif()
+# Where ccache is there it is used.
+find_program(GONIO_CCACHE ccache)
+mark_as_advanced(GONIO_CCACHE)
+if(PROJECT_IS_TOP_LEVEL AND GONIO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  # It may keep what was compiled with a precompiled header, whose time it then does not look at.
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${GONIO_CCACHE}")
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+# Shared libraries, as the Python module is one, may link ours; programs share their precompiled header. No function of
+# ours is exchanged when a program starts, so that compilers may inline them.
+if(PROJECT_IS_TOP_LEVEL)
+  add_compile_options(-fPIC -fno-semantic-interposition)
+endif()
+
+# gonio_add_part(NAME LIBRARY...): gonio::NAME, for the headers that need these libraries.
+function(gonio_add_part name)
+  add_library(gonio_${name} INTERFACE)
+  add_library(gonio::${name} ALIAS gonio_${name})
+  set_target_properties(gonio_${name} PROPERTIES EXPORT_NAME ${name})
+  target_link_libraries(gonio_${name} INTERFACE gonio::gonio ${ARGN})
+endfunction()
+
+# gonio_add_compiled(NAME HEADER_ONLY SOURCE...): the bodies that HEADER_ONLY's headers include, as a library, static or
+# shared as BUILD_SHARED_LIBS says. Who links it sees declarations alone.
+function(gonio_add_compiled name header_only)
+  add_library(gonio_${name} ${ARGN})
+  add_library(gonio::${name} ALIAS gonio_${name})
+  set_target_properties(gonio_${name} PROPERTIES EXPORT_NAME ${name} VERSION 0.2.0 SOVERSION 0.2)
+  target_compile_definitions(gonio_${name} PUBLIC GONIO_COMPILED)
+  target_link_libraries(gonio_${name} PUBLIC ${header_only} PRIVATE
+    $<BUILD_INTERFACE:gonio_warnings> $<BUILD_INTERFACE:gonio_native>)
+  if(NOT name STREQUAL "compiled")
+    target_link_libraries(gonio_${name} PUBLIC gonio::compiled)
+  endif()
+  gonio_precompile(gonio_${name})
+endfunction()
+
+# What nearly all of our sources parse, a second and a half in each, is parsed once: by the first target that asks.
+function(gonio_precompile target)
+  get_property(first GLOBAL PROPERTY gonio_precompiled)
+  if(first AND NOT BUILD_SHARED_LIBS)
+    target_precompile_headers(${target} REUSE_FROM ${first})
+    return()
+  endif()
+  set_property(GLOBAL PROPERTY gonio_precompiled ${target})
+  target_precompile_headers(${target} PRIVATE
+    <Eigen/Core> <xtensor/xtensor.hpp> <algorithm> <array> <cmath> <filesystem> <functional> <memory> <numbers>
+    <optional> <random> <span> <string> <utility> <vector>)
+endfunction()
+
+# gonio_install_part(NAME): an export set of its own for each target, so that who lacks what a part needs finds the rest.
+include(GNUInstallDirs)
+function(gonio_install_part name)
+  foreach(target IN ITEMS ${name} compiled_${name})
+    if(TARGET gonio_${target})
+      install(TARGETS gonio_${target} EXPORT gonio_${target}Targets)
+      install(EXPORT gonio_${target}Targets NAMESPACE gonio:: DESTINATION "${gonio_package_dir}")
+    endif()
+  endforeach()
+endfunction()
+
+# gonio_add_executables(): gonio_executables, what our own executables link: each part that is here.
+function(gonio_add_executables)
+  add_library(gonio_executables INTERFACE)
+  target_link_libraries(gonio_executables INTERFACE $<IF:$<TARGET_EXISTS:gonio::compiled>,gonio::compiled,gonio::gonio>)
+  foreach(part IN ITEMS image exr tiff exif scattered)
+    if(gonio_has_${part})
+      gonio_link(gonio_executables ${part})
+    endif()
+  endforeach()
+endfunction()
+
+# gonio_link(TARGET PART...): links gonio::PART, compiled if it was.
+function(gonio_link target)
+  foreach(part IN LISTS ARGN)
+    if(TARGET gonio::compiled_${part})
+      set(part compiled_${part})
+    endif()
+    get_target_property(type ${target} TYPE)
+    set(how PRIVATE)
+    if(type STREQUAL "INTERFACE_LIBRARY")
+      set(how INTERFACE)
+    endif()
+    target_link_libraries(${target} ${how} gonio::${part})
+  endforeach()
+endfunction()
+
+add_library(gonio_warnings INTERFACE)
+# Those that are off for g++ 12 warn of joined strings and of Eigen's copies that are fine (gcc bug 105651 and
+# its kin), and of its own AVX-512 intrinsics (bug 105593), which GONIO_NATIVE may use; clang and the
+# sanitizers watch instead.
+target_compile_options(gonio_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Werror
+  -Wshadow -Wconversion -Wno-sign-conversion -Wold-style-cast -Wcast-align
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wextra-semi
+  $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op -Wno-restrict -Wno-array-bounds
+    -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-uninitialized>)
+
+# Never on gonio::gonio: it would change the alignment, and so the ABI, of a user's Eigen types.
+option(GONIO_NATIVE "Compile our own executables for this machine's processor" OFF)
+add_library(gonio_native INTERFACE)
+if(GONIO_NATIVE)
+  target_compile_options(gonio_native INTERFACE -march=native)
+endif()

@@ -1,0 +1,66 @@
+# What the tests of the library and of the projects beside it share: test_main and gonio_add_tests.
+find_package(doctest REQUIRED CONFIG)
+find_package(nlohmann_json REQUIRED CONFIG)
+# RapidCheck is a library that was compiled with libstdc++: with another standard library its tests cannot be linked.
+option(GONIO_TEST_PROPERTIES "Build the tests that need RapidCheck" ON)
+if(GONIO_TEST_PROPERTIES)
+  find_package(rapidcheck REQUIRED CONFIG)
+endif()
+
+# What every test program shares: doctest's main and what takes long to compile, each compiled once.
+set(tests "${gonio_source}/tests")
+add_library(test_main OBJECT "${tests}/doctest_main.cpp" "${tests}/dense_reference.cpp" "${tests}/golden.cpp")
+set_source_files_properties("${tests}/dense_reference.cpp" "${tests}/golden.cpp" PROPERTIES
+  COMPILE_OPTIONS -O0 SKIP_PRECOMPILE_HEADERS ON)
+target_link_libraries(test_main PUBLIC
+  gonio_executables doctest::doctest $<TARGET_NAME_IF_EXISTS:rapidcheck> nlohmann_json::nlohmann_json
+  gonio_warnings gonio_native)
+target_include_directories(test_main PUBLIC "${tests}" "${gonio_source}/examples") # for the simulated laboratories
+target_compile_definitions(test_main PUBLIC
+  DOCTEST_CONFIG_VOID_CAST_EXPRESSIONS # lets CHECK_THROWS take a [[nodiscard]] call
+  GONIO_SOURCE_DIR="${gonio_source}"
+  GONIO_TEST_DATA="${tests}/data"
+  GONIO_SHARED_DATA="${gonio_source}/../shared/data") # may be absent
+# Tests compile far longer than they run.
+target_compile_options(test_main PUBLIC $<$<CONFIG:Release>:-O1>)
+target_precompile_headers(test_main PRIVATE
+  <doctest/doctest.h> <Eigen/Core> <Eigen/Cholesky> <string> <vector>)
+
+set(GONIO_TESTS_APART io model render cli papers long crafted crafted_shapes shape_commands)
+# gonio_add_tests(MODULE LABEL TIMEOUT SOURCE...): the program test_MODULE. Where first_cases is set it runs as two tests.
+function(gonio_add_tests module label timeout)
+  set(sources ${ARGN})
+  foreach(file IN LISTS sources)
+    file(STRINGS ${file} property REGEX rapidcheck LIMIT_COUNT 1)
+    if(property AND NOT GONIO_TEST_PROPERTIES)
+      list(REMOVE_ITEM sources ${file})
+    endif()
+  endforeach()
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(test_${module} ${sources})
+  target_link_libraries(test_${module} PRIVATE test_main)
+  target_precompile_headers(test_${module} REUSE_FROM test_main)
+  # Files of a module share the templates that they instantiate. Where two have the same name in their unnamed
+  # namespaces they stay apart.
+  if(NOT module IN_LIST GONIO_TESTS_APART)
+    set_target_properties(test_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 7)
+  endif()
+  set(tests ${module})
+  if(first_cases) # and the others, beside one another
+    math(EXPR next "${first_cases} + 1")
+    add_test(NAME ${module} COMMAND test_${module} --last=${first_cases})
+    add_test(NAME ${module}_more COMMAND test_${module} --first=${next})
+    list(APPEND tests ${module}_more)
+  else()
+    add_test(NAME ${module} COMMAND test_${module})
+  endif()
+  set_tests_properties(${tests} PROPERTIES LABELS ${label} TIMEOUT ${timeout} COST ${timeout}) # the longest first
+endfunction()
+
+# gonio_skip(NAME REASON): a test that is not in this build; ctest lists it, with the reason, among those that did not run.
+function(gonio_skip name reason)
+  add_test(NAME "${name}: ${reason}" COMMAND "${CMAKE_COMMAND}" -E echo skipped)
+  set_tests_properties("${name}: ${reason}" PROPERTIES LABELS fast SKIP_REGULAR_EXPRESSION "^skipped")
+endfunction()
