@@ -2,6 +2,7 @@
 /// All of `core/` but k_d_tree.hpp, which needs nanoflann: directions, half and difference angles, colours, errors,
 /// loops over threads.
 
+#include <gonio/core/arc_tangent.hpp>
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/compiled.hpp>

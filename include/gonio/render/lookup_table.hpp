@@ -115,8 +115,10 @@ class lookup_table {
     GONIO_ASSERT(wi.size() == out.size() && wo.size() == out.size());
     using block_type = grid_coordinates_block<Real>;
     constexpr Eigen::Index size = block_type::size;
+    const auto scale = static_cast<computed>(scale_);
     block_type block;
     std::array<place_of<Real>, size> places;
+    std::array<computed, size> factors;
     alignas(64) std::array<storage, size * read_of_place> stored;
     alignas(64) std::array<computed, size * read_of_place> wide;
     for (Eigen::Index first = 0; first < out.size(); first += size) {
@@ -128,9 +130,11 @@ class lookup_table {
       const computed* values = widened(stored, wide);
       for (Eigen::Index i = 0; i < count; ++i) {
         const Eigen::Index n = first + i;
-        const bool is_lit = is_above_horizon(wi.x[n], wi.y[n], wi.z[n], wo.x[n], wo.y[n], wo.z[n]);
-        const Eigen::Array<Real, 3, 1> colour =
-            blended<Real>(places[i], values + i * read_of_place, is_lit ? static_cast<computed>(scale_) : computed(0));
+        factors[i] = is_above_horizon(wi.x[n], wi.y[n], wi.z[n], wo.x[n], wo.y[n], wo.z[n]) ? scale : computed(0);
+      }
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const Eigen::Index n = first + i;
+        const Eigen::Array<Real, 3, 1> colour = blended<Real>(places[i], values + i * read_of_place, factors[i]);
         out.x[n] = colour.x();
         out.y[n] = colour.y();
         out.z[n] = colour.z();

@@ -1,16 +1,20 @@
 #pragma once
 /// Bodies of model/adaptive_brdf.hpp.
 
+#include <gonio/core/arc_tangent.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/huge_pages.hpp>
 #include <gonio/model/adaptive_brdf.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <numbers>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,85 +23,160 @@ namespace gonio::model::detail {
 /// Between two numbers, without the guarantees of `std::lerp`, whose choices cost more than the rest of a look-up.
 [[nodiscard]] inline double mixed(double from, double to, double share) noexcept { return from + share * (to - from); }
 
+/// From 0 to 1, and 0 for what is not a number.
+[[nodiscard]] inline double within_unit(double number) noexcept { return std::min(std::max(0.0, number), 1.0); }
+
+/// Where a number lies between two neighbours of ascending ones.
+struct between_neighbours {
+  Eigen::Index first = 0;
+  double fraction = 0.0;  ///< of the way to the second
+};
+
+/// Nodes at equal distances from 0 to 1.
+class unit_nodes {
+ public:
+  explicit unit_nodes(Eigen::Index count) : last_first_(count - 2), intervals_(static_cast<double>(count - 1)) {}
+
+  /// Of a coordinate from 0 to 1.
+  [[nodiscard]] between_neighbours find(double coordinate) const noexcept {
+    const double scaled = coordinate * intervals_;
+    const Eigen::Index first = std::min(static_cast<Eigen::Index>(scaled), last_first_);
+    return {first, scaled - static_cast<double>(first)};
+  }
+
+ private:
+  Eigen::Index last_first_;
+  double intervals_;
+};
+
+/// The polar angles of wi for which there are tables.
+class light_angles {
+ public:
+  /// Of angles in radians.
+  explicit light_angles(const std::vector<double>& angles) {
+    for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
+      from_.push_back(angles[i] * (2.0 / std::numbers::pi));
+      per_quarter_turn_.push_back(0.5 * std::numbers::pi / (angles[i + 1] - angles[i]));
+    }
+  }
+
+  /// By the share of a quarter turn. A binary search whose steps the processor need not guess: angles are seldom alike.
+  [[nodiscard]] between_neighbours find(double quarter_turn) const noexcept {
+    const double* first = from_.data();
+    for (Eigen::Index left = std::ssize(from_); left > 1;) {
+      const Eigen::Index half = left / 2;
+      first += half * static_cast<Eigen::Index>(first[half] <= quarter_turn);
+      left -= half;
+    }
+    const Eigen::Index number = first - from_.data();
+    return {number, within_unit((quarter_turn - *first) * per_quarter_turn_[number])};
+  }
+
+ private:
+  std::vector<double> from_;              ///< shares of a quarter turn of all but the last
+  std::vector<double> per_quarter_turn_;  ///< one over the distance to the next
+};
+
 /// A point of the unit square.
 struct square_point {
   double across = 0.0;  ///< the rows
   double along = 0.0;   ///< a row
 };
 
-/// The values of two neighbouring columns, interpolated between two rows.
-struct patch_sides {
-  double left = 0.0;
-  double right = 0.0;
-};
+/// The share of a quarter turn of the angle between a direction of any length, not below the horizon, and the normal.
+[[nodiscard]] inline double polar_quarter_turn(const direction& w) noexcept {
+  const double across = w.x() * w.x() + w.y() * w.y(), up = w.z() * w.z();
+  const double squared = std::min(across, up) / std::max(across, up);
+  return gonio::detail::quarter_turns(std::sqrt(squared), squared, gonio::detail::is_more(across, up));
+}
 
-/// The patch between four nodes in which a point of the unit square lies, and where in it.
+/// The azimuth of `w` relative to that of `reference` in turns, plus 1/2; 1 is 0. The normal has that of the x axis.
+[[nodiscard]] inline double relative_turn(const direction& w, const direction& reference) noexcept {
+  double along = reference.x() * w.x() + reference.y() * w.y(), beside = reference.x() * w.y() - reference.y() * w.x();
+  if (!(std::max(std::abs(along), std::abs(beside)) > 0.0)) {  // one is the normal
+    const auto x_of = [](const direction& v) { return v.x() == 0.0 && v.y() == 0.0 ? 1.0 : v.x(); };
+    along = x_of(reference) * x_of(w) + reference.y() * w.y();
+    beside = x_of(reference) * w.y() - reference.y() * x_of(w);
+  }
+  const gonio::detail::azimuth_terms<double> azimuth(along, beside);
+  const double quarter =
+      gonio::detail::quarter_turns(azimuth.tangent, azimuth.tangent * azimuth.tangent, azimuth.steep);
+  const double half = gonio::detail::half_turns(quarter, azimuth.left);
+  const double turn = 0.5 * (half + 0.5 + std::copysign(0.5, beside));
+  return turn < 1.0 ? turn : 0.0;
+}
+
+/// Of a direction, along the rows.
+[[nodiscard]] inline double polar_coordinate(const direction& w) noexcept {
+  return within_unit(std::sqrt(polar_quarter_turn(w)));
+}
+
+/// Where the patch between four nodes is in which a point lies, and where in it.
 struct square_patch {
   Eigen::Index row = 0;
-  Eigen::Index column = 0;
+  Eigen::Index corner = 0;  ///< where the numbers of its first node are
   square_point inside;
+};
 
-  square_patch(const unit_square_tables& tables, const square_point& at) noexcept {
-    row = split(at.across, tables.rows, inside.across);
-    column = split(at.along, tables.columns, inside.along);
+/// The nodes of tables of one size, each of `Numbers` numbers, row after row and table after table.
+template <int Numbers>
+class node_grid {
+ public:
+  explicit node_grid(const unit_square_tables& tables)
+      : rows_(tables.rows),
+        columns_(tables.columns),
+        row_length_(Numbers * tables.columns),
+        table_length_(tables.rows * row_length_) {}
+
+  /// In the first table.
+  [[nodiscard]] square_patch find(const square_point& at) const noexcept {
+    const auto [row, across] = rows_.find(at.across);
+    const auto [column, along] = columns_.find(at.along);
+    return {row, row * row_length_ + column * Numbers, {across, along}};
   }
 
-  [[nodiscard]] patch_sides sides(const unit_square_tables& tables, Eigen::Index table) const noexcept {
-    const float* low = tables.row(table, row) + column;
-    const float* high = tables.row(table, row + 1) + column;
-    return {mixed(low[0], high[0], inside.across), mixed(low[1], high[1], inside.across)};
-  }
+  [[nodiscard]] Eigen::Index row_length() const noexcept { return row_length_; }
+  [[nodiscard]] Eigen::Index table_length() const noexcept { return table_length_; }
 
-  [[nodiscard]] double value(const unit_square_tables& tables, Eigen::Index table) const noexcept {
-    const auto [left, right] = sides(tables, table);
-    return mixed(left, right, inside.along);
+  /// `Size` numbers from a patch's first node on, interpolated between two rows and between the table of `light` and
+  /// the next. Of columns that are read together, all are: a vector of them costs as much as one.
+  template <int Size, class Number>
+  [[nodiscard]] std::array<Number, Size> mixed_rows(const float* numbers, const square_patch& patch,
+                                                    const between_neighbours& light) const noexcept {
+    const float* low = numbers + light.first * table_length_ + patch.corner;
+    const float *high = low + row_length_, *far_low = low + table_length_, *far_high = high + table_length_;
+    const double across = patch.inside.across, both = light.fraction * across;
+    const auto w_far_high = static_cast<Number>(both), w_far_low = static_cast<Number>(light.fraction - both),
+               w_high = static_cast<Number>(across - both),
+               w_low = static_cast<Number>((1.0 - across) - (light.fraction - both));
+    std::array<Number, Size> sum;
+    for (std::size_t k = 0; k < Size; ++k)
+      sum[k] = w_low * Number{low[k]} + w_high * Number{high[k]} + w_far_low * Number{far_low[k]} +
+               w_far_high * Number{far_high[k]};
+    return sum;
   }
 
  private:
-  static Eigen::Index split(double coordinate, Eigen::Index nodes, double& fraction) noexcept {
-    const double scaled = std::clamp(coordinate, 0.0, 1.0) * static_cast<double>(nodes - 1);
-    const double node = std::min(std::floor(scaled), static_cast<double>(nodes - 2));
-    fraction = scaled - node;
-    return static_cast<Eigen::Index>(node);
-  }
+  unit_nodes rows_, columns_;
+  Eigen::Index row_length_, table_length_;
 };
 
-/// Two neighbours among ascending angles, and how far an angle is towards the second.
-struct neighbouring_angles {
-  Eigen::Index first = 0;
-  double fraction = 0.0;
+/// A table that is another's memory, interpolated.
+class table_lookup {
+ public:
+  explicit table_lookup(const unit_square_tables& table) : grid_(table), values_(table.values.data()) {}
 
-  neighbouring_angles(const std::vector<double>& angles, double angle) noexcept {
-    const auto second = std::upper_bound(angles.begin() + 1, angles.end() - 1, angle);
-    const auto before = second - 1;
-    first = before - angles.begin();
-    fraction = std::clamp((angle - *before) / (*second - *before), 0.0, 1.0);
+  [[nodiscard]] double value(const square_point& at) const noexcept {
+    const square_patch patch = grid_.find(at);
+    const float *low = values_ + patch.corner, *high = low + grid_.row_length();
+    const auto [across, along] = patch.inside;
+    return mixed(mixed(low[0], high[0], across), mixed(low[1], high[1], across), along);
   }
 
-  /// What `value(number)` is at the two, interpolated.
-  template <class Value>
-  [[nodiscard]] double interpolate(const Value& value) const noexcept {
-    return mixed(value(first), value(first + 1), fraction);
-  }
-
-  /// The sides of a patch between the two's tables.
-  [[nodiscard]] patch_sides sides(const square_patch& patch, const unit_square_tables& tables) const noexcept {
-    const patch_sides near = patch.sides(tables, first), far = patch.sides(tables, first + 1);
-    return {mixed(near.left, far.left, fraction), mixed(near.right, far.right, fraction)};
-  }
+ private:
+  node_grid<1> grid_;
+  const float* values_;
 };
-
-/// Of a polar angle, along the rows.
-[[nodiscard]] inline double polar_coordinate(double polar_angle) noexcept {
-  return std::sqrt(polar_angle * (2.0 / std::numbers::pi));
-}
-
-/// The azimuth of `w` relative to that of `reference`, radians; the normal has that of the x axis.
-[[nodiscard]] inline double relative_azimuth(const direction& w, const direction& reference) noexcept {
-  const auto x_of = [](const direction& v) { return v.x() == 0.0 && v.y() == 0.0 ? 1.0 : v.x(); };
-  const double x = x_of(reference), w_x = x_of(w);
-  return std::atan2(x * w.y() - reference.y() * w_x, x * w_x + reference.y() * w.y());
-}
 
 /// The trapezoids of a table, in units of its patches.
 struct table_sums {
@@ -120,26 +199,86 @@ struct table_sums {
   [[nodiscard]] double total() const noexcept { return across[across.size() - 1]; }
 };
 
-/// Where the cumulative distribution of visible normals maps a half vector.
-[[nodiscard]] inline square_point visible_position(const unit_square_tables& density, const unit_square_tables& along,
-                                                   const unit_square_tables& across, const square_point& half,
-                                                   const neighbouring_angles& angles) noexcept {
-  const square_patch patch(density, half);
-  const square_point& inside = patch.inside;
-  // Along the rows: the trapezoids before the patch, and the part of its own on this side of the half vector.
-  const auto [left, right] = angles.sides(patch, density);
-  const double before = angles.sides(patch, along).left;
-  const double part = before + inside.along * (left + 0.5 * inside.along * (right - left));
-  // Across the rows: those before the patch, and the part of its own.
-  const auto row_sum = [&](Eigen::Index row) {
-    return angles.interpolate([&](Eigen::Index t) { return along.row(t, row)[along.columns - 1]; });
-  };
-  const double low = row_sum(patch.row), high = row_sum(patch.row + 1);
-  const double rows_before = angles.interpolate([&](Eigen::Index t) { return across.row(0, t)[patch.row]; });
-  const double whole = mixed(low, high, inside.across);
-  return {rows_before + inside.across * (low + 0.5 * inside.across * (high - low)),
-          whole > 0.0 ? part / whole : half.along};
-}
+/// Where the cumulative distributions of visible normals map half vectors: densities and their sums, which scale to 1
+/// over each table.
+class visible_lookup {
+ public:
+  /// Scales the densities, too.
+  explicit visible_lookup(unit_square_tables& density) : grid_(density), row_sums_per_table_(2 * density.rows) {
+    nodes_.reserve(2 * density.values.size());
+    row_sums_.reserve(density.tables * row_sums_per_table_);
+    const Eigen::Index size = density.rows * density.columns;
+    for (Eigen::Index t = 0; t < density.tables; ++t) {
+      const Eigen::Map<Eigen::ArrayXf> values(density.values.data() + t * size, size);
+      const table_sums sums(values.data(), density.rows, density.columns);
+      if (!(sums.total() > 0.0)) refuse({"no normals are visible from theta_i number ", t});
+      append(sums, values);
+    }
+  }
+
+  [[nodiscard]] square_point position(const square_point& half, const between_neighbours& light) const noexcept {
+    const square_patch patch = grid_.find(half);
+    const auto [across, along] = patch.inside;
+    // Along the rows: the trapezoids before the patch, and the part of its own on this side of the half vector.
+    const auto [left, left_before, right, right_before] = grid_.mixed_rows<4, double>(nodes_.data(), patch, light);
+    const double part = left_before + along * (left + 0.5 * along * (right - left));
+    // Across the rows: those before the patch, and the part of its own.
+    const float* near = row_sums_.data() + light.first * row_sums_per_table_ + 2 * patch.row;
+    const float* far = near + row_sums_per_table_;
+    std::array<double, 4> sums;
+    for (std::size_t k = 0; k < 4; ++k) sums[k] = mixed(near[k], far[k], light.fraction);
+    const auto [low, low_before, high, high_before] = sums;
+    const double whole = mixed(low, high, across);
+    return {within_unit(low_before + across * (low + 0.5 * across * (high - low))),
+            whole > 0.0 ? within_unit(part / whole) : half.along};
+  }
+
+ private:
+  /// Scales the whole to 1: between two theta_i, sums are interpolated.
+  void append(const table_sums& sums, Eigen::Map<Eigen::ArrayXf> density) {
+    const auto scaled = [whole = sums.total()](double number) { return static_cast<float>(number / whole); };
+    for (Eigen::Index i = 0; i < density.size(); ++i) {
+      density[i] = scaled(density[i]);
+      nodes_.insert(nodes_.end(), {density[i], scaled(sums.along[i])});
+    }
+    for (Eigen::Index row = 0; row < sums.across.size(); ++row)
+      row_sums_.insert(row_sums_.end(), {scaled(sums.row_total(row)), scaled(sums.across[row])});
+  }
+
+  node_grid<2> grid_;
+  Eigen::Index row_sums_per_table_;
+  std::vector<float, huge_page_allocator<float>> nodes_;  ///< of each its density and its row's trapezoids up to it
+  std::vector<float> row_sums_;  ///< of each row its trapezoids, and whole rows' trapezoids up to it
+};
+
+/// Tables of which three make the channels of one.
+class reflectance_lookup {
+ public:
+  explicit reflectance_lookup(const unit_square_tables& tables) : grid_(tables) {
+    const Eigen::Index size = tables.rows * tables.columns;
+    values_.reserve(tables.values.size() + read_beyond);
+    for (Eigen::Index t = 0; t < tables.tables; t += 3)
+      for (Eigen::Index i = 0; i < size; ++i)
+        for (Eigen::Index channel = 0; channel < 3; ++channel)
+          values_.push_back(tables.values[(t + channel) * size + i]);
+    values_.resize(values_.size() + read_beyond);
+  }
+
+  /// Times a factor, which is not the last step: compilers would fuse one of two such products with their sum, and
+  /// exchanging the two directions would change its last digit. In float, as the nodes are: it costs 1e-7 of them.
+  [[nodiscard]] rgb value(const square_point& at, const between_neighbours& light, double factor) const noexcept {
+    const square_patch patch = grid_.find(at);
+    const std::array<float, 8> sides = grid_.mixed_rows<8, float>(values_.data(), patch, light);
+    const double right = factor * patch.inside.along, left = factor - right;
+    return {left * sides[0] + right * sides[3], left * sides[1] + right * sides[4], left * sides[2] + right * sides[5]};
+  }
+
+ private:
+  static constexpr Eigen::Index read_beyond = 2;  ///< numbers behind the last node's: whole vectors are read
+
+  node_grid<3> grid_;
+  std::vector<float, huge_page_allocator<float>> values_;  ///< the three channels of each node
+};
 
 /// May numbers be negative?
 enum class table_sign { any, not_negative };
@@ -175,50 +314,70 @@ inline void require_material(const adaptive_brdf_parts& parts) {
 
 namespace gonio::model {
 
+struct adaptive_brdf::stored {
+  explicit stored(adaptive_brdf_parts given)
+      : parts(std::move(given)),
+        light(parts.theta_i),
+        normals(parts.normals),
+        area(parts.projected_area),
+        visible(parts.visible_normals),
+        reflectance(parts.reflectance) {}
+
+  /// Where the light and a half vector of any length are in the tables.
+  struct place {
+    double theta_i;  ///< in quarter turns
+    detail::square_point half;
+
+    place(const direction& wi, const direction& sum, double along) noexcept
+        : theta_i(detail::within_unit(detail::polar_quarter_turn(wi))), half{detail::relative_turn(sum, wi), along} {}
+  };
+
+  /// What the reflectance is looked up at, and multiplied by.
+  struct mapped {
+    detail::between_neighbours light;
+    detail::square_point position;
+    double factor;
+  };
+
+  [[nodiscard]] mapped map(const place& at, double cos_theta_o) const noexcept {
+    const detail::between_neighbours neighbours = light.find(at.theta_i);
+    const double divisor = 4.0 * cos_theta_o * area.value({0.5, std::sqrt(at.theta_i)});
+    return {neighbours, visible.position(at.half, neighbours), divisor > 0.0 ? normals.value(at.half) / divisor : 0.0};
+  }
+
+  [[nodiscard]] rgb value(const mapped& at) const noexcept {
+    return reflectance.value(at.position, at.light, at.factor);
+  }
+
+  adaptive_brdf_parts parts;
+  detail::light_angles light;
+  detail::table_lookup normals, area;
+  detail::visible_lookup visible;
+  detail::reflectance_lookup reflectance;
+};
+
 GONIO_INLINE adaptive_brdf::adaptive_brdf(adaptive_brdf_parts parts) {
   detail::require_material(parts);
-  tables_ = std::make_shared<const stored>(summed_up(std::move(parts)));
+  tables_ = std::make_shared<const stored>(std::move(parts));
 }
 
-GONIO_INLINE adaptive_brdf::stored adaptive_brdf::summed_up(adaptive_brdf_parts parts) {
-  unit_square_tables& density = parts.visible_normals;
-  const auto [tables, rows, columns] = std::tuple(density.tables, density.rows, density.columns);
-  unit_square_tables along = density;
-  unit_square_tables across{1, tables, rows, std::vector<float>(tables * rows)};
-  const Eigen::Index size = rows * columns;
-  for (Eigen::Index t = 0; t < tables; ++t) {
-    Eigen::Map<Eigen::ArrayXf> values(density.values.data() + t * size, size);
-    const detail::table_sums sums(values.data(), rows, columns);
-    // Scale the whole to 1: between two theta_i, sums are interpolated.
-    const double sum = sums.total();
-    if (!(sum > 0.0)) refuse({"no normals are visible from theta_i number ", t});
-    values = (values.cast<double>() / sum).cast<float>();
-    Eigen::Map<Eigen::ArrayXf>(along.values.data() + t * size, size) = (sums.along / sum).cast<float>();
-    Eigen::Map<Eigen::ArrayXf>(across.values.data() + t * rows, rows) = (sums.across / sum).cast<float>();
-  }
-  return {std::move(parts), std::move(along), std::move(across)};
+GONIO_INLINE const adaptive_brdf_parts& adaptive_brdf::parts() const noexcept { return tables_->parts; }
+
+GONIO_INLINE rgb adaptive_brdf::operator()(const direction& wi, const direction& wo) const noexcept {
+  if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
+  const direction sum = wi + wo;
+  const double along = detail::polar_coordinate(sum);
+  // Step by step of both: while the processor waits for one it does the other.
+  const stored& tables = *tables_;
+  const stored::place first(wi, sum, along), second(wo, sum, along);
+  const stored::mapped one = tables.map(first, wo.z()), other = tables.map(second, wi.z());
+  return 0.5 * (tables.value(one) + tables.value(other));
 }
 
 GONIO_INLINE rgb adaptive_brdf::as_measured(const direction& wi, const direction& wo) const noexcept {
   if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
-  const auto& [theta_i, normals, area, visible, reflectance] = tables_->parts;
-  // Map the half vector to the unit square, its azimuth relative to the light's.
   const direction sum = wi + wo;
-  const double turns = detail::relative_azimuth(sum, wi) / (2.0 * std::numbers::pi) + 0.5;
-  const double theta = polar_angle(wi);
-  const detail::square_point half{turns - std::floor(turns), detail::polar_coordinate(polar_angle(sum))};
-  const detail::square_point light{0.5, detail::polar_coordinate(theta)};
-  // Look the three channels up where the visible normals map it to, and undo what they were divided by.
-  const double divisor = 4.0 * wo.z() * detail::square_patch(area, light).value(area, 0);
-  if (!(divisor > 0.0)) return rgb::Zero();
-  const double scale = detail::square_patch(normals, half).value(normals, 0) / divisor;
-  const detail::neighbouring_angles angles(theta_i, theta);
-  const detail::square_patch patch(
-      reflectance, detail::visible_position(visible, tables_->along_rows, tables_->across_rows, half, angles));
-  rgb value;
-  for (Eigen::Index c = 0; c < 3; ++c)
-    value[c] = scale * angles.interpolate([&](Eigen::Index t) { return patch.value(reflectance, 3 * t + c); });
-  return value;
+  return tables_->value(tables_->map(stored::place(wi, sum, detail::polar_coordinate(sum)), wo.z()));
 }
 
 }  // namespace gonio::model

@@ -98,7 +98,7 @@ class normal_distribution {
   return low + root > 0.0 ? std::clamp(2.0 * wanted / (low + root), 0.0, 1.0) : 0.0;
 }
 
-/// The inverse of `visible_position` at one theta_i.
+/// The inverse of `visible_lookup::position` at one theta_i.
 class visible_normal_quantiles {
  public:
   visible_normal_quantiles(const float* density, Eigen::Index rows, Eigen::Index columns)
@@ -162,7 +162,7 @@ class visible_normal_quantiles {
 }
 
 [[nodiscard]] inline double normal_density_at(const unit_square_tables& normals, const square_point& at) {
-  return square_patch(normals, at).value(normals, 0);
+  return table_lookup(normals).value(at);
 }
 
 [[nodiscard]] inline direction light_at(const adaptive_brdf_parts& parts, Eigen::Index number) {
@@ -176,8 +176,7 @@ inline void fill_reflectance(const brdf_function& f, const adaptive_brdf_parts& 
   const unit_square_tables& visible = parts.visible_normals;
   const visible_normal_quantiles quantiles(visible.row(number, 0), visible.rows, visible.columns);
   const direction wi = light_at(parts, number);
-  const square_point light{0.5, polar_coordinate(polar_angle(wi))};
-  const double area = square_patch(parts.projected_area, light).value(parts.projected_area, 0);
+  const double area = table_lookup(parts.projected_area).value({0.5, polar_coordinate(wi)});
   const Eigen::Index size = reflectance.rows * reflectance.columns;
   float* red = reflectance.values.data() + 3 * number * size;
   for (Eigen::Index i = 0; i < size; ++i) {
