@@ -1,8 +1,8 @@
-# Included by a project beside the library that is built alone: takes gonio from where it is installed (CMAKE_PREFIX_PATH).
-# gonio_components names the parts that the project needs, gonio_optional_components those it uses if they are there.
-find_package(gonio 0.2 REQUIRED CONFIG COMPONENTS ${gonio_components}
-             OPTIONAL_COMPONENTS compiled image exr tiff exif scattered ${gonio_optional_components})
-foreach(part IN ITEMS image exr tiff exif scattered shape)
+# Included by a project beside the library that is built alone: takes gonio from where it is installed (CMAKE_PREFIX_PATH),
+# with the parts in gonio_optional_components if they are there.
+find_package(gonio 0.2 REQUIRED CONFIG COMPONENTS image
+             OPTIONAL_COMPONENTS compiled exr tiff exif scattered ${gonio_optional_components})
+foreach(part IN ITEMS image exr tiff exif scattered)
   set(gonio_has_${part} ${gonio_${part}_FOUND})
 endforeach()
 include("${CMAKE_CURRENT_LIST_DIR}/project.cmake")
@@ -15,3 +15,8 @@ if(gonio_compiled_FOUND)
 endif()
 gonio_add_executables()
 enable_testing()
+# All of a project's targets share this one's precompiled header.
+file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp" CONTENT "// Nothing but the precompiled header.\n")
+add_library(gonio_precompiled OBJECT "${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp")
+target_link_libraries(gonio_precompiled PRIVATE gonio_executables gonio_warnings gonio_native)
+gonio_precompile(gonio_precompiled)
