@@ -14,6 +14,7 @@
 #include <gonio/model/impl/polar_grid_brdf.ipp>
 #include <gonio/model/impl/sampling_techniques.ipp>
 #include <gonio/model/impl/smooth_spectra.ipp>
+#include <gonio/model/impl/sufficient_wavelengths.ipp>
 #include <gonio/model/impl/tabulate_adaptively.ipp>
 
 namespace gonio {

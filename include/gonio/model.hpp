@@ -21,6 +21,7 @@
 #include <gonio/model/polar_grid_brdf.hpp>
 #include <gonio/model/sampling_techniques.hpp>
 #include <gonio/model/smooth_spectra.hpp>
+#include <gonio/model/sufficient_wavelengths.hpp>
 #include <gonio/model/sum_of_lobes.hpp>
 #include <gonio/model/tabulate_adaptively.hpp>
 #include <gonio/model/torrance_sparrow.hpp>

@@ -109,7 +109,7 @@ TEST_CASE("gonio learn --spectra: a column for each wavelength, which the prior 
   run(learn + "--wavelengths 450:75:600 -o " + at("between.prior"));
   CHECK(gonio::io::read_prior(at("between.prior")).wavelengths() == std::vector<double>{450.0, 525.0, 600.0});
 
-  run("expand --prior " + at("one.prior") + " --name paint-1 -o " + at("paint.bsdf"));
+  run("expand --prior " + at("one.prior") + " --name paint-1 --albedo-tolerance 0 -o " + at("paint.bsdf"));
   CHECK(gonio::io::read_rgl(at("paint.bsdf")).spectra->wavelengths == prior.wavelengths());
   run("expand --prior " + at("one.prior") + " --name paint-1 --weights 0.1 -o " + at("paint.binary"));
   refuses("expand --prior " + at("one.prior") + " --weights 1 --weights 2 -o " + at("x.binary"), {"--weights", "4"});

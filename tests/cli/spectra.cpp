@@ -108,6 +108,31 @@ TEST_CASE("a .bsdf has the wavelengths of a file that names them, with --spectra
   CHECK(!gonio::io::read_rgl(files.at("lamplit.bsdf")).spectra);  // colours were asked for
 }
 
+TEST_CASE("a .bsdf has those wavelengths between which spectra are straight, and says how many") {
+  const measured_files files;
+  std::vector<double> wavelengths;
+  for (double wavelength = 400.0; wavelength <= 700.0; wavelength += 10.0) wavelengths.push_back(wavelength);
+  gonio::io::write_samples(files.at("fine.csv"), measured_paint(wavelengths));
+  const std::string reconstruct = "reconstruct " + files.at("fine.csv") + " -o ";
+  const auto written = [&](const char* name) { return gonio::io::read_rgl(files.at(name)).spectra->wavelengths; };
+  CHECK(run(reconstruct + files.at("few.bsdf"))
+            .find("few.bsdf: " + std::to_string(written("few.bsdf").size()) +
+                  " of 31 wavelengths, linear between them within 0.6 %") != std::string::npos);
+  CHECK(written("few.bsdf").size() < 16);
+  CHECK(written("few.bsdf").back() == 700.0);
+  CHECK(run(reconstruct + files.at("fewer.bsdf") + " --albedo-tolerance 0.05").find("within 5 %") != std::string::npos);
+  CHECK(written("fewer.bsdf").size() < written("few.bsdf").size());
+  CHECK(run(reconstruct + files.at("all.bsdf") + " --albedo-tolerance 0").find("within") == std::string::npos);
+  CHECK(written("all.bsdf") == wavelengths);
+  const gonio::direction wi = gonio::spherical_direction(0.4, 0.0), wo = gonio::spherical_direction(0.7, 2.0);
+  const gonio::rgb all = gonio::io::read_rgl(files.at("all.bsdf")).material(wi, wo),
+                   few = gonio::io::read_rgl(files.at("few.bsdf")).material(wi, wo);
+  CHECK(((few / all - 1.0).abs() < 0.006).all());
+  refuses(reconstruct + files.at("t.binary") + " --albedo-tolerance 0.1", {"--albedo-tolerance needs", ".bsdf"});
+  refuses("expand --formula red-paint --albedo-tolerance 0.1 -o " + files.at("t.npy"),
+          {"--albedo-tolerance needs", ".bsdf"});
+}
+
 TEST_CASE("wavelengths that nobody sees are fitted and checked as such, and never made grey") {
   const measured_files files;
   const std::vector<double> near_infrared{905, 1064, 1550};

@@ -33,7 +33,7 @@ TEST_CASE("a spectral table is written as a spectral material, and its spectra a
     table.values().row(cell).array() += static_cast<float>(0.4 * std::exp(-theta_h * theta_h / 0.1));
   }
   const auto path = here / "paint.bsdf";
-  gonio::io::write_rgl(path, gonio::io::tabulate_adaptively(table, "paint"));
+  gonio::io::write_rgl(path, gonio::io::tabulate_adaptively(table, 0.0, "paint"));
   const auto read = gonio::io::read_rgl(path);
   REQUIRE(read.spectra);
   CHECK(read.description == "paint");
@@ -54,7 +54,7 @@ TEST_CASE("a spectral table is written as a spectral material, and its spectra a
 
 TEST_CASE("the tables of three wavelengths are those of the material that has them as channels") {
   const gonio::spectral_table table = diffuse_table();
-  const auto material = gonio::io::tabulate_adaptively(table);
+  const auto material = gonio::io::tabulate_adaptively(table, 0.0);
   const auto again = gonio::model::tabulate_over(material.material, table.colours());
   const std::vector<float>& expected = material.material.parts().reflectance.values;
   REQUIRE(again.values.size() == expected.size());
@@ -64,7 +64,7 @@ TEST_CASE("the tables of three wavelengths are those of the material that has th
     largest = std::max(largest, std::abs(double{expected[i]}));
   }
   CHECK(worst < 1e-3 * largest);
-  const auto same = gonio::io::tabulate_adaptively(table, "gonio", gonio::thread_count{3});
+  const auto same = gonio::io::tabulate_adaptively(table, 0.0, "gonio", gonio::thread_count{3});
   CHECK(same.spectra->values.values == material.spectra->values.values);
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("spectra over cells are those in the cells' directions") {
   gonio::spectral_table table = diffuse_table();
   for (Eigen::Index cell = 0; cell < cells().size(); ++cell)
     table.values().row(cell).array() += static_cast<float>(0.1 * cells().angles(cell).theta_h);
-  const auto material = gonio::io::tabulate_adaptively(table);
+  const auto material = gonio::io::tabulate_adaptively(table, 0.0);
   const gonio::valid_cells coarse(gonio::grid({7, 5, 6}));
   const auto found = gonio::io::tabulate_spectra(material, coarse);
   CHECK(found.wavelengths() == table.wavelengths());
@@ -89,7 +89,7 @@ TEST_CASE("spectra over cells are those in the cells' directions") {
 }
 
 TEST_CASE("spectra at other wavelengths are linear between their own") {
-  const auto material = gonio::io::tabulate_adaptively(diffuse_table());
+  const auto material = gonio::io::tabulate_adaptively(diffuse_table(), 0.0);
   const gonio::io::rgl_spectra& known = *material.spectra;
   const auto same = gonio::io::at_wavelengths(known, known.wavelengths);
   CHECK(same.values.values == known.values.values);
@@ -113,6 +113,28 @@ TEST_CASE("spectra at other wavelengths are linear between their own") {
       {"from 420 to 660 nm", "from 410 to"});
   check_refused([&] { return gonio::io::at_wavelengths(known, {500.0, 661.0}); }, {"to 661 nm"});
   check_refused([&] { return gonio::io::at_wavelengths(known, {500.0, 500.0}); }, {"wavelength 2"});
+}
+
+TEST_CASE("what is read between the wavelengths that are written is within the tolerance") {
+  std::vector<double> wavelengths;
+  for (double nanometres = 400.0; nanometres <= 700.0; nanometres += 5.0) wavelengths.push_back(nanometres);
+  gonio::spectral_table table(cells(), wavelengths);
+  for (Eigen::Index cell = 0; cell < cells().size(); ++cell)
+    for (Eigen::Index band = 0; band < table.bands(); ++band)
+      table.values()(cell, band) = static_cast<float>((0.2 + 0.1 * std::sin(wavelengths[band] / 80.0)) *
+                                                      (1.5 - cells().angles(cell).theta_h / 2.0));
+  const auto written = gonio::io::tabulate_adaptively(table), whole = gonio::io::tabulate_adaptively(table, 0.0);
+  CHECK(whole.spectra->wavelengths == wavelengths);
+  CHECK(written.spectra->wavelengths.size() < 20);
+  CHECK(written.spectra->wavelengths.back() == 700.0);
+  const auto read = gonio::io::at_wavelengths(*written.spectra, wavelengths);
+  const std::vector<float>&expected = whole.spectra->values.values, &found = read.values.values;
+  REQUIRE(found.size() == expected.size());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    worst = std::max(worst, std::abs(double{found[i]} - double{expected[i]}) / std::abs(double{expected[i]}));
+  CHECK(worst < 1.001 * gonio::model::usual_albedo_tolerance);
+  CHECK(worst > 0.5 * gonio::model::usual_albedo_tolerance);
 }
 
 TEST_CASE("what is no spectral material is refused") {

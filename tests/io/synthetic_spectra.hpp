@@ -21,6 +21,6 @@ inline void write_synthetic_spectra(const std::filesystem::path& folder, Eigen::
     gonio::spectral_table table(set.cells, wavelengths);
     for (Eigen::Index band = 0; band < bands; ++band) table.values().col(band) = set.values.col(3 * m + band % 3);
     const std::string name = "paint-" + std::to_string(m);
-    gonio::io::write_rgl(folder / (name + ".bsdf"), gonio::io::tabulate_adaptively(table, name));
+    gonio::io::write_rgl(folder / (name + ".bsdf"), gonio::io::tabulate_adaptively(table, 0.0, name));
   }
 }

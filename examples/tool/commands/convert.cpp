@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "tool/files/file_kinds.hpp"
 #include "tool/files/measurement_files.hpp"
+#include "tool/options/albedo_tolerance_option.hpp"
 #include "tool/options/threads_option.hpp"
 #include <gonio/core/error.hpp>
 
@@ -33,7 +34,7 @@ void convert(const convert_options& options) {
   needs(options.how.as_spectra, "--spectra", {".bsdf"});
   needs(options.how.polar_steps != 0, "--polar-steps", {".mbsdf", ".xompt"});
   needs(options.how.as_halves, "--half", {".npy"});
-  needs(options.how.albedo_tolerance != gonio::model::usual_albedo_tolerance, "--albedo-tolerance", {".bsdf"});
+  require_bsdf(options.how.albedo_tolerance, options.output);
   write_file(options.output, read_file(options.input, options.reading), options.how);
 }
 
@@ -66,12 +67,7 @@ void add_convert(command& app) {
           "azimuth, from 0 to 180 or 360. By default .xompt has 18 and 36, .mbsdf as many as a table has of "
           "theta_d and phi_d, or 90 and 180")
       .check(check::range(2, 360));
-  command
-      .add_option("--albedo-tolerance", options->how.albedo_tolerance,
-                  "Of a .bsdf file that is made of another kind of file: how much its tables may change the albedo, "
-                  "relative to it; they take 7, 13 or 24 MB")
-      .check(check::range(0.0, 1.0))
-      .capture_default_str();
+  add_albedo_tolerance_option(command, options->how.albedo_tolerance);
   command.add_flag("--half", options->how.as_halves,
                    "Of a .npy file: half floats, which have 11 bits and end at 65504, instead of float32");
   add_threads_option(command, options->how.threads);

@@ -4,6 +4,7 @@
 #include "tool/files/file_kinds.hpp"
 #include "tool/files/file_start.hpp"
 #include "tool/files/measurement_files.hpp"
+#include "tool/options/albedo_tolerance_option.hpp"
 #include "tool/options/chosen_networks.hpp"
 #include "tool/options/prior_material.hpp"
 #include "tool/options/prior_option.hpp"
@@ -14,7 +15,6 @@
 #include <gonio/io/materials/merl.hpp>
 #include <gonio/io/materials/networks.hpp>
 #include <gonio/io/materials/prior.hpp>
-#include <gonio/io/materials/rgl_spectra.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/model/formula_materials.hpp>
 
@@ -35,7 +35,7 @@ struct expand_options {
   std::string name, formula;
   std::vector<std::string> weights;  ///< lists of numbers: one for all channels (or wavelengths), or one for each
   bool in_deviations = false;
-  gonio::thread_count threads;
+  writing how;
 };
 
 /// The numbers of a list, as 0.5,-1,2.
@@ -77,9 +77,9 @@ void require_finite(const expand_options& options, std::span<const float> values
 /// Spectra where the format holds them, else their colours.
 void write_spectra(const expand_options& options, const gonio::spectral_table& table) {
   if (lower_extension(options.output) != ".bsdf" || table.bands() == 1)
-    return write_table(options.output, table.colours(gonio::illuminant::d65, options.threads));
-  const std::string name = options.name.empty() ? options.output.stem().string() : options.name;
-  write_file(options.output, gonio::io::tabulate_adaptively(table, name, options.threads));
+    return write_file(options.output, table.colours(gonio::illuminant::d65, options.how.threads), options.how);
+  write_spectra(options.output, table, options.name.empty() ? options.output.stem().string() : options.name,
+                options.how);
 }
 
 /// One of the materials a prior was learned from, by the coefficients that it stores, or its mean; and what the weights
@@ -90,23 +90,24 @@ void write_of_prior(const expand_options& options, const gonio::valid_cells& cel
   if (!options.name.empty()) weights = prior.weights_of(material_number(prior, options.name, options.prior));
   if (!options.weights.empty()) weights += given_weights(options, prior);
   if (prior.wavelengths().empty()) {
-    const gonio::brdf_table table = gonio::fitted_brdf(prior, std::move(weights)).tabulate(cells, options.threads);
+    const gonio::brdf_table table = gonio::fitted_brdf(prior, std::move(weights)).tabulate(cells, options.how.threads);
     require_finite(options, table.values());
-    return write_table(options.output, table);
+    return write_file(options.output, table, options.how);
   }
   const gonio::fitted_brdf fitted(prior, std::move(weights), {}, gonio::channels(prior.wavelengths()));
-  const gonio::spectral_table table = fitted.tabulate_spectra(cells, options.threads);
+  const gonio::spectral_table table = fitted.tabulate_spectra(cells, options.how.threads);
   require_finite(options, {table.values().data(), static_cast<std::size_t>(table.values().size())});
   write_spectra(options, table);
 }
 
 void expand(const expand_options& options, const gonio::valid_cells& cells) {
   if (!options.formula.empty())
-    return write_table(options.output,
-                       gonio::tabulate(gonio::model::formula_material(options.formula), cells, options.threads));
+    return write_file(options.output,
+                      gonio::tabulate(gonio::model::formula_material(options.formula), cells, options.how.threads),
+                      options.how);
   if (options.networks.empty()) return write_of_prior(options, cells);
   const auto chosen = networks_in(gonio::io::read_networks(options.networks), {options.name});
-  write_table(options.output, gonio::model::tabulate_networks(chosen, cells, options.threads).table(0));
+  write_file(options.output, gonio::model::tabulate_networks(chosen, cells, options.how.threads).table(0), options.how);
 }
 
 }  // namespace
@@ -141,11 +142,13 @@ void add_expand(command& app) {
       .add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
                   "Table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)")
       .required();
-  add_threads_option(command, options->threads);
+  add_albedo_tolerance_option(command, options->how.albedo_tolerance);
+  add_threads_option(command, options->how.threads);
   command.callback([options] {
     if (options->formula.empty() && options->name.empty() && options->weights.empty())
       gonio::refuse(
           "expand needs a material: --name NAME (of --prior or --networks), --weights W1,W2,... or --formula NAME");
+    require_bsdf(options->how.albedo_tolerance, options->output);
     expand(*options, gonio::valid_cells());
   });
 }

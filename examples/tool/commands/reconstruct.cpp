@@ -5,6 +5,7 @@
 #include "tool/files/file_start.hpp"
 #include "tool/files/json.hpp"
 #include "tool/files/measurement_files.hpp"
+#include "tool/options/albedo_tolerance_option.hpp"
 #include "tool/options/materials.hpp"
 #include "tool/options/prior_option.hpp"
 #include "tool/options/reconstruct_choice.hpp"
@@ -15,7 +16,6 @@
 #include "tool/pages/uncertainty_image.hpp"
 #include "tool/pages/warning.hpp"
 #include <gonio/io/bytes/file.hpp>
-#include <gonio/io/materials/rgl_spectra.hpp>
 
 #include <algorithm>
 #include <array>
@@ -67,9 +67,10 @@ void write_sphere(const reconstruct_options& options, const gonio::brdf_table& t
 
 /// Spectra where the format holds them, else the table.
 void write_result(const reconstruct_options& options, const reconstruction& result) {
-  if (lower_extension(options.output) != ".bsdf" || !result.spectra) return write_table(options.output, result.table);
-  const std::string name = options.output.stem().string();
-  write_file(options.output, gonio::io::tabulate_adaptively(*result.spectra, name, options.threads));
+  const writing how{.albedo_tolerance = options.albedo_tolerance, .threads = options.threads};
+  if (lower_extension(options.output) != ".bsdf" || !result.spectra)
+    return write_file(options.output, result.table, how);
+  write_spectra(options.output, *result.spectra, options.output.stem().string(), how);
 }
 
 /// The samples in the channels that are fitted: wavelengths stay what they are if that is asked for, or where the
@@ -207,6 +208,7 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
   // Declare what is written.
   command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
                      "Table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)");
+  add_albedo_tolerance_option(command, options->albedo_tolerance);
   auto image = command.add_output("--image", options->image, {".png"}, "Image of a sphere to write (.png)");
   add_image_options(command, *how, image);
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
@@ -216,6 +218,7 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
     take_given(*options, [&](const std::string& option) { return command.count(option) > 0; });
     if (command.count("--truth") > 0 && command.count("--iteration-figure") == 0)
       gonio::refuse("--truth requires --iteration-figure");
+    require_bsdf(options->albedo_tolerance, options->output);
     reconstruct_and_write(*options, *how);
   });
 }

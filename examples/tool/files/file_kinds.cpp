@@ -5,12 +5,14 @@
 #include "tool/pages/warning.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/io/materials/rgl_spectra.hpp>
 #include <gonio/io/materials/table_npy.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/io/text/text.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cli {
 
@@ -196,6 +198,17 @@ const file_kind& written_kind(const fs::path& path) {
 
 void write_file(const fs::path& path, const file_content& content, const writing& how) {
   written_kind(path).write(path, content, how);
+}
+
+void write_spectra(const fs::path& path, const gonio::spectral_table& table, const std::string& description,
+                   const writing& how) {
+  const file_content content = io::tabulate_adaptively(table, how.albedo_tolerance, description, how.threads);
+  const std::size_t written = std::get<io::rgl_material>(content).spectra->wavelengths.size();
+  if (written < table.wavelengths().size())
+    warn(path.native() + ": " + std::to_string(written) + " of " + std::to_string(table.bands()) +
+         " wavelengths, linear between them within " + io::shortest(std::round(1e6 * how.albedo_tolerance) / 1e4) +
+         " %");
+  write_rgl(path, content, how);
 }
 
 }  // namespace cli

@@ -9,6 +9,7 @@
 #include <gonio/model/tabulate_adaptively.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
+#include <gonio/table/spectral_table.hpp>
 
 #include <cstddef>
 #include <filesystem>
@@ -56,5 +57,9 @@ struct file_kind {
 
 /// Writes a file of the kind that its name asks for.
 void write_file(const std::filesystem::path& path, const file_content& content, const writing& how = {});
+
+/// Writes a material in spectra (.bsdf) by those of its wavelengths that suffice, and says how many these are.
+void write_spectra(const std::filesystem::path& path, const gonio::spectral_table& table,
+                   const std::string& description, const writing& how);
 
 }  // namespace cli

@@ -15,6 +15,7 @@
 #include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/interpolate/scattered_options.hpp>
 #include <gonio/metric/any_metric.hpp>
+#include <gonio/model/tabulate_adaptively.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/robust/corrected_brdf.hpp>
 #include <gonio/solve/tikhonov.hpp>
@@ -50,6 +51,7 @@ struct reconstruct_options {
   material_source materials;
   solver_choice solver;
   bool print_json = false;
+  double albedo_tolerance = gonio::model::usual_albedo_tolerance;  ///< of a .bsdf
   gonio::thread_count threads;
 
   /// Is nothing written that shows colours?

@@ -77,15 +77,14 @@ template <brdf Brdf>
   });
 }
 
-/// The directional-hemispherical reflectance: the integral over wi of f cos theta_i, for a viewer (by reciprocity, a
-/// light) at an angle from the normal, in radians and below pi / 2. The midpoint rule over half vectors in
-/// sqrt(theta_h), which resolves highlights wider than about 1e-4 radians: `bins`^2 evaluations, an error of about 2e-3
-/// where the lobe meets the horizon.
-template <brdf Brdf>
-[[nodiscard]] rgb directional_albedo(const Brdf& f, double theta, int bins = 400) {
+namespace detail {
+
+/// Calls `add(wi, wo, weight)` for a viewer at an angle from the normal, such that the sum of f times weight is
+/// `directional_albedo`.
+template <class Add>
+void for_each_light(double theta, int bins, const Add& add) {
   constexpr double pi = std::numbers::pi;
   const direction wo = spherical_direction(theta, 0.0);
-  rgb sum = rgb::Zero();
   for (int i = 0; i < bins; ++i) {
     const double s = (i + 0.5) / bins, theta_h = s * s * pi / 2.0;
     const double area = std::sin(theta_h) * (2.0 * s * pi / 2.0 / bins) * (2.0 * pi / bins);
@@ -93,9 +92,22 @@ template <brdf Brdf>
       const direction h = spherical_direction(theta_h, (k + 0.5) * 2.0 * pi / bins);
       const double cosine = h.dot(wo);
       const direction wi = 2.0 * cosine * h - wo;
-      if (cosine > 0.0 && wi.z() > 0.0) sum += rgb(f(wi, wo)) * (4.0 * cosine * area * wi.z());
+      if (cosine > 0.0 && wi.z() > 0.0) add(wi, wo, 4.0 * cosine * area * wi.z());
     }
   }
+}
+
+}  // namespace detail
+
+/// The directional-hemispherical reflectance: the integral over wi of f cos theta_i, for a viewer (by reciprocity, a
+/// light) at an angle from the normal, in radians and below pi / 2. The midpoint rule over half vectors in
+/// sqrt(theta_h), which resolves highlights wider than about 1e-4 radians: `bins`^2 evaluations, an error of about 2e-3
+/// where the lobe meets the horizon.
+template <brdf Brdf>
+[[nodiscard]] rgb directional_albedo(const Brdf& f, double theta, int bins = 400) {
+  rgb sum = rgb::Zero();
+  detail::for_each_light(
+      theta, bins, [&](const direction& wi, const direction& wo, double weight) { sum += rgb(f(wi, wo)) * weight; });
   return sum;
 }
 

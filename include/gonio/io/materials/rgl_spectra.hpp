@@ -4,6 +4,7 @@
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/io/materials/rgl.hpp>
+#include <gonio/model/tabulate_adaptively.hpp>
 #include <gonio/table/sample_set.hpp>
 #include <gonio/table/spectral_table.hpp>
 
@@ -13,11 +14,13 @@
 
 namespace gonio::io {
 
-/// A spectral table as the spectral variant of a material, for pbrt-v4 and Mitsuba's spectral variants: `write_rgl`
-/// writes it. Throws gonio::error for fewer than two wavelengths. The cost of
-/// `model::tabulate_adaptively` and of a `model::tabulate_over` for each three wavelengths.
-[[nodiscard]] rgl_material tabulate_adaptively(const spectral_table& table, const std::string& description = "gonio",
-                                               thread_count threads = {});
+/// A spectral table as the spectral variant of a material, for pbrt-v4 and Mitsuba's spectral variants, which
+/// interpolate linearly between wavelengths: those that suffice within `tolerance` (`model::sufficient_wavelengths`).
+/// `write_rgl` writes it. Throws gonio::error for fewer than two wavelengths. The cost of `model::tabulate_adaptively`
+/// and of a `model::tabulate_over` for each three wavelengths.
+[[nodiscard]] rgl_material tabulate_adaptively(const spectral_table& table,
+                                               double tolerance = model::usual_albedo_tolerance,
+                                               const std::string& description = "gonio", thread_count threads = {});
 
 /// Spectra at other wavelengths, in nanometres: linear between their own, as renderers read them. Throws gonio::error
 /// for wavelengths that are none, or beyond their own. O(values).

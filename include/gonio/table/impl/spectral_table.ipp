@@ -4,6 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/wavelengths.hpp>
 #include <gonio/table/spectral_table.hpp>
 
 #include <algorithm>

@@ -3,8 +3,10 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/spectrum.hpp>
 #include <gonio/io/materials/rgl_spectra.hpp>
 #include <gonio/io/text/text.hpp>
+#include <gonio/model/sufficient_wavelengths.hpp>
 
 #include <algorithm>
 #include <array>
@@ -15,12 +17,13 @@
 
 namespace gonio::io::detail {
 
-/// Three wavelengths of a spectral table in the places of red, green and blue; the last one stands for those that there
-/// are not.
+/// Three of some wavelengths of a spectral table in the places of red, green and blue; the last one stands for those
+/// that there are not.
 class three_wavelengths {
  public:
-  three_wavelengths(const spectral_table& table, Eigen::Index first) : table_(table) {
-    for (Eigen::Index c = 0; c < 3; ++c) bands_[c] = std::min(first + c, table.bands() - 1);
+  three_wavelengths(const spectral_table& table, std::span<const Eigen::Index> chosen, Eigen::Index first)
+      : table_(table) {
+    for (Eigen::Index c = 0; c < 3; ++c) bands_[c] = chosen[std::min(first + c, std::ssize(chosen) - 1)];
   }
 
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
@@ -76,23 +79,23 @@ GONIO_INLINE void require_in_spectra(const rgl_material& material) {
 
 namespace gonio::io {
 
-GONIO_INLINE rgl_material tabulate_adaptively(const spectral_table& table, const std::string& description,
-                                              thread_count threads) {
-  const Eigen::Index bands = table.bands();
-  if (bands < 2) refuse("a spectral material needs at least two wavelengths, not one: write a table in RGB");
+GONIO_INLINE rgl_material tabulate_adaptively(const spectral_table& table, double tolerance,
+                                              const std::string& description, thread_count threads) {
+  if (table.bands() < 2) refuse("a spectral material needs at least two wavelengths, not one: write a table in RGB");
+  const std::vector<Eigen::Index> chosen = model::sufficient_wavelengths(table, tolerance, threads);
   // Where and how finely to tabulate is told by the colours, or by three wavelengths where nobody sees one.
   const bool has_colours = std::ranges::any_of(table.wavelengths(), is_visible);
   rgl_material made{has_colours ? model::tabulate_adaptively(table.colours(illuminant::d65, threads), {}, threads)
-                                : model::tabulate_adaptively(detail::three_wavelengths(table, 0), {}, threads),
+                                : model::tabulate_adaptively(detail::three_wavelengths(table, chosen, 0), {}, threads),
                     description,
                     {}};
   const model::unit_square_tables& colours = made.material.parts().reflectance;
-  const Eigen::Index size = colours.rows * colours.columns, angles = colours.tables / 3;
-  rgl_spectra spectra{table.wavelengths(),
-                      {angles * bands, colours.rows, colours.columns, std::vector<float>(angles * bands * size)}};
+  const Eigen::Index size = colours.rows * colours.columns, angles = colours.tables / 3, bands = std::ssize(chosen);
+  rgl_spectra spectra{{}, {angles * bands, colours.rows, colours.columns, std::vector<float>(angles * bands * size)}};
+  for (const Eigen::Index band : chosen) spectra.wavelengths.push_back(table.wavelengths()[band]);
   for (Eigen::Index first = 0; first < bands; first += 3) {
     const model::unit_square_tables three =
-        model::tabulate_over(made.material, detail::three_wavelengths(table, first), threads);
+        model::tabulate_over(made.material, detail::three_wavelengths(table, chosen, first), threads);
     detail::for_each_shared_table(angles, bands, first, [&](auto colour, auto target) {
       std::copy_n(three.row(colour, 0), size, spectra.values.values.data() + target * size);
     });

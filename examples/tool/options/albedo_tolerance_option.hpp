@@ -1,0 +1,29 @@
+#pragma once
+/// How far materials for renderers may be off what they are made of.
+
+#include "command.hpp"
+#include "tool/files/file_start.hpp"
+#include <gonio/core/error.hpp>
+#include <gonio/model/tabulate_adaptively.hpp>
+
+#include <filesystem>
+
+namespace cli {
+
+/// Adds `--albedo-tolerance X`.
+inline void add_albedo_tolerance_option(command& to, double& tolerance) {
+  to.add_option("--albedo-tolerance", tolerance,
+                "Of a .bsdf file that is made of another kind of file: how much it may change the albedo, relative to "
+                "it. In RGB its tables take 7, 13 or 24 MB; measured wavelengths are left out where all values are "
+                "linear between the others within it, none if it is 0")
+      .check(check::range(0.0, 1.0))
+      .capture_default_str();
+}
+
+/// Throws gonio::error if a tolerance is asked for, and the output is no .bsdf file.
+inline void require_bsdf(double tolerance, const std::filesystem::path& output) {
+  if (tolerance != gonio::model::usual_albedo_tolerance && lower_extension(output) != ".bsdf")
+    gonio::refuse({"--albedo-tolerance needs an output that ends in .bsdf, not ", output.native()});
+}
+
+}  // namespace cli
