@@ -5,9 +5,10 @@ set(results "${source}/build/demo-results")
 
 gonio_set_up(${gonio_library_packages})
 
+# At -O1 it is built a tenth sooner, and runs as fast: what takes long is vectorised by hand.
 message("-- Building the gonio tool")
 execute_process(COMMAND "${CMAKE_COMMAND}" -S "${source}" -B "${source}/build/demo" -G Ninja
-                        -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" -D GONIO_NATIVE=ON
+                        -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG" -D GONIO_NATIVE=ON
                         -D GONIO_BUILD_TESTS=OFF -D GONIO_BUILD_BENCH=OFF
                         "-DGONIO_TOOL_COMMANDS=expand;sample;reconstruct;report;render;compare"
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)

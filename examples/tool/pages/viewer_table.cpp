@@ -37,7 +37,8 @@ json size_of(const gonio::grid& cells) {
   return {theta_h, theta_d, phi_d};
 }
 
-json packed(const std::vector<std::byte>& bytes) { return base64(gonio::io::compress_bytes(bytes)); }
+/// Level 9 would take fourteen times as long for 5 % less.
+json packed(const std::vector<std::byte>& bytes) { return base64(gonio::io::compress_bytes(bytes, 6)); }
 
 }  // namespace
 
