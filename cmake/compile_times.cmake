@@ -100,6 +100,10 @@ if(OUTPUT)
   get_property(table GLOBAL PROPERTY table)
   execute_process(COMMAND g++ -dumpfullversion OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE)
   string(TIMESTAMP today "%Y-%m-%d")
+  # What build_times.cmake prints stays below.
+  file(READ "${source}/${OUTPUT}" page)
+  string(FIND "${page}" "## README's two commands" begin)
+  string(SUBSTRING "${page}" ${begin} -1 after)
   file(WRITE "${source}/${OUTPUT}" "# What the headers cost a compiler
 
 Written by `cmake -D OUTPUT=${OUTPUT} -P cmake/compile_times.cmake`, ${today}, g++ ${version}. User CPU seconds and the largest
@@ -111,5 +115,6 @@ ${megabytes} MB here; it was compiled again before each line.
 ${heading}
 ${table}
 <!-- end of cmake -->
-")
+
+${after}")
 endif()
