@@ -24,6 +24,14 @@ TEST_CASE("the valid cells of MERL's grid are the reference's") {
   CHECK(crc32(0, mask.data(), static_cast<unsigned>(mask.size())) == golden["crc32"].get<unsigned long>());
 }
 
+TEST_CASE("a row's first valid cell is told with its linear index") {
+  const valid_cells cells(gonio::grid({20, 15, 24}));
+  for (Eigen::Index row = 0; row < 20 * 15; ++row) {
+    const Eigen::Index first = cells.row_begin(row);
+    if (first < cells.row_begin(row + 1)) CHECK(cells.row_linear(row) == cells.linear(first));
+  }
+}
+
 TEST_CASE("lower corners, and the stricter rule of one database") {
   const gonio::grid corner({}, gonio::cell_anchor::lower_corner);
   // Two more have a cosine of 1e-17 that is zero but for rounding.

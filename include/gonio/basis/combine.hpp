@@ -31,13 +31,14 @@ template <combinable_basis Basis>
   if constexpr (combining_basis<Basis>) {
     return functions.combination(weights, threads);
   } else {
-    const Eigen::MatrixXf columns = to_float(weights);
+    constexpr Eigen::Index ahead = 32;  // rows that are on their way from memory
+    const three_columns columns(weights);
     cell_fields<3> field(3, functions.cells().size());
     for_each_index(
-        functions.cells().size(), 4096,
+        field.cols(), 4096,
         [&](Eigen::Index cell) {
-          const auto sums = dot_each(functions.row(cell).data(), columns.data(), columns.rows());
-          std::ranges::copy(sums, &field(0, cell));
+          prefetch(functions.row(std::min(cell + ahead, field.cols() - 1)).data(), functions.size());
+          std::ranges::copy(columns.dot_each(functions.row(cell).data()), &field(0, cell));
         },
         threads);
     return field;

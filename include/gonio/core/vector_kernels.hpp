@@ -13,8 +13,37 @@ namespace gonio {
 [[nodiscard]] double dot(const double* a, const double* b, Eigen::Index count);
 [[nodiscard]] float dot(const float* a, const float* b, Eigen::Index count);
 
-/// Three of them at once, of a and each column of `columns`, which has as many rows.
-[[nodiscard]] std::array<float, 3> dot_each(const float* a, const float* columns, Eigen::Index rows);
+/// Three columns of numbers for dot products with many rows. They are kept by sixteens, of which the last starts where
+/// a row's last sixteen numbers do and is zero where it overlaps the one before: no product needs a remainder.
+class three_columns {
+ public:
+  explicit three_columns(const Eigen::MatrixXd& columns);
+
+  /// The sums of row[i] times each column's i-th number.
+  [[nodiscard]] std::array<float, 3> dot_each(const float* row) const {
+    sixteen sum_0 = sixteen::Zero(), sum_1 = sum_0, sum_2 = sum_0, short_row = sum_0;
+    if (rows_ < 16) row = std::copy_n(row, rows_, short_row.data()) - rows_;
+    const Eigen::Index last = std::max<Eigen::Index>(rows_ - 16, 0);
+    for (Eigen::Index s = 0; s < sixteens_.cols(); ++s) {
+      const sixteen these = Eigen::Map<const sixteen>(row + std::min(16 * s, last));
+      sum_0 += these * sixteens_.block<16, 1>(0, s);
+      sum_1 += these * sixteens_.block<16, 1>(16, s);
+      sum_2 += these * sixteens_.block<16, 1>(32, s);
+    }
+    return {sum_0.sum(), sum_1.sum(), sum_2.sum()};
+  }
+
+ private:
+  using sixteen = Eigen::Array<float, 16, 1>;
+  Eigen::Index rows_;
+  Eigen::Array<float, 48, Eigen::Dynamic> sixteens_;  // of each column one below the other
+};
+
+/// Asks for numbers that are read soon: they are at hand then.
+inline void prefetch(const float* numbers, Eigen::Index count) {
+  constexpr Eigen::Index line = 64 / sizeof(float);
+  for (Eigen::Index i = 0; i < count; i += line) __builtin_prefetch(numbers + i);
+}
 
 /// The root of the sum of a[i]^2, also where these squares are out of range.
 [[nodiscard]] double norm(const double* a, Eigen::Index count);

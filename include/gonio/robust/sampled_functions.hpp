@@ -3,6 +3,7 @@
 /// same rows and other weights of the samples: Noell, Koehler and Stricker 2014, Eq. 7-10.
 
 #include <gonio/basis/basis.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/gram.hpp>
 #include <gonio/solve/normal_equations.hpp>
@@ -122,7 +123,7 @@ class sampled_functions {
   void prefetch_row_after(Eigen::Index channel, Eigen::Index place) const noexcept {
     const Eigen::Index next = place + 4;
     if (next >= size()) return;
-    for (Eigen::Index k = 0; k < unknowns_; k += 16) __builtin_prefetch(rows_[channel][next] + k);
+    prefetch(rows_[channel][next], unknowns_);
   }
 
   void interpolate_between_cells(const std::vector<location>& locations) {

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <span>
 #include <vector>
 
@@ -114,13 +113,14 @@ struct extended_fields {
   template <class Read>
   extended_fields(const valid_cells& from, const Read& read, thread_count threads)
       : values(Fields, from.grid().size()) {
-    for_each_index(
-        values.cols(), 16384,
-        [&](Eigen::Index linear) {
-          float* fields = values.data() + Fields * linear;
-          read(from.representative(linear), fields);
-          for (int f = 0; f < Fields; ++f)
-            if (!(std::abs(fields[f]) <= largest_logarithm)) fit_progressions = false;
+    for_each_block(
+        values.cols(), 4096,
+        [&](block range) {
+          for (Eigen::Index linear = range.begin; linear < range.end; ++linear)
+            read(from.representative(linear), &values(0, linear));
+          const float largest =
+              values.middleCols(range.begin, range.size()).abs().template maxCoeff<Eigen::PropagateNaN>();
+          if (!(largest <= largest_logarithm)) fit_progressions = false;
         },
         threads);
   }
@@ -133,21 +133,16 @@ using fields_of_cell = Eigen::Array<float, Fields, 1>;
 /// The source's rows around a theta_h, blended, at the first theta_d of a run; and how much they grow to the next.
 template <int Fields>
 void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis_interval& h, const axis_run& run,
-                std::span<float> first, std::span<float> step) {
+                cell_fields<Fields>& first, cell_fields<Fields>& step) {
   const auto row = [&](Eigen::Index a, Eigen::Index d) {
-    return dense.data() + Fields * source.linear({h.node[a], static_cast<int>(d), 0});
+    return dense.middleCols(source.linear({h.node[a], static_cast<int>(run.around[d]), 0}), first.cols());
   };
-  const std::array nearer{row(0, run.around[0]), row(0, run.around[1])},
-      farther{row(1, run.around[0]), row(1, run.around[1])};
   const auto weight = static_cast<float>(h.weight[1]);
-  const auto blended = [&](Eigen::Index d, std::size_t i) {
-    return nearer[d][i] + weight * (farther[d][i] - nearer[d][i]);
-  };
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const float start = blended(0, i), growth = blended(1, i) - start;
-    first[i] = start + run.share * growth;
-    step[i] = run.step * growth;
-  }
+  const auto blended = [&](Eigen::Index d) { return row(0, d) + weight * (row(1, d) - row(0, d)); };
+  first = blended(0);
+  step = blended(1) - first;
+  first += run.share * step;
+  step *= run.step;
 }
 
 /// Interpolates a line over the source's phi_d to all of the target's.
@@ -155,16 +150,16 @@ template <int Fields, weighted_mean Mean>
 class phi_d_line {
  public:
   explicit phi_d_line(std::span<const axis_run> runs)
-      : runs_(runs), first_(Fields * runs.size()), step_(Fields * runs.size()) {}
+      : runs_(runs), progressions_(cell_fields<Fields>::Zero(Fields, (2 * runs.size() + 15) / 16 * 16)) {}
 
-  void interpolate(std::span<const float> line, float* out) {
+  void interpolate(const cell_fields<Fields>& line, cell_fields<Fields>& out) {
     begin_runs(line);
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-      const axis_run& run = runs_[r];
-      fields_of_cell<Fields> value = Eigen::Map<const fields_of_cell<Fields>>(&first_[Fields * r]);
-      const fields_of_cell<Fields> step = Eigen::Map<const fields_of_cell<Fields>>(&step_[Fields * r]);
-      for (Eigen::Index k = run.first; k < run.first + run.count; ++k) {
-        Eigen::Map<fields_of_cell<Fields>>{out + Fields* k} = value;
+    for (Eigen::Index r = 0; r < std::ssize(runs_); ++r) {
+      const block nodes{runs_[r].first, runs_[r].first + runs_[r].count};
+      fields_of_cell<Fields> value = progressions_.col(2 * r);
+      const fields_of_cell<Fields> step = progressions_.col(2 * r + 1);
+      for (Eigen::Index k = nodes.begin; k < nodes.end; ++k) {
+        out.col(k) = value;
         if constexpr (Mean == weighted_mean::geometric)
           value *= step;
         else
@@ -174,23 +169,19 @@ class phi_d_line {
   }
 
  private:
-  void begin_runs(std::span<const float> line) {
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
+  void begin_runs(const cell_fields<Fields>& line) {
+    for (Eigen::Index r = 0; r < std::ssize(runs_); ++r) {
       const axis_run& run = runs_[r];
-      for (int f = 0; f < Fields; ++f) {
-        const float before = line[Fields * run.around[0] + f], growth = line[Fields * run.around[1] + f] - before;
-        first_[Fields * r + f] = before + run.share * growth;
-        step_[Fields * r + f] = run.step * growth;
-      }
+      const fields_of_cell<Fields> before = line.col(run.around[0]), growth = line.col(run.around[1]) - before;
+      progressions_.col(2 * r) = before + run.share * growth;
+      progressions_.col(2 * r + 1) = run.step * growth;
     }
-    if constexpr (Mean == weighted_mean::geometric) {
-      exponentiate(first_.data(), std::ssize(first_));
-      exponentiate(step_.data(), std::ssize(step_));
-    }
+    if constexpr (Mean == weighted_mean::geometric) exponentiate(progressions_.data(), progressions_.size());
   }
 
   std::span<const axis_run> runs_;
-  std::vector<float> first_, step_;  // of each run, and from one of its nodes to the next
+  // Of each run its first value, and the step from one of its nodes to the next; and zeros up to whole sixteens.
+  cell_fields<Fields> progressions_;
 };
 
 }  // namespace detail
@@ -212,15 +203,15 @@ void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&&
   for_each_index(
       target.extents().theta_h, 1,
       [&](Eigen::Index h) {
-        std::vector<float> first(Fields * source.extents().phi_d), step(first.size());
+        cell_fields<Fields> first(Fields, source.extents().phi_d), step(Fields, first.cols());
         cell_fields<Fields> line(Fields, phi_d_count), growth(Fields, phi_d_count);
         detail::phi_d_line<Fields, Mean> along_phi_d(runs.phi_d);
         for (const detail::axis_run& run : runs.theta_d) {
           const block along_theta_d{run.first, run.first + run.count};
           if (rows.none(h, along_theta_d)) continue;
           detail::blend_rows<Fields>(source, dense.values, runs.theta_h[h], run, first, step);
-          along_phi_d.interpolate(first, line.data());
-          if (run.count > 1) along_phi_d.interpolate(step, growth.data());
+          along_phi_d.interpolate(first, line);
+          if (run.count > 1) along_phi_d.interpolate(step, growth);
           for (Eigen::Index d = along_theta_d.begin; d < along_theta_d.end; ++d) {
             if (const cell_row row = rows.row(h, d); row.count > 0) {
               Eigen::Map<const cell_fields<Fields>> values(line.data() + Fields * row.first_phi_d, Fields, row.count);

@@ -62,6 +62,10 @@ class valid_cells {
   /// are numbered in linear order). The cells of a row are those from its own first to the next row's.
   [[nodiscard]] Eigen::Index row_begin(Eigen::Index row) const noexcept { return index_->row_begin[row]; }
 
+  /// Linear index in the grid of a row's first valid cell, if it has one: `linear` of `row_begin`, from a list that
+  /// stays in the cache.
+  [[nodiscard]] Eigen::Index row_linear(Eigen::Index row) const noexcept { return index_->row_linear[row]; }
+
   /// Do both describe the same cells of the same grid?
   friend bool operator==(const valid_cells& a, const valid_cells& b) noexcept {
     return a.index_ == b.index_ || (a.grid() == b.grid() && a.index_->linear == b.index_->linear);
@@ -76,6 +80,7 @@ class valid_cells {
     std::vector<std::uint32_t> linear;
     std::vector<std::uint32_t> representative;
     std::vector<std::uint32_t> row_begin;
+    std::vector<std::uint32_t> row_linear;
   };
 
   std::shared_ptr<const index> index_;

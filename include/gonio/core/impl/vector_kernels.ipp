@@ -20,36 +20,13 @@ GONIO_INLINE float dot(const float* a, const float* b, Eigen::Index count) {
   return Eigen::Map<const Eigen::VectorXf>(a, count).dot(Eigen::Map<const Eigen::VectorXf>(b, count));
 }
 
-GONIO_INLINE std::array<float, 3> dot_each(const float* a, const float* columns, Eigen::Index rows) {
-  using eight = Eigen::Array<float, 8, 1>;
-  using four = Eigen::Array4f;
-  const float *b = columns, *c = b + rows, *d = c + rows;
-  eight sum_b = eight::Zero(), sum_c = sum_b, sum_d = sum_b;
-  Eigen::Index i = 0;
-  for (; i + 8 <= rows; i += 8) {
-    const eight these = Eigen::Map<const eight>(a + i);
-    sum_b += these * Eigen::Map<const eight>(b + i);
-    sum_c += these * Eigen::Map<const eight>(c + i);
-    sum_d += these * Eigen::Map<const eight>(d + i);
-  }
-  const auto halves_of = [](const eight& sum) -> four {
-    return Eigen::Map<const four>(sum.data()) + Eigen::Map<const four>(sum.data() + 4);
-  };
-  four half_b = halves_of(sum_b), half_c = halves_of(sum_c), half_d = halves_of(sum_d);
-  if (i + 4 <= rows) {
-    const four these = Eigen::Map<const four>(a + i);
-    half_b += these * Eigen::Map<const four>(b + i);
-    half_c += these * Eigen::Map<const four>(c + i);
-    half_d += these * Eigen::Map<const four>(d + i);
-    i += 4;
-  }
-  std::array<float, 3> sums{half_b.sum(), half_c.sum(), half_d.sum()};
-  for (; i < rows; ++i) {
-    sums[0] += a[i] * b[i];
-    sums[1] += a[i] * c[i];
-    sums[2] += a[i] * d[i];
-  }
-  return sums;
+GONIO_INLINE three_columns::three_columns(const Eigen::MatrixXd& columns)
+    : rows_(columns.rows()), sixteens_(48, (rows_ + 15) / 16) {
+  sixteens_.setZero();
+  const Eigen::Index last = std::max<Eigen::Index>(rows_ - 16, 0);
+  for (Eigen::Index c = 0; c < 3; ++c)
+    for (Eigen::Index i = 0; i < rows_; ++i)
+      sixteens_(16 * c + i - std::min(i / 16 * 16, last), i / 16) = static_cast<float>(columns(i, c));
 }
 
 GONIO_INLINE double near_inverse(double length) {

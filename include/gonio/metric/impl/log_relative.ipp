@@ -56,19 +56,16 @@ GONIO_INLINE log_relative log_relative::on(const valid_cells& cells) const {
 }
 
 GONIO_INLINE void log_relative::compute_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const {
-  // Loops without a choice in them, which compilers compute for several cells at once.
-  std::array<double, shifts_at_once> weight;
-  GONIO_ASSERT(shift.size() <= weight.size());
-  const auto count = std::ssize(shift);
-  const auto weigh_by = [&](auto combine) {
-    for (Eigen::Index i = 0; i < count; ++i) weight[i] = combine(row.cosine(begin + i));
-  };
+  // Expressions without a choice in them, which are computed for several cells at once.
+  Eigen::Array<double, Eigen::Dynamic, 1, 0, shifts_at_once> weight(shift.size());
+  const auto part =
+      row.difference * Eigen::Map<const Eigen::ArrayXd>(row.cos_phi_d + row.first_phi_d + begin, weight.size());
   if (weighting_ == cosine_weighting::product)
-    weigh_by([](const cosine_pair& cosine) { return product_of(cosine); });
+    weight = ((row.sum - part) * (row.sum + part)).max(epsilon);
   else
-    weigh_by([](const cosine_pair& cosine) { return larger_of(cosine); });
-  for (Eigen::Index i = 0; i < count; ++i) weight[i] = std::max(weight[i], epsilon);
-  for (Eigen::Index i = 0; i < count; ++i) shift[i] = static_cast<float>(epsilon) / static_cast<float>(weight[i]);
+    weight = (row.sum - part).max(row.sum + part).max(epsilon);
+  for (Eigen::Index i = 0; i < weight.size(); ++i)
+    shift[i] = static_cast<float>(epsilon) / static_cast<float>(weight[i]);
 }
 
 }  // namespace gonio

@@ -62,7 +62,7 @@ GONIO_INLINE cell_row valid_rows::row(Eigen::Index theta_h, Eigen::Index theta_d
   const Eigen::Index count = cells_.row_begin(row + 1) - first;
   const angle &h = theta_h_[theta_h], &d = theta_d_[theta_d];
   if (count == 0) return {first, 0, h.value, d.value};
-  const Eigen::Index first_phi_d = cells_.linear(first) - row * std::ssize(cos_phi_d_);
+  const Eigen::Index first_phi_d = cells_.row_linear(row) - row * std::ssize(cos_phi_d_);
   GONIO_ASSERT(cells_.linear(first + count - 1) == cells_.linear(first) + count - 1);
   return {first, count, h.value, d.value, first_phi_d, h.cosine * d.cosine, h.sine * d.sine, cos_phi_d_.data()};
 }

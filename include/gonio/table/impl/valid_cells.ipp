@@ -37,6 +37,7 @@ GONIO_INLINE valid_cells::index::index(const gonio::grid& cells, double threshol
   });
   row_begin.push_back(static_cast<std::uint32_t>(linear.size()));
   if (linear.empty()) refuse("no cell of the grid has both directions above the horizon");
+  for (const std::uint32_t first : row_begin) row_linear.push_back(first < linear.size() ? linear[first] : 0);
 }
 
 }  // namespace gonio
