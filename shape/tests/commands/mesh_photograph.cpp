@@ -1,8 +1,8 @@
 /// gonio shape see, then gonio sphere: a photograph of a mesh, by the simulated laboratory, becomes samples.
 
+#include "cli/tool.hpp"
 #include "io/scratch.hpp"
 #include "lab/sphere_lab.hpp"
-#include "cli/tool.hpp"
 #include <gonio/io/images/image.hpp>
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/io/setups/sphere_setup.hpp>

@@ -1,8 +1,8 @@
 /// gonio shape: what partial scans do not show.
 
+#include "cli/tool.hpp"
 #include "io/scratch.hpp"
 #include "json.hpp"
-#include "cli/tool.hpp"
 #include <gonio/shape/io/mesh.hpp>
 #include <gonio/shape/io/pose.hpp>
 #include <gonio/shape/io/shape_model.hpp>

@@ -1,5 +1,5 @@
-#include "io/scratch.hpp"
 #include "../synthetic_shapes.hpp"
+#include "io/scratch.hpp"
 #include <gonio/shape/io/shape_model.hpp>
 
 #include <doctest/doctest.h>
