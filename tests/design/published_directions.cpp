@@ -1,7 +1,10 @@
 #include <gonio/design/published_directions.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/table/valid_cells.hpp>
 
 #include <doctest/doctest.h>
+
+#include <string>
 
 TEST_CASE("the published directions are above the horizon and as many as asked for") {
   for (const Eigen::Index n : gonio::design::nielsen_direction_counts) {
@@ -15,6 +18,20 @@ TEST_CASE("the published directions are above the horizon and as many as asked f
   }
   CHECK(gonio::degrees(gonio::design::nielsen_directions(20)[19].theta_d) == doctest::Approx(43));
   CHECK(gonio::degrees(gonio::design::nielsen_directions(1)[0].theta_d) == doctest::Approx(66));
+}
+
+TEST_CASE("the published directions are those of the shipped files") {
+  for (const Eigen::Index n : gonio::design::nielsen_direction_counts) {
+    const auto directions = gonio::design::nielsen_directions(n);
+    const auto shipped = gonio::io::read_direction_pairs(
+        std::string(GONIO_SOURCE_DIR) + "/examples/data/directions/point-" + std::to_string(n) + "-published.csv");
+    REQUIRE(shipped.size() == directions.size());
+    for (std::size_t i = 0; i < shipped.size(); ++i) {
+      const auto pair = gonio::to_directions(directions[i]);
+      CHECK(gonio::angle_between(pair.wi, shipped[i].wi) < 1e-6);
+      CHECK(gonio::angle_between(pair.wo, shipped[i].wo) < 1e-6);
+    }
+  }
 }
 
 TEST_CASE("a number that is not in the table is refused") {
