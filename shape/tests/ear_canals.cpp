@@ -468,7 +468,7 @@ TEST_CASE("populations are functions of a seed, whatever their size") {
 }
 
 TEST_CASE("scans of any size and hole are surfaces") {
-  rc::check("a scan is a surface that uses all its vertices", [] {
+  CHECK(rc::check("a scan is a surface that uses all its vertices", [] {
     synthetic::scan_options options = quick_ear_scan();
     options.vertices = static_cast<Eigen::Index>(*rc::gen::inRange(50, 800));
     options.noise = 0.0;
@@ -484,7 +484,7 @@ TEST_CASE("scans of any size and hole are surfaces") {
         synthetic::scan_of(synthetic::ear_canal_family().draw(seed), coarse, seed, options);
     RC_ASSERT(uses_all_vertices(scan.mesh));
     (void)gonio::shape::mesh_topology{scan.mesh};
-  });
+  }));
 }
 
 TEST_CASE("what cannot be an ear canal or a scan of one is refused") {

@@ -39,7 +39,7 @@ gonio::shape::point_columns by_block_covariance(const gonio::shape::shape_basis&
 }  // namespace
 
 TEST_CASE("a fit to known vertices is the conditional expectation of Eq. 7") {
-  rc::check("for any known vertices and any share", [] {
+  CHECK(rc::check("for any known vertices and any share", [] {
     const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000000);
     const auto vertices = *rc::gen::inRange<Eigen::Index>(3, 12);
     const auto shapes = *rc::gen::inRange<std::size_t>(4, 20);
@@ -54,7 +54,7 @@ TEST_CASE("a fit to known vertices is the conditional expectation of Eq. 7") {
     RC_ASSERT((fit.vertices() - expected).cwiseAbs().maxCoeff() < 1e-4);
     RC_ASSERT(fit.report().kkt_residual[0] < 1e-9);
     RC_ASSERT((fit.vertex(1) - fit.vertices().col(1)).norm() < 1e-5);
-  });
+  }));
 }
 
 TEST_CASE("a shape of the family is completed, one outside of it only as far as it is of the family") {

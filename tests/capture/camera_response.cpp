@@ -70,18 +70,18 @@ TEST_CASE("camera response: within 1 % for linear, gamma 2.2 and S-shaped camera
 }
 
 TEST_CASE("camera response: exact without noise, for every power law") {
-  rc::check("a power law is found again", [] {
+  CHECK(rc::check("a power law is found again", [] {
     const double exponent = *rc::gen::inRange(3, 30) / 10.0;
     const auto counts = expose([&](double x) { return std::pow(x, 1.0 / exponent); }, 65535, 0.0, 200, 5);
     const auto found = estimate_response(counts, gonio::capture::note_exposure_times, 65535);
     const auto expected = camera_response::power_law(65535, exponent);
     for (const double share : {0.05, 0.2, 0.4, 0.8, 0.95})
       RC_ASSERT(std::abs(found.log_exposure(share * 65535) - expected.log_exposure(share * 65535)) < 2e-3);
-  });
+  }));
 }
 
 TEST_CASE("camera response: it never falls, whatever the counts") {
-  rc::check("no value is below the one before", [] {
+  CHECK(rc::check("no value is below the one before", [] {
     std::mt19937_64 generator(*rc::gen::arbitrary<unsigned>());
     exposure_counts counts(30, 5);
     for (Eigen::Index i = 0; i < counts.size(); ++i)
@@ -89,7 +89,7 @@ TEST_CASE("camera response: it never falls, whatever the counts") {
     const auto found = estimate_response(counts, gonio::capture::note_exposure_times, 255);
     for (Eigen::Index k = 1; k < found.log_exposures().size(); ++k)
       RC_ASSERT(found.log_exposures()[k] >= found.log_exposures()[k - 1]);
-  });
+  }));
 }
 
 TEST_CASE("camera response: counts and exposures are inverse, slopes are derivatives") {

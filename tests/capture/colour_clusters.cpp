@@ -142,7 +142,7 @@ TEST_CASE("a colour too rare for the sample is found if it is asked for") {
 }
 
 TEST_CASE("property: what is chosen depends on the seed alone, and not on the unit") {
-  rc::check("the same again", [] {
+  CHECK(rc::check("the same again", [] {
     const auto seed = *rc::gen::inRange(0u, 1000u);
     const point_matrix colours = greeting_card(*rc::gen::inRange<Eigen::Index>(60, 3000), seed);
     const auto one = cluster_colours(colours, cluster_count_choice{.most = 4}, seed, {1});
@@ -152,7 +152,7 @@ TEST_CASE("property: what is chosen depends on the seed alone, and not on the un
     RC_ASSERT(one.silhouettes == three.silhouettes);
     RC_ASSERT(one.count() == 3u);
     RC_ASSERT(cluster_colours(0.25 * colours, 3, seed).labels == cluster_colours(colours, 3, seed).labels);
-  });
+  }));
 }
 
 TEST_CASE("coordinates are CIELAB, exposed to the brightest but for one in a hundred") {

@@ -32,7 +32,7 @@ constexpr sensor_noise none{0.0, 0.0, 0.0};
 }  // namespace
 
 TEST_CASE("high dynamic range: without noise the radiance of four decades comes back") {
-  rc::check("what was exposed is merged, to the rounding of counts", [] {
+  CHECK(rc::check("what was exposed is merged, to the rounding of counts", [] {
     const double gamma = *rc::gen::inRange(10, 25) / 10.0;
     const auto camera = camera_response::power_law(65535, gamma);
     const double radiance = std::exp(*rc::gen::inRange(-200, 400) / 100.0);
@@ -41,7 +41,7 @@ TEST_CASE("high dynamic range: without noise the radiance of four decades comes 
                                         gonio::capture::note_exposure_times, camera, none);
     RC_ASSERT(merged.usable());
     RC_ASSERT(std::abs(merged.value / radiance - 1.0) < 1e-3);
-  });
+  }));
 }
 
 TEST_CASE("high dynamic range: the deviation is the one that is made") {

@@ -49,7 +49,7 @@ TEST_CASE("k-means: clusters far apart are found from any seed, the largest firs
 }
 
 TEST_CASE("k-means: property: every centre is the mean of its points and every point nearest to its own") {
-  rc::check("at rest", [] {
+  CHECK(rc::check("at rest", [] {
     const auto n = *rc::gen::inRange<Eigen::Index>(5, 80), d = *rc::gen::inRange<Eigen::Index>(1, 4);
     const auto k = *rc::gen::inRange<Eigen::Index>(1, 6);
     const auto seed = *rc::gen::inRange(0u, 1000u);
@@ -73,7 +73,7 @@ TEST_CASE("k-means: property: every centre is the mean of its points and every p
       const auto size = static_cast<double>(found.sizes[c]);
       RC_ASSERT((found.centres.row(c) - sums.row(c) / size).norm() < 1e-9);
     }
-  });
+  }));
 }
 
 TEST_CASE("k-means: the same bytes for any number of threads") {

@@ -28,7 +28,7 @@ double mean_relative_error(const gonio::render::environment_map& truth, const go
 }  // namespace
 
 TEST_CASE("mirror sphere: what reflects where, by the law of reflection") {
-  rc::check("light, normal and camera lie in a plane, at equal angles", [] {
+  CHECK(rc::check("light, normal and camera lie in a plane, at equal angles", [] {
     const double distance = *rc::gen::inRange(105, 2000) / 100.0;
     const mirror_sphere sphere = *rc::gen::arbitrary<bool>() ? mirror_sphere(distance) : mirror_sphere();
     const double radius = *rc::gen::inRange(0, 1000) / 1000.0, azimuth = *rc::gen::inRange(0, 628) / 100.0;
@@ -55,7 +55,7 @@ TEST_CASE("mirror sphere: what reflects where, by the law of reflection") {
     const auto back = sphere.place_of(2.0 * *light);
     RC_ASSERT(back.has_value());
     RC_ASSERT((*back - place).norm() < 1e-6);
-  });
+  }));
 }
 
 TEST_CASE("mirror sphere: what it shows and hides") {

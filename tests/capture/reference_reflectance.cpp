@@ -58,7 +58,7 @@ TEST_CASE("reference reflectance: a table is met at its angles, and linear betwe
 }
 
 TEST_CASE("reference reflectance: between its angles a table lies between its factors") {
-  rc::check("bilinear", [] {
+  CHECK(rc::check("bilinear", [] {
     const auto number = [](int from, int to) { return *rc::gen::inRange(from, to) / 100.0; };
     std::vector<rgb> factors;
     for (int i = 0; i < 6; ++i) factors.emplace_back(number(1, 150), number(1, 150), number(1, 150));
@@ -72,7 +72,7 @@ TEST_CASE("reference reflectance: between its angles a table lies between its fa
     }
     const rgb found = table.at(reference_pair(theta_i, theta_o));
     RC_ASSERT((found > least - 1e-9).all() && (found < most + 1e-9).all());
-  });
+  }));
 }
 
 TEST_CASE("reference reflectance: nothing is extrapolated") {

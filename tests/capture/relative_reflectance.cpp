@@ -22,7 +22,7 @@ TEST_CASE("solid angle of a pixel: Eq. 4 and 5, and a sphere seen from its centr
 }
 
 TEST_CASE("relative reflectance: f = dL / dE wherever lamp, reference and material are") {
-  rc::check("a material of any BRDF comes back", [] {
+  CHECK(rc::check("a material of any BRDF comes back", [] {
     const auto number = [](int from, int to) { return *rc::gen::inRange(from, to) / 100.0; };
     const double f = number(1, 300), lamp = number(10, 1000), rho = number(50, 101), camera = number(10, 1000);
     const illumination at_reference{number(5, 101), number(50, 200)}, at_material{number(5, 101), number(50, 200)};
@@ -33,7 +33,7 @@ TEST_CASE("relative reflectance: f = dL / dE wherever lamp, reference and materi
     const auto found = reference_light(reference, rho, at_reference).brdf(material, at_material);
     RC_ASSERT(std::abs(found.value / f - 1.0) < 1e-12);
     RC_ASSERT(found.deviation == 0.0);
-  });
+  }));
 }
 
 TEST_CASE("relative reflectance: the deviations of both exposures add up") {

@@ -42,7 +42,7 @@ void refuses_outline(const gonio::image& picture, const std::string& why) {
 }  // namespace
 
 TEST_CASE("places of the outline give the sphere to the last digits, near and off the axis") {
-  rc::check([] {
+  CHECK(rc::check([] {
     const auto within = [](int low, int high) { return *rc::gen::inRange(low, high) * 0.01; };
     const gonio::lens_camera camera = outline_camera({.k1 = within(-30, 30), .p1 = 0.002});
     const placed_sphere sphere{{within(-40, 40), within(-30, 30), within(-100, 500)}, 0.7};
@@ -61,7 +61,7 @@ TEST_CASE("places of the outline give the sphere to the last digits, near and of
     const auto found = gonio::capture::fit_sphere(places, camera, sphere.radius);
     RC_ASSERT((found.sphere.centre - sphere.centre).norm() < 1e-5);
     RC_ASSERT(found.deviation < 1e-6);
-  });
+  }));
 }
 
 TEST_CASE("a photograph gives the sphere to a fifth of a pixel, to a pixel if lit from behind") {

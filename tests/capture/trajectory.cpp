@@ -30,14 +30,14 @@ TEST_CASE("trajectory: Eq. 1-5, and the camera looks at the sample") {
   CHECK(pose.position.z() == doctest::Approx(600.0 + 350.0 * std::sqrt(0.75)));
   CHECK(gonio::degrees(pose.pitch) == doctest::Approx(120.0));
   CHECK(gonio::degrees(pose.yaw) == doctest::Approx(60.0));
-  rc::check("the camera looks at the centre from where it should be, with the arc along y as well", [] {
+  CHECK(rc::check("the camera looks at the centre from where it should be, with the arc along y as well", [] {
     const auto wo = scattered(1, *rc::gen::arbitrary<unsigned>()).front();
     const camera_sphere here{{1.0, 2.0, 3.0}, 350.0, *rc::gen::inRange(0, 360) * 0.0175};
     const auto at = here.towards(wo);
     RC_ASSERT((at.position + 350.0 * at.looks_along() - here.centre).norm() < 1e-9);
     RC_ASSERT(std::abs(at.orientation().norm() - 1.0) < 1e-12);
     RC_ASSERT((here.seen_from(at) - wo).norm() < 1e-9);
-  });
+  }));
   // The arc's azimuth 0 is the robot's y axis.
   const auto along_arc = camera_sphere{}.towards(gonio::spherical_direction(gonio::radians(45.0), 0.0));
   CHECK(std::abs(along_arc.position.x()) < 1e-9);
@@ -45,7 +45,7 @@ TEST_CASE("trajectory: Eq. 1-5, and the camera looks at the sample") {
 }
 
 TEST_CASE("trajectory: poses of a tool lead back to the directions, and their quaternions do not jump") {
-  rc::check("position and orientation are two ways back", [] {
+  CHECK(rc::check("position and orientation are two ways back", [] {
     const auto directions = scattered(20, *rc::gen::arbitrary<unsigned>());
     const camera_sphere sphere{{10.0, 20.0, 300.0}, 500.0, *rc::gen::inRange(-360, 360) * 0.0175};
     const auto path = gonio::capture::tool_path(sphere, directions);
@@ -58,7 +58,7 @@ TEST_CASE("trajectory: poses of a tool lead back to the directions, and their qu
       RC_ASSERT(std::abs(path[i].quaternion.norm() - 1.0) < 1e-12);
       if (i > 0) RC_ASSERT(path[i].quaternion.dot(path[i - 1].quaternion) >= 0.0);
     }
-  });
+  }));
   // A known one: from 30 degrees above x, the tool's x turns by 120 degrees about y.
   const std::vector one{gonio::spherical_direction(gonio::radians(30.0), 0.0)};
   const auto pose = gonio::capture::tool_path({.arc_azimuth = 0.0}, one).front();
@@ -91,7 +91,7 @@ TEST_CASE("trajectory: 11 rows of 25, and right above; 23 lamps") {
 }
 
 TEST_CASE("trajectory: a pair above the arc is the same pair to an isotropic material") {
-  rc::check("angles stay, the light is above x, the viewer on one side", [] {
+  CHECK(rc::check("angles stay, the light is above x, the viewer on one side", [] {
     const auto two = scattered(2, *rc::gen::arbitrary<unsigned>());
     const double turn = *rc::gen::inRange(0, 628) / 100.0;
     const gonio::direction_pair pair{gonio::turned_about_normal(two[0], turn),
@@ -103,13 +103,13 @@ TEST_CASE("trajectory: a pair above the arc is the same pair to an isotropic mat
     RC_ASSERT(std::abs(turned.wi.z() - pair.wi.z()) < 1e-12);
     RC_ASSERT(std::abs(turned.wo.z() - pair.wo.z()) < 1e-12);
     RC_ASSERT(std::abs(turned.wi.dot(turned.wo) - pair.wi.dot(pair.wo)) < 1e-12);
-  });
+  }));
   const auto above = gonio::capture::above_arc({direction::UnitZ(), gonio::spherical_direction(0.5, 2.0)});
   CHECK((above.wo - gonio::spherical_direction(0.5, 0.0)).norm() < 1e-12);
 }
 
 TEST_CASE("trajectory: every pose once, by a way that no stretch turned round shortens") {
-  rc::check("a way of scattered directions", [] {
+  CHECK(rc::check("a way of scattered directions", [] {
     const auto directions = scattered(*rc::gen::inRange<std::size_t>(1, 25), *rc::gen::arbitrary<unsigned>());
     const auto order = gonio::capture::short_way(directions);
     RC_ASSERT(std::set<Eigen::Index>(order.begin(), order.end()).size() == directions.size());
@@ -122,7 +122,7 @@ TEST_CASE("trajectory: every pose once, by a way that no stretch turned round sh
                      other.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         RC_ASSERT(gonio::capture::length_of_way(directions, other) > length - 1e-8);
       }
-  });
+  }));
   CHECK(gonio::capture::short_way({}).empty());
 }
 

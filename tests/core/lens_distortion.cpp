@@ -36,7 +36,7 @@ TEST_CASE("points are shown where OpenCV's formula shows them") {
 }
 
 TEST_CASE("a point on the ray of a pixel is projected to that pixel") {
-  rc::check([] {
+  CHECK(rc::check([] {
     const auto within = [](int low, int high, double scale) { return *rc::gen::inRange(low, high) * scale; };
     const gonio::lens_distortion distortion{.k1 = within(-200, 200, 1e-3),
                                             .k2 = within(-20, 50, 1e-3),
@@ -50,7 +50,7 @@ TEST_CASE("a point on the ray of a pixel is projected to that pixel") {
     RC_ASSERT(back.has_value());
     RC_ASSERT(std::abs(back->x() - column) < 1e-6);
     RC_ASSERT(std::abs(back->y() - row) < 1e-6);
-  });
+  }));
 }
 
 TEST_CASE("the derivative is that of differences") {

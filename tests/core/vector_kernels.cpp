@@ -14,7 +14,7 @@ constexpr double largest = std::numeric_limits<double>::max(), smallest = std::n
 }  // namespace
 
 TEST_CASE("products and scaled sums are those of plain loops") {
-  rc::check([](const std::vector<std::int16_t>& integers) {
+  CHECK(rc::check([](const std::vector<std::int16_t>& integers) {
     // Integers below 2^16, whose products and sums are exact in double.
     const std::vector<double> a(integers.begin(), integers.end()), b(integers.rbegin(), integers.rend());
     const auto count = std::ssize(a);
@@ -32,7 +32,7 @@ TEST_CASE("products and scaled sums are those of plain loops") {
     const std::vector<float> a_float(a.begin(), a.end());
     gonio::add_scaled(3.0f, a_float.data(), floats.data(), count);
     RC_ASSERT(std::vector<double>(floats.begin(), floats.end()) == sum);
-  });
+  }));
 }
 
 TEST_CASE("a norm neither overflows nor vanishes") {

@@ -74,7 +74,7 @@ TEST_CASE("samples at all cells have the table's contrast, and that of a set's m
 }
 
 TEST_CASE("property: weights average the mapped luminances, and what is between the regions does not matter") {
-  rc::check("weighted means", [] {
+  CHECK(rc::check("weighted means", [] {
     const auto table = grey_table(*rc::gen::inRange(-2, 3) / 2.0, *rc::gen::inRange(-2, 3) / 2.0);
     auto samples = every_cell(table);
     const double doubled = *rc::gen::inRange(1, 9) / 2.0;
@@ -102,7 +102,7 @@ TEST_CASE("property: weights average the mapped luminances, and what is between 
     samples.back().weight = 1.0;
     RC_ASSERT(std::abs(*highlight_contrast(contrast_reference(), samples, wide) - in_peak +
                        contrast_reference().forward(0.2, at)) < 1e-9);
-  });
+  }));
 }
 
 TEST_CASE("samples in one region only say nothing, unusable ones are refused") {

@@ -74,7 +74,7 @@ TEST_CASE("property: the fit is that of the estimator chosen, whatever their typ
   const ridge soft{gonio::learn_pca(halves.soft, switch_reference(), 8), gonio::tikhonov{0.1}};
   const linear_combination specular{gonio::measured{halves.specular, gonio::log{}}, gonio::nnls{}};
   const soft_or_specular estimator{soft, specular, switch_reference(), halves.threshold, few_cells_regions};
-  rc::check("the one or the other", [&] {
+  CHECK(rc::check("the one or the other", [&] {
     const auto truth = shiny_and_not().table(*rc::gen::inRange<std::size_t>(0, 14));
     const auto samples = gonio::sample_table(truth, gonio::random_cells(small_cells(), 60, *rc::gen::inRange(0u, 99u)));
     const auto fit = estimator.fit(samples);
@@ -85,7 +85,7 @@ TEST_CASE("property: the fit is that of the estimator chosen, whatever their typ
                                                             : specular.fit(samples).tabulate(small_cells());
     RC_ASSERT(std::ranges::equal(table.values(), expected.values()));
     RC_ASSERT(std::ranges::equal(table.values(), fit.tabulate(small_cells(), {3}).values()));
-  });
+  }));
 }
 
 TEST_CASE("switch: materials measured everywhere go to the half that they came from") {

@@ -29,11 +29,11 @@ void check_recipe_refused(std::span<const std::byte> bytes, const std::string& w
 }  // namespace
 
 TEST_CASE("checked file: any payload comes back, the empty one too") {
-  rc::check([](const std::vector<std::uint8_t>& payload) {
+  CHECK(rc::check([](const std::vector<std::uint8_t>& payload) {
     const auto bytes = std::as_bytes(std::span(payload));
     const auto back = io::read_checked(recipe_kind, io::write_checked(recipe_kind, bytes), "x");
     RC_ASSERT(std::ranges::equal(back, bytes));
-  });
+  }));
   CHECK(io::read_checked(recipe_kind, io::write_checked(recipe_kind, {}), "x").empty());
 }
 

@@ -130,12 +130,12 @@ TEST_CASE("OpenEXR rows: damaged files are read or refused") {
 TEST_CASE("OpenEXR: what was written is read, bit for bit") {
   const gonio::image picture = unusual_image();
   CHECK(gonio::io::read_exr(written_exr(picture), "a.exr") == picture);
-  rc::check("images of any size come back", [] {
+  CHECK(rc::check("images of any size come back", [] {
     const auto rows = *rc::gen::inRange<std::size_t>(1, 40), columns = *rc::gen::inRange<std::size_t>(1, 40);
     gonio::image some = gonio::uniform_image(rows, columns);
     for (float& value : some) value = static_cast<float>(*rc::gen::inRange(-1000000, 1000000)) / 7.0f;
     RC_ASSERT(gonio::io::read_exr(written_exr(some), "a.exr") == some);
-  });
+  }));
 }
 
 TEST_CASE("OpenEXR: bad files and images are refused") {

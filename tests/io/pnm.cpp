@@ -27,7 +27,7 @@ TEST_CASE("Netpbm: known bytes are known counts") {
 
 TEST_CASE("Netpbm: what was written is read") {
   const scratch::folder here;
-  rc::check("counts of any size and depth come back", [&] {
+  CHECK(rc::check("counts of any size and depth come back", [&] {
     stored_codes codes{*rc::gen::inRange<std::size_t>(1, 6), *rc::gen::inRange<std::size_t>(1, 6), 0, {}};
     codes.largest = *rc::gen::element<std::uint16_t>(1, 255, 256, 4095, 65535);
     codes.values = *rc::gen::container<std::vector<std::uint16_t>>(3 * codes.rows * codes.columns,
@@ -36,7 +36,7 @@ TEST_CASE("Netpbm: what was written is read") {
     const stored_codes back = gonio::io::read_pnm(here / "frame.ppm");
     RC_ASSERT(back.values == codes.values);
     RC_ASSERT((back.rows == codes.rows && back.columns == codes.columns && back.largest == codes.largest));
-  });
+  }));
 }
 
 TEST_CASE("Netpbm: bad files are refused") {

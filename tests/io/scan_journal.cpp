@@ -55,7 +55,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
 TEST_CASE("scan journal: what is added is there when it is read or gone on with") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
-  rc::check("readings of any size come back", [&] {
+  CHECK(rc::check("readings of any size come back", [&] {
     std::filesystem::remove(path);
     const auto count = *rc::gen::inRange<std::size_t>(1, 6);
     const auto frames = *rc::gen::inRange<std::size_t>(1, 5);
@@ -80,7 +80,7 @@ TEST_CASE("scan journal: what is added is there when it is read or gone on with"
       RC_ASSERT(read.readings[i].has_value());
       RC_ASSERT(same(*read.readings[i], random_reading(frames, pixels, seed + static_cast<unsigned>(i))));
     }
-  });
+  }));
 }
 
 TEST_CASE("scan journal: wherever its last line was cut off, all the lines before it are kept, and it goes on") {

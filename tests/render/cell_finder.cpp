@@ -83,14 +83,14 @@ TEST_CASE("cell finder: at the ends of the angles it is where the grid is") {
 }
 
 TEST_CASE("cell finder: light and viewer may be exchanged, and made longer") {
-  rc::check("the same cell", [] {
+  CHECK(rc::check("the same cell", [] {
     std::mt19937_64 generator(*rc::gen::arbitrary<unsigned>());
     const auto [wi, wo] = scattered_pair(generator, *rc::gen::inRange(0, 4));
     const cell_finder<double> find;
     const std::size_t cell = find(wi, wo);
     RC_ASSERT(cell == find(wo, wi));
     RC_ASSERT(cell == find(direction(4.0 * wi), direction(4.0 * wo)));
-  });
+  }));
 }
 
 TEST_CASE("cell finder: below the horizon, and for what is no direction, there is no cell") {

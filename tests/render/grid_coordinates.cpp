@@ -108,7 +108,7 @@ TEST_CASE("grid coordinates: at the ends of the angles") {
 }
 
 TEST_CASE("grid coordinates: light and viewer may be exchanged, and made longer") {
-  rc::check("the same place", [] {
+  CHECK(rc::check("the same place", [] {
     std::mt19937_64 generator(*rc::gen::arbitrary<unsigned>());
     const auto [wi, wo] = scattered_pair(generator, *rc::gen::inRange(0, 4));
     const auto at = coordinates_of<double>(wi, wo);
@@ -119,7 +119,7 @@ TEST_CASE("grid coordinates: light and viewer may be exchanged, and made longer"
     };
     RC_ASSERT(same(coordinates_of<double>(wo, wi)));
     RC_ASSERT(same(coordinates_of<double>(4.0 * wi, 4.0 * wo)));
-  });
+  }));
 }
 
 TEST_CASE("grid coordinates: below the horizon, and what is no direction") {

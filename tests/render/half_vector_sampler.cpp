@@ -70,7 +70,7 @@ const std::vector<named_table>& ten_materials() {
 
 TEST_CASE("half-vector sampler: the weight times pdf is f times the cosine") {
   const half_vector_sampler sampler(satin);
-  rc::check("of every direction drawn", [&] {
+  CHECK(rc::check("of every direction drawn", [&] {
     const auto number = [] { return *rc::gen::inRange(0, 1'000'000) / 1e6; };
     const direction wo = viewer(*rc::gen::inRange(0, 90));
     const auto drawn = sampler.sample(wo, number(), number());
@@ -80,7 +80,7 @@ TEST_CASE("half-vector sampler: the weight times pdf is f times the cosine") {
     const rgb expected = drawn.wi.z() > 0.0 ? rgb(satin(drawn.wi, wo) * drawn.wi.z()) : rgb(rgb::Zero());
     RC_ASSERT(((drawn.weight * drawn.pdf - expected).abs() <= 1e-12 * expected).all());
     RC_ASSERT((drawn.weight <= 10.0001 * std::numbers::pi * satin(drawn.wi, wo)).all());
-  });
+  }));
 }
 
 TEST_CASE("half-vector sampler: ten materials, five angles: chi-square, integral, albedo and variance") {

@@ -177,12 +177,12 @@ TEST_CASE("lookup table: what is no pair above the horizon is black") {
 
 TEST_CASE("lookup table: directions that are not of unit length") {
   const auto table = lookup_table<double>::of(paint());
-  rc::check("may both be multiplied by the same factor", [&] {
+  CHECK(rc::check("may both be multiplied by the same factor", [&] {
     const auto pairs = some_pairs(64);
     const auto& [wi, wo] = pairs[*rc::gen::inRange<std::size_t>(0, 32)];
     const double factor = std::exp(*rc::gen::inRange(-100, 100) / 20.0);
     RC_ASSERT(relative_difference(table(direction(factor * wi), direction(factor * wo)), table(wi, wo)) < 1e-9);
-  });
+  }));
 }
 
 TEST_CASE("lookup table: negative measurements are black, what is not finite is refused") {
