@@ -22,6 +22,9 @@ endfunction()
 
 # What each file of a build took, of the last time that it was built.
 foreach(build IN ITEMS demo test)
+  if(NOT EXISTS "${source}/build/${build}/.ninja_log") # only the other command was run
+    continue()
+  endif()
   file(STRINGS "${source}/build/${build}/.ninja_log" lines REGEX "[.]o\t|[.]gch\t")
   foreach(line IN LISTS lines)
     string(REPLACE "\t" ";" fields "${line}")
