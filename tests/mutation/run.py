@@ -3,11 +3,13 @@
 test with the changed body, runs it, and counts the changes that the test sees.
 
     python3 tests/mutation/run.py [--seed 1] [--count 100] [--build build/test] [--modules solve table ...] [--jobs 1]
+                                  [--at solve/impl/kkt.ipp:44 ...]
 
 The tests must have been built, as `cmake -P cmake/test.cmake` does, and no source may change while this runs. Only the
-changed body is compiled: its object stands before the library's, so that the linker takes its functions. A change that
-does not compile, or does not change the object, is drawn again. A test fails that takes three times as long as it did, and 20 s more.
-Survivors are printed as a table."""
+changed body is compiled: its object stands before the library's, so that the linker takes its functions. Calls within
+the library's own object still reach the unchanged ones: what survives so is tried again with all bodies of its source
+compiled. A change that does not compile, or does not change the object, is drawn again. A test fails that takes three
+times as long as it did, and 20 s more. Survivors are printed as a table. --at tries all changes of these lines."""
 
 import argparse
 import concurrent.futures
@@ -94,8 +96,8 @@ class tester:
         header = body.replace("/impl/", "/").replace(".ipp", ".hpp")
         return header if (HEADERS / header).exists() else body
 
-    def object_of(self, path, text, folder):
-        """The object of the body alone, or None if it does not compile."""
+    def object_of(self, path, text, folder, whole):
+        """The object of the body alone, or of its whole source, or None if it does not compile."""
         command = self.sources[path]
         body = path.relative_to(HEADERS)
         overlay = folder / "include" / body
@@ -103,7 +105,7 @@ class tester:
         overlay.write_text(text)
         # The other bodies come from the library, but for templates, which the source may instantiate.
         others = pathlib.Path(command[-1]).read_text()
-        if path not in self.whole:
+        if not whole:
             alone = lambda found: found[0] if found[1] == str(body) else f"#include <{self.header_of(found[1])}>"
             others = re.sub(r"#include <(gonio/.*/impl/.*[.]ipp)>", alone, others)
         (folder / "source.cpp").write_text(others)
@@ -140,32 +142,40 @@ class tester:
                     sys.exit(f"test_{module} {' '.join(arguments)} fails without any change")
             return self.seconds[key]
 
-    def survives(self, module, path, change, folder):
-        """Whether the module's test passes with the change; None if the change is none."""
-        text, line = changed_text(path, change)
-        with self.lock:
-            if path not in self.originals:
-                self.originals[path] = self.object_of(path, path.read_text(), folder)
-                if self.originals[path] is None:
-                    self.whole.add(path)
-                    self.originals[path] = self.object_of(path, path.read_text(), folder)
-        changed = self.object_of(path, text, folder)
-        if changed is None or changed == self.originals[path]:
-            return None, line
+    def passes_with_object(self, module, path, folder):
+        """Whether the module's test passes with the object before the library's; None if they do not link."""
         program = folder / f"test_{module}"
         command = [word for word in self.link[module] if word not in (":", "&&")]
         command[command.index("-o") + 1] = str(program)
         first = next(index for index, word in enumerate(command) if word.endswith(".o"))
         command[first:first] = ["-Wl,--allow-multiple-definition", str(folder / "object.o")]
-        linked = run(command, cwd=self.build)
-        if linked.returncode != 0:
-            return None, line
+        if run(command, cwd=self.build).returncode != 0:
+            return None
         # The file of tests that bears its name first, then all.
         for arguments in ([f"--source-file=*/{path.stem}.cpp"], []):
             usual = self.usual_seconds(module, arguments, folder)
             if not self.passes(module, program, folder, arguments, 3.0 * usual + 20.0)[0]:
-                return False, line
-        return True, line
+                return False
+        return True
+
+    def survives(self, module, path, change, folder):
+        """Whether the module's test passes with the change; None if the change is none."""
+        text, line = changed_text(path, change)
+        with self.lock:
+            if path not in self.originals:
+                self.originals[path] = self.object_of(path, path.read_text(), folder, False)
+                if self.originals[path] is None:
+                    self.whole.add(path)
+                    self.originals[path] = self.object_of(path, path.read_text(), folder, True)
+        first_whole = path in self.whole
+        changed = self.object_of(path, text, folder, first_whole)
+        if changed is None or changed == self.originals[path]:
+            return None, line
+        survived = self.passes_with_object(module, path, folder)
+        # Others of its source, which the compiler may have inlined it into, still take the library's function.
+        if survived and not first_whole and self.object_of(path, text, folder, True) is not None:
+            survived = self.passes_with_object(module, path, folder)
+        return survived, line
 
 
 def main():
@@ -175,6 +185,7 @@ def main():
     options.add_argument("--jobs", type=int, default=1)
     options.add_argument("--build", type=pathlib.Path, default=SOURCE / "build" / "test")
     options.add_argument("--modules", nargs="+", default=MODULES)
+    options.add_argument("--at", nargs="+", help="FILE:LINE below include/gonio")
     given = options.parse_args()
     tests = tester(given.build.resolve())
     tests.prepare(given.modules)
@@ -182,6 +193,9 @@ def main():
              for path in sorted((HEADERS / "gonio" / module).rglob("*.ipp")) if path in tests.sources
              for change in changes_of(path)]
     random.Random(given.seed).shuffle(draws)
+    place_of = lambda path, change: f"{path.relative_to(HEADERS / 'gonio')}:{change[0] + 1}"
+    if given.at:
+        draws = [draw for draw in draws if place_of(*draw[1:]) in given.at]
     counts, tried = {True: 0, False: 0}, iter(draws)
 
     def work(number):
@@ -199,8 +213,7 @@ def main():
             with tests.lock:
                 counts[survived] += 1
                 if survived:
-                    where = f"{path.relative_to(HEADERS / 'gonio')}:{change[0] + 1}"
-                    print(f"| `{where}` | `{change[2].strip()}` -> `{change[3].strip()}` | `{line}` |", flush=True)
+                    print(f"| `{place_of(path, change)}` | `{change[2].strip()}` -> `{change[3].strip()}` | `{line}` |", flush=True)
 
     with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
         list(pool.map(work, range(given.jobs)))
