@@ -210,6 +210,27 @@ TEST_CASE("redundant rows and a degenerate corner") {
   CHECK(quadratic_program(zero).solve(identity_with(numbers({4, 1}))).weights == numbers({0, 0}));
 }
 
+TEST_CASE("a row that follows from two almost parallel ones is redundant") {
+  // a, a + b / 2^20 and a + b, without rounding; what is left is a line along (1, 1, -2).
+  const double tiny = std::ldexp(1.0, -20);
+  linear_constraints rows{.E = matrix(3, 3), .e = numbers({6, 6 - tiny, 5})};
+  rows.E << 1, 1, 1,  //
+      1 + tiny, 1 - tiny, 1, 2, 0, 1;
+  const auto found = quadratic_program(rows).solve(identity_with(numbers({2, 2, 2})));
+  CHECK(near(found.weights, numbers({1.5, 2.5, 2}), 1e-8));
+  CHECK(found.report.kkt_residual[0] < 1e-10);
+}
+
+TEST_CASE("a row that overflows is violated without end") {
+  const auto violation = [](const linear_constraints& constraints) {
+    return kkt_violation(normal_equations(matrix::Zero(1, 1), matrix::Zero(1, 1)), 0, numbers({1e200}), constraints,
+                         {vector::Zero(constraints.d.size()), vector::Zero(constraints.e.size())});
+  };
+  const matrix row = matrix::Constant(1, 1, 1e200);
+  CHECK(std::isinf(violation({.D = row, .d = vector::Ones(1)})));
+  CHECK(std::isinf(violation({.E = row, .e = vector::Ones(1)})));
+}
+
 TEST_CASE("constraints that contradict one another are refused") {
   const normal_equations normal = identity_with(numbers({1, 1}));
   linear_constraints gap{.D = matrix(2, 2), .d = numbers({0, -1})};  // x <= 0 and x >= 1

@@ -124,6 +124,13 @@ TEST_CASE("a row that turns out not to be finite where it is read is refused by 
                          "row 1 of a least-squares problem is not finite in column 2", gonio::error);
 }
 
+TEST_CASE("a penalty whose inverse overflows gives no weights that are not numbers") {
+  const least_squares_problem problem(row_matrix::Ones(1, 1), Eigen::MatrixXd::Constant(1, 1, 3.0));
+  CHECK(tikhonov(1e-310, tikhonov::form::primal).solve(problem).weights(0, 0) == doctest::Approx(3.0));
+  CHECK_THROWS_WITH_AS(tikhonov(1e-310, tikhonov::form::dual).solve(problem), doctest::Contains("found no optimum"),
+                       gonio::error);
+}
+
 TEST_CASE("a penalty that is not positive and finite is refused") {
   CHECK_THROWS_AS(tikhonov(0.0), gonio::error);
   CHECK_THROWS_AS(tikhonov(-1.0), gonio::error);

@@ -127,6 +127,15 @@ TEST_CASE("nothing to keep") {
   }
 }
 
+TEST_CASE("weights that overflow are refused") {
+  const auto one_unknown = [](double gram, double rhs) {
+    return gonio::normal_equations(Eigen::MatrixXd::Constant(1, 1, gram), Eigen::MatrixXd::Constant(1, 1, rhs));
+  };
+  CHECK_THROWS_WITH_AS(truncated_svd(1.0).solve(one_unknown(1e-310, 1.0)), doctest::Contains("found no optimum"),
+                       gonio::error);
+  CHECK(truncated_svd(1.0).solve(one_unknown(1e-300, 1e-300)).weights(0, 0) == doctest::Approx(1.0));
+}
+
 TEST_CASE("bad input is refused") {
   CHECK_THROWS_AS(truncated_svd(0.0), gonio::error);
   CHECK_THROWS_AS(truncated_svd(-0.5), gonio::error);

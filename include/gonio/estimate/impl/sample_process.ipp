@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -210,7 +211,9 @@ GONIO_INLINE solution sample_process::fit() const {
         squares += errors[i] * dual(i, c) * dual(i, c);
         gain += y(i, c) * (dual(i, c) - y(i, c) / errors[i]);
         largest = std::max(largest, std::abs(y(i, c)));
-        worst = std::max(worst, std::abs(off(i, c)));
+        // std::max would pass over what is not a number.
+        const double misfit = std::abs(off(i, c));
+        worst = std::isfinite(misfit) ? std::max(worst, misfit) : std::numeric_limits<double>::infinity();
       }
       found.report.residual[first + c] = std::sqrt(unit * squares);
       found.report.objective[first + c] = 0.5 * unit * gain;

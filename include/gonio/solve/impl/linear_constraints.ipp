@@ -123,11 +123,12 @@ namespace gonio {
 GONIO_INLINE double kkt_violation(const normal_equations& normal, Eigen::Index right_hand_side,
                                   const Eigen::Ref<const Eigen::VectorXd>& x, const linear_constraints& constraints,
                                   const constraint_multipliers& multipliers) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   const scaled_gradient gradient = detail::lagrangian_gradient(normal, right_hand_side, x, constraints, multipliers);
-  if (!x.allFinite() || !gradient.value.allFinite()) return std::numeric_limits<double>::infinity();
+  if (!x.allFinite() || !gradient.value.allFinite() || !std::isfinite(gradient.scale)) return infinite;
   double worst = 0.0, size = 0.0;
   for (Eigen::Index j = 0; j < x.size(); ++j) {
-    if (constraints.non_negative && x[j] < 0.0) return std::numeric_limits<double>::infinity();
+    if (constraints.non_negative && x[j] < 0.0) return infinite;
     const bool at_bound = constraints.non_negative && x[j] == 0.0;
     worst = std::max(worst, (at_bound ? -gradient.value[j] : std::abs(gradient.value[j])) / gradient.scale);
     size = std::max(size, std::abs(x[j]) * gradient.column_norms[j]);
@@ -135,12 +136,15 @@ GONIO_INLINE double kkt_violation(const normal_equations& normal, Eigen::Index r
   for (Eigen::Index i = 0; i < constraints.d.size(); ++i) {
     const detail::judged_row row(constraints.D.row(i).transpose(), gradient.column_norms, x);
     const double slack = row.relative_slack(constraints.d[i], size);
+    if (!std::isfinite(slack)) return infinite;  // the row has overflowed, and std::max would pass over it
     const double multiplier = multipliers.inequality[i] * row.largest / gradient.scale;
     worst = std::max({worst, -slack, -multiplier, std::min(multiplier, slack)});
   }
   for (Eigen::Index i = 0; i < constraints.e.size(); ++i) {
     const detail::judged_row row(constraints.E.row(i).transpose(), gradient.column_norms, x);
-    worst = std::max(worst, std::abs(row.relative_slack(constraints.e[i], size)));
+    const double slack = row.relative_slack(constraints.e[i], size);
+    if (!std::isfinite(slack)) return infinite;
+    worst = std::max(worst, std::abs(slack));
   }
   return worst;
 }

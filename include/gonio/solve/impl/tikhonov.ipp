@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace gonio {
@@ -47,9 +48,13 @@ struct ridge_rows {
   return dot(numbers, numbers, matrix.rows());
 }
 
+/// Infinite if a number is none, which std::max would pass over.
 [[nodiscard]] GONIO_INLINE double largest_magnitude(const Eigen::MatrixXd& matrix, Eigen::Index column) {
   double largest = 0.0;
-  for (Eigen::Index row = 0; row < matrix.rows(); ++row) largest = std::max(largest, std::abs(matrix(row, column)));
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    if (!std::isfinite(matrix(row, column))) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, std::abs(matrix(row, column)));
+  }
   return largest;
 }
 
@@ -63,8 +68,9 @@ struct ridge_rows {
     found.report.residual[column] = std::sqrt(squares);
     found.report.objective[column] =
         0.5 * (squares - squared_norm(ridge.right, column) + ridge.eta * squared_norm(found.weights, column));
-    const double scale = largest_magnitude(rhs, column);
-    found.report.kkt_residual[column] = largest_magnitude(gradient, column) / (scale > 0.0 ? scale : 1.0);
+    const double scale = largest_magnitude(rhs, column), worst = largest_magnitude(gradient, column);
+    found.report.kkt_residual[column] =
+        std::isfinite(scale) ? worst / (scale > 0.0 ? scale : 1.0) : std::numeric_limits<double>::infinity();
   }
   return found;
 }

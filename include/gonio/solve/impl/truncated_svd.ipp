@@ -10,6 +10,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -46,9 +47,11 @@ struct kept_spectrum {
   return {std::move(basis), qr.matrixQR().topRows(p)};
 }
 
-/// The largest magnitude, which is none if nothing is kept.
+/// The largest magnitude, which is none if nothing is kept, and infinite of what has overflowed: std::max would pass
+/// over what is not a number.
 [[nodiscard]] GONIO_INLINE double relative_violation(const Eigen::MatrixXd& violation, double scale) {
   if (violation.size() == 0) return 0.0;
+  if (!violation.allFinite() || !std::isfinite(scale)) return std::numeric_limits<double>::infinity();
   return violation.lpNorm<Eigen::Infinity>() / (scale > 0.0 ? scale : 1.0);
 }
 
