@@ -34,6 +34,14 @@ TEST_CASE("dark signal: a line through dark frames tells all times") {
   dark.require_known(100.0);
 }
 
+TEST_CASE("dark signal: the first pixel may be hot, in any channel") {
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    std::vector frames{dark_row(1.0), dark_row(4.0)};
+    for (exposed_frame& frame : frames) frame.codes.values[channel] = static_cast<std::uint16_t>(500 * frame.seconds);
+    CHECK(dark_signal(frames).hot_pixels() == std::vector<Eigen::Index>{0, 49});
+  }
+}
+
 TEST_CASE("dark signal: frames of one time say nothing of others") {
   const std::vector frames{dark_row(2.0), dark_row(2.0)};
   const dark_signal dark(frames);

@@ -118,6 +118,33 @@ TEST_CASE("merged frames: hot pixels are named, and their values not trusted") {
   }
 }
 
+TEST_CASE("merged frames: a pixel is what the worst of its channels is") {
+  merged_frames frames;
+  frames.states.assign(12, value_state::usable);
+  frames.states[1] = value_state::saturated;
+  frames.states[3] = frames.states[8] = value_state::dark;
+  CHECK(frames.pixel_state(0) == value_state::saturated);
+  CHECK(frames.pixel_state(1) == value_state::dark);
+  CHECK(frames.pixel_state(2) == value_state::dark);
+  CHECK(frames.pixel_state(3) == value_state::usable);
+  CHECK(frames.count(value_state::dark) == 2);
+}
+
+TEST_CASE("merged frames: the noise of the dark frames adds to that of the photograph") {
+  // Two dark frames know their mean to half of the variance of one: reading noise, and that counts are whole.
+  const std::vector dark_frames{pixel_of(0.5, 0), pixel_of(0.5, 0)};
+  const std::vector photograph{pixel_of(0.5, 1000)};
+  const auto responses = same_responses(camera_response::power_law(4095));
+  for (const double read : {0.0, 2.0}) {
+    const auto deviation = [&](const gonio::capture::dark_signal& dark) {
+      return double{merge_frames(photograph, responses, dark, {.noise = {.read = read, .shot = 0.0, .relative = 0.0}})
+                        .deviation(0, 0, 0)};
+    };
+    CHECK(deviation(gonio::capture::dark_signal(dark_frames)) / deviation({}) ==
+          doctest::Approx(std::sqrt(1.5)).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("merged frames: the response is estimated from the frames") {
   lab::photograph_settings settings;
   settings.chip = lab::sensor::usual(lab::response_curve::gamma);

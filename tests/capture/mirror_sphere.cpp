@@ -90,6 +90,22 @@ TEST_CASE("mirror sphere: a map, its image in the sphere, and back") {
   CHECK(bright(10, 10, 1) == doctest::Approx(2.0 * unwrap(probe, sphere, {.rows = 32})(10, 10, 1)));
 }
 
+TEST_CASE("mirror sphere: a map is as symmetric as the light") {
+  const auto symmetric = [](const gonio::direction& from) {
+    return gonio::rgb::Constant(2.0 + from.z() + from.x() * from.x() - 0.5 * from.y() * from.y());
+  };
+  const mirror_sphere sphere(4.0);
+  for (const std::size_t rows : {8u, 64u}) {
+    const auto map = unwrap(lab::photograph(sphere, symmetric, 128), sphere, {.rows = rows});
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t column = 0; column < 2 * rows; ++column) {
+        const double here = map(row, column, 1);
+        REQUIRE(map(row, 2 * rows - 1 - column, 1) == doctest::Approx(here).epsilon(1e-4));
+        REQUIRE(map(rows - 1 - row, column, 1) == doctest::Approx(here).epsilon(1e-4));
+      }
+  }
+}
+
 TEST_CASE("mirror sphere: nothing beside the sphere is read, up to its rim") {
   const mirror_sphere sphere;
   for (const std::size_t pixels : {8u, 9u, 64u, 101u}) {

@@ -36,6 +36,13 @@ TEST_CASE("relative reflectance: f = dL / dE wherever lamp, reference and materi
   }));
 }
 
+TEST_CASE("relative reflectance: by hand") {
+  // The reference's irradiance is 0.5 / 4 of the lamp's power, the material's 0.8 / 9.
+  const auto found = reference_light({2.0, 0.0}, 0.9, {.cosine = 0.5, .distance = 2.0})
+                         .brdf({3.0, 0.0}, {.cosine = 0.8, .distance = 3.0});
+  CHECK(found.value == doctest::Approx(0.9 / std::numbers::pi * 3.0 / 2.0 * (0.5 / 4.0) / (0.8 / 9.0)));
+}
+
 TEST_CASE("relative reflectance: the deviations of both exposures add up") {
   std::mt19937_64 generator(1);
   std::normal_distribution<double> normal;

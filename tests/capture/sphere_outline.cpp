@@ -85,6 +85,19 @@ TEST_CASE("a photograph gives the sphere to a fifth of a pixel, to a pixel if li
   }
 }
 
+TEST_CASE("what the border of a photograph cuts off has no edge there") {
+  gonio::image picture = gonio::uniform_image(40, 60);
+  for (std::size_t row = 10; row < 30; ++row)
+    for (std::size_t column = 0; column < 20; ++column) gonio::set_pixel(picture, row, column, gonio::rgb::Ones());
+  const auto points = gonio::capture::edge_points(picture);
+  CHECK(points.size() > 30);
+  for (const Eigen::Vector2d& at : points) {
+    CAPTURE(at.transpose());
+    const bool is_right = std::abs(at.x() - 20.0) < 1.0;
+    CHECK((is_right || std::abs(at.y() - 10.0) < 1.0 || std::abs(at.y() - 30.0) < 1.0));
+  }
+}
+
 TEST_CASE("a circle that somebody has drawn gives the sphere") {
   const gonio::lens_camera camera = outline_camera();
   const placed_sphere sphere{{0.0, 0.0, 0.0}, 1.0};

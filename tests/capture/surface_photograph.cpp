@@ -151,6 +151,18 @@ TEST_CASE("bad photographs are refused") {
   refuses(take(), gonio::capture::point_lamp{photographed_sphere.centre}, {}, "inside it");
   refuses(take(), gonio::directional_light{gonio::direction(0.0, 0.0, -1.0)}, {}, "the light is behind");
   refuses(take(), photograph_lamp, {.saturation = 1e-9}, "is saturated");
+  // A surface of which one pixel has neighbours all around.
+  gonio::capture::vector_map normals = xt::xtensor<float, 3>::from_shape({96, 112, 3});
+  normals.fill(0.0F);
+  for (std::size_t row = 47; row < 50; ++row)
+    for (std::size_t column = 55; column < 58; ++column) normals(row, column, 2) = 1.0F;
+  const auto patch = gonio::capture::surface_of_maps(normals, "normals.npy", camera);
+  const gonio::directional_light distant{gonio::direction(0.6, 0.0, 0.8)};
+  const auto refuses_patch = [&](const gonio::capture::photograph_options& options, const std::string& why) {
+    refused_with([&] { static_cast<void>(samples_of(take(), patch, camera, distant, {}, options)); }, why);
+  };
+  refuses_patch({.saturation = 1e-9}, "all that the photograph shows of the surface is saturated");
+  refuses_patch({.smallest_cosine = 0.9}, "the photograph shows nothing of the surface that is lit");
   gonio::image broken = take();
   gonio::set_pixel(broken, 48, 56, gonio::rgb::Constant(std::numeric_limits<double>::quiet_NaN()));
   refuses(broken, photograph_lamp, {}, "the photograph: pixel (row 48, column 56) is not a number");

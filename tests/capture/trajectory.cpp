@@ -88,6 +88,10 @@ TEST_CASE("trajectory: 11 rows of 25, and right above; 23 lamps") {
   CHECK_THROWS_WITH_AS(gonio::capture::arc_lamps({gonio::radians(7.0)}), doctest::Contains("7.000000 degrees"),
                        gonio::error);
   CHECK_THROWS_WITH_AS(gonio::capture::half_hemisphere({0.0}), doctest::Contains("do not divide"), gonio::error);
+  // A right angle is the largest step, of one lamp.
+  CHECK(gonio::capture::arc_lamps({gonio::radians(90.0)}).size() == 1);
+  CHECK_THROWS_WITH_AS(gonio::capture::arc_lamps({gonio::radians(180.0)}), doctest::Contains("do not divide"),
+                       gonio::error);
 }
 
 TEST_CASE("trajectory: a pair above the arc is the same pair to an isotropic material") {
