@@ -53,6 +53,19 @@ TEST_CASE("a point on the ray of a pixel is projected to that pixel") {
   }));
 }
 
+TEST_CASE("what tangential coefficients draw inwards is seen up to the corners") {
+  for (const double p : {0.03, -0.03}) {
+    const gonio::lens_camera camera(distortion_pinhole(), {.p1 = p, .p2 = p});
+    for (const double column : {0.5, 639.5})
+      for (const double row : {0.5, 479.5}) {
+        const gonio::ray line = camera.ray_through(column, row);
+        const auto back = camera.project(line.origin + 2.5 * line.towards);
+        REQUIRE(back.has_value());
+        CHECK((*back - Eigen::Vector2d(column, row)).norm() < 1e-6);
+      }
+  }
+}
+
 TEST_CASE("the derivative is that of differences") {
   const gonio::lens_distortion distortion{.k1 = -0.3, .k2 = 0.1, .p1 = 0.01, .p2 = -0.02, .k3 = 0.05};
   const Eigen::Vector2d at(0.4, 0.25);
