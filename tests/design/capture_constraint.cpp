@@ -67,6 +67,9 @@ TEST_CASE("in the plane of incidence: poses are checked against it, and those ne
   CHECK(constraint(light_and_viewer(30, 60)));
   CHECK(constraint(light_and_viewer(0, 60, 77)));
   CHECK_FALSE(constraint(light_and_viewer(30, 60, 175)));
+  // How steep the light is does not matter.
+  CHECK_FALSE(constraint(light_and_viewer(10, 60, 178)));
+  CHECK(constraint(light_and_viewer(10, 60, 179)));
   const auto pose = constraint.pose_of({radians(20), radians(30), radians(8)});
   REQUIRE(pose);
   CHECK(gonio::to_half_difference(pose->wi, pose->wo).theta_h == doctest::Approx(radians(20)));

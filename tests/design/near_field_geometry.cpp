@@ -47,6 +47,9 @@ TEST_CASE("from the zenith the pixels see a cone of the field of view, all under
   }
   CHECK(degrees(std::acos(flattest)) < 0.5);
   CHECK(degrees(std::acos(steepest)) == doctest::Approx(12.5).epsilon(0.04));
+  // Of 3 x 3 pixels the outermost ones' middles are in the disc, too.
+  const near_field_geometry coarse({.field_of_view = radians(25), .pixels = 3});
+  CHECK(coarse.directions(candidate_at(coarse, 40, 0, 0)).size() == 9);
 }
 
 TEST_CASE("a disc seen from the side is an ellipse of fewer pixels, its near side at another angle than its far one") {
