@@ -38,37 +38,53 @@ gonio::sample_process process_with(const Eigen::MatrixXd& rows, double error_var
           Eigen::VectorXd::Constant(rows.rows(), error_variance)};
 }
 
+/// The logarithm of Student's density of a set, its covariance written out: n x n for the mean and for the contrasts.
+/// All samples are in one direction, where a shared deviation is the same.
+double log_probability(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values, unsigned set,
+                       double everywhere = 0.0) {
+  const gonio::rejection_rule rule;
+  const Eigen::Index n = values.rows();
+  const Eigen::MatrixXd shared = Eigen::MatrixXd::Constant(n, n, everywhere);
+  Eigen::MatrixXd mean = covariance + 3.0 * shared, contrasts = covariance + 0.1 * shared;
+  // Of k wrong ones, B(1 + k, 1 + n - k) for an expected number of 1.
+  const auto k = static_cast<double>(std::popcount(set)), count = static_cast<double>(n);
+  const double log_prior = std::lgamma(1.0 + k) + std::lgamma(1.0 + count - k);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const bool wrong = (set >> i & 1U) != 0;
+    if (!wrong) continue;
+    mean(i, i) += 3.0 * std::pow(rule.common_error, 2) + std::pow(rule.channel_error, 2);
+    contrasts(i, i) += std::pow(rule.channel_error, 2);
+  }
+  Eigen::Matrix3d orthonormal;
+  orthonormal.col(0) = Eigen::Vector3d::Constant(1.0 / std::sqrt(3.0));
+  orthonormal.col(1) = Eigen::Vector3d(1.0, -1.0, 0.0) / std::sqrt(2.0);
+  orthonormal.col(2) = Eigen::Vector3d(1.0, 1.0, -2.0) / std::sqrt(6.0);
+  const Eigen::MatrixXd turned = values * orthonormal;
+  double squares = 0.0, log_determinant = 0.0;
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const Eigen::MatrixXd& of_channel = c == 0 ? mean : contrasts;
+    const Eigen::LLT<Eigen::MatrixXd> factors(of_channel);
+    squares += turned.col(c).dot(factors.solve(turned.col(c))) / 3.0;
+    log_determinant += 2.0 * factors.matrixLLT().diagonal().array().log().sum() / 3.0;
+  }
+  return log_prior - 0.5 * log_determinant - 0.5 * (10.0 + 2.0 * count) * std::log(10.0 + count + squares);
+}
+
+/// Of all sets of up to three.
+unsigned most_probable_set(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values, double everywhere = 0.0) {
+  unsigned best = 0;
+  for (unsigned set = 0; set < 1U << values.rows(); ++set)
+    if (std::popcount(set) <= 3 &&
+        log_probability(covariance, values, set, everywhere) > log_probability(covariance, values, best, everywhere))
+      best = set;
+  return best;
+}
+
 }  // namespace
 
 TEST_CASE("the set that is found is the most probable one of all, by the densities themselves") {
   constexpr Eigen::Index n = 7;
   const gonio::rejection_rule rule{.expected_number = 1.0, .largest_share = 0.5, .everywhere = {}, .in_highlight = {}};
-  // The logarithm of Student's density of a set, its covariance written out: n x n for the mean and for the contrasts.
-  const auto log_probability = [&](const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values, unsigned set) {
-    Eigen::MatrixXd mean = covariance, contrasts = covariance;
-    // Of k wrong ones, B(1 + k, 1 + n - k) for an expected number of 1.
-    const double k = std::popcount(set);
-    const double log_prior = std::lgamma(1.0 + k) + std::lgamma(1.0 + n - k);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const bool wrong = (set >> i & 1U) != 0;
-      if (!wrong) continue;
-      mean(i, i) += 3.0 * std::pow(rule.common_error, 2) + std::pow(rule.channel_error, 2);
-      contrasts(i, i) += std::pow(rule.channel_error, 2);
-    }
-    Eigen::Matrix3d orthonormal;
-    orthonormal.col(0) = Eigen::Vector3d::Constant(1.0 / std::sqrt(3.0));
-    orthonormal.col(1) = Eigen::Vector3d(1.0, -1.0, 0.0) / std::sqrt(2.0);
-    orthonormal.col(2) = Eigen::Vector3d(1.0, 1.0, -2.0) / std::sqrt(6.0);
-    const Eigen::MatrixXd turned = values * orthonormal;
-    double squares = 0.0, log_determinant = 0.0;
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      const Eigen::MatrixXd& of_channel = c == 0 ? mean : contrasts;
-      const Eigen::LLT<Eigen::MatrixXd> factors(of_channel);
-      squares += turned.col(c).dot(factors.solve(turned.col(c))) / 3.0;
-      log_determinant += 2.0 * factors.matrixLLT().diagonal().array().log().sum() / 3.0;
-    }
-    return log_prior - 0.5 * log_determinant - 0.5 * (10.0 + 2.0 * n) * std::log(10.0 + n + squares);
-  };
   int found_best = 0;
   constexpr int trials = 40;
   for (int trial = 0; trial < trials; ++trial) {
@@ -76,11 +92,7 @@ TEST_CASE("the set that is found is the most probable one of all, by the densiti
     const Eigen::MatrixXd covariance = half * half.transpose() + 0.05 * Eigen::MatrixXd::Identity(n, n);
     Eigen::MatrixXd values = half * Eigen::MatrixXd::Random(10, 3);
     for (Eigen::Index wrong = 0; wrong < trial % 4; ++wrong) values.row(2 * wrong).array() += 4.0;
-    unsigned best = 0;
-    for (unsigned set = 0; set < 1U << n; ++set)
-      if (std::popcount(set) <= 3 &&
-          log_probability(covariance, values, set) > log_probability(covariance, values, best))
-        best = set;
+    const unsigned best = most_probable_set(covariance, values);
     const gonio::sample_process process = process_with(half, 0.05, values);
     unsigned found = 0;
     const gonio::judged_samples judged = gonio::judge_samples(process, rule);
@@ -94,6 +106,34 @@ TEST_CASE("the set that is found is the most probable one of all, by the densiti
     }
   }
   CHECK(found_best >= trials - 2);  // the search is greedy
+}
+
+TEST_CASE("samples share a deviation where that is more probable than that some of them are wrong") {
+  constexpr Eigen::Index n = 7;
+  constexpr double everywhere = 1.0, penalty = 0.2;
+  const gonio::rejection_rule rule{.expected_number = 1.0,
+                                   .largest_share = 0.5,
+                                   .everywhere = {everywhere},
+                                   .in_highlight = {},
+                                   .everywhere_penalty = penalty};
+  int agree = 0, share = 0;
+  constexpr int trials = 60;
+  for (int trial = 0; trial < trials; ++trial) {
+    const Eigen::MatrixXd half = 0.3 * Eigen::MatrixXd::Random(n, 10);
+    const Eigen::MatrixXd covariance = half * half.transpose() + 0.05 * Eigen::MatrixXd::Identity(n, n);
+    Eigen::MatrixXd values = half * Eigen::MatrixXd::Random(10, 3);
+    values.topRows(2 + trial % 6).array() += 1.5;
+    const auto best = [&](double variance) {
+      return log_probability(covariance, values, most_probable_set(covariance, values, variance), variance);
+    };
+    const bool expected = best(everywhere) - penalty > best(0.0);
+    const bool found = gonio::judge_samples(process_with(half, 0.05, values), rule).shared().everywhere > 0.0;
+    agree += found == expected ? 1 : 0;
+    share += expected ? 1 : 0;
+  }
+  CHECK(share > trials / 6);
+  CHECK(share < 5 * trials / 6);
+  CHECK(agree >= trials - 2);  // the search is greedy
 }
 
 TEST_CASE("no more samples are wrong than the rule says") {
