@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 using gonio::io::exposure_time_of_name;
 using gonio::io::read_exposure_times;
 using scratch::check_refused;
@@ -37,6 +39,13 @@ TEST_CASE("exposure times: a table") {
   CHECK(times.at("b, c.png") == 1.0 / 250.0);
   scratch::put(here / "german.csv", "file;seconds\na.png;0,5\nb, c.png;1/250\n");
   CHECK(read_exposure_times(here / "german.csv") == times);
+}
+
+TEST_CASE("exposure times: from a tenth of a microsecond to a day are believable") {
+  for (const double seconds : {1e-7, 0.5, 86400.0}) CHECK_NOTHROW(gonio::io::require_believable_exposure(seconds, "a"));
+  for (const double seconds : {0.99e-7, 86401.0, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    CHECK_THROWS_WITH_AS(gonio::io::require_believable_exposure(seconds, "a.jpg"),
+                         doctest::Contains("a.jpg: an exposure time of"), gonio::error);
 }
 
 TEST_CASE("exposure times: bad tables are refused") {

@@ -95,7 +95,8 @@ TEST_CASE("OpenEXR rows: files that are cut, that lie or whose tiles are huge ar
   };
   put_lines(here / "lines.exr", counted_image(70, 37), Imf::ZIP_COMPRESSION);
   put_tiles(here / "tiles.exr", counted_image(70, 37), 16);
-  for (const char* name : {"lines.exr", "tiles.exr"}) {
+  put_tiles(here / "narrow.exr", counted_image(70, 5), 16);
+  for (const char* name : {"lines.exr", "tiles.exr", "narrow.exr"}) {
     const std::string whole = scratch::get(here / name);
     for (const std::size_t cut : {std::size_t{1}, std::size_t{100}, whole.size() / 2, whole.size() - 100})
       refused(whole.substr(0, whole.size() - cut), {"a.exr: cannot be decoded as OpenEXR"});

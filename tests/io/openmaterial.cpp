@@ -72,6 +72,15 @@ TEST_CASE("OpenMATERIAL: a direction is one sample; rows with null and at the ho
   CHECK(samples[1].value[0] == doctest::Approx(2.0));
 }
 
+TEST_CASE("OpenMATERIAL: limits that were rounded up are met") {
+  const auto samples = parsed(
+      "[9e-7, 0.4, 0.2, 6.2832, 1], [9e-7, 1.5708, 0.2, 1, 7], [9e-7, 0.4, 1.5708, 1, 7], [17.16e-3, 0.4, 0.2, 0, "
+      "null]");
+  REQUIRE(samples.size() == 1);
+  CHECK(gonio::azimuth(samples[0].directions.pair().wo) == doctest::Approx(0.0));
+  CHECK(read_openmaterial(file_of("[17.16e-3, 0.4, 0.2, 0, 1]"), "x").channels().name(0) == "17160000 nm");
+}
+
 TEST_CASE("OpenMATERIAL: wavelengths in metres make a colour, in whatever order") {
   const auto flat = parsed("[4.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.3], [6.5e-7, 0.4, 0.2, 0, 0.3]");
   REQUIRE(flat.size() == 1);

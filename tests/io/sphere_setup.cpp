@@ -57,5 +57,8 @@ TEST_CASE("bad set-ups of a sphere are refused") {
   refuses_setup(good + "white_reflectance 1.2\n", "above 0 and up to 1");
   refuses_setup(good + "white_plane 0 0 0 0 0 1\n", "needs 'white_reflectance'");
   refuses_setup(good + "distortion -20 0 0 0\n", "folds within the image: at a radius of");
+  for (const char* cosine : {"0", "1", "1.2", "-0.5"})
+    refuses_setup(good + "smallest_cosine " + cosine + "\n", "expected above 0 and below 1");
+  CHECK(read_sphere_setup(good + "smallest_cosine 0.3\n", "setup.txt").options.smallest_cosine == 0.3);
   refuses_setup(good + "region 1\n", "'region' is unknown");
 }

@@ -95,6 +95,7 @@ TEST_CASE("map of a spatially varying BRDF: texels that are not of the sample ar
   for (const Eigen::Index texel : {0, 1, 2, 3}) CHECK(band.has_material(texel) == (texel != 2));
   CHECK(band.disagreement[2] == 0);
   CHECK(std::count(band.weights.begin(), band.weights.end(), 0) == 21);
+  CHECK(band.uncertainty[0] == 1);  // the smallest half float
   CHECK(band.weights[0] == 1);
   CHECK(band.weights[18] == 0);  // another weight of this texel is not zero
 }

@@ -67,5 +67,6 @@ TEST_CASE("numbers by strtod: the same as by from_chars, whatever the field") {
 TEST_CASE("quotes: short and printable") {
   CHECK(in_quotes("plain") == "'plain'");
   CHECK(in_quotes("a\x01\xff z") == "'a?? z'");
+  CHECK(in_quotes(std::string(40, 'x')) == "'" + std::string(40, 'x') + "'");
   CHECK(in_quotes(std::string(100, 'x')) == "'" + std::string(40, 'x') + "...'");
 }

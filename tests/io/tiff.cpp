@@ -25,6 +25,10 @@ TEST_CASE("TIFF: counts of 8 and 16 bits, of one channel and of three, are read"
   CHECK(grey_codes.largest == 255);
   CHECK(grey_codes.values == std::vector<std::uint16_t>{0, 0, 0, 128, 128, 128, 255, 255, 255});
 
+  // Of one channel, planes are the same.
+  grey.more = {{284, 3, 1, 2}};
+  CHECK(read_tiff(tiff_bytes::of(grey), "a.tif").values == grey_codes.values);
+
   // A fourth channel does not count.
   tiff_bytes::image with_alpha{.columns = 1, .rows = 1, .bits = 8, .channels = 4};
   with_alpha.samples = {1, 2, 3, 4};
