@@ -256,6 +256,17 @@ TEST_CASE("random starts never end worse than the consecutive scheme alone") {
   CHECK(many.evaluations > alone.evaluations);
 }
 
+TEST_CASE("random starts are those of their seed") {
+  const lobe_kind &ward = lobe_kind::of<gonio::model::ward_shape>(), &ggx = lobe_kind::of<gonio::model::ggx_shape>();
+  const auto samples =
+      observed(gonio::model::analytic_brdf({{ggx, rgb::Constant(0.3), {0.2, 0.1}}}), scattered_pairs(200));
+  const auto evaluations = [&](std::uint64_t seed) {
+    return gonio::model::fit_model({&ward}, samples, gonio::log(), {.random_starts = 8, .seed = seed}).evaluations;
+  };
+  CHECK(evaluations(4) == evaluations(4));
+  CHECK(evaluations(4) != evaluations(5));
+}
+
 TEST_CASE("what cannot be fitted is refused") {
   const lobe_kind &lambert = lobe_kind::of<gonio::model::lambert_shape>(),
                   &ggx = lobe_kind::of<gonio::model::ggx_shape>();

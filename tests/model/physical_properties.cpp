@@ -42,6 +42,14 @@ TEST_CASE("what breaks them is found, and where") {
             .amount > 0.9);
 }
 
+TEST_CASE("colours differ by a share of the brighter one's largest channel") {
+  using gonio::model::detail::relative_difference;
+  CHECK(relative_difference(rgb(1, 2, 4), rgb(1, 2, 3)) == 0.25);
+  CHECK(relative_difference(rgb(1, 2, 3), rgb(1, 2, 4)) == 0.25);
+  CHECK(relative_difference(rgb::Zero(), rgb(0, 0, 0.1)) == 1.0);
+  CHECK(relative_difference(rgb::Zero(), rgb::Zero()) == 0.0);
+}
+
 TEST_CASE("albedo: exact for Lambert, too much for Duer's lobe at grazing angles, and of tables, too") {
   const gonio::model::lambertian grey{.albedo = {0.2, 0.5, 0.9}};
   for (const double theta : {0.0, 0.6, 1.2})

@@ -104,4 +104,8 @@ TEST_CASE("polar grid: values that do not fit and grids of no cells are refused"
   const gonio::model::lambertian grey{.albedo = rgb::Constant(0.5)};
   check_refused([&] { return gonio::model::tabulate_polar(grey, {2000, 10}); }, {"1 to 360", "2000"});
   check_refused([&] { return gonio::model::tabulate_polar(grey, {0, 10}); }, {"1 to 360"});
+  check_refused([&] { return gonio::model::tabulate_polar(grey, {361, 1}); }, {"1 to 360", "361"});
+  check_refused([&] { return gonio::model::tabulate_polar(grey, {1, 721}); }, {"1 to 720", "721"});
+  CHECK(gonio::model::tabulate_polar(grey, {360, 1}).values().size() == 360 * 360);
+  CHECK(gonio::model::tabulate_polar(grey, {1, 720}).values().size() == 720);
 }
