@@ -150,6 +150,9 @@ TEST_CASE("the mixture's limits: perfect residuals, none good, and a start at th
   const auto hopeless = gonio::estimate_mixture(uniform_numbers(100, 50.0, 60.0, 3), outliers);
   CHECK(hopeless.inlier_fraction >= 0.02);
   CHECK(std::isfinite(hopeless.scale));
+  // Of n that are all wrong, p^1 (1 - p)^n is largest at p = 1 / (n + 1).
+  const auto nine = gonio::estimate_mixture(std::vector<double>(9, 1e6), std::vector<double>(9, 0.2));
+  CHECK(nine.inlier_fraction == doctest::Approx(0.1).epsilon(0.01));
   const auto one = gonio::estimate_mixture({0.7}, {1.0});
   CHECK(std::isfinite(one.scale));
   CHECK(one.inlier_fraction <= 0.999);

@@ -127,9 +127,19 @@ TEST_CASE("samples share a deviation where that is more probable than that some 
       return log_probability(covariance, values, most_probable_set(covariance, values, variance), variance);
     };
     const bool expected = best(everywhere) - penalty > best(0.0);
-    const bool found = gonio::judge_samples(process_with(half, 0.05, values), rule).shared().everywhere > 0.0;
-    agree += found == expected ? 1 : 0;
+    const gonio::judged_samples judged = gonio::judge_samples(process_with(half, 0.05, values), rule);
+    agree += (judged.shared().everywhere > 0.0) == expected ? 1 : 0;
     share += expected ? 1 : 0;
+    // What samples share counts in the probability of each to be wrong.
+    unsigned found = 0;
+    for (const auto& sample : judged.wrong()) found |= 1U << sample.number;
+    for (unsigned i = 0; i < n; ++i) {
+      const auto log_of = [&](unsigned set) {
+        return log_probability(covariance, values, set, judged.shared().everywhere);
+      };
+      const double odds = log_of(found | 1U << i) - log_of(found & ~(1U << i));
+      CHECK(judged.probabilities()[i] == doctest::Approx(1.0 / (1.0 + std::exp(-odds))));
+    }
   }
   CHECK(share > trials / 6);
   CHECK(share < 5 * trials / 6);

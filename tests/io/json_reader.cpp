@@ -74,6 +74,7 @@ TEST_CASE("JSON: every kind of value is known, and no other") {
   check_json_refused("[1e999]", {"'1e999'", "out of range"});
   check_json_refused("tru", {"'tru'"});
   check_json_refused("\"\x1b\"", {"control character"});
+  check_json_refused(std::string("\"\0\"", 3), {"control character"});
   check_json_refused("\"\\x\"", {"after a backslash"});
   check_json_refused("\"\\u12\"", {"four hexadecimal digits"});
   check_json_refused("\"\\", {"after a backslash"});

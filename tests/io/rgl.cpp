@@ -12,6 +12,7 @@
 #include <numbers>
 #include <random>
 #include <set>
+#include <utility>
 
 using gonio::io::read_rgl;
 using scratch::check_refused;
@@ -87,6 +88,15 @@ TEST_CASE("a material of the RGL database is read") {
   CHECK(material.parts().visible_normals.columns == 5);
   const gonio::direction up(0, 0, 1);
   CHECK((material(up, up) - gonio::rgb(0.0, 0.25, 0.5)).abs().maxCoeff() < 1e-7);
+  // Arrays of other types are passed over; the last one ends where the file does.
+  for (const auto& [type, size] : {std::pair{1, 1}, {4, 2}, {6, 4}, {8, 8}, {9, 2}, {10, 4}, {11, 8}}) {
+    CAPTURE(type);
+    fields more = small_material();
+    more["zones"] = {static_cast<std::uint8_t>(type), {3}, std::string(static_cast<std::size_t>(3 * size), 'z')};
+    CHECK(parsed(container(more)).description == "paint");
+    more["zones"].bytes.pop_back();
+    check_refused([&] { return parsed(container(more)); }, {"'zones'", "does not lie within"});
+  }
 }
 
 TEST_CASE("a material of spectra is read as its colours, and the spectra are kept") {

@@ -42,6 +42,15 @@ TEST_CASE("columns called by their wavelengths are spectra, however instruments 
   }
 }
 
+TEST_CASE("numbers that are called wavelengths may be any") {
+  for (const std::string columns :
+       {"13.5nm,25000nm", "13.5 [nm],25000 [nm]", "w13.5,w25000", "lambda_13.5,lambda_25000"}) {
+    CAPTURE(columns);
+    const auto file = read_sample_file("# quantity: brdf\n" + angles + columns + "\n" + at + ".1,.2\n", "x");
+    CHECK(file.samples.channels().wavelengths() == std::vector<double>{13.5, 25000.0});
+  }
+}
+
 TEST_CASE("spectra may be stated in any quantity, in any dialect, with weights and other columns among them") {
   const auto file = read_sample_file(
       "# instrument: arm\n# quantity: "

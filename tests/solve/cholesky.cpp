@@ -26,6 +26,7 @@ TEST_CASE("Cholesky factors are Eigen's") {
     CHECK(factors.solve(b).isApprox(expected.solve(b), 1e-11));
     CHECK(factors.solve_lower(b).isApprox(expected.matrixL().solve(b), 1e-12));
     CHECK(factors.solve_upper(b).isApprox(expected.matrixU().solve(b), 1e-12));
+    CHECK(factors.inverse().isApprox(expected.solve(Eigen::MatrixXd::Identity(size, size)), 1e-11));
     CHECK(factors.log_determinant() ==
           doctest::Approx(2.0 * expected.matrixLLT().diagonal().array().log().sum()).epsilon(1e-12));
     Eigen::VectorXd column = b.col(0);

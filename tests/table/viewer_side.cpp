@@ -28,6 +28,8 @@ sample_set samples_of(const std::vector<reading>& readings) {
 TEST_CASE("the light's side is compared with the mirror direction, or with the other side where that is missing") {
   CHECK(brightness_towards_light(samples_of({{30, 28, 0, 6}, {30, 31, 180, 2}, {30, 60, 180, 9}})) == 3.0);
   CHECK(brightness_towards_light(samples_of({{30, 28, 0, 6}, {30, 60, 180, 3}})) == 2.0);
+  // A viewer at the normal is not on the light's side.
+  CHECK(brightness_towards_light(samples_of({{30, 28, 0, 6}, {30, 0, 0, 3}})) == 2.0);
   // The median over incidences; a side that is dark counts as a thousandth of the brightest.
   CHECK(brightness_towards_light(samples_of(
             {{30, 30, 0, 6}, {30, 30, 180, 2}, {40, 40, 0, 9}, {40, 40, 180, 1}, {50, 50, 0, 1}, {50, 50, 180, 0}})) ==
