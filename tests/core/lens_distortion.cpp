@@ -66,6 +66,19 @@ TEST_CASE("what tangential coefficients draw inwards is seen up to the corners")
   }
 }
 
+TEST_CASE("a lens of a narrow field, whose distortion folds far outside of it, is inverted") {
+  const auto narrow = gonio::pinhole_camera::look_at({480, 640, 2100.0, 2070.0, 310.0, 250.0}, {0.1, -0.2, 3.0},
+                                                     {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
+  const gonio::lens_camera camera(narrow, {.k1 = -0.3, .k3 = -0.03});
+  for (double column = 0.5; column < 640.0; column += 71.0)
+    for (double row = 0.5; row < 480.0; row += 68.0) {
+      const gonio::ray line = camera.ray_through(column, row);
+      const auto back = camera.project(line.origin + 2.5 * line.towards);
+      REQUIRE(back.has_value());
+      CHECK((*back - Eigen::Vector2d(column, row)).norm() < 1e-6);
+    }
+}
+
 TEST_CASE("the derivative is that of differences") {
   const gonio::lens_distortion distortion{.k1 = -0.3, .k2 = 0.1, .p1 = 0.01, .p2 = -0.02, .k3 = 0.05};
   const Eigen::Vector2d at(0.4, 0.25);

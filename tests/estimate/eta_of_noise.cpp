@@ -67,6 +67,18 @@ const gonio::log_relative_pca& twelve_materials() {
 
 }  // namespace
 
+TEST_CASE("the error of leaving a material out depends on eta by its ratio to the weights") {
+  const auto& prior = twelve_materials();
+  const auto cells = gonio::random_cells(small_cells(), 30, 3);
+  const auto located = gonio::locate_samples(prior.cells(), measured_at(gonio::brdf_table(prior.cells()), cells));
+  const auto error = [&](double factor) {
+    const Eigen::VectorXd weights = factor * located.weights;
+    const gonio::leave_one_material_out_error scaled(prior, located.locations, weights, 0.1);
+    return at_one_eta(scaled, 0.5 * factor);
+  };
+  for (const double factor : {1e-8, 1e8}) CHECK(error(factor) == doctest::Approx(error(1.0)).epsilon(1e-6));
+}
+
 TEST_CASE("leaving a material out is learning again without it") {
   const auto materials = synthetic_materials(small_cells(), 6);
   const auto prior = learn(materials, 1000);

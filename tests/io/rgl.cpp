@@ -89,7 +89,8 @@ TEST_CASE("a material of the RGL database is read") {
   const gonio::direction up(0, 0, 1);
   CHECK((material(up, up) - gonio::rgb(0.0, 0.25, 0.5)).abs().maxCoeff() < 1e-7);
   // Arrays of other types are passed over; the last one ends where the file does.
-  for (const auto& [type, size] : {std::pair{1, 1}, {4, 2}, {6, 4}, {8, 8}, {9, 2}, {10, 4}, {11, 8}}) {
+  for (const auto& [type, size] :
+       {std::pair{1, 1}, {2, 1}, {3, 2}, {4, 2}, {5, 4}, {6, 4}, {7, 8}, {8, 8}, {9, 2}, {10, 4}, {11, 8}}) {
     CAPTURE(type);
     fields more = small_material();
     more["zones"] = {static_cast<std::uint8_t>(type), {3}, std::string(static_cast<std::size_t>(3 * size), 'z')};

@@ -221,6 +221,19 @@ TEST_CASE("a row that follows from two almost parallel ones is redundant") {
   CHECK(found.report.kkt_residual[0] < 1e-10);
 }
 
+TEST_CASE("a row's violation is relative to its bound, and its coefficients times the weights") {
+  // At the optimum x = 2 of x^2 / 2 - 2 x, 3 x = 6 is above 4: by 2 / (4 + 3 * 2).
+  const auto violation = [](const linear_constraints& constraints) {
+    return kkt_violation(identity_with(numbers({2})), 0, numbers({2}), constraints,
+                         {vector::Zero(constraints.d.size()), vector::Zero(constraints.e.size())});
+  };
+  const matrix row = matrix::Constant(1, 1, 3.0);
+  CHECK(violation({.D = row, .d = numbers({4})}) == doctest::Approx(0.2));
+  CHECK(violation({.D = row, .d = numbers({8})}) == 0.0);
+  CHECK(violation({.E = row, .e = numbers({4})}) == doctest::Approx(0.2));
+  CHECK(violation({.E = row, .e = numbers({8})}) == doctest::Approx(2.0 / 14.0));
+}
+
 TEST_CASE("a row that overflows is violated without end") {
   const auto violation = [](const linear_constraints& constraints) {
     return kkt_violation(normal_equations(matrix::Zero(1, 1), matrix::Zero(1, 1)), 0, numbers({1e200}), constraints,
