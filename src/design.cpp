@@ -1,5 +1,6 @@
 // The bodies of design/.
 
+#include <gonio/design/impl/apparatus.ipp>
 #include <gonio/design/impl/capture_constraint.ipp>
 #include <gonio/design/impl/capture_geometry.ipp>
 #include <gonio/design/impl/cell_candidates.ipp>

@@ -2,6 +2,7 @@
 
 #include <gonio/evaluate/impl/appearance_metric.ipp>
 #include <gonio/evaluate/impl/comparison.ipp>
+#include <gonio/evaluate/impl/perceived_candidates.ipp>
 #include <gonio/evaluate/impl/perceived_norm.ipp>
 #include <gonio/evaluate/impl/perceived_sensitivity.ipp>
 #include <gonio/evaluate/impl/simulated_measurement.ipp>

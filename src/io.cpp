@@ -37,8 +37,8 @@
 #include <gonio/io/measurements/impl/scan_journal.ipp>
 #include <gonio/io/measurements/impl/ssdd.ipp>
 #include <gonio/io/measurements/impl/zemax_bsdf.ipp>
+#include <gonio/io/setups/impl/apparatus.ipp>
 #include <gonio/io/setups/impl/camera_calibration.ipp>
-#include <gonio/io/setups/impl/capture_constraint.ipp>
 #include <gonio/io/setups/impl/near_field_setup.ipp>
 #include <gonio/io/setups/impl/setup_text.ipp>
 #include <gonio/io/setups/impl/sphere_setup.ipp>

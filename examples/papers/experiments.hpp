@@ -44,7 +44,7 @@ void add_models(command& app, const team& processes);
 void add_real_materials(command& app, const team& processes);
 void add_real_fits(command& app, const team& processes);
 void add_real_methods(command& app, const team& processes);
-void add_adaptive_design(command& app, const team& processes);
+void add_design_experiment(command& app, const team& processes);
 void add_in_plane(command& app, const team& processes);
 void add_near_field_photographs(command& app, const team& processes);
 void add_sphere_photograph(command& app, const team& processes);

@@ -11,7 +11,7 @@ void add_resumable(command& app, const team& processes) {
   add_real_materials(app, processes);
   add_real_fits(app, processes);
   add_real_methods(app, processes);
-  add_adaptive_design(app, processes);
+  add_design_experiment(app, processes);
   add_in_plane(app, processes);
   add_near_field_photographs(app, processes);
   add_sphere_photograph(app, processes);

@@ -1,6 +1,7 @@
 #pragma once
 /// All of `design/`: where to measure.
 
+#include <gonio/design/apparatus.hpp>
 #include <gonio/design/capture_constraint.hpp>
 #include <gonio/design/capture_geometry.hpp>
 #include <gonio/design/cell_candidates.hpp>
@@ -14,6 +15,7 @@
 #include <gonio/design/left_out_squares.hpp>
 #include <gonio/design/near_field_geometry.hpp>
 #include <gonio/design/published_directions.hpp>
+#include <gonio/design/reading_variances.hpp>
 #include <gonio/design/search.hpp>
 #include <gonio/design/sequential_design.hpp>
 #include <gonio/design/sphere_geometry.hpp>

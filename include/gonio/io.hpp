@@ -41,8 +41,8 @@
 #include <gonio/io/measurements/scan_journal.hpp>
 #include <gonio/io/measurements/ssdd.hpp>
 #include <gonio/io/measurements/zemax_bsdf.hpp>
+#include <gonio/io/setups/apparatus.hpp>
 #include <gonio/io/setups/camera_calibration.hpp>
-#include <gonio/io/setups/capture_constraint.hpp>
 #include <gonio/io/setups/near_field_setup.hpp>
 #include <gonio/io/setups/setup_text.hpp>
 #include <gonio/io/setups/sphere_setup.hpp>

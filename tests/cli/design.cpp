@@ -4,9 +4,11 @@
 #include "../json.hpp"
 #include "../synthetic_materials.hpp"
 #include "tool.hpp"
+#include <gonio/design/apparatus.hpp>
 #include <gonio/io/images/image.hpp>
 #include <gonio/io/materials/prior.hpp>
 #include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/setups/apparatus.hpp>
 #include <gonio/solve/default_eta.hpp>
 
 #include <doctest/doctest.h>
@@ -60,14 +62,15 @@ class drawing_board {
 
 TEST_CASE("directions that may not be met are others, and leave more unknown") {
   const drawing_board board;
-  const double met = board.unknown_after("-n 4", "met.csv"),
-               off = board.unknown_after("-n 4 --misplaced 10", "off.csv");
+  const std::string how = "-n 4 --criterion expected-error --search exchange";
+  const double met = board.unknown_after(how, "met.csv"), off = board.unknown_after(how + " --misplaced 10", "off.csv");
   CHECK(met < off);
 }
 
 TEST_CASE("designs are for materials that the prior has not seen, unless --in-sample says otherwise") {
   const drawing_board board;
-  const double out_of_sample = board.unknown_after("-n 4"), in_sample = board.unknown_after("-n 4 --in-sample");
+  const std::string how = "-n 4 --criterion expected-error";
+  const double out_of_sample = board.unknown_after(how), in_sample = board.unknown_after(how + " --in-sample");
   CHECK(in_sample < out_of_sample);
   const auto said = read_json(board.design("-n 4 --json", "d.csv").output);
   CHECK(said["eta"].get<double>() == gonio::default_eta);
@@ -76,8 +79,9 @@ TEST_CASE("designs are for materials that the prior has not seen, unless --in-sa
 
 TEST_CASE("noise of each measurement, and a shift of all, leave more unknown, and not the same") {
   const drawing_board board;
-  const double none = board.unknown_after("-n 4"), noise = board.unknown_after("-n 4 --noise 0.3"),
-               shift = board.unknown_after("-n 4 --common-shift 0.3");
+  const std::string how = "-n 4 --criterion expected-error --noise ";
+  const double none = board.unknown_after(how + "0"), noise = board.unknown_after(how + "0.3"),
+               shift = board.unknown_after(how + "0 --common-shift 0.3");
   CHECK(none < noise);
   CHECK(none < shift);
   CHECK(std::abs(noise - shift) > 1e-3 * noise);
@@ -85,12 +89,12 @@ TEST_CASE("noise of each measurement, and a shift of all, leave more unknown, an
 
 TEST_CASE("more measurements leave less unknown, in every geometry and by every search") {
   const drawing_board board;
-  for (const char* how :
-       {"", "--search greedy", "--search descent", "--geometry sphere", "--geometry near-field --step 20",
-        "--geometry fixed-camera --step 30 --fov 35", "--geometry fixed-light --step 30", "--criterion perceived"}) {
+  for (const char* how : {"", "--search exchange", "--search descent", "--geometry sphere --eta 0.1",
+                          "--geometry near-field --step 20", "--geometry fixed-camera --step 20 --fov 35",
+                          "--geometry fixed-light --step 20", "--criterion expected-error --eta 0.1"}) {
     CAPTURE(how);
-    const double one = board.unknown_after(std::string(how) + " -n 1 --eta 0.1"),
-                 three = board.unknown_after(std::string(how) + " -n 3 --eta 0.1", "three.csv");
+    const double one = board.unknown_after(std::string(how) + " -n 1"),
+                 three = board.unknown_after(std::string(how) + " -n 3", "three.csv");
     CHECK(three < one);
     CHECK(three > 0.0);
     CHECK(board.poses("three.csv").size() == 3);
@@ -103,9 +107,10 @@ TEST_CASE("more measurements leave less unknown, in every geometry and by every 
 
 TEST_CASE("the exhaustive search is at least as good as the descent, and the same seed gives the same file") {
   const drawing_board board;
-  CHECK(board.unknown_after("-n 4 --eta 0.1") <= board.unknown_after("-n 4 --eta 0.1 --search greedy") * 1.000001);
-  static_cast<void>(board.unknown_after("-n 4 --eta 0.1 --search descent --seed 3", "a.csv"));
-  static_cast<void>(board.unknown_after("-n 4 --eta 0.1 --search descent --seed 3 --threads 3", "b.csv"));
+  const std::string how = "-n 4 --criterion expected-error --eta 0.1 --search ";
+  CHECK(board.unknown_after(how + "exchange") <= board.unknown_after(how + "greedy") * 1.000001);
+  static_cast<void>(board.unknown_after(how + "descent --seed 3", "a.csv"));
+  static_cast<void>(board.unknown_after(how + "descent --seed 3 --threads 3", "b.csv"));
   CHECK(scratch::get(board.at("a.csv")) == scratch::get(board.at("b.csv")));
 }
 
@@ -117,6 +122,51 @@ TEST_CASE("a design may go on from what is measured anyway") {
   const auto two = board.poses("two.csv"), all = board.poses("four.csv");
   REQUIRE(all.size() == 4);
   for (std::size_t i = 0; i < 2; ++i) CHECK(all[i].wi.isApprox(two[i].wi, 1e-9));
+}
+
+TEST_CASE(
+    "by default light and viewer stay below 80 degrees and 5 degrees apart, and long plans begin with short ones") {
+  const drawing_board board;
+  static_cast<void>(board.unknown_after("-n 3", "three.csv"));
+  static_cast<void>(board.unknown_after("-n 7", "seven.csv"));
+  static_cast<void>(board.unknown_after("-n 7 --threads 1", "again.csv"));
+  CHECK(scratch::get(board.at("seven.csv")) == scratch::get(board.at("again.csv")));
+  for (const char* name : {"three.csv", "seven.csv"})
+    for (const auto& [wi, wo] : board.poses(name)) {
+      CHECK(gonio::degrees(std::max(gonio::polar_angle(wi), gonio::polar_angle(wo))) < 80.001);
+      CHECK(gonio::degrees(gonio::angle_between(wi, wo)) > 4.999);
+    }
+  const auto said = read_json(board.design("-n 7 --json", "d.csv").output);
+  CHECK(said["expected_delta_e"].get<double>() > 0.0);
+  static_cast<void>(board.unknown_after("-n 5", "five.csv"));
+  const auto five = board.poses("five.csv"), seven = board.poses("seven.csv");
+  for (std::size_t i = 0; i < 5; ++i) CHECK(five[i].wi.isApprox(seven[i].wi));
+  static_cast<void>(board.unknown_after("-n 7 --largest-polar-angle 50 --separation 20", "narrow.csv"));
+  for (const auto& [wi, wo] : board.poses("narrow.csv")) {
+    CHECK(gonio::degrees(std::max(gonio::polar_angle(wi), gonio::polar_angle(wo))) < 50.001);
+    CHECK(gonio::degrees(gonio::angle_between(wi, wo)) > 19.999);
+  }
+}
+
+TEST_CASE("an apparatus is named, and what is designed for it is what it can measure") {
+  const drawing_board board;
+  const std::string shipped = std::string(GONIO_SOURCE_DIR) + "/examples/data/apparatus/";
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(shipped)) {
+    const std::string name = entry.path().stem().string();
+    CAPTURE(name);
+    ++files;
+    const auto with = gonio::io::read_apparatus(entry.path());
+    const std::string images = name == "near-field-tablet" ? " --geometry near-field --step 10" : "";
+    const auto result = board.design("-n 2 --apparatus " + name + images, "two.csv");
+    REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+    for (const auto& [wi, wo] : board.poses("two.csv")) CHECK((with.constraint({wi, wo}) || with.constraint({wo, wi})));
+  }
+  CHECK(files == 8);
+  board.refuses("-n 2 --apparatus telescope", {"--apparatus", "telescope", "in-plane-arm"});
+  board.put("own.txt", "light 0 40\n");
+  board.refuses("-n 2 --apparatus robot --constraint " + board.at("own.txt"), {"--constraint and --apparatus"});
+  board.refuses("-n 9 --apparatus multi-angle-5", {"9 of"});
 }
 
 TEST_CASE("what the apparatus cannot do is not asked of it") {
@@ -158,6 +208,10 @@ TEST_CASE("the next measurements by what the given ones read") {
   CHECK(said["known_to"] == read_json(reconstructed.output)["known_to"]);
   CHECK(said["expected_delta_e"].get<double>() > 0.0);
   CHECK(board.poses("next.csv").size() == 2);
+  const auto enough = board.design("-n 2 --json --until 0.99 --given " + board.at("given.csv"), "unwritten.csv");
+  REQUIRE_MESSAGE(enough.exit_code == 0, enough.output);
+  CHECK(read_json(enough.output)["enough"] == true);
+  CHECK_FALSE(std::filesystem::exists(board.at("unwritten.csv")));
   board.refuses("-n 2 --geometry sphere --given " + board.at("given.csv"), {"--given", "--geometry point"});
   board.refuses("-n 2 --criterion condition --given " + board.at("given.csv"), {"--given", "--criterion"});
   board.refuses("-n 2 --start " + board.at("given.csv") + " --given " + board.at("given.csv"), {"--given", "--start"});
@@ -188,7 +242,7 @@ TEST_CASE("the literature's sets are written as they are printed") {
   board.refuses("--published 1 --geometry near-field", {"--published needs --geometry point or sphere"});
   board.refuses("--industry --geometry sphere", {"--industry needs --geometry point"});
   board.refuses("--industry --published 5", {"choose one"});
-  board.refuses("--published 5 --criterion perceived", {"--published searches for nothing", "--criterion"});
+  board.refuses("--published 5 --criterion condition", {"--published searches for nothing", "--criterion"});
 }
 
 TEST_CASE("the literature's sets that ship are what the tool writes, and can be read as they are") {
@@ -215,13 +269,52 @@ TEST_CASE("the literature's sets that ship are what the tool writes, and can be 
   CHECK(gonio::io::read_samples(samples).size() == 10);
 }
 
+TEST_CASE("designed directions that ship are within the usual apparatus, and can be read of every measured table") {
+  const gonio::design::apparatus usual = gonio::design::usual_apparatus();
+  std::vector<gonio::direction_pair> points;
+  Eigen::Index sets = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(GONIO_SOURCE_DIR) + "/examples/data/directions")) {
+    const std::string name = entry.path().filename().string();
+    CAPTURE(name);
+    if (name.ends_with("published.csv") || name.ends_with("industry.csv") || entry.path().extension() != ".csv")
+      continue;
+    ++sets;
+    for (const gonio::direction_pair& pair : gonio::io::read_direction_pairs(entry.path())) {
+      CHECK(gonio::angle_between(pair.wi, pair.wo) > gonio::radians(4.999));
+      if (name.starts_with("sphere")) continue;  // the whole sphere is seen
+      CHECK(std::max(gonio::polar_angle(pair.wi), gonio::polar_angle(pair.wo)) < gonio::radians(80.001));
+      if (name.starts_with("point")) points.push_back(pair);
+    }
+  }
+  CHECK(sets >= 30);
+  CHECK(usual.constraint.light.largest == doctest::Approx(gonio::radians(80)));
+
+  const std::filesystem::path tables(std::string(GONIO_SHARED_DATA) + "/rgl-measured");
+  if (!std::filesystem::exists(tables)) {
+    MESSAGE("skipped: there is no " << tables.string());
+    return;
+  }
+  const drawing_board board;
+  gonio::io::write_direction_pairs(board.at("all.csv"), points);
+  for (const auto& entry : std::filesystem::directory_iterator(tables)) {
+    if (entry.path().extension() != ".gz") continue;
+    const auto measured = gonio_tool("sample " + entry.path().string() + " --directions " + board.at("all.csv") +
+                                     " -o " + board.at("samples.csv"));
+    CHECK_MESSAGE(measured.exit_code == 0, entry.path().string(), ": ", measured.output);
+  }
+}
+
 TEST_CASE("designs that cannot be made") {
   const drawing_board board;
   board.refuses("-n 0", {"0 of"});
   board.refuses("-n 9 --geometry sphere", {"9 of 7"});
-  board.refuses("-n 2 --eta 0", {"eta"});
+  board.refuses("-n 2 --criterion expected-error --eta 0", {"eta"});
+  board.refuses("-n 2 --eta 10", {"--eta needs --criterion expected-error"});
+  board.refuses("-n 2 --until 0.1", {"--until needs --given"});
   board.refuses("-n 2 --noise -1", {"noise"});
-  board.refuses("-n 2 --common-shift -1", {"common shift", "not -1"});
+  board.refuses("-n 2 --criterion expected-error --common-shift -1", {"common shift", "not -1"});
+  board.refuses("-n 2 --common-shift 0.1", {"--common-shift", "need --criterion expected-error"});
   board.refuses("-n 2 --common-shift 0.1 --criterion d-optimal", {"--common-shift", "expected-error", "d-optimal"});
   board.refuses("-n 2 --in-sample --criterion condition", {"--in-sample", "condition"});
   board.refuses("-n 2 --noise 0.1 --criterion condition", {"--noise", "condition"});

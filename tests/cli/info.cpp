@@ -110,7 +110,7 @@ TEST_CASE("info knows each other kind of file that gonio reads or writes") {
   CHECK(kind(given.put("d.csv", "theta_i;phi_i;theta_o;phi_o\n10,5;0;20;180\n")) == "directions");
   CHECK(kind(given.put("e.csv", "file,seconds\na.png,1/250\nb.png,2\n")) == "exposure times");
   CHECK(kind(given.put("w.csv", "theta_i,factor\n0,0.99\n45,0.98\n")) == "reflectance of a white reference");
-  CHECK(kind(given.put("a.txt", "light 0 70\nforbid 0 10 0 10\n")) == "constraint of an apparatus");
+  CHECK(kind(given.put("a.txt", "light 0 70\nforbid 0 10 0 10\n")) == "an apparatus");
   CHECK(kind(given.put("n.txt", "size 4 4\nposition 0 0 1\n")) == "set-up of an image");
   CHECK(kind(given.put("p.pgm", std::string("P5 2 1 255\n\x01\xFF", 13))) == "Netpbm image");
   CHECK(kind(given.put("m.ply", "ply\nformat ascii 1.0\n")) == "mesh (PLY)");

@@ -1,4 +1,5 @@
-#include <gonio/design/capture_constraint.hpp>
+#include <gonio/design/apparatus.hpp>
+#include <gonio/design/capture_geometry.hpp>
 
 #include <doctest/doctest.h>
 
@@ -74,6 +75,40 @@ TEST_CASE("in the plane of incidence: poses are checked against it, and those ne
   REQUIRE(pose);
   CHECK(gonio::to_half_difference(pose->wi, pose->wo).theta_h == doctest::Approx(radians(20)));
   CHECK(std::abs(pose->wi.x() * pose->wo.y() - pose->wi.y() * pose->wo.x()) < 1e-12);
+}
+
+TEST_CASE("an instrument with fixed pairs measures these, turned about the normal or exchanged, and no others") {
+  capture_constraint constraint;
+  constraint.pairs = {light_and_viewer(45, 20, 180), light_and_viewer(45, 30)};
+  CHECK_FALSE(constraint.is_none());
+  CHECK(constraint.fixed_pair(light_and_viewer(45, 20, 180)) == 0);
+  CHECK(constraint.fixed_pair(light_and_viewer(30, 45)) == 1);
+  CHECK(constraint({spherical_direction(radians(45.3), radians(77)), spherical_direction(radians(20), radians(257))}));
+  CHECK_FALSE(constraint(light_and_viewer(45, 20)));
+  CHECK_FALSE(constraint(light_and_viewer(45, 20, 175)));
+  CHECK_FALSE(constraint(light_and_viewer(46, 20, 180)));
+  CHECK(constraint.excluding_rule([](const capture_constraint& some) { return some.pairs.empty(); }) == "pair");
+
+  const gonio::design::point_geometry points{gonio::valid_cells(gonio::grid({24, 15, 12})), constraint};
+  std::vector<direction_pair> allowed;
+  for (Eigen::Index cell = 0; cell < points.size(); ++cell)
+    if (points.allows(cell)) allowed.push_back(points.centre(cell));
+  REQUIRE(allowed.size() == 2);
+  for (const direction_pair& pair : allowed) {
+    const auto found = constraint.fixed_pair(pair);
+    REQUIRE(found);
+    CHECK(pair.wi.isApprox(constraint.pairs[*found].wi));
+    CHECK(pair.wo.isApprox(constraint.pairs[*found].wo));
+  }
+}
+
+TEST_CASE("a usual apparatus keeps light and viewer from grazing and from one another") {
+  const gonio::design::apparatus usual = gonio::design::usual_apparatus();
+  CHECK(usual.constraint(light_and_viewer(79, 79, 180)));
+  CHECK_FALSE(usual.constraint(light_and_viewer(81, 20, 180)));
+  CHECK_FALSE(usual.constraint(light_and_viewer(40, 36)));
+  CHECK(usual.noise > 0.0);
+  CHECK(usual.dark_signal > 0.0);
 }
 
 TEST_CASE("the rule that leaves nothing is named") {

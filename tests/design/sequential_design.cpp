@@ -46,7 +46,7 @@ TEST_CASE("the posterior over candidates is the estimator's fit, and its deviati
   const auto paint = estimator.fit_located(samples);
   const auto fit = paint.tabulate(small_cells());
   for (Eigen::Index cell = 0; cell < small_cells().size(); cell += 37) {
-    const gonio::location& at = sequence().location_of(cell);
+    const gonio::location& at = sequence().locations()[cell];
     CHECK(estimator.prior().metric().inverse(known.mean(cell, 1), at) ==
           doctest::Approx(fit.at(cell)[1]).epsilon(3e-3));
     const double deviation = process.deviation(gonio::row_at(estimator.prior(), at), at.angles),
@@ -60,11 +60,11 @@ TEST_CASE("the posterior over candidates is the estimator's fit, and its deviati
 TEST_CASE("a candidate's value is that of the covariance with its measurement, on any number of threads") {
   const auto known = sequence().posterior_of(process_of_some({3, 50, 120}));
   const auto seen = random_sensitivity(4);
-  const auto each = gonio::design::seen_deviation_with_each(known.covariance, seen, sequence().error_variance());
+  const auto each = gonio::design::seen_deviation_with_each(known.covariance, seen, sequence().error_variances());
   const double before = gonio::design::seen_deviation(known.covariance, seen);
   for (const Eigen::Index candidate : {0, 77, 150}) {
     auto with = known;
-    with.add(candidate, sequence().error_variance());
+    with.add(candidate, sequence().error_variances()[candidate]);
     CHECK(each[candidate] == doctest::Approx(gonio::design::seen_deviation(with.covariance, seen)).epsilon(1e-8));
     CHECK(each[candidate] <= before);
     // The same as measuring there.
@@ -72,7 +72,7 @@ TEST_CASE("a candidate's value is that of the covariance with its measurement, o
     const auto measured = sequence().posterior_of(process_of_some(samples));
     CHECK((measured.covariance - with.covariance).cwiseAbs().maxCoeff() < 1e-6);
   }
-  CHECK(each == gonio::design::seen_deviation_with_each(known.covariance, seen, sequence().error_variance(),
+  CHECK(each == gonio::design::seen_deviation_with_each(known.covariance, seen, sequence().error_variances(),
                                                         gonio::thread_count{1}));
 }
 

@@ -29,3 +29,15 @@ TEST_CASE("steps go along theta_d and end at its ends") {
   CHECK_FALSE(spheres.stepped(1, {0, -3, 0}).has_value());
   CHECK_FALSE(spheres.stepped(1, {1, 0, 0}).has_value());
 }
+
+TEST_CASE("light and camera stay as far apart as they must") {
+  const gonio::design::sphere_geometry any(small_cells()), apart(small_cells(), gonio::radians(30));
+  Eigen::Index lost = 0;
+  for (Eigen::Index slice = 0; slice < any.size(); ++slice) {
+    const auto [wi, wo] = any.centre(slice);
+    CHECK(apart.allows(slice) == (gonio::angle_between(wi, wo) >= gonio::radians(30)));
+    if (!apart.allows(slice)) ++lost;
+  }
+  CHECK(lost > 0);
+  CHECK(lost < any.size());
+}

@@ -59,12 +59,3 @@ TEST_CASE("nothing is wrong with what is in its place; errors of light and viewe
   CHECK(gonio::angular_error_penalty(moved_prior(), pair, 0.01) >
         2.0 * gonio::angular_error_penalty(moved_prior(), pair, 0.005));
 }
-
-TEST_CASE("each cell has its own, the same for any number of threads") {
-  const auto one = gonio::angular_error_penalties(moved_prior(), gonio::radians(0.5), {1});
-  REQUIRE(one.size() == small_cells().size());
-  CHECK(one == gonio::angular_error_penalties(moved_prior(), gonio::radians(0.5), {3}));
-  for (const Eigen::Index cell : {Eigen::Index{0}, Eigen::Index{77}, std::ssize(one) - 1})
-    CHECK(one[cell] == gonio::angular_error_penalty(moved_prior(), gonio::to_directions(small_cells().angles(cell)),
-                                                    gonio::radians(0.5)));
-}

@@ -60,13 +60,14 @@ TEST_CASE("measuring makes the stated deviation smaller") {
 
 TEST_CASE("in the plane of incidence all that is chosen lies in it; a rule that leaves nothing is named") {
   const gonio::reconstruction estimator{learn(synthetic_materials(small_cells(), 12), 10)};
-  gonio::design::capture_constraint constraint;
+  gonio::design::apparatus with;
+  gonio::design::capture_constraint& constraint = with.constraint;
   constraint.plane_tolerance = gonio::radians(0.5);
-  const gonio::measurement_chooser in_plane{estimator, constraint, small_cells()};
+  const gonio::measurement_chooser in_plane{estimator, with, small_cells()};
   for (const auto& next : in_plane.choose(three_samples(99), 4))
     CHECK(std::abs(next.pose.wi.x() * next.pose.wo.y() - next.pose.wi.y() * next.pose.wo.x()) < 1e-9);
   constraint.light = {gonio::radians(45), gonio::radians(45)};
-  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::measurement_chooser{estimator, constraint, small_cells()}),
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::measurement_chooser{estimator, with, small_cells()}),
                        doctest::Contains("the rule 'light'"), gonio::error);
   CHECK_THROWS_AS(static_cast<void>(small_chooser().choose(three_samples(99), 100000)), gonio::error);
 }

@@ -222,8 +222,8 @@ put("bird", "plain.json", bird())
 put("bird", "spectral.json", bird(',"wavelength_i":{"unit":"nm","values":[450,650,550]},"uBRDF":{"unit":"%","values":[1,1,2]}'))
 put("bird", "polarised.json", bird(',"polarization_i":{"notation":"sp","values":["s","p",[1,0,0,0]]},"adhoc_variables":{"t":{"values":[1,1,1]}}'))
 put("cornell", "two.brdf", "2\n400\n700\n0 0 0 0 0.5 0.25\n")
-put("capture_constraint", "all.txt", "# rules\nlight 0 75\nviewer 0 80\nseparation 15 # degrees\nlight_step 7.5 0.5\nforbid 60 90 60 90\n")
-put("capture_constraint", "step.txt", "light_step 7.5\n")
+put("apparatus", "all.txt", "# rules\nlight 0 75\nviewer 0 80\nseparation 15 # degrees\nlight_step 7.5 0.5\nforbid 60 90 60 90\nnoise 0.02\ndark_signal 1e-4\nmisplaced 0.5\npair 45 0 20 180\n")
+put("apparatus", "step.txt", "light_step 7.5\n")
 put("near_field_setup", "target.txt", "size 640 480\nfocal_length 1210.5\nposition 0.5 0 0.3\ntarget 0 0 0\nlight_angles 50 180\nregion 0.1\nblock 4\nsaturation 2\n")
 put("near_field_setup", "rotation.txt", "size 64 48\nfocal_length 90 91\nprincipal_point 30 20\nposition 0 0 1\nrotation 1 0 0 0 -1 0 0 0 -1\nlight 0 0.6 0.8\nirradiance 1 2 3\nwindow 1 2 30 20\nregion 0.2 0.1 0\n")
 put("near_field_setup", "lamp.txt", "size 64 48\nfield_of_view 30\ndistortion -0.2 0.05 0 0\nposition 0 0.1 1\ntarget 0 0 0\nlamp 1 0 2\nintensity 3\nwhite_reflectance 0.98\nwhite_plane 0 0 0.1 0 0 1\nregion 0.2\n")
@@ -295,7 +295,7 @@ words = {
     "mbsdf": ['NVIDIA ARC MBSDF V1\\x0A', 'MBSDF_DATA=\\x0A', 'MBSDF_DATA_REFLECTION=\\x0A', 'MBSDF_DATA_TRANSMISSION=\\x0A', '="', '"\\x0A', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x00\\x80\\x7F'],
     "openmaterial": ['"metadata"', '"openMaterial3dVersion"', '"brdf"', '"lookupTable"', '"wavelengths"', '[9.05e-07, ', '4.5e-07', '1.570796', '6.283185', '3.141593', '0.01716', 'null', '1e308', '{', '}', '[', ']', ':', ',', '\\x0A'],
     "cornell": ['400', '700', '1.5707963267948966', '6.2831853', '10000', '1e308', 'nan', '\\x0A', '#', '-0'],
-    "capture_constraint": ['light', 'viewer', 'separation', 'light_step', 'forbid', '#', '\\x0A', '90', '180', '-1', '1e308', 'nan'],
+    "apparatus": ['light', 'viewer', 'separation', 'light_step', 'forbid', 'pair', 'noise', 'dark_signal', 'misplaced', '#', '\\x0A', '90', '180', '-1', '1e308', 'nan'],
     "near_field_setup": ['size', 'focal_length', 'principal_point', 'position', 'target', 'up', 'rotation', 'light', 'light_angles', 'irradiance', 'lamp', 'intensity', 'field_of_view', 'distortion', 'white_reflectance', 'white_plane', 'region', 'window', 'saturation', 'block', '#', '\\x0A', '1000000', '1e308', '1e-308', '0', '-1'],
     "sphere_setup": ['size', 'focal_length', 'field_of_view', 'principal_point', 'distortion', 'position', 'target', 'up', 'rotation', 'light', 'light_angles', 'irradiance', 'lamp', 'intensity', 'sphere', 'outline', 'white_reflectance', 'white_plane', 'saturation', 'smallest_cosine', '#', '\\x0A', '1000000', '1e308', '1e-308', '0', '-1'],
     "camera_calibration": ['%YAML:1.0', '<opencv_storage>', '</opencv_storage>', 'image_width', 'image_height', 'camera_matrix', 'distortion_coefficients', '!!opencv-matrix', 'rows', 'cols', 'data', '<rows>', '</rows>', '<data>', '</data>', '[', ']', ':', '\\x0A', '1e308', '1000000', '.'],

@@ -2,7 +2,7 @@
 
 #include "papers/networks_option.hpp"
 #include "tool/options/chosen_networks.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/materials/networks.hpp>
@@ -30,7 +30,7 @@ nielsen_split nielsen_split::learn(const studied_networks& networks, gonio::thre
           gonio::model::tabulate_networks(networks_in(all, tested), cells, threads)};
 }
 
-std::filesystem::path shipped_directions() { return shipped_prior().parent_path() / "directions"; }
+std::filesystem::path shipped_directions() { return shipped_file("directions"); }
 
 std::string points_file(const std::string& set, std::size_t count) {
   return "point-" + std::to_string(count) + '-' + set + ".csv";

@@ -7,13 +7,14 @@ set -eu
 [ $# -eq 2 ] || { echo "usage: design_by_eta.sh PRIOR FOLDER" >&2; exit 2; }
 prior=$1 folder=$2
 mkdir -p "$folder"
+: > "$folder/unlimited.txt" # an apparatus without limits and errors
 
 # expected_error NAME COUNT ETA OPTION...
 expected_error() {
   name=$1 count=$2 eta=$3
   shift 3
-  "${GONIO:-gonio}" design --prior "$prior" -n "$count" --search descent --eta "$eta" "$@" --json \
-    -o "$folder/point-$count-$name-$eta.csv" | sed -n 's/.*"expected_error": *\([0-9.e-]*\).*/\1/p'
+  "${GONIO:-gonio}" design --prior "$prior" -n "$count" --criterion expected-error --search descent --eta "$eta" \
+    --constraint "$folder/unlimited.txt" "$@" --json -o "$folder/point-$count-$name-$eta.csv" | sed -n 's/.*"expected_error": *\([0-9.e-]*\).*/\1/p'
 }
 
 echo "| n | eta | in sample: E | left out: E |"

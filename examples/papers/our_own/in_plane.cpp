@@ -86,8 +86,8 @@ class in_plane_experiment : left_out_experiment {
     setup_.reset();
     const auto estimator =
         gonio::reconstruction{library_.prior_without(family, given_.components), {}, given_.threads}.keeping_all();
-    gonio::design::capture_constraint plane;
-    plane.plane_tolerance = gonio::radians(0.5);
+    gonio::design::apparatus plane;
+    plane.constraint.plane_tolerance = gonio::radians(0.5);
     const auto candidates = gonio::design::default_candidates();
     setup_.emplace(setup{estimator, chooser_type{estimator, {}, candidates, given_.threads},
                          chooser_type{estimator, plane, candidates, given_.threads}});

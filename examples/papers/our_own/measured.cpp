@@ -4,7 +4,7 @@
 #include "papers/material_result.hpp"
 #include "papers/mean_errors.hpp"
 #include "tool/files/json.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/progress_bar.hpp"

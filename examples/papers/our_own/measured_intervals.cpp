@@ -4,7 +4,7 @@
 #include "papers/our_own/rank_correlation.hpp"
 #include "tool/files/json.hpp"
 #include "tool/files/measurement_files.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
 #include <gonio/core/random.hpp>

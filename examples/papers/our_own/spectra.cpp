@@ -2,7 +2,7 @@
 
 #include "papers/experiments.hpp"
 #include "tool/files/measurement_files.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
 #include <gonio/basis/expand_materials.hpp>

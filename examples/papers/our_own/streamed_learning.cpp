@@ -3,7 +3,7 @@
 
 #include "papers/experiments.hpp"
 #include "papers/our_own/random_materials.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
 #include <gonio/basis/add_materials.hpp>

@@ -5,7 +5,7 @@
 #include "papers/our_own/svbrdf_maps.hpp"
 #include "papers/our_own/synthetic_texels.hpp"
 #include "papers/our_own/tool_process.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/thinning.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"

@@ -66,9 +66,11 @@ design_options search_for(const directions_options& options, const std::string& 
   design_options search;
   search.count = count;
   search.geometry = options.geometry;
-  search.criterion = criterion;
+  search.criterion = criterion == "perceived" ? "perceived-norm" : criterion;
   search.eta = options.eta;
-  if (criterion != "condition") search.noise = options.noise;
+  search.search = "exchange";
+  search.apparatus = {};
+  search.apparatus.noise = options.noise;
   if (criterion == "expected-error" || criterion == "perceived") {
     search.common_shift = options.common_shift;
     search.in_sample = options.in_sample;
@@ -76,7 +78,7 @@ design_options search_for(const directions_options& options, const std::string& 
   search.near_field.field_of_view = gonio::radians(options.field_of_view);
   search.near_field.step = gonio::radians(options.step);
   if (options.geometry == "point" && (criterion == "expected-error" || criterion == "perceived"))
-    search.angular_error = gonio::radians(options.expected);
+    search.apparatus.angular_error = gonio::radians(options.expected);
   search.seed = options.seed;
   search.threads = options.threads;
   return search;

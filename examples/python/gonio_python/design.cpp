@@ -4,9 +4,10 @@
 #include "subjects.hpp"
 #include "tool/options/design_search.hpp"
 #include <gonio/core/error.hpp>
+#include <gonio/design/apparatus.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
-#include <gonio/io/setups/capture_constraint.hpp>
+#include <gonio/io/setups/apparatus.hpp>
 #include <gonio/io/text/text.hpp>
 
 #include <pybind11/stl.h>
@@ -41,28 +42,38 @@ std::vector<gonio::direction_pair> pairs_of(const py::object& directions, const 
   return pairs;
 }
 
+/// The usual one, or that of a file, but for what is said beside it.
+gonio::design::apparatus apparatus_of(const std::optional<std::filesystem::path>& constraint,
+                                      const std::optional<double>& noise,
+                                      const std::optional<double>& misplaced_degrees) {
+  gonio::design::apparatus chosen =
+      constraint ? gonio::io::read_apparatus(*constraint) : gonio::design::usual_apparatus();
+  chosen.noise = noise.value_or(chosen.noise);
+  if (misplaced_degrees) chosen.angular_error = gonio::radians(*misplaced_degrees);
+  return chosen;
+}
+
 found_design design_for(const gonio::log_relative_pca& prior, Eigen::Index count, const std::string& geometry,
-                        const std::string& criterion, const std::string& search, double eta, double noise,
-                        double common_shift, bool in_sample, double misplaced_degrees, const py::object& start,
+                        const std::string& criterion, const std::string& search, double eta,
+                        const std::optional<double>& noise, double common_shift, bool in_sample,
+                        const std::optional<double>& misplaced_degrees, const py::object& start,
                         const std::optional<std::filesystem::path>& constraint, std::uint64_t seed, unsigned threads) {
   require_one_of(geometry, "geometry", {"point", "sphere", "near-field", "fixed-camera", "fixed-light"});
   require_one_of(criterion, "criterion", {"expected-error", "perceived", "condition", "a-optimal", "d-optimal"});
-  require_one_of(search, "search", {"exchange", "greedy", "descent"});
+  require_one_of(search, "search", {"greedy", "exchange", "descent"});
   cli::design_options options{.count = count,
                               .geometry = geometry,
                               .criterion = criterion,
                               .search = search,
+                              .apparatus = apparatus_of(constraint, noise, misplaced_degrees),
                               .eta = eta,
-                              .noise = noise,
                               .common_shift = common_shift,
                               .in_sample = in_sample,
-                              .angular_error = gonio::radians(misplaced_degrees),
                               .near_field = {},
                               .start = {},
                               .seed = seed,
                               .threads = gonio::thread_count{threads}};
   if (!start.is_none()) options.start = pairs_of(start, "start");
-  if (constraint) options.near_field.constraint = gonio::io::read_capture_constraint(*constraint);
   const py::gil_scoped_release released;
   const cli::designed found = cli::design(prior, options, interruption());
   return {found.poses, found.value, cli::quality_of(prior, options, found)};
@@ -73,7 +84,7 @@ found_design quality_for(const gonio::log_relative_pca& prior, const py::object&
                          bool in_sample) {
   cli::design_options options;
   options.eta = eta;
-  options.noise = noise;
+  options.apparatus.noise = noise;
   options.in_sample = in_sample;
   cli::designed given;
   for (const gonio::sample_directions& each : sample_directions_of(directions, "directions")) {
@@ -85,15 +96,15 @@ found_design quality_for(const gonio::log_relative_pca& prior, const py::object&
 }
 
 py::tuple next_for(const gonio::log_relative_pca& prior, const gonio::sample_set& samples, Eigen::Index count,
-                   double noise, unsigned threads) {
+                   double noise, const std::optional<std::filesystem::path>& constraint, unsigned threads) {
   if (count < 1) gonio::refuse({"count is ", count, ": expected at least 1"});
   std::vector<gonio::direction_pair> pairs;
   double remaining = 0.0;
   {
     const py::gil_scoped_release released;
     const gonio::reconstruction estimator{prior, {.noise = noise}, gonio::thread_count{threads}};
-    const gonio::measurement_chooser chooser{
-        estimator, {}, gonio::design::default_candidates(), gonio::thread_count{threads}};
+    const gonio::measurement_chooser chooser{estimator, apparatus_of(constraint, noise, {}),
+                                             gonio::design::default_candidates(), gonio::thread_count{threads}};
     for (const gonio::next_measurement& next : chooser.choose(samples, count)) {
       pairs.push_back(next.pose);
       remaining = next.expected_delta_e;
@@ -130,18 +141,19 @@ void add_design(py::module_& m) {
   m.def(
       "design", &design_for, py::arg("prior"), py::arg("count") = standard.count, py::kw_only(),
       py::arg("geometry") = standard.geometry, py::arg("criterion") = standard.criterion,
-      py::arg("search") = standard.search, py::arg("eta") = standard.eta, py::arg("noise") = standard.noise,
+      py::arg("search") = standard.search, py::arg("eta") = standard.eta, py::arg("noise") = py::none(),
       py::arg("common_shift") = standard.common_shift, py::arg("in_sample") = standard.in_sample,
-      py::arg("misplaced_degrees") = 0.0, py::arg("start") = py::none(), py::arg("constraint") = py::none(),
+      py::arg("misplaced_degrees") = py::none(), py::arg("start") = py::none(), py::arg("constraint") = py::none(),
       py::arg("seed") = standard.seed, py::arg("threads") = 0,
       "Directions that tell a prior's materials apart best, as `gonio design` finds them. start: directions that are\n"
-      "measured anyway. constraint: a file, what the apparatus cannot do. Ctrl-C ends the search.");
+      "measured anyway. constraint: a file that describes an apparatus; by default light and viewer go to 80 degrees,\n"
+      "5 degrees apart, and noise is 2 %. Ctrl-C ends the search.");
   m.def("expected_error", &quality_for, py::arg("prior"), py::arg("directions"), py::kw_only(),
-        py::arg("eta") = standard.eta, py::arg("noise") = standard.noise, py::arg("in_sample") = standard.in_sample,
+        py::arg("eta") = standard.eta, py::arg("noise") = 0.0, py::arg("in_sample") = standard.in_sample,
         "What is expected of directions of one's own: shape (n, 6) or (n, 3), as `Samples` takes them.");
   m.def(
       "next_directions", &next_for, py::arg("prior"), py::arg("samples"), py::arg("count") = 1, py::kw_only(),
-      py::arg("noise") = 0.0, py::arg("threads") = 0,
+      py::arg("noise") = 0.0, py::arg("constraint") = py::none(), py::arg("threads") = 0,
       "The best measurements beside some that were made, by what these read: directions of shape (count, 6), and the\n"
       "Delta E of spheres that is expected to remain.");
   m.def("published_directions", &published, py::arg("count") = 20,

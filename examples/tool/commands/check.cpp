@@ -3,7 +3,7 @@
 #include "commands.hpp"
 #include "tool/files/measurement_files.hpp"
 #include "tool/options/negative_answer.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/measures_as_json.hpp"

@@ -4,8 +4,8 @@
 #include "tool/files/json.hpp"
 #include "tool/files/measurement_files.hpp"
 #include "tool/options/design_search.hpp"
-#include "tool/options/prior_option.hpp"
 #include "tool/options/reconstruct_choice.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/team.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
@@ -19,10 +19,11 @@
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/materials/prior.hpp>
 #include <gonio/io/measurements/samples.hpp>
-#include <gonio/io/setups/capture_constraint.hpp>
+#include <gonio/io/setups/apparatus.hpp>
 
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace cli {
 
@@ -30,10 +31,14 @@ namespace {
 
 struct design_command {
   std::filesystem::path prior, constraint, start, given, output;
+  std::string apparatus;  ///< its name
+  /// What replaces the apparatus' own: degrees, and deviations.
+  std::optional<double> largest_polar_angle, separation, noise, dark_signal, misplaced;
+  std::optional<double> until;  ///< of --given: known to this is enough
   page_option report;
   measurement_options reading;  ///< of --given
   design_options design;
-  double field_of_view = 25.0, step = 5.0, angular_error = 0.0;
+  double field_of_view = 25.0, step = 5.0;
   Eigen::Index published = 0;  ///< of how many measurements; 0: none
   bool industry = false, print_json = false;
 };
@@ -46,10 +51,10 @@ void require_given_alone(const design_command& command) {
   if (!command.start.empty())
     gonio::refuse("--given needs no --start: the directions of its samples are what is measured already");
   if (design.criterion != standard.criterion || design.search != standard.search || design.eta != standard.eta ||
-      design.in_sample || design.common_shift != 0.0 || command.angular_error != 0.0)
+      design.in_sample || design.common_shift != 0.0)
     gonio::refuse(
-        "--given goes with none of --criterion, --search, --eta, --in-sample, --common-shift and --misplaced: it "
-        "expects the error of the reconstruction from its samples");
+        "--given goes with none of --criterion, --search, --eta, --in-sample and --common-shift: it expects the error "
+        "of the reconstruction from its samples");
 }
 
 /// The page for people. `samples` are those that were measured already.
@@ -70,7 +75,7 @@ void write_report(const design_command& command, const std::vector<gonio::direct
             {"record", record_of({{"Prior", command.prior.string()}, {"Measured", command.given.string()}})}};
   if (!samples.empty()) {
     reconstruct_options fit;
-    fit.noise = command.design.noise;
+    fit.noise = command.noise.value_or(0.0);
     fit.keeps_uncertainty = true;
     fit.materials.prior = command.prior;
     fit.threads = command.design.threads;
@@ -85,28 +90,39 @@ void run_given(const design_command& command) {
   const gonio::io::sample_file measured = read_colour_file(command.given, command.reading);
   const gonio::sample_set& samples = measured.samples;
   const gonio::reconstruction estimator{
-      gonio::io::read_prior(command.prior), {.noise = command.design.noise}, command.design.threads};
-  const gonio::measurement_chooser chooser{estimator, command.design.near_field.constraint,
-                                           gonio::design::default_candidates(), command.design.threads};
-  const double known_to = estimator.fit(samples).certainty().known_to;
+      gonio::io::read_prior(command.prior), {.noise = command.noise.value_or(0.0)}, command.design.threads};
+  const gonio::measurement_chooser chooser{estimator, command.design.apparatus, gonio::design::default_candidates(),
+                                           command.design.threads};
+  const auto paint = estimator.fit(samples);
+  const double known_to = paint.certainty().known_to;
+  const bool is_enough = command.until && known_to <= *command.until;
+  const std::string known = std::to_string(samples.size()) + " samples: half of all directions are known to " +
+                            fixed(100.0 * known_to, 0) + " %";
+  json again = json::array();
+  for (const Eigen::Index i : paint.rejected()) again.push_back(i + 1);
+  json all{{"given", samples.size()}, {"known_to", known_to}, {"enough", is_enough}, {"measure_again", again}};
+  all.update(facts_of(measured));
+  if (is_enough) {
+    std::cout << (command.print_json ? all.dump(2) : known + ", which is enough: nothing is written") << '\n';
+    return;
+  }
   const auto chosen = chooser.choose(samples, command.design.count);
   std::vector<gonio::direction_pair> poses;
   for (const gonio::next_measurement& next : chosen) poses.push_back(next.pose);
   gonio::io::write_direction_pairs(command.output, poses);
-  const std::string sentence = std::to_string(samples.size()) + " samples: half of all directions are known to " +
-                               fixed(100.0 * known_to, 0) + " %; " + std::to_string(poses.size()) +
+  const std::string sentence = known + "; " + std::to_string(poses.size()) +
                                (poses.size() == 1 ? " more leaves" : " more leave") + " an expected Delta E of " +
                                fixed(chosen.back().expected_delta_e, 2);
   if (command.report.is_given()) write_report(command, poses, sentence, samples);
   if (command.print_json) {
-    json all{{"measurements", poses.size()}, {"given", samples.size()}};
-    all.update(facts_of(measured));
-    all["known_to"] = known_to;
+    all["measurements"] = poses.size();
     all["expected_delta_e"] = chosen.back().expected_delta_e;
     std::cout << all.dump(2) << '\n';
     return;
   }
   std::cout << sentence << '\n';
+  for (const json& number : again.elements())
+    std::cout << "measure sample " << number << " again: it disagrees with the others and does not count\n";
 }
 
 /// The literature's sets are not searched for.
@@ -116,10 +132,11 @@ void require_no_search(const design_command& command) {
   if (command.industry && command.published > 0) gonio::refuse("--industry and --published are two sets: choose one");
   if (design.geometry != "point" && (command.industry || design.geometry != "sphere"))
     gonio::refuse(asked + " needs --geometry point" + (command.industry ? "" : " or sphere"));
-  if (!command.start.empty() || !command.given.empty() || !command.constraint.empty() ||
+  if (!command.start.empty() || !command.given.empty() || !command.constraint.empty() || !command.apparatus.empty() ||
       design.criterion != standard.criterion || design.search != standard.search)
     gonio::refuse(asked +
-                  " searches for nothing: it goes with none of --start, --given, --constraint, --criterion and "
+                  " searches for nothing: it goes with none of --start, --given, --constraint, --apparatus, "
+                  "--criterion and "
                   "--search");
 }
 
@@ -141,14 +158,18 @@ void finish(const design_command& command, const gonio::log_relative_pca& prior,
             bool is_published) {
   gonio::io::write_direction_pairs(command.output, found.poses);
   const auto figures = quality_of(prior, command.design, found);
-  const std::string sentence = std::to_string(found.poses.size()) +
-                               (found.poses.size() == 1 ? " measurement leaves " : " measurements leave ") +
-                               fixed(100.0 * figures.unknown_share, 1) +
-                               " % of how the prior's materials differ from their mean: an expected error of " +
-                               fixed(figures.expected_error, 3) + " in a cell's logarithm";
+  const bool is_perceived =
+      command.design.criterion == "perceived" && command.design.geometry == "point" && !is_published;
+  const std::string sentence =
+      std::to_string(found.poses.size()) + (found.poses.size() == 1 ? " measurement leaves " : " measurements leave ") +
+      (is_perceived ? "an expected Delta E of " + fixed(found.value, 2) + " on spheres, and " : "") +
+      fixed(100.0 * figures.unknown_share, 1) +
+      " % of how the prior's materials differ from their mean: an expected error of " +
+      fixed(figures.expected_error, 3) + " in a cell's logarithm";
   if (command.report.is_given()) write_report(command, found.poses, sentence, {});
   if (command.print_json) {
     std::cout << json{{"measurements", found.poses.size()},
+                      {"expected_delta_e", is_perceived ? json(found.value) : json()},
                       {"criterion", is_published ? "published" : command.design.criterion},
                       {"eta", command.design.eta},
                       {"in_sample", command.design.in_sample},
@@ -166,8 +187,10 @@ void finish(const design_command& command, const gonio::log_relative_pca& prior,
 std::uint32_t checksum_of(const design_command& command) {
   const design_options& design = command.design;
   std::vector<std::string> words{json{design.count, design.geometry, design.criterion, design.search, design.eta,
-                                      design.noise, design.common_shift, design.in_sample, design.seed,
-                                      command.angular_error, command.field_of_view, command.step}
+                                      design.apparatus.noise, design.apparatus.dark_signal,
+                                      design.apparatus.angular_error, design.common_shift, design.in_sample,
+                                      design.seed, command.field_of_view, command.step, command.apparatus,
+                                      command.largest_polar_angle.value_or(-1.0), command.separation.value_or(-1.0)}
                                      .dump()};
   for (const std::filesystem::path& file : {command.prior, command.constraint, command.start})
     words.push_back(file.empty() ? "" : std::to_string(gonio::io::checksum(gonio::io::read_bytes(file))));
@@ -186,22 +209,43 @@ void search(const design_command& command, const gonio::log_relative_pca& prior,
   record.remove();
 }
 
+/// The usual one, or that of --apparatus or --constraint, but for what other options say.
+gonio::design::apparatus apparatus_of(const design_command& command) {
+  if (!command.constraint.empty() && !command.apparatus.empty())
+    gonio::refuse("--constraint and --apparatus both say what is measured with: choose one");
+  gonio::design::apparatus chosen = !command.constraint.empty()  ? gonio::io::read_apparatus(command.constraint)
+                                    : !command.apparatus.empty() ? shipped_apparatus(command.apparatus)
+                                                                 : gonio::design::usual_apparatus();
+  gonio::design::capture_constraint& constraint = chosen.constraint;
+  if (command.largest_polar_angle)
+    constraint.light.largest = constraint.viewer.largest = gonio::radians(*command.largest_polar_angle);
+  if (command.separation) constraint.smallest_separation = gonio::radians(*command.separation);
+  chosen.noise = command.noise.value_or(chosen.noise);
+  chosen.dark_signal = command.dark_signal.value_or(chosen.dark_signal);
+  if (command.misplaced) chosen.angular_error = gonio::radians(*command.misplaced);
+  // Images and other criteria do not expect that directions are missed: of an apparatus that says so they ignore it.
+  const bool expects_errors = command.design.criterion == "expected-error" || command.design.criterion == "perceived";
+  if (!command.misplaced && !(command.design.geometry == "point" && expects_errors)) chosen.angular_error = 0.0;
+  return chosen;
+}
+
 /// Searches, or takes what was published; each process knows the result.
 void run(design_command command, const team& processes) {
   progress_bar bar;
   const bool is_published = command.published > 0 || command.industry;
   if (is_published) require_no_search(command);
-  if (!command.constraint.empty())
-    command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
+  command.design.apparatus = apparatus_of(command);
   if (!command.given.empty()) {
     if (processes.writes()) run_given(command);
     return;
   }
   if (!command.reading.empty()) gonio::refuse("--quantity, --columns and --theta-o-sign need --given");
+  if (command.until) gonio::refuse("--until needs --given");
+  if (command.noise && command.design.criterion == "condition")
+    gonio::refuse("--noise needs --criterion expected-error or perceived: a condition number does not depend on noise");
   const auto prior = gonio::io::read_prior(command.prior);
   command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
   command.design.near_field.step = gonio::radians(command.step);
-  command.design.angular_error = gonio::radians(command.angular_error);
   if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start, reading_of());
   if (!is_published) return search(command, prior, bar, processes);
   bar.wipe();
@@ -235,16 +279,17 @@ void add_design(command& app, const std::vector<std::string>& words, const team&
   command
       .add_option(
           "--criterion", design.criterion,
-          "expected-error: Xu et al. 2016; perceived: the same as seen on spheres; condition: Nielsen et al. 2015; "
-          "a-optimal, d-optimal: of the weights' covariance")
+          "perceived: the error that is seen of the prior's materials, as gonio reconstruct estimates them; "
+          "expected-error: Xu et al. 2016; condition: Nielsen et al. 2015; a-optimal, d-optimal: of the weights' "
+          "covariance")
       .check(check::one_of({"expected-error", "perceived", "condition", "a-optimal", "d-optimal"}))
       .capture_default_str();
   command
       .add_option("--search", design.search,
-                  "exchange: the best of all, one after another, then replaced by better ones; greedy: without the "
-                  "replacing; descent: from random ones, for large priors. Other criteria than the expected error "
-                  "descend")
-      .check(check::one_of({"exchange", "greedy", "descent"}))
+                  "greedy: the best of all candidates is added again and again, so that a longer set begins with the "
+                  "shorter one; exchange: then any is replaced as long as that helps; descent: from random candidates "
+                  "to their neighbours")
+      .check(check::one_of({"greedy", "exchange", "descent"}))
       .capture_default_str();
   // Declare the reconstruction and the errors of the measurements.
   command
@@ -252,29 +297,47 @@ void add_design(command& app, const std::vector<std::string>& words, const team&
                   "Tikhonov's penalty of the reconstruction; the default is about what gonio reconstruct chooses")
       .capture_default_str();
   command
-      .add_option("--noise", design.noise,
-                  "Deviation of every measurement's logarithm (0.02 is 2 %), independent of the others'")
-      .capture_default_str();
-  command
       .add_option("--common-shift", design.common_shift,
                   "Size of one shift that all logarithms share: beta of Xu et al. 2016, Eq. 15")
       .capture_default_str();
   command.add_flag("--in-sample", design.in_sample,
                    "Expect the error of materials that the prior has seen, as Xu et al. do, instead of each left out");
-  command
-      .add_option("--misplaced", options->angular_error,
-                  "Points: degrees by which light and viewer may each be off their directions")
-      .capture_default_str();
   // Declare the limits of the apparatus.
   command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
       .capture_default_str();
   command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
+  command.add_option(
+      "--apparatus", options->apparatus,
+      "What is measured with, by name (default: light and viewer up to 80 degrees and 5 degrees apart, noise "
+      "of 2 %): " +
+          gonio::io::listed(shipped_apparatus_names(), ", "));
   command.add_input("--constraint", options->constraint,
-                    "What the apparatus cannot do (a text file, docs/reference/formats.md)");
+                    "An apparatus of your own instead (a text file, docs/reference/formats.md)");
+  command
+      .add_option("--largest-polar-angle", options->largest_polar_angle,
+                  "Degrees that light and viewer may have from the normal, instead of the apparatus' own limits")
+      .check(check::range(1.0, 90.0));
+  command.add_option("--separation", options->separation, "Degrees between light and viewer at least")
+      .check(check::range(0.0, 180.0));
+  command
+      .add_option("--noise", options->noise,
+                  "Deviation of a reading relative to it (0.02 is 2 %), independent of the others'")
+      .check(check::range(0.0, 1.0));
+  command
+      .add_option("--dark-signal", options->dark_signal,
+                  "Deviation of a reading without light, as BRDF times the cosines of light and viewer, sr^-1: it "
+                  "matters at grazing angles")
+      .check(check::range(0.0, 1.0));
+  command.add_option("--misplaced", options->misplaced,
+                     "Points: degrees by which light and viewer may each be off their directions");
   command.add_input("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
   command.add_input("--given", options->given,
                     "Samples that were measured (.csv): the next ones by what these read, so that the reconstruction "
                     "errs least as seen on spheres");
+  command
+      .add_option("--until", options->until,
+                  "With --given: nothing is written once half of all directions are known to this (0.1 is 10 %)")
+      .check(check::range(0.0, 1.0));
   add_measurement_options(command, options->reading);
   // Declare what needs no search.
   command

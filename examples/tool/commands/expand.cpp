@@ -7,7 +7,7 @@
 #include "tool/options/albedo_tolerance_option.hpp"
 #include "tool/options/chosen_networks.hpp"
 #include "tool/options/prior_material.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include <gonio/basis/component_variance.hpp>
 #include <gonio/core/finite.hpp>

@@ -7,7 +7,7 @@
 #include "tool/files/json.hpp"
 #include "tool/files/measurement_files.hpp"
 #include "tool/options/machine_choice.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/pages/progress_bar.hpp"
 #include <gonio/capture/scan.hpp>
 #include <gonio/core/printable.hpp>

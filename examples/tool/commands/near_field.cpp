@@ -3,7 +3,7 @@
 
 #include "commands.hpp"
 #include "tool/files/photograph_files.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
 #include <gonio/capture/colour_clusters.hpp>

@@ -5,7 +5,7 @@
 #include "tool/files/file_start.hpp"
 #include "tool/files/radiance_image.hpp"
 #include "tool/options/lights.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/colour_scale.hpp"
 #include "tool/pages/contact_sheet.hpp"

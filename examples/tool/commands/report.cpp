@@ -2,8 +2,8 @@
 
 #include "commands.hpp"
 #include "tool/files/measurement_files.hpp"
-#include "tool/options/prior_option.hpp"
 #include "tool/options/reconstruct_choice.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/report_data.hpp"
 #include "tool/pages/report_page.hpp"

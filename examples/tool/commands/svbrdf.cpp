@@ -3,7 +3,7 @@
 #include "commands.hpp"
 #include "tool/files/image_stack.hpp"
 #include "tool/files/texel_arrays.hpp"
-#include "tool/options/prior_option.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/team.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/progress_bar.hpp"

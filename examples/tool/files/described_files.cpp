@@ -21,8 +21,8 @@
 #include <gonio/io/measurements/reference_reflectance.hpp>
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/io/measurements/scan_journal.hpp>
+#include <gonio/io/setups/apparatus.hpp>
 #include <gonio/io/setups/camera_calibration.hpp>
-#include <gonio/io/setups/capture_constraint.hpp>
 #include <gonio/io/text/csv_reader.hpp>
 #include <gonio/model/measured_properties.hpp>
 
@@ -290,16 +290,21 @@ json describe_csv(const path_type& path, const measurement_options& reading) {
              : describe_samples(path, reading);
 }
 
-json describe_constraint(const path_type& path) {
-  const gonio::design::capture_constraint constraint = gonio::io::read_capture_constraint(path);
+json describe_apparatus(const path_type& path) {
+  const gonio::design::apparatus apparatus = gonio::io::read_apparatus(path);
+  const gonio::design::capture_constraint& constraint = apparatus.constraint;
   const auto degrees = [](const gonio::design::polar_range& range) -> json {
     return {rounded_degrees(range.smallest), rounded_degrees(range.largest)};
   };
-  return {{"kind", "constraint of an apparatus"},
+  return {{"kind", "an apparatus"},
           {"light", degrees(constraint.light)},
           {"viewer", degrees(constraint.viewer)},
           {"in_plane", constraint.plane_tolerance.has_value()},
-          {"forbidden_zones", constraint.forbidden.size()}};
+          {"forbidden_zones", constraint.forbidden.size()},
+          {"pairs", constraint.pairs.size()},
+          {"noise", apparatus.noise},
+          {"dark_signal", apparatus.dark_signal},
+          {"misplaced", rounded_degrees(apparatus.angular_error)}};
 }
 
 json describe_calibration(const path_type& path) {
@@ -366,7 +371,7 @@ constexpr std::array kinds{
                      return file.extension == ".txt" &&
                             has_keyword(file, {"light", "viewer", "in_plane", "separation", "light_step", "forbid"});
                    },
-                   describe_constraint},
+                   describe_apparatus},
     described_kind{[](const file_look& file) { return file.extension == ".txt" && is_list_of_numbers(file); }, nullptr,
                    describe_samples},
     described_kind{is_table, describe_table}};

@@ -5,8 +5,9 @@
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/design/image_candidates.hpp>
+#include <gonio/design/reading_variances.hpp>
 #include <gonio/design/sphere_geometry.hpp>
-#include <gonio/estimate/angular_error.hpp>
+#include <gonio/evaluate/perceived_candidates.hpp>
 #include <gonio/evaluate/perceived_norm.hpp>
 
 namespace cli {
@@ -21,7 +22,7 @@ constexpr std::size_t random_candidates = 500;
 
 gonio::design::expected_error_options expectation_of(const design_options& options) {
   return {.eta = options.eta,
-          .noise = options.noise,
+          .noise = options.apparatus.noise,
           .common_shift = options.common_shift,
           .leave_out = !options.in_sample};
 }
@@ -32,8 +33,22 @@ gonio::design::expected_error expected_error_of(const prior_t& prior, const desi
 
 /// The one that a search is to make small.
 gonio::design::expected_error criterion_of(const prior_t& prior, const design_options& options) {
-  if (options.criterion != "perceived") return expected_error_of(prior, options);
+  if (options.criterion == "expected-error") return expected_error_of(prior, options);
   return gonio::design::expected_error(prior, expectation_of(options), gonio::perceived_norm(prior, options.threads));
+}
+
+gonio::design::near_field_options near_field_of(const design_options& options) {
+  gonio::design::near_field_options setup = options.near_field;
+  setup.constraint = options.apparatus.constraint;
+  return setup;
+}
+
+gonio::design::point_geometry points_of(const prior_t& prior, const design_options& options) {
+  return gonio::design::point_geometry(prior.cells(), options.apparatus.constraint);
+}
+
+gonio::design::sphere_geometry spheres_of(const prior_t& prior, const design_options& options) {
+  return gonio::design::sphere_geometry(prior.cells(), options.apparatus.constraint.smallest_separation);
 }
 
 template <class Geometry>
@@ -93,8 +108,7 @@ capture_plan sweep(const Objective& whole, const design_options& options, const 
   const capture_plan start = start_of(objective.geometry(), options);
   const capture_plan greedy = gonio::design::grow_greedily(objective, options.count, start, listener);
   if (options.search == "greedy" || !start.candidates.empty()) return greedy;
-  return gonio::design::descend(objective.geometry(), objective, gonio::design::exchange(objective, greedy, listener),
-                                options.seed);
+  return gonio::design::exchange(objective, greedy, listener);
 }
 
 /// Searches among few candidates.
@@ -118,23 +132,48 @@ designed finished(const Geometry& geometry, const capture_plan& plan) {
   return found;
 }
 
+/// Searches in the way that the options say.
+template <gonio::design::sweeping_objective Objective>
+capture_plan search(const Objective& objective, const design_options& options, const gonio::progress& listener,
+                    const sweeping& how) {
+  return options.search == "descent" ? slide(objective, options, listener) : sweep(objective, options, listener, how);
+}
+
+/// Of each cell, for what the criterion's noise is not.
+std::vector<double> sample_noise_penalties(const prior_t& prior, const design_options& options) {
+  gonio::design::apparatus other = options.apparatus;
+  other.noise = 0.0;
+  if (other.dark_signal == 0.0 && other.angular_error == 0.0) return {};
+  std::vector<gonio::location> locations;
+  for (Eigen::Index cell = 0; cell < prior.cells().size(); ++cell)
+    locations.push_back(gonio::locate_cell(prior.cells(), cell));
+  const Eigen::VectorXd penalties =
+      gonio::design::reading_variances(other, prior, locations, options.threads) * prior.coefficients().rows();
+  return {penalties.begin(), penalties.end()};
+}
+
+/// Samples by what is seen of the reconstruction that `gonio reconstruct` makes of them.
+designed by_perception(const prior_t& prior, const design_options& options, const gonio::progress& listener,
+                       const sweeping& how) {
+  const gonio::reconstruction estimator(prior, {.noise = options.apparatus.noise}, options.threads);
+  const gonio::perceived_candidates candidates(gonio::design::sequential_design(estimator, options.apparatus), {},
+                                               options.threads);
+  return finished(candidates.geometry(), search(candidates, options, listener, how));
+}
+
 template <class Geometry>
 designed by_expected_error(const prior_t& prior, const Geometry& geometry, const design_options& options,
                            const gonio::progress& listener, const sweeping& how) {
   gonio::design::expected_error criterion = criterion_of(prior, options);
   if constexpr (std::is_same_v<Geometry, gonio::design::point_geometry>) {
-    const std::vector<double> sample_noise_penalties =
-        options.angular_error > 0.0 ? gonio::angular_error_penalties(prior, options.angular_error, options.threads)
-                                    : std::vector<double>{};
-    const gonio::design::cell_candidates candidates(prior, std::move(criterion), options.near_field.constraint,
-                                                    options.threads, sample_noise_penalties);
-    return finished(geometry, options.search == "descent" ? slide(candidates, options, listener)
-                                                          : sweep(candidates, options, listener, how));
+    const gonio::design::cell_candidates candidates(prior, std::move(criterion), options.apparatus.constraint,
+                                                    options.threads, sample_noise_penalties(prior, options));
+    return finished(geometry, search(candidates, options, listener, how));
   } else {
     gonio::design::image_objective objective(prior, std::move(criterion), geometry);
     if (options.search == "descent") return finished(geometry, slide(objective, options, listener));
     const gonio::design::image_candidates candidates(std::move(objective), options.threads, listener);
-    return finished(geometry, sweep(candidates, options, listener, how));
+    return finished(geometry, search(candidates, options, listener, how));
   }
 }
 
@@ -159,8 +198,10 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
                         const gonio::progress& listener, const sweeping& how) {
   designed best;
   best.value = std::numeric_limits<double>::infinity();
-  const gonio::design::near_field_options& setup = options.near_field;
+  const gonio::design::near_field_options setup = near_field_of(options);
   for (double theta = 0.0; theta <= setup.largest_polar_angle + 1e-9; theta += setup.step) {
+    const gonio::design::capture_constraint& can = setup.constraint;
+    if (!(fixed == &gonio::design::near_field_options::fixed_camera ? can.viewer : can.light).contains(theta)) continue;
     gonio::report(listener, "fixed at " + std::to_string(std::lround(gonio::degrees(theta))),
                   theta / setup.largest_polar_angle);
     gonio::design::near_field_options here = setup;
@@ -171,32 +212,39 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
   return best;
 }
 
+/// Refuses what a criterion does not take.
+void require_criterion(const design_options& options) {
+  const bool expects_errors = options.criterion == "expected-error" || options.criterion.starts_with("perceived");
+  const double angular_error = options.apparatus.angular_error;
+  if (!(angular_error >= 0.0 && angular_error < gonio::radians(45.0)))
+    gonio::refuse("--misplaced needs an angle from 0 to 45 degrees, not " +
+                  std::to_string(gonio::degrees(angular_error)));
+  if (angular_error != 0.0 && !(options.geometry == "point" && expects_errors))
+    gonio::refuse("--misplaced needs --geometry point and --criterion expected-error or perceived");
+  const bool is_reconstruction = options.geometry == "point" && options.criterion == "perceived";
+  if ((!expects_errors || is_reconstruction) && (options.common_shift != 0.0 || options.in_sample))
+    gonio::refuse("--common-shift and --in-sample need --criterion expected-error" +
+                  std::string(is_reconstruction ? ": perceived expects the error of gonio reconstruct"
+                                                : " or perceived, not " + options.criterion));
+  if (is_reconstruction && options.eta != gonio::default_eta)
+    gonio::refuse("--eta needs --criterion expected-error: perceived expects the error of gonio reconstruct");
+}
+
 }  // namespace
 
 designed design(const gonio::log_relative_pca& prior, const design_options& options, const gonio::progress& listener,
                 const team& processes, sweep_record* record) {
   const sweeping how{processes, record};
-  const bool expects_errors = options.criterion == "expected-error" || options.criterion == "perceived";
-  if (options.angular_error != 0.0 && !(options.geometry == "point" && expects_errors))
-    gonio::refuse("--misplaced needs --geometry point and --criterion expected-error or perceived");
-  if (!expects_errors && (options.common_shift != 0.0 || options.in_sample))
-    gonio::refuse("--common-shift and --in-sample need --criterion expected-error or perceived, not " +
-                  options.criterion);
-  if (options.criterion == "condition" && options.noise != 0.0)
-    gonio::refuse("--noise needs --criterion expected-error or perceived: a condition number does not depend on noise");
-  if (!(options.angular_error >= 0.0 && options.angular_error < gonio::radians(45.0)))
-    gonio::refuse("--misplaced needs an angle from 0 to 45 degrees, not " +
-                  std::to_string(gonio::degrees(options.angular_error)));
-  const auto& near_field = options.near_field;
-  if (options.geometry == "point")
-    return with(prior, gonio::design::point_geometry(prior.cells(), near_field.constraint), options, listener, how);
-  if (options.geometry == "sphere")
-    return with(prior, gonio::design::sphere_geometry(prior.cells()), options, listener, how);
+  require_criterion(options);
+  if (options.geometry == "point" && options.criterion == "perceived")
+    return by_perception(prior, options, listener, how);
+  if (options.geometry == "point") return with(prior, points_of(prior, options), options, listener, how);
+  if (options.geometry == "sphere") return with(prior, spheres_of(prior, options), options, listener, how);
   if (options.geometry == "fixed-camera")
     return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_camera, listener, how);
   if (options.geometry == "fixed-light")
     return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_light, listener, how);
-  return with(prior, gonio::design::near_field_geometry(near_field), options, listener, how);
+  return with(prior, gonio::design::near_field_geometry(near_field_of(options)), options, listener, how);
 }
 
 designed placed(const gonio::log_relative_pca& prior, const design_options& options,
@@ -206,10 +254,9 @@ designed placed(const gonio::log_relative_pca& prior, const design_options& opti
     for (const gonio::direction_pair& pair : poses) plan.candidates.push_back(geometry.nearest(pair));
     return finished(geometry, plan);
   };
-  const auto& near_field = options.near_field;
-  if (options.geometry == "point") return at(gonio::design::point_geometry(prior.cells(), near_field.constraint));
-  if (options.geometry == "sphere") return at(gonio::design::sphere_geometry(prior.cells()));
-  return at(gonio::design::near_field_geometry(near_field));
+  if (options.geometry == "point") return at(points_of(prior, options));
+  if (options.geometry == "sphere") return at(spheres_of(prior, options));
+  return at(gonio::design::near_field_geometry(near_field_of(options)));
 }
 
 design_quality quality_of(const gonio::log_relative_pca& prior, const design_options& options, const designed& found) {

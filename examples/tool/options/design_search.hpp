@@ -6,6 +6,7 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
+#include <gonio/design/apparatus.hpp>
 #include <gonio/design/near_field_geometry.hpp>
 #include <gonio/io/materials/prior.hpp>
 #include <gonio/solve/default_eta.hpp>
@@ -18,12 +19,14 @@ namespace cli {
 
 struct design_options {
   Eigen::Index count = 20;
-  std::string geometry = "point", criterion = "expected-error", search = "exchange";
+  /// Beside the criteria of the command line there is perceived-norm: the expected error in the norm of that name, which
+  /// is what perceived is of images.
+  std::string geometry = "point", criterion = "perceived", search = "greedy";
+  gonio::design::apparatus apparatus = gonio::design::usual_apparatus();  ///< its angular error is of points
   double eta = gonio::default_eta;
-  double noise = 0.0, common_shift = 0.0;        ///< of every measurement's logarithm: independent, and shared by all
+  double common_shift = 0.0;                     ///< of every measurement's logarithm, shared by all
   bool in_sample = false;                        ///< is the error expected of materials that the prior has seen?
-  double angular_error = 0.0;                    ///< radians by which light and viewer may be off: of points
-  gonio::design::near_field_options near_field;  ///< its constraint holds for points, too
+  gonio::design::near_field_options near_field;  ///< its constraint is that of the apparatus
   std::vector<gonio::direction_pair> start;      ///< above the horizon
   std::uint64_t seed = 0;
   gonio::thread_count threads;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -14,12 +15,14 @@
 
 namespace gonio::design {
 
-/// A range of polar angles, both ends included, in radians.
+/// A range of polar angles, both ends included, in radians; what is rounded of a direction counts as the end.
 struct polar_range {
   double smallest = 0.0;
   double largest = std::numbers::pi / 2.0;
 
-  [[nodiscard]] bool contains(double theta) const noexcept { return theta >= smallest && theta <= largest; }
+  [[nodiscard]] bool contains(double theta) const noexcept {
+    return theta >= smallest - 1e-9 && theta <= largest + 1e-9;
+  }
 };
 
 /// Settings that cannot be reached: the light in one range while the viewer is in the other.
@@ -37,6 +40,9 @@ struct capture_constraint {
   std::vector<forbidden_zone> forbidden;
   /// The viewer stands in the plane of light and normal, or misses it by at most so much.
   std::optional<double> plane_tolerance;
+  /// An instrument whose light and viewers are fixed has these pairs alone, each met to half a degree; any pair if
+  /// there is none here.
+  std::vector<direction_pair> pairs;
 
   [[nodiscard]] bool is_none() const noexcept;
 
@@ -46,6 +52,9 @@ struct capture_constraint {
   /// each other's place; nothing if neither can be. Where only the plane of incidence is allowed, those next to it are
   /// moved into it.
   [[nodiscard]] std::optional<direction_pair> pose_of(const half_difference& angles) const;
+
+  /// The position in `pairs` of the one that is met by a pair, light and viewer in either place, whatever its azimuth.
+  [[nodiscard]] std::optional<std::size_t> fixed_pair(const direction_pair& pair) const;
 
   /// The name of the first rule, of those above in their order, that leaves nothing to measure together with those
   /// before it, by what `leaves_some` says of constraints; empty if all of them leave something.

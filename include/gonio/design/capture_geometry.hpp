@@ -10,6 +10,7 @@
 
 #include <array>
 #include <concepts>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -86,8 +87,8 @@ concept capture_geometry = requires(const Geometry& geometry, Eigen::Index candi
 /// is. phi_d goes round.
 class point_geometry {
  public:
-  explicit point_geometry(valid_cells cells, capture_constraint constraint = {})
-      : cells_(std::move(cells)), constraint_(std::move(constraint)) {}
+  /// Of an instrument's fixed pairs, each is the candidate in whose cell it lies; of two in one cell the first is.
+  explicit point_geometry(valid_cells cells, capture_constraint constraint = {});
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] Eigen::Index size() const noexcept { return cells_.size(); }
@@ -104,6 +105,7 @@ class point_geometry {
  private:
   valid_cells cells_;
   capture_constraint constraint_;
+  std::map<Eigen::Index, direction_pair> fixed_pairs_;  ///< by their cells
 };
 static_assert(capture_geometry<point_geometry>);
 

@@ -21,8 +21,8 @@ namespace gonio::design {
 class cell_candidates {
  public:
   /// 4 k m operations a cell. `sample_noise_penalties` are those of the errors that a measurement of each cell has of
-  /// its own, such as `angular_error_penalties`; none if it is empty. Throws gonio::error unless there is one for each
-  /// cell, finite and not negative.
+  /// its own: m times `reading_variances` without the noise of the criterion; none if it is empty. Throws gonio::error
+  /// unless there is one for each cell, finite and not negative.
   template <error_metric Metric>
   cell_candidates(const pca<Metric>& basis, expected_error criterion, capture_constraint constraint = {},
                   thread_count threads = {}, std::span<const double> sample_noise_penalties = {})

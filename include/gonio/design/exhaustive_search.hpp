@@ -1,7 +1,7 @@
 #pragma once
 /// Searches that try every candidate as the next measurement, which Xu et al. 2016 (doi:10.1145/2980179.2982396) could
-/// not afford: greedy growth, and exchange until no replacement of one measurement by any other is an improvement
-/// (Fedorov's exchange, 1972).
+/// not afford: greedy growth, exchange until no replacement of one measurement by any other is an improvement
+/// (Fedorov's exchange, 1972), and both.
 
 #include <gonio/design/search.hpp>
 
@@ -34,7 +34,7 @@ template <sweeping_objective Objective>
 
 }  // namespace detail
 
-/// Adds the best of all candidates until there are n. Throws gonio::error unless n is from 1 to the number of
+/// Adds the best of all candidates until there are n: a longer plan begins with the shorter one. Throws gonio::error unless n is from 1 to the number of
 /// candidates.
 template <sweeping_objective Objective>
 [[nodiscard]] capture_plan grow_greedily(const Objective& objective, Eigen::Index n, capture_plan plan = {},

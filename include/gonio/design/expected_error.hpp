@@ -36,7 +36,7 @@ struct expected_error_options {
 ///   |Q (Q+ - (SQ)+_eta S) y_i|^2 = c_i'M c_i - 2 w_i . b_i + b_i' (W Y') b_i.
 ///
 /// A measurement may also have an error of its own, of variance v: a detector's, or that of a direction which is not
-/// quite met (`angular_error_penalties`). A weight's variance over the observations is 1 / m, so that the
+/// quite met (`angular_error_penalty`). A weight's variance over the observations is 1 / m, so that the
 /// reconstruction which expects the error is penalised by eta + m v there, K = Y Y' + eta I + m diag(v), and every
 /// squared error grows by the sum of v_i [K^-1 W Y' K^-1]_ii, by what such errors add to it on average. Independent
 /// noise is such an error of the same variance everywhere.

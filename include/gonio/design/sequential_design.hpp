@@ -5,7 +5,9 @@
 /// (doi:10.1613/jair.295); Rasmussen and Williams 2006, Eq. 2.24. Results: docs/results/adaptive-design.md.
 
 #include <gonio/core/parallel.hpp>
+#include <gonio/design/apparatus.hpp>
 #include <gonio/design/capture_geometry.hpp>
+#include <gonio/design/reading_variances.hpp>
 #include <gonio/estimate/reconstruction.hpp>
 
 #include <Eigen/Core>
@@ -28,11 +30,12 @@ struct sensitivity {
 [[nodiscard]] double seen_deviation(const Eigen::MatrixXd& covariance, const sensitivity& seen,
                                     thread_count threads = {});
 
-/// The same with one more measurement at each of the candidates, in turn, whose error has this variance: a value for
-/// each candidate. P falls by P_x P_x' / (P_xx + error_variance). O(p candidates^2). Same bytes for any number of
-/// threads.
+/// The same with one more measurement at each of the candidates, in turn, whose errors have these variances: a value
+/// for each candidate. P falls by P_x P_x' / (P_xx + its error variance). O(p candidates^2). Same bytes for any number
+/// of threads.
 [[nodiscard]] std::vector<double> seen_deviation_with_each(const Eigen::MatrixXd& covariance, const sensitivity& seen,
-                                                           double error_variance, thread_count threads = {});
+                                                           const Eigen::VectorXd& error_variances,
+                                                           thread_count threads = {});
 
 /// What is known of the mapped values at all candidates.
 struct candidate_posterior {
@@ -58,19 +61,21 @@ template <error_metric Metric>
 class sequential_design {
  public:
   /// O(candidates^2 k) for k components.
-  explicit sequential_design(reconstruction<Metric> estimator, capture_constraint constraint = {},
+  explicit sequential_design(reconstruction<Metric> estimator, const apparatus& with = {},
                              valid_cells candidates = default_candidates())
       : estimator_(std::move(estimator)),
-        geometry_(std::move(candidates), std::move(constraint)),
-        before_(std::make_shared<const expected>(estimator_, geometry_)) {}
+        geometry_(std::move(candidates), with.constraint),
+        before_(std::make_shared<const expected>(estimator_, geometry_, with)) {}
 
   [[nodiscard]] const reconstruction<Metric>& estimator() const noexcept { return estimator_; }
   [[nodiscard]] const point_geometry& geometry() const noexcept { return geometry_; }
-  /// Of a measurement: the estimator's, noise not included.
-  [[nodiscard]] double error_variance() const noexcept { return estimator_.model().error_variance; }
+  /// Of a measurement at each candidate: the estimator's, which grows towards grazing, and that of the apparatus.
+  [[nodiscard]] const Eigen::VectorXd& error_variances() const noexcept { return before_->error_variances; }
 
-  /// Where a candidate lies on the prior's cells.
-  [[nodiscard]] const location& location_of(Eigen::Index candidate) const { return before_->locations[candidate]; }
+  /// Where the candidates lie on the prior's cells, and the prior's functions and mean there.
+  [[nodiscard]] const std::vector<location>& locations() const noexcept { return before_->locations; }
+  [[nodiscard]] const located_rows& rows() const noexcept { return before_->at; }
+  [[nodiscard]] const Eigen::VectorXd& offsets() const noexcept { return before_->offsets; }
 
   /// Before anything is measured.
   [[nodiscard]] candidate_posterior prior() const { return {before_->offsets.replicate(1, 3), before_->covariance}; }
@@ -84,19 +89,24 @@ class sequential_design {
 
  private:
   struct expected {
-    expected(const reconstruction<Metric>& estimator, const point_geometry& geometry) : offsets(geometry.size()) {
+    expected(const reconstruction<Metric>& estimator, const point_geometry& geometry, const apparatus& with)
+        : offsets(geometry.size()) {
       for (Eigen::Index i = 0; i < geometry.size(); ++i) {
         locations.push_back(locate(estimator.prior().cells(), geometry.cells().angles(i)));
         offsets[i] = offset_at(estimator.prior(), locations.back());
       }
       at = locate_rows(estimator.prior(), locations);
       covariance = estimator.expected().among(at);
+      error_variances = reading_variances(with, estimator.prior(), locations);
+      for (Eigen::Index i = 0; i < geometry.size(); ++i)
+        error_variances[i] += error_variance_at(estimator.model(), at.angles[i]);
     }
 
     located_rows at;          ///< the prior's functions at the candidates
     Eigen::VectorXd offsets;  ///< the prior's mean there
     std::vector<location> locations;
     Eigen::MatrixXd covariance;
+    Eigen::VectorXd error_variances;
   };
 
   reconstruction<Metric> estimator_;

@@ -14,11 +14,15 @@ namespace gonio::design {
 /// One candidate for each theta_d of a grid: its samples are all valid cells of that slice, each once.
 class sphere_geometry {
  public:
-  explicit sphere_geometry(valid_cells cells) : cells_(std::move(cells)) {}
+  /// Light and camera are at least an angle in radians apart.
+  explicit sphere_geometry(valid_cells cells, double smallest_separation = 0.0)
+      : cells_(std::move(cells)), smallest_separation_(smallest_separation) {}
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] Eigen::Index size() const noexcept { return cells_.grid().extents().theta_d; }
-  [[nodiscard]] bool allows(Eigen::Index slice) const { return !cells_of(slice).empty(); }
+  [[nodiscard]] bool allows(Eigen::Index slice) const {
+    return !cells_of(slice).empty() && 2.0 * cells_.grid().theta_d(static_cast<int>(slice)) >= smallest_separation_;
+  }
 
   /// As seen from where the sphere's normal is midway between light and camera.
   [[nodiscard]] direction_pair centre(Eigen::Index slice) const {
@@ -37,6 +41,7 @@ class sphere_geometry {
 
  private:
   valid_cells cells_;
+  double smallest_separation_;
 };
 static_assert(capture_geometry<sphere_geometry>);
 

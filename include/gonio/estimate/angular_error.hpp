@@ -42,20 +42,6 @@ template <error_metric Metric>
   return sum / 4.0;
 }
 
-/// The same for a measurement at each cell, for `cell_candidates`.
-template <error_metric Metric>
-[[nodiscard]] std::vector<double> angular_error_penalties(const pca<Metric>& basis, double angle,
-                                                          thread_count threads = {}) {
-  std::vector<double> etas(basis.cells().size());
-  for_each_index(
-      etas.size(), 256,
-      [&](Eigen::Index cell) {
-        etas[cell] = angular_error_penalty(basis, to_directions(basis.cells().angles(cell)), angle);
-      },
-      threads);
-  return etas;
-}
-
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)

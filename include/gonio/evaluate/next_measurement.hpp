@@ -36,10 +36,10 @@ struct next_measurement {
 template <error_metric Metric>
 class measurement_chooser {
  public:
-  /// Throws gonio::error if the constraint leaves no candidate.
-  explicit measurement_chooser(reconstruction<Metric> estimator, design::capture_constraint constraint = {},
+  /// Throws gonio::error if the apparatus can measure no candidate.
+  explicit measurement_chooser(reconstruction<Metric> estimator, const design::apparatus& with = {},
                                valid_cells candidates = design::default_candidates(), thread_count threads = {})
-      : design_(std::move(estimator), std::move(constraint), std::move(candidates)),
+      : design_(std::move(estimator), with, std::move(candidates)),
         perceived_(design_.geometry().cells(), 14, threads),
         threads_(threads) {
     design::detail::require_choice(1, design_.geometry());
@@ -61,13 +61,14 @@ class measurement_chooser {
     std::optional<sample_process> process;
     if (!samples.empty()) process = design_.estimator().process_of_inliers(locate(samples));
     design::candidate_posterior known = process ? design_.posterior_of(*process) : design_.prior();
-    const design::sensitivity seen = sensitivity_at(known.mean);
+    const design::sensitivity seen =
+        perceived_.at(design_.estimator().prior().metric(), design_.locations(), known.mean);
     const double scale = process ? process->scale() : 1.0;
     std::vector<next_measurement> chosen;
     while (std::ssize(chosen) < count) {
       // The best candidate beside those that are chosen.
       const std::vector<double> deviations =
-          design::seen_deviation_with_each(known.covariance, seen, design_.error_variance(), threads_);
+          design::seen_deviation_with_each(known.covariance, seen, design_.error_variances(), threads_);
       const auto value = [&](Eigen::Index i) {
         return free[i] ? deviations[i] : std::numeric_limits<double>::infinity();
       };
@@ -75,7 +76,7 @@ class measurement_chooser {
       for (Eigen::Index i = 1; i < std::ssize(deviations); ++i)
         if (value(i) < value(best)) best = i;
       free[best] = false;
-      known.add(best, design_.error_variance());
+      known.add(best, design_.error_variances()[best]);
       const direction_pair pose = design_.geometry().centre(best);
       chosen.push_back({pose, to_half_difference(pose.wi, pose.wo), std::sqrt(scale) * deviations[best]});
     }
@@ -85,21 +86,6 @@ class measurement_chooser {
  private:
   [[nodiscard]] located_samples locate(const sample_set& samples) const {
     return locate_samples(design_.estimator().prior().cells(), samples, threads_);
-  }
-
-  /// At an estimate in the metric's domain: candidates x 3.
-  [[nodiscard]] design::sensitivity sensitivity_at(const Eigen::MatrixXd& mapped) const {
-    constexpr double step = 0.05;
-    const auto& metric = design_.estimator().prior().metric();
-    Eigen::MatrixXd reflectance(mapped.rows(), 3), derivative(mapped.rows(), 3);
-    for (Eigen::Index c = 0; c < 3; ++c)
-      for (Eigen::Index i = 0; i < mapped.rows(); ++i) {
-        const location& at = design_.location_of(i);
-        const double below = metric.inverse(mapped(i, c) - step, at), above = metric.inverse(mapped(i, c) + step, at);
-        reflectance(i, c) = std::max((below + above) / 2.0, 0.0);
-        derivative(i, c) = (above - below) / (2.0 * step);
-      }
-    return perceived_(reflectance, derivative);
   }
 
   /// Those that the constraint allows, and whose cell no sample lies in.

@@ -4,11 +4,15 @@
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/sequential_design.hpp>
+#include <gonio/metric/error_metric.hpp>
+#include <gonio/table/location.hpp>
 #include <gonio/table/valid_cells.hpp>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 namespace gonio {
 
@@ -27,6 +31,25 @@ class perceived_sensitivity {
   /// gonio::error for sizes that do not match.
   [[nodiscard]] design::sensitivity operator()(const Eigen::MatrixXd& reflectance,
                                                const Eigen::MatrixXd& derivative) const;
+
+  /// The same at mapped values: cells x 3, at the cells' locations on a metric's.
+  template <error_metric Metric>
+  [[nodiscard]] design::sensitivity at(const Metric& metric, std::span<const location> locations,
+                                       const Eigen::MatrixXd& mapped) const {
+    constexpr double step = 0.05;
+    Eigen::MatrixXd reflectance(mapped.rows(), 3), derivative(mapped.rows(), 3);
+    for (Eigen::Index c = 0; c < 3; ++c)
+      for (Eigen::Index i = 0; i < mapped.rows(); ++i) {
+        const double below = metric.inverse(mapped(i, c) - step, locations[i]),
+                     above = metric.inverse(mapped(i, c) + step, locations[i]);
+        reflectance(i, c) = std::max((below + above) / 2.0, 0.0);
+        derivative(i, c) = (above - below) / (2.0 * step);
+      }
+    return (*this)(reflectance, derivative);
+  }
+
+  /// Of the points; their sum is 1.
+  [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return weights_; }
 
  private:
   valid_cells cells_;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -34,7 +35,7 @@ GONIO_INLINE bool capture_constraint::is_none() const noexcept {
     return range.smallest <= all.smallest && range.largest >= all.largest;
   };
   return is_all(light) && is_all(viewer) && smallest_separation <= 0.0 && light_step <= 0.0 && forbidden.empty() &&
-         !plane_tolerance;
+         !plane_tolerance && pairs.empty();
 }
 
 GONIO_INLINE bool capture_constraint::operator()(const direction_pair& pair) const {
@@ -44,6 +45,7 @@ GONIO_INLINE bool capture_constraint::operator()(const direction_pair& pair) con
   if (light_step > 0.0 && std::abs(theta_i - light_step * std::round(theta_i / light_step)) > light_tolerance)
     return false;
   if (plane_tolerance && detail::angle_from_plane(pair) > *plane_tolerance + 1e-9) return false;
+  if (!pairs.empty() && !fixed_pair(pair)) return false;
   return std::ranges::none_of(forbidden, [&](const forbidden_zone& zone) {
     return zone.light.contains(theta_i) && zone.viewer.contains(theta_o);
   });
@@ -56,6 +58,25 @@ GONIO_INLINE std::optional<direction_pair> capture_constraint::pose_of(const hal
   if (is_none() || (*this)(pair)) return pair;
   if ((*this)(exchanged)) return exchanged;
   return {};
+}
+
+GONIO_INLINE std::optional<std::size_t> capture_constraint::fixed_pair(const direction_pair& pair) const {
+  constexpr double tolerance = radians(0.5);
+  // Isotropic materials do not see which way the pair is turned, or from which side.
+  const auto across = [](const direction_pair& of) {
+    return std::abs(std::remainder(azimuth(of.wo) - azimuth(of.wi), 2.0 * std::numbers::pi));
+  };
+  const auto meets = [&](const direction_pair& fixed) {
+    const double of_light = polar_angle(fixed.wi), of_viewer = polar_angle(fixed.wo);
+    return std::abs(polar_angle(pair.wi) - of_light) <= tolerance &&
+           std::abs(polar_angle(pair.wo) - of_viewer) <= tolerance &&
+           std::abs(across(pair) - across(fixed)) * std::sin(std::min(of_light, of_viewer)) <= tolerance;
+  };
+  const auto found = std::ranges::find_if(pairs, [&](const direction_pair& fixed) {
+    return meets(fixed) || meets({fixed.wo, fixed.wi});
+  });
+  if (found == pairs.end()) return {};
+  return static_cast<std::size_t>(found - pairs.begin());
 }
 
 GONIO_INLINE std::string capture_constraint::excluding_rule(
@@ -71,6 +92,7 @@ GONIO_INLINE std::string capture_constraint::excluding_rule(
   if (excludes(&capture_constraint::light_step, &capture_constraint::light_tolerance)) return "light_step";
   if (excludes(&capture_constraint::forbidden)) return "forbid";
   if (excludes(&capture_constraint::plane_tolerance)) return "in_plane";
+  if (excludes(&capture_constraint::pairs)) return "pair";
   return {};
 }
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <concepts>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,8 +16,15 @@
 
 namespace gonio::design {
 
+GONIO_INLINE point_geometry::point_geometry(valid_cells cells, capture_constraint constraint)
+    : cells_(std::move(cells)), constraint_(std::move(constraint)) {
+  for (const direction_pair& pair : constraint_.pairs)
+    if (constraint_(pair)) fixed_pairs_.emplace(nearest(pair), pair);
+}
+
 GONIO_INLINE bool point_geometry::allows(Eigen::Index cell) const {
   if (constraint_.is_none()) return true;
+  if (!constraint_.pairs.empty()) return fixed_pairs_.contains(cell);
   if (constraint_.plane_tolerance && cells_.grid().cell(cells_.linear(cell)).phi_d != 0) return false;
   return constraint_.pose_of(cells_.angles(cell)).has_value();
 }
@@ -31,6 +39,7 @@ GONIO_INLINE std::string point_geometry::excluding_rule() const {
 }
 
 GONIO_INLINE direction_pair point_geometry::centre(Eigen::Index cell) const {
+  if (const auto fixed = fixed_pairs_.find(cell); fixed != fixed_pairs_.end()) return fixed->second;
   const half_difference angles = cells_.angles(cell);
   return constraint_.pose_of(angles).value_or(to_directions(angles));
 }

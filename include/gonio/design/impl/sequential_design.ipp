@@ -46,14 +46,15 @@ GONIO_INLINE double seen_deviation(const Eigen::MatrixXd& covariance, const sens
 }
 
 GONIO_INLINE std::vector<double> seen_deviation_with_each(const Eigen::MatrixXd& covariance, const sensitivity& seen,
-                                                          double error_variance, thread_count threads) {
+                                                          const Eigen::VectorXd& error_variances,
+                                                          thread_count threads) {
   const Eigen::MatrixXd with = detail::seen_covariance(covariance, seen, threads);
   const Eigen::VectorXd before = detail::seen_variances(with, seen);
   std::vector<double> deviations(covariance.cols());
   for_each_index(
       covariance.cols(), 64,
       [&](Eigen::Index candidate) {
-        const double variance = covariance(candidate, candidate) + error_variance;
+        const double variance = covariance(candidate, candidate) + error_variances[candidate];
         double sum = 0.0;
         for (Eigen::Index point = 0; point < before.size(); ++point) {
           const double explained = with.col(candidate).segment<3>(3 * point).squaredNorm() / variance;

@@ -1,15 +1,16 @@
-#include <gonio/io/setups/capture_constraint.hpp>
+#include <gonio/io/setups/apparatus.hpp>
 
 #include <doctest/doctest.h>
 
 using gonio::degrees;
-using gonio::io::read_capture_constraint;
+using gonio::io::read_apparatus;
 
 TEST_CASE("every rule is read") {
-  const auto constraint = read_capture_constraint(
+  const auto apparatus = read_apparatus(
       "# an arc\nlight 0 75\nviewer 5 80.5\n\n separation 15 # of the arms\nlight_step 7.5 0.25\r\nforbid 60 90 70 "
-      "90\nforbid 0 5 0 5\n",
+      "90\nforbid 0 5 0 5\npair 45 10 20 190\nnoise 0.02\ndark_signal 1e-4\nmisplaced 0.25\n",
       "arc.txt");
+  const auto& constraint = apparatus.constraint;
   CHECK(degrees(constraint.light.largest) == doctest::Approx(75));
   CHECK(degrees(constraint.viewer.smallest) == doctest::Approx(5));
   CHECK(degrees(constraint.viewer.largest) == doctest::Approx(80.5));
@@ -18,12 +19,20 @@ TEST_CASE("every rule is read") {
   CHECK(degrees(constraint.light_tolerance) == doctest::Approx(0.25));
   REQUIRE(constraint.forbidden.size() == 2);
   CHECK(degrees(constraint.forbidden[0].viewer.smallest) == doctest::Approx(70));
-  CHECK(read_capture_constraint("", "nothing").is_none());
+  REQUIRE(constraint.pairs.size() == 1);
+  CHECK(degrees(gonio::polar_angle(constraint.pairs[0].wi)) == doctest::Approx(45));
+  CHECK(degrees(gonio::azimuth(constraint.pairs[0].wo)) == doctest::Approx(-170));
+  CHECK(apparatus.noise == 0.02);
+  CHECK(apparatus.dark_signal == 1e-4);
+  CHECK(degrees(apparatus.angular_error) == doctest::Approx(0.25));
+  const auto none = read_apparatus("", "nothing");
+  CHECK(none.constraint.is_none());
+  CHECK(none.noise == 0.0);
 }
 
 TEST_CASE("what is no rule is refused with its file and line") {
   const auto refused = [](const char* text, const char* why) {
-    CHECK_THROWS_WITH_AS(static_cast<void>(read_capture_constraint(text, "arc.txt")), doctest::Contains(why),
+    CHECK_THROWS_WITH_AS(static_cast<void>(read_apparatus(text, "arc.txt")), doctest::Contains(why),
                          gonio::error);
   };
   refused("light 0 75\nlamp 3\n", "arc.txt, line 2: 'lamp' is no rule");
@@ -40,15 +49,20 @@ TEST_CASE("what is no rule is refused with its file and line") {
   refused("light 0 90 -1\n", "tolerance from 0 to 90 degrees");
   refused("in_plane 91\n", "tolerance from 0 to 90 degrees");
   refused("in_plane 1 2\n", "0 or 1 numbers, not 2");
+  refused("pair 45 0 20\n", "takes 4 numbers");
+  refused("pair 45 0 90 0\n", "from 0 to less than 90");
+  refused("noise 1\n", "'noise' is from 0 to less than 1");
+  refused("dark_signal -1\n", "'dark_signal' is from 0 to less than 1");
+  refused("misplaced 45\n", "'misplaced' is from 0 to less than 45");
 }
 
 TEST_CASE("a single angle has a tolerance, a range has one if it is said") {
-  const auto one = read_capture_constraint("light 45 45\nviewer 10 60\n", "arc.txt");
+  const auto one = read_apparatus("light 45 45\nviewer 10 60\n", "arc.txt").constraint;
   CHECK(degrees(one.light.smallest) == doctest::Approx(44.5));
   CHECK(degrees(one.light.largest) == doctest::Approx(45.5));
   CHECK(degrees(one.viewer.largest) == doctest::Approx(60));
   CHECK_FALSE(one.plane_tolerance);
-  const auto wide = read_capture_constraint("light 45 45 2\nviewer 10 60 1\nin_plane\n", "arc.txt");
+  const auto wide = read_apparatus("light 45 45 2\nviewer 10 60 1\nin_plane\n", "arc.txt").constraint;
   CHECK(degrees(wide.light.largest) == doctest::Approx(47));
   CHECK(degrees(wide.viewer.smallest) == doctest::Approx(9));
   REQUIRE(wide.plane_tolerance);

@@ -2,8 +2,8 @@
 /// Bodies of io/setups/capture_constraint.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/design/capture_constraint.hpp>
-#include <gonio/io/setups/capture_constraint.hpp>
+#include <gonio/design/apparatus.hpp>
+#include <gonio/io/setups/apparatus.hpp>
 #include <gonio/io/text/rules.hpp>
 
 #include <filesystem>
@@ -27,7 +27,25 @@ inline constexpr double default_tolerance = radians(0.5);
   return radians(angle);
 }
 
-GONIO_INLINE void apply_rule(const text_rule& rule, design::capture_constraint& constraint, const text_place& place) {
+[[nodiscard]] GONIO_INLINE direction_pair read_pair(const text_rule& rule, const text_place& place) {
+  require_numbers(rule, {4}, place);
+  const std::vector<double>& angles = rule.numbers;
+  if (!(angles[0] >= 0.0 && angles[0] < 90.0 && angles[2] >= 0.0 && angles[2] < 90.0))
+    place.refuse("the polar angles of a pair are from 0 to less than 90 degrees");
+  return {spherical_direction(radians(angles[0]), radians(angles[1])),
+          spherical_direction(radians(angles[2]), radians(angles[3]))};
+}
+
+/// A rule's only number, from 0 to less than a limit.
+[[nodiscard]] GONIO_INLINE double only_number_of(const text_rule& rule, double limit, const text_place& place) {
+  require_numbers(rule, {1}, place);
+  if (!(rule.numbers[0] >= 0.0 && rule.numbers[0] < limit))
+    place.refuse(in_quotes(rule.name) + " is from 0 to less than " + shortest(limit));
+  return rule.numbers[0];
+}
+
+GONIO_INLINE void apply_rule(const text_rule& rule, design::apparatus& described, const text_place& place) {
+  design::capture_constraint& constraint = described.constraint;
   if (rule.name == "light" || rule.name == "viewer") {
     require_numbers(rule, {2, 3}, place);
     design::polar_range range = read_polar_range(rule, 0, place);
@@ -52,9 +70,18 @@ GONIO_INLINE void apply_rule(const text_rule& rule, design::capture_constraint& 
   } else if (rule.name == "in_plane") {
     require_numbers(rule, {0, 1}, place);
     constraint.plane_tolerance = rule.numbers.empty() ? default_tolerance : read_tolerance(rule.numbers[0], place);
+  } else if (rule.name == "pair") {
+    constraint.pairs.push_back(read_pair(rule, place));
+  } else if (rule.name == "noise") {
+    described.noise = only_number_of(rule, 1.0, place);
+  } else if (rule.name == "dark_signal") {
+    described.dark_signal = only_number_of(rule, 1.0, place);
+  } else if (rule.name == "misplaced") {
+    described.angular_error = radians(only_number_of(rule, 45.0, place));
   } else {
     place.refuse(in_quotes(rule.name) +
-                 " is no rule: expected light, viewer, separation, light_step, forbid or in_plane");
+                 " is no rule: expected light, viewer, separation, light_step, forbid, in_plane, pair, noise, "
+                 "dark_signal or misplaced");
   }
 }
 
@@ -62,17 +89,17 @@ GONIO_INLINE void apply_rule(const text_rule& rule, design::capture_constraint& 
 
 namespace gonio::io {
 
-GONIO_INLINE design::capture_constraint read_capture_constraint(std::string_view text, const std::string& name) {
-  design::capture_constraint constraint;
+GONIO_INLINE design::apparatus read_apparatus(std::string_view text, const std::string& name) {
+  design::apparatus described;
   text_place place{name};
   for_each_line(text, place,
-                [&](std::string_view line) { detail::apply_rule(detail::read_rule(line, place), constraint, place); });
-  return constraint;
+                [&](std::string_view line) { detail::apply_rule(detail::read_rule(line, place), described, place); });
+  return described;
 }
 
-GONIO_INLINE design::capture_constraint read_capture_constraint(const std::filesystem::path& path) {
+GONIO_INLINE design::apparatus read_apparatus(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  return read_capture_constraint(as_text(bytes), path.string());
+  return read_apparatus(as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

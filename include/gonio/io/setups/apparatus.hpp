@@ -1,5 +1,6 @@
 #pragma once
-/// Text files that say what an apparatus cannot do: one line for each rule, angles in degrees.
+/// Text files that describe an apparatus: where light and viewer can be and how well it measures, one line for each rule,
+/// angles in degrees.
 ///
 /// ```
 /// # light and viewer: polar angles that they can have
@@ -9,9 +10,13 @@
 /// light_step 7.5 0.5     # lights at multiples of 7.5 degrees, met to 0.5
 /// forbid 60 90 60 90     # light in the first range and viewer in the second
 /// in_plane 0.5           # viewer in the plane of light and normal, met to 0.5
+/// pair 45 0 20 180       # theta_i, phi_i, theta_o, phi_o: an instrument that measures this pair and other such lines alone
+/// noise 0.02             # deviation of a reading relative to it
+/// dark_signal 0.0001     # deviation without light, as BRDF times both cosines, sr^-1
+/// misplaced 0.5          # light and viewer may each be so far off their directions
 /// ```
 
-#include <gonio/design/capture_constraint.hpp>
+#include <gonio/design/apparatus.hpp>
 #include <gonio/io/text/rules.hpp>
 
 #include <filesystem>
@@ -25,15 +30,15 @@ namespace detail {
 /// A range of polar angles from two numbers in degrees.
 [[nodiscard]] design::polar_range read_polar_range(const text_rule& rule, std::size_t first, const text_place& place);
 
-void apply_rule(const text_rule& rule, design::capture_constraint& constraint, const text_place& place);
+void apply_rule(const text_rule& rule, design::apparatus& described, const text_place& place);
 
 }  // namespace detail
 
-/// Throws gonio::error naming the line that is no rule; `name` is what errors call the text.
-[[nodiscard]] design::capture_constraint read_capture_constraint(std::string_view text, const std::string& name);
+/// What no rule says is as of an apparatus without limits and errors. Throws gonio::error naming the line that is no rule; `name` is what errors call the text.
+[[nodiscard]] design::apparatus read_apparatus(std::string_view text, const std::string& name);
 
 /// Reads a file of rules. Throws gonio::error naming the file and the line.
-[[nodiscard]] design::capture_constraint read_capture_constraint(const std::filesystem::path& path);
+[[nodiscard]] design::apparatus read_apparatus(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

@@ -1,0 +1,23 @@
+# cmake -D TOOL=gonio -P cmake/directions.cmake: the designed points of examples/data/directions, by the shipped prior and the
+# usual apparatus. examples/data/directions/README.md says where the other sets are from.
+cmake_minimum_required(VERSION 3.25)
+cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH source)
+set(folder "${source}/examples/data/directions")
+
+function(write_set name)
+  message("${name}")
+  execute_process(COMMAND "${TOOL}" design ${ARGN} -o "${folder}/${name}.csv" COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
+endfunction()
+
+foreach(count IN ITEMS 1 2 5 8 10 16 20)
+  write_set(point-${count}-perceived -n ${count})
+endforeach()
+write_set(point-5-first -n 5 --search exchange)
+foreach(count IN ITEMS 1 2 5 10 20)
+  write_set(point-${count}-expected-error -n ${count} --criterion expected-error --search exchange)
+endforeach()
+# Of images those that `gonio-papers directions --write` finds are within the usual apparatus, but for two.
+foreach(fixed IN ITEMS camera light)
+  write_set(fixed-${fixed}-25-3-expected-error
+    -n 3 --geometry fixed-${fixed} --fov 25 --criterion expected-error --search exchange --in-sample)
+endforeach()

@@ -1,0 +1,133 @@
+#pragma once
+/// Candidates for a measurement, judged by the error that is seen: the mean Delta E of spheres between the materials of
+/// a prior and what `reconstruction` makes of their samples, each material left out of the prior with its family. It is
+/// the measure of `next_measurement.hpp` before anything was read. Which criterion finds the best directions for
+/// measured materials: docs/results/directions.md.
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/design/sequential_design.hpp>
+#include <gonio/evaluate/perceived_sensitivity.hpp>
+
+#include <Eigen/Core>
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+struct perceived_options {
+  /// Of the square of what is seen, the share of the variance that the process states; the rest is the square of what
+  /// the material's own values are off.
+  double variance_share = 0.5;
+  Eigen::Index most_materials = 48;  ///< of a prior with more, so many are taken, evenly spaced
+  int sphere_size = 8;               ///< points across each sphere
+};
+
+/// Materials of one maker: those whose names are the same before the first underscore.
+[[nodiscard]] std::string material_family(const std::string& name);
+
+/// A `design::sweeping_objective`. Its value is the mean Delta E over the materials, linearised at each of them.
+///
+/// The process without a family has the covariance P. From samples y_X of one of its materials, a point of a sphere
+/// with the slopes s is off by e = s (y - P_X K^-1 y_X), and the process states the variance v = s (P - P_X K^-1 P_X')
+/// s'. The Delta E of the point is the root of a mixture of e^2 and v, summed over the channels. One more candidate
+/// changes e and v by a matrix of rank one.
+///
+/// ```cpp
+/// const gonio::design::sequential_design cells(gonio::reconstruction{prior}, gonio::design::usual_apparatus());
+/// const gonio::perceived_candidates candidates(cells);
+/// const auto plan = gonio::design::exchange(candidates, gonio::design::grow_greedily(candidates, 20));
+/// ```
+class perceived_candidates {
+ public:
+  /// 4 bytes for each candidate, point, channel and material: 160 MB by default. O(candidates^2 x points x materials)
+  /// at most. Throws gonio::error for options out of range, and unless the prior has two families.
+  template <error_metric Metric>
+  explicit perceived_candidates(const design::sequential_design<Metric>& candidates,
+                                const perceived_options& options = {}, thread_count threads = {})
+      : perceived_candidates(candidates.geometry(), candidates.rows(), candidates.error_variances(),
+                             candidates.estimator().expected(), options, threads) {
+    const auto& prior = candidates.estimator().prior();
+    const perceived_sensitivity perceived(geometry_.cells(), options.sphere_size, threads);
+    weights_ = perceived.weights().cast<float>();
+    const Eigen::MatrixXf discrepancy = discrepancy_factor();
+    for (const family& some : families_of(prior.names())) {
+      Eigen::MatrixXd members(prior.size(), 0);
+      for (const Eigen::Index member : some.members) append(members, prior.weights_of(member));
+      std::vector<seen_material> seen;
+      for (const Eigen::Index material : some.judged) {
+        seen_material each{rows_.rows * prior.weights_of(material), {}};
+        each.slopes =
+            perceived.at(prior.metric(), candidates.locations(), each.mapped.colwise() + candidates.offsets());
+        seen.push_back(std::move(each));
+      }
+      leave_out(members, seen, discrepancy);
+    }
+  }
+
+  [[nodiscard]] const design::point_geometry& geometry() const noexcept { return geometry_; }
+  [[nodiscard]] Eigen::Index materials() const noexcept { return materials_; }
+
+  /// Of measurements at some candidates. O(n points materials).
+  [[nodiscard]] double operator()(std::span<const Eigen::Index> cells) const;
+
+  /// Of measurements at some candidates and, in turn, at each candidate beside them; infinity for those that the
+  /// apparatus cannot reach. O(candidates n points materials).
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells) const;
+  /// The same of a range of the candidates, which begins at a multiple of `sweep_block`: the same bytes.
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells, block range) const;
+
+  static constexpr Eigen::Index sweep_block = 64;
+
+ private:
+  /// Positions among a prior's names: all members, and those that are judged.
+  struct family {
+    std::vector<Eigen::Index> members, judged;
+  };
+  /// A material at the n candidates: n x 3, less the prior's mean.
+  struct seen_material {
+    Eigen::MatrixXd mapped;
+    design::sensitivity slopes;
+  };
+  /// What is known of a family's materials by the others: P = Q W + the discrepancy's covariance.
+  struct left_out {
+    Eigen::MatrixXd weights;            ///< W: k x n
+    Eigen::MatrixXd mapped;             ///< n x 3 of each material, less the others' mean
+    Eigen::MatrixXf seen;               ///< s P: for each material and channel the points, x n
+    Eigen::VectorXf errors, variances;  ///< before anything is measured
+    [[nodiscard]] Eigen::Index materials() const noexcept { return mapped.cols() / 3; }
+  };
+  struct remainder;
+
+  perceived_candidates(design::point_geometry geometry, located_rows rows, Eigen::VectorXd error_variances,
+                       const expected_covariance& expected, const perceived_options& options, thread_count threads);
+
+  [[nodiscard]] std::vector<family> families_of(const std::vector<std::string>& names) const;
+  static void append(Eigen::MatrixXd& members, const Eigen::MatrixXd& weights);
+  /// F of F F' = the discrepancy's covariance but for a hundredth of its variance.
+  [[nodiscard]] Eigen::MatrixXf discrepancy_factor() const;
+  /// `members` has a column for each observation that is left out.
+  void leave_out(const Eigen::MatrixXd& members, const std::vector<seen_material>& seen,
+                 const Eigen::MatrixXf& discrepancy);
+  [[nodiscard]] remainder remains(const left_out& some, std::span<const Eigen::Index> cells) const;
+
+  design::point_geometry geometry_;
+  located_rows rows_;
+  Eigen::VectorXd error_variances_;
+  expected_covariance expected_;
+  perceived_options options_;
+  thread_count threads_;
+  std::vector<left_out> families_;
+  Eigen::ArrayXf weights_;       ///< of the points
+  Eigen::MatrixXd discrepancy_;  ///< n x n
+  std::vector<bool> allowed_;
+  Eigen::Index materials_ = 0;
+};
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/evaluate/impl/perceived_candidates.ipp>
+#endif
