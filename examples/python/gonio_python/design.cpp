@@ -149,7 +149,8 @@ void add_design(py::module_& m) {
       "measured anyway. constraint: a file that describes an apparatus; by default light and viewer go to 80 degrees,\n"
       "5 degrees apart, and noise is 2 %. Ctrl-C ends the search.");
   m.def("expected_error", &quality_for, py::arg("prior"), py::arg("directions"), py::kw_only(),
-        py::arg("eta") = standard.eta, py::arg("noise") = 0.0, py::arg("in_sample") = standard.in_sample,
+        py::arg("eta") = standard.eta, py::arg("noise") = standard.apparatus.noise,
+        py::arg("in_sample") = standard.in_sample,
         "What is expected of directions of one's own: shape (n, 6) or (n, 3), as `Samples` takes them.");
   m.def(
       "next_directions", &next_for, py::arg("prior"), py::arg("samples"), py::arg("count") = 1, py::kw_only(),

@@ -182,23 +182,24 @@ def design(
     count: int = 20,
     *,
     geometry: str = "point",
-    criterion: str = "expected-error",
-    search: str = "exchange",
+    criterion: str = "perceived",
+    search: str = "greedy",
     eta: float = 40.0,
-    noise: float = 0.0,
+    noise: Optional[float] = None,
     common_shift: float = 0.0,
     in_sample: bool = False,
-    misplaced_degrees: float = 0.0,
+    misplaced_degrees: Optional[float] = None,
     start: Optional[npt.ArrayLike] = None,
     constraint: Optional[_Path] = None,
     seed: int = 0,
     threads: int = 0,
 ) -> Design: ...
 def expected_error(
-    prior: Prior, directions: npt.ArrayLike, *, eta: float = 40.0, noise: float = 0.0, in_sample: bool = False
+    prior: Prior, directions: npt.ArrayLike, *, eta: float = 40.0, noise: float = 0.02, in_sample: bool = False
 ) -> Design: ...
 def next_directions(
-    prior: Prior, samples: Samples, count: int = 1, *, noise: float = 0.0, threads: int = 0
+    prior: Prior, samples: Samples, count: int = 1, *, noise: float = 0.0, constraint: Optional[_Path] = None,
+    threads: int = 0
 ) -> Tuple[_Doubles, float]: ...
 def published_directions(count: int = 20) -> _Doubles: ...
 
