@@ -158,7 +158,13 @@ designed by_perception(const prior_t& prior, const design_options& options, cons
   const gonio::reconstruction estimator(prior, {.noise = options.apparatus.noise}, options.threads);
   const gonio::perceived_candidates candidates(gonio::design::sequential_design(estimator, options.apparatus), {},
                                                options.threads);
-  return finished(candidates.geometry(), search(candidates, options, listener, how));
+  designed found = finished(candidates.geometry(), search(candidates, options, listener, how));
+  // What is measured already stays where it is, not at the candidate beside it.
+  for (std::size_t i = 0; i < options.start.size(); ++i) {
+    found.poses[i] = options.start[i];
+    found.samples[i] = gonio::to_half_difference(options.start[i].wi, options.start[i].wo);
+  }
+  return found;
 }
 
 template <class Geometry>
