@@ -6,6 +6,7 @@ cmake_path(SET source NORMALIZE "${CMAKE_CURRENT_LIST_DIR}/..")
 set(page "${source}/docs/reference/tool.md")
 set(width 120)
 set(indent "                              ") # of the descriptions, as the tool prints them
+string(LENGTH "${indent}" indent_length)
 
 # wrapped(RESULT TEXT): the text with its long lines broken between words.
 function(wrapped result text)
@@ -16,7 +17,7 @@ function(wrapped result text)
     while(length GREATER width)
       string(SUBSTRING "${line}" 0 ${width} start)
       string(FIND "${start}" " " blank REVERSE)
-      if(blank LESS_EQUAL 30)
+      if(blank LESS_EQUAL indent_length)
         message(FATAL_ERROR "this line of a help has a word that does not fit a line: ${line}")
       endif()
       string(SUBSTRING "${line}" 0 ${blank} start)

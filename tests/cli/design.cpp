@@ -124,8 +124,13 @@ TEST_CASE("a design may go on from what is measured anyway") {
   for (std::size_t i = 0; i < 2; ++i) CHECK(all[i].wi.isApprox(two[i].wi, 1e-9));
   // Between two candidates, too.
   board.put("own.csv", "theta_i,phi_i,theta_o,phi_o\n31.5,10,47.25,200\n");
-  REQUIRE(board.design("-n 2 --start " + board.at("own.csv"), "kept.csv").exit_code == 0);
-  CHECK(board.poses("kept.csv")[0].wi.isApprox(board.poses("own.csv")[0].wi, 1e-9));
+  for (const char* criterion : {"perceived", "expected-error"}) {
+    CAPTURE(criterion);
+    REQUIRE(board.design(std::string("-n 2 --criterion ") + criterion + " --start " + board.at("own.csv"), "kept.csv")
+                .exit_code == 0);
+    CHECK(board.poses("kept.csv")[0].wi.isApprox(board.poses("own.csv")[0].wi, 1e-9));
+    CHECK(board.poses("kept.csv")[0].wo.isApprox(board.poses("own.csv")[0].wo, 1e-9));
+  }
 }
 
 TEST_CASE(

@@ -55,3 +55,8 @@ TEST_CASE("a set without materials, or whose table does not fit them and the cel
   CHECK_THROWS_AS(gonio::require_complete(gonio::material_set{cells, {"clay"}, gonio::cell_matrix(count - 1, 3)}),
                   gonio::error);
 }
+
+TEST_CASE("materials of one maker are a family") {
+  CHECK(gonio::material_family("cc_iris_purple_gem") == "cc");
+  CHECK(gonio::material_family("alum-bronze") == "alum-bronze");
+}

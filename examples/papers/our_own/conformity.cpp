@@ -77,8 +77,9 @@ class conformity_experiment {
       bar_.draw(surface.name, static_cast<double>(number) / static_cast<double>(surfaces_.size()));
       seed_ = 1'000'000 * static_cast<std::uint64_t>(++number);
       find_shifts(surface);
-      const std::string family = family_of(surface.name);
-      const estimator without = learned([&](const std::string& name) { return family_of(name) != family; });
+      const std::string family = gonio::material_family(surface.name);
+      const estimator without =
+          learned([&](const std::string& name) { return gonio::material_family(name) != family; });
       compare_same_directions(without, surface);
       compare_with_tolerance(without, surface);
       compare_other_directions(without, surface);

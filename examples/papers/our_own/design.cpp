@@ -317,7 +317,7 @@ json chosen_by_others(const json& rows, double samples) {
     for (const auto& [method, materials] : by_method) {
       double sum = 0.0;
       for (const auto& [other, errors] : materials)
-        if (family_of(other) != family_of(name))
+        if (gonio::material_family(other) != gonio::material_family(name))
           sum += errors["delta_e_env"].number() + errors["delta_e_lights"].number();
       if (sum >= least) continue;
       least = sum;

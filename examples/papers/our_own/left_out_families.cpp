@@ -10,8 +10,6 @@
 
 namespace papers {
 
-std::string family_of(const std::string& name) { return name.substr(0, name.find('_')); }
-
 material_library::material_library(const std::vector<std::filesystem::path>& networks,
                                    const std::filesystem::path& measured, const cli::thinning& thin,
                                    const gonio::progress& listener, gonio::thread_count threads)
@@ -32,7 +30,7 @@ material_library::material_library(const std::vector<std::filesystem::path>& net
 }
 
 gonio::log_relative_pca material_library::prior_without(const std::string& family, Eigen::Index components) const {
-  auto set = materials(all(), [&](const std::string& name) { return family_of(name) != family; });
+  auto set = materials(all(), [&](const std::string& name) { return gonio::material_family(name) != family; });
   const auto metric = gonio::log_relative::to_median_of(set, threads_);
   return gonio::learn_pca(std::move(set), metric, components, threads_);
 }
@@ -62,7 +60,7 @@ std::vector<judged_material> measured_materials(const std::filesystem::path& fol
     auto measured = [f = gonio::io::read_rgl(path).material](const gonio::direction_pair& pair) {
       return f(pair.wi, pair.wo);
     };
-    const std::string family = family_of(name);
+    const std::string family = gonio::material_family(name);
     const std::size_t turn = all.empty() ? 0 : all.back().turn + (all.back().family == family ? 0 : 1);
     all.push_back({name, family, set.table(set.find(name)), std::move(measured), all.size(), turn});
   }

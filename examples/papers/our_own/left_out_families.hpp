@@ -25,9 +25,6 @@
 
 namespace papers {
 
-/// Materials of one maker: names before the first underscore are alike.
-[[nodiscard]] std::string family_of(const std::string& name);
-
 /// Materials that are judged, or learned from, as tables.
 class material_library {
  public:

@@ -125,7 +125,7 @@ class experiment : left_out_experiment {
       return priors_.emplace(key, library_.prior_without(family, given_.components)).first->second;
     const auto& tests = gonio::nielsen_test_materials();
     auto set = library_.materials(everything ? library_.all() : 1, [&](const std::string& name) {
-      return given_.surrogates ? std::ranges::find(tests, name) == tests.end() : family_of(name) != family;
+      return given_.surrogates ? std::ranges::find(tests, name) == tests.end() : gonio::material_family(name) != family;
     });
     const auto metric = gonio::log_relative::to_median_of(set, given_.threads);
     const Eigen::Index components = everything ? given_.components : given_.first_components;

@@ -77,7 +77,7 @@ std::vector<judged_samples> samples_of_tables(const scattered_samples_options& g
       const auto measured =
           measure([&](const gonio::direction_pair& pair) { return gonio::rgb(material(pair.wi, pair.wo)); }, directions,
                   0.0, 0);
-      all.push_back({name, family_of(name), count, gonio::split_samples(measured, count, all.size())});
+      all.push_back({name, gonio::material_family(name), count, gonio::split_samples(measured, count, all.size())});
     }
   }
   return all;

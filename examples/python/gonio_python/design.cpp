@@ -96,13 +96,14 @@ found_design quality_for(const gonio::log_relative_pca& prior, const py::object&
 }
 
 py::tuple next_for(const gonio::log_relative_pca& prior, const gonio::sample_set& samples, Eigen::Index count,
-                   double noise, const std::optional<std::filesystem::path>& constraint, unsigned threads) {
+                   const std::optional<double>& noise, const std::optional<std::filesystem::path>& constraint,
+                   unsigned threads) {
   if (count < 1) gonio::refuse({"count is ", count, ": expected at least 1"});
   std::vector<gonio::direction_pair> pairs;
   double remaining = 0.0;
   {
     const py::gil_scoped_release released;
-    const gonio::reconstruction estimator{prior, {.noise = noise}, gonio::thread_count{threads}};
+    const gonio::reconstruction estimator{prior, {.noise = noise.value_or(0.0)}, gonio::thread_count{threads}};
     const gonio::measurement_chooser chooser{estimator, apparatus_of(constraint, noise, {}),
                                              gonio::design::default_candidates(), gonio::thread_count{threads}};
     for (const gonio::next_measurement& next : chooser.choose(samples, count)) {
@@ -154,7 +155,7 @@ void add_design(py::module_& m) {
         "What is expected of directions of one's own: shape (n, 6) or (n, 3), as `Samples` takes them.");
   m.def(
       "next_directions", &next_for, py::arg("prior"), py::arg("samples"), py::arg("count") = 1, py::kw_only(),
-      py::arg("noise") = 0.0, py::arg("constraint") = py::none(), py::arg("threads") = 0,
+      py::arg("noise") = py::none(), py::arg("constraint") = py::none(), py::arg("threads") = 0,
       "The best measurements beside some that were made, by what these read: directions of shape (count, 6), and the\n"
       "Delta E of spheres that is expected to remain.");
   m.def("published_directions", &published, py::arg("count") = 20,

@@ -198,8 +198,13 @@ def expected_error(
     prior: Prior, directions: npt.ArrayLike, *, eta: float = 40.0, noise: float = 0.02, in_sample: bool = False
 ) -> Design: ...
 def next_directions(
-    prior: Prior, samples: Samples, count: int = 1, *, noise: float = 0.0, constraint: Optional[_Path] = None,
-    threads: int = 0
+    prior: Prior,
+    samples: Samples,
+    count: int = 1,
+    *,
+    noise: Optional[float] = None,
+    constraint: Optional[_Path] = None,
+    threads: int = 0,
 ) -> Tuple[_Doubles, float]: ...
 def published_directions(count: int = 20) -> _Doubles: ...
 

@@ -368,8 +368,8 @@ constexpr std::array kinds{
                      return json{{"kind", "set-up of an image"}};
                    }},
     described_kind{[](const file_look& file) {
-                     return file.extension == ".txt" &&
-                            has_keyword(file, {"light", "viewer", "in_plane", "separation", "light_step", "forbid"});
+                     return file.extension == ".txt" && has_keyword(file, {"light", "viewer", "in_plane", "separation",
+                                                                           "light_step", "forbid", "pair"});
                    },
                    describe_apparatus},
     described_kind{[](const file_look& file) { return file.extension == ".txt" && is_list_of_numbers(file); }, nullptr,

@@ -158,13 +158,7 @@ designed by_perception(const prior_t& prior, const design_options& options, cons
   const gonio::reconstruction estimator(prior, {.noise = options.apparatus.noise}, options.threads);
   const gonio::perceived_candidates candidates(gonio::design::sequential_design(estimator, options.apparatus), {},
                                                options.threads);
-  designed found = finished(candidates.geometry(), search(candidates, options, listener, how));
-  // What is measured already stays where it is, not at the candidate beside it.
-  for (std::size_t i = 0; i < options.start.size(); ++i) {
-    found.poses[i] = options.start[i];
-    found.samples[i] = gonio::to_half_difference(options.start[i].wi, options.start[i].wo);
-  }
-  return found;
+  return finished(candidates.geometry(), search(candidates, options, listener, how));
 }
 
 template <class Geometry>
@@ -218,6 +212,15 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
   return best;
 }
 
+/// Points that are measured already stay where they are, not at the candidates beside them.
+designed keeping_start(designed found, const design_options& options) {
+  for (std::size_t i = 0; i < options.start.size(); ++i) {
+    found.poses[i] = options.start[i];
+    found.samples[i] = gonio::to_half_difference(options.start[i].wi, options.start[i].wo);
+  }
+  return found;
+}
+
 /// Refuses what a criterion does not take.
 void require_criterion(const design_options& options) {
   const bool expects_errors = options.criterion == "expected-error" || options.criterion.starts_with("perceived");
@@ -242,9 +245,11 @@ designed design(const gonio::log_relative_pca& prior, const design_options& opti
                 const team& processes, sweep_record* record) {
   const sweeping how{processes, record};
   require_criterion(options);
-  if (options.geometry == "point" && options.criterion == "perceived")
-    return by_perception(prior, options, listener, how);
-  if (options.geometry == "point") return with(prior, points_of(prior, options), options, listener, how);
+  if (options.geometry == "point")
+    return keeping_start(options.criterion == "perceived"
+                             ? by_perception(prior, options, listener, how)
+                             : with(prior, points_of(prior, options), options, listener, how),
+                         options);
   if (options.geometry == "sphere") return with(prior, spheres_of(prior, options), options, listener, how);
   if (options.geometry == "fixed-camera")
     return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_camera, listener, how);

@@ -2,11 +2,12 @@
 /// Candidates for a measurement, judged by the error that is seen: the mean Delta E of spheres between the materials of
 /// a prior and what `reconstruction` makes of their samples, each material left out of the prior with its family. It is
 /// the measure of `next_measurement.hpp` before anything was read. Which criterion finds the best directions for
-/// measured materials: docs/results/directions.md.
+/// measured materials: docs/results/adaptive-design.md.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/sequential_design.hpp>
 #include <gonio/evaluate/perceived_sensitivity.hpp>
+#include <gonio/table/material_set.hpp>
 
 #include <Eigen/Core>
 
@@ -24,9 +25,6 @@ struct perceived_options {
   Eigen::Index most_materials = 48;  ///< of a prior with more, so many are taken, evenly spaced
   int sphere_size = 8;               ///< points across each sphere
 };
-
-/// Materials of one maker: those whose names are the same before the first underscore.
-[[nodiscard]] std::string material_family(const std::string& name);
 
 /// A `design::sweeping_objective`. Its value is the mean Delta E over the materials, linearised at each of them.
 ///
@@ -52,10 +50,12 @@ class perceived_candidates {
     const auto& prior = candidates.estimator().prior();
     const perceived_sensitivity perceived(geometry_.cells(), options.sphere_size, threads);
     weights_ = perceived.weights().cast<float>();
+    const Eigen::Index channels = prior.channels();
     const Eigen::MatrixXf discrepancy = discrepancy_factor();
     for (const family& some : families_of(prior.names())) {
-      Eigen::MatrixXd members(prior.size(), 0);
-      for (const Eigen::Index member : some.members) append(members, prior.weights_of(member));
+      Eigen::MatrixXd members(prior.size(), channels * std::ssize(some.members));
+      for (Eigen::Index i = 0; i < std::ssize(some.members); ++i)
+        members.middleCols(channels * i, channels) = prior.weights_of(some.members[i]);
       std::vector<seen_material> seen;
       for (const Eigen::Index material : some.judged) {
         seen_material each{rows_.rows * prior.weights_of(material), {}};
@@ -105,13 +105,18 @@ class perceived_candidates {
                        const expected_covariance& expected, const perceived_options& options, thread_count threads);
 
   [[nodiscard]] std::vector<family> families_of(const std::vector<std::string>& names) const;
-  static void append(Eigen::MatrixXd& members, const Eigen::MatrixXd& weights);
   /// F of F F' = the discrepancy's covariance but for a hundredth of its variance.
   [[nodiscard]] Eigen::MatrixXf discrepancy_factor() const;
   /// `members` has a column for each observation that is left out.
   void leave_out(const Eigen::MatrixXd& members, const std::vector<seen_material>& seen,
                  const Eigen::MatrixXf& discrepancy);
   [[nodiscard]] remainder remains(const left_out& some, std::span<const Eigen::Index> cells) const;
+  /// The mean Delta E of one material, by e and v of all of its points.
+  [[nodiscard]] double mean_seen(const Eigen::Ref<const Eigen::ArrayXf>& errors,
+                                 const Eigen::Ref<const Eigen::ArrayXf>& variances) const;
+  /// Adds the Delta E of a family's materials with each candidate of a range to the sums.
+  void add_with_each(const left_out& some, std::span<const Eigen::Index> cells, block range,
+                     std::vector<double>& sums) const;
 
   design::point_geometry geometry_;
   located_rows rows_;

@@ -35,6 +35,9 @@ struct material_set {
   [[nodiscard]] material_set subset(const std::vector<Eigen::Index>& positions) const;
 };
 
+/// The family of a material, those of one maker: its name before the first underscore.
+[[nodiscard]] inline std::string material_family(const std::string& name) { return name.substr(0, name.find('_')); }
+
 /// What a basis is learned from: named things over a common domain, `cells`, with a row of `values` for each location
 /// of it and a column for each channel of each thing. Materials are, and shapes.
 template <class Set>

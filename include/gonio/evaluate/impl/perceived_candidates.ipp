@@ -22,8 +22,6 @@
 
 namespace gonio {
 
-GONIO_INLINE std::string material_family(const std::string& name) { return name.substr(0, name.find('_')); }
-
 GONIO_INLINE perceived_candidates::perceived_candidates(design::point_geometry geometry, located_rows rows,
                                                         Eigen::VectorXd error_variances,
                                                         const expected_covariance& expected,
@@ -56,11 +54,6 @@ GONIO_INLINE std::vector<perceived_candidates::family> perceived_candidates::fam
   for (auto& [name, of] : by_name)
     if (!of.judged.empty()) judged.push_back(std::move(of));
   return judged;
-}
-
-GONIO_INLINE void perceived_candidates::append(Eigen::MatrixXd& members, const Eigen::MatrixXd& weights) {
-  members.conservativeResize(Eigen::NoChange, members.cols() + weights.cols());
-  members.rightCols(weights.cols()) = weights;
 }
 
 /// A Cholesky factorisation that takes the largest pivot next: Golub and Van Loan, Matrix Computations, 4.2.8.
@@ -167,18 +160,23 @@ GONIO_INLINE perceived_candidates::remainder perceived_candidates::remains(const
   return left;
 }
 
-GONIO_INLINE double perceived_candidates::operator()(std::span<const Eigen::Index> cells) const {
-  const auto points = weights_.size();
+GONIO_INLINE double perceived_candidates::mean_seen(const Eigen::Ref<const Eigen::ArrayXf>& errors,
+                                                    const Eigen::Ref<const Eigen::ArrayXf>& variances) const {
   const auto share = static_cast<float>(options_.variance_share);
+  const Eigen::Index points = weights_.size();
+  const Eigen::ArrayXf squares = (1.0F - share) * errors.square() + share * variances.max(0.0F);
+  const auto of = [&](Eigen::Index channel) { return squares.segment(channel * points, points); };
+  return double{((of(0) + of(1) + of(2)).sqrt() * weights_).sum()};
+}
+
+GONIO_INLINE double perceived_candidates::operator()(std::span<const Eigen::Index> cells) const {
+  const Eigen::Index of_each = 3 * weights_.size();
   double sum = 0.0;
   for (const left_out& some : families_) {
     const remainder left = remains(some, cells);
-    const Eigen::ArrayXf squares =
-        (1.0F - share) * left.errors.array().square() + share * left.variances.array().max(0.0F);
-    for (Eigen::Index m = 0; m < some.materials(); ++m) {
-      const auto of = [&](Eigen::Index c) { return squares.segment((3 * m + c) * points, points); };
-      sum += double{((of(0) + of(1) + of(2)).sqrt() * weights_).sum()};
-    }
+    for (Eigen::Index m = 0; m < some.materials(); ++m)
+      sum += mean_seen(left.errors.segment(of_each * m, of_each).array(),
+                       left.variances.segment(of_each * m, of_each).array());
   }
   return sum / static_cast<double>(materials_);
 }
@@ -189,57 +187,49 @@ GONIO_INLINE std::vector<float> perceived_candidates::errors_with_each(std::span
 
 GONIO_INLINE std::vector<float> perceived_candidates::errors_with_each(std::span<const Eigen::Index> cells,
                                                                        block range) const {
-  const Eigen::Index points = weights_.size();
-  const auto share = static_cast<float>(options_.variance_share);
   std::vector<double> sums(range.size(), 0.0);
-  for (const left_out& some : families_) {
-    const remainder left = remains(some, cells);
-    const Eigen::MatrixXf explained = left.explained.cast<float>();
-    for_each_block(
-        range.size(), sweep_block,
-        [&](block part) {
-          const Eigen::Index begin = range.begin + part.begin, end = range.begin + part.end;
-          if (std::none_of(allowed_.begin() + begin, allowed_.begin() + end, [](bool allowed) { return allowed; }))
-            return;
-          // s P of the process that knows the samples.
-          Eigen::MatrixXf seen = some.seen.middleCols(begin, part.size());
-          if (!cells.empty()) seen.noalias() -= left.seen * explained.middleCols(begin, part.size());
-          Eigen::ArrayXf squares(points);
-          for (Eigen::Index x = begin; x < end; ++x) {
-            if (!allowed_[x]) continue;
-            double variance = rows_.rows.row(x).dot(some.weights.col(x)) + discrepancy_(x, x);
-            Eigen::RowVectorXd off = some.mapped.row(x);
-            if (!cells.empty()) {
-              variance -= left.covariances.col(x).dot(left.explained.col(x));
-              off -= left.explained.col(x).transpose() * left.measured;
-            }
-            const double read = variance + error_variances_[x];
-            const auto gain = static_cast<float>(1.0 / read);
-            const Eigen::RowVectorXf step = (off / read).cast<float>();
-            double sum = 0.0;
-            for (Eigen::Index m = 0; m < some.materials(); ++m) {
-              squares.setZero();
-              for (Eigen::Index channel = 3 * m; channel < 3 * m + 3; ++channel) {
-                const auto with = seen.col(x - begin).segment(channel * points, points).array();
-                if (share < 1.0F)
-                  squares += (1.0F - share) *
-                             (left.errors.segment(channel * points, points).array() - with * step[channel]).square();
-                if (share > 0.0F)
-                  squares +=
-                      share *
-                      (left.variances.segment(channel * points, points).array() - with.square() * gain).max(0.0F);
-              }
-              sum += double{(squares.sqrt() * weights_).sum()};
-            }
-            sums[x - range.begin] += sum;
-          }
-        },
-        threads_);
-  }
+  for (const left_out& some : families_) add_with_each(some, cells, range, sums);
   std::vector<float> errors(range.size(), std::numeric_limits<float>::infinity());
   for (Eigen::Index i = 0; i < range.size(); ++i)
     if (allowed_[range.begin + i]) errors[i] = static_cast<float>(sums[i] / static_cast<double>(materials_));
   return errors;
+}
+
+GONIO_INLINE void perceived_candidates::add_with_each(const left_out& some, std::span<const Eigen::Index> cells,
+                                                      block range, std::vector<double>& sums) const {
+  const Eigen::Index points = weights_.size(), of_each = 3 * points;
+  const remainder left = remains(some, cells);
+  const Eigen::MatrixXf explained = left.explained.cast<float>();
+  for_each_block(
+      range.size(), sweep_block,
+      [&](block part) {
+        const Eigen::Index begin = range.begin + part.begin, end = range.begin + part.end;
+        if (std::none_of(allowed_.begin() + begin, allowed_.begin() + end, [](bool allowed) { return allowed; }))
+          return;
+        // s P of the process that knows the samples.
+        Eigen::MatrixXf seen = some.seen.middleCols(begin, part.size());
+        if (!cells.empty()) seen.noalias() -= left.seen * explained.middleCols(begin, part.size());
+        Eigen::ArrayXf errors(of_each);
+        for (Eigen::Index x = begin; x < end; ++x) {
+          if (!allowed_[x]) continue;
+          double variance = rows_.rows.row(x).dot(some.weights.col(x)) + discrepancy_(x, x) + error_variances_[x];
+          Eigen::RowVectorXd off = some.mapped.row(x);
+          if (!cells.empty()) {
+            variance -= left.covariances.col(x).dot(left.explained.col(x));
+            off -= left.explained.col(x).transpose() * left.measured;
+          }
+          const Eigen::RowVectorXf step = (off / variance).cast<float>();
+          for (Eigen::Index m = 0; m < some.materials(); ++m) {
+            const auto with = seen.col(x - begin).segment(of_each * m, of_each).array();
+            for (Eigen::Index c = 0; c < 3; ++c)
+              errors.segment(c * points, points) = left.errors.segment(of_each * m + c * points, points).array() -
+                                                   step[3 * m + c] * with.segment(c * points, points);
+            sums[x - range.begin] += mean_seen(errors, left.variances.segment(of_each * m, of_each).array() -
+                                                           with.square() / static_cast<float>(variance));
+          }
+        }
+      },
+      threads_);
 }
 
 }  // namespace gonio
