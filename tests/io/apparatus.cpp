@@ -32,8 +32,7 @@ TEST_CASE("every rule is read") {
 
 TEST_CASE("what is no rule is refused with its file and line") {
   const auto refused = [](const char* text, const char* why) {
-    CHECK_THROWS_WITH_AS(static_cast<void>(read_apparatus(text, "arc.txt")), doctest::Contains(why),
-                         gonio::error);
+    CHECK_THROWS_WITH_AS(static_cast<void>(read_apparatus(text, "arc.txt")), doctest::Contains(why), gonio::error);
   };
   refused("light 0 75\nlamp 3\n", "arc.txt, line 2: 'lamp' is no rule");
   refused("light 0\n", "'light' takes 2 or 3 numbers, not 1");

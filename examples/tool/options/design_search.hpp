@@ -19,8 +19,8 @@ namespace cli {
 
 struct design_options {
   Eigen::Index count = 20;
-  /// Beside the criteria of the command line there is perceived-norm: the expected error in the norm of that name, which
-  /// is what perceived is of images.
+  /// Beside the criteria of the command line there is perceived-norm: the expected error in the norm of that name,
+  /// which is what perceived is of images.
   std::string geometry = "point", criterion = "perceived", search = "greedy";
   gonio::design::apparatus apparatus = gonio::design::usual_apparatus();  ///< its angular error is of points
   double eta = gonio::default_eta;

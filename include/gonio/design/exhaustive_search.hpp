@@ -34,8 +34,8 @@ template <sweeping_objective Objective>
 
 }  // namespace detail
 
-/// Adds the best of all candidates until there are n: a longer plan begins with the shorter one. Throws gonio::error unless n is from 1 to the number of
-/// candidates.
+/// Adds the best of all candidates until there are n: a longer plan begins with the shorter one. Throws gonio::error
+/// unless n is from 1 to the number of candidates.
 template <sweeping_objective Objective>
 [[nodiscard]] capture_plan grow_greedily(const Objective& objective, Eigen::Index n, capture_plan plan = {},
                                          const progress& listener = {}) {
