@@ -31,7 +31,7 @@ gonio::perceived_options options_of(double variance_share, Eigen::Index material
 const std::vector<Eigen::Index> measured{20, 77, 150};
 
 /// The same from the definition: each material's family is taken out of the observations.
-double naive_value(const gonio::log_relative_pca& prior, double variance_share) {
+double naive_value(const gonio::log_relative_pca& prior, double variance_share, double power = 1.0) {
   const auto cells = cells_of(prior);
   const gonio::perceived_sensitivity perceived(small_cells(), 4);
   const Eigen::MatrixXd q = cells.rows().rows, all = prior.coefficients().cast<double>();
@@ -56,6 +56,7 @@ double naive_value(const gonio::log_relative_pca& prior, double variance_share) 
       with.col(i) = covariance.col(measured[i]);
       read.row(i) = off.row(measured[i]);
     }
+    double seen_of_material = 0.0;
     const Eigen::MatrixXd inverse = among.inverse(), missed = off - with * inverse * read,
                           unknown = covariance - with * inverse * with.transpose();
     for (Eigen::Index point = 0; point < seen.weights.size(); ++point) {
@@ -65,10 +66,11 @@ double naive_value(const gonio::log_relative_pca& prior, double variance_share) 
         square += (1.0 - variance_share) * std::pow(slopes.dot(missed.col(c)), 2) +
                   variance_share * slopes.dot(unknown * slopes.transpose());
       }
-      sum += seen.weights[point] * std::sqrt(square);
+      seen_of_material += seen.weights[point] * std::sqrt(square);
     }
+    sum += std::pow(seen_of_material, power);
   }
-  return sum / 12.0;
+  return std::pow(sum / 12.0, 1.0 / power);
 }
 
 }  // namespace
@@ -82,6 +84,21 @@ TEST_CASE("what is seen of a design is the mean over materials, each reconstruct
     // A hundredth of the discrepancy's variance is left out of what is seen.
     CHECK(candidates(measured) == doctest::Approx(naive_value(prior, share)).epsilon(0.02));
   }
+}
+
+TEST_CASE("a power mean over the materials is nearer to the worst") {
+  const auto prior = prior_of_families();
+  gonio::perceived_options options = options_of(0.4);
+  const double mean = gonio::perceived_candidates(cells_of(prior), options)(measured);
+  options.power = 8.0;
+  const gonio::perceived_candidates candidates(cells_of(prior), options);
+  CHECK(candidates(measured) == doctest::Approx(naive_value(prior, 0.4, 8.0)).epsilon(0.02));
+  CHECK(candidates(measured) > 1.05 * mean);
+  const std::vector<Eigen::Index> first(measured.begin(), measured.begin() + 2);
+  CHECK(candidates.errors_with_each(first)[measured[2]] == doctest::Approx(candidates(measured)).epsilon(1e-3));
+  options.power = 0.5;
+  CHECK_THROWS_WITH_AS(gonio::perceived_candidates(cells_of(prior), options), doctest::Contains("at least 1, not 0.5"),
+                       gonio::error);
 }
 
 TEST_CASE("a sweep tells what each candidate adds, in parts and on any number of threads") {

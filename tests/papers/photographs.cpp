@@ -1,9 +1,6 @@
 /// The experiments on simulated photographs and on scattered readings, with materials of two families.
 
-#include "papers_tool.hpp"
-#include "synthetic_networks.hpp"
-#include <gonio/io/materials/rgl.hpp>
-#include <gonio/model/formula_materials.hpp>
+#include "measured_database.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,36 +10,14 @@
 
 namespace {
 
-/// A folder with five networks of random weights, and three measured materials of two families.
-class measured_database {
- public:
-  measured_database() {
-    write_synthetic_networks(folder_, {"a", "b", "c", "d", "e"});
-    std::filesystem::create_directory(folder_ / "measured");
-    constexpr gonio::model::adaptive_resolution small{.theta_i = 8, .values = 16, .visible_normals = 16, .normals = 64};
-    const auto& names = gonio::model::formula_material_names();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto tables = gonio::model::tabulate_adaptively(gonio::model::formula_material(names[i]), small);
-      const std::string name = (i < 2 ? "first_" : "second_") + std::to_string(i) + ".bsdf";
-      gonio::io::write_rgl(folder_ / "measured" / name, tables);
-    }
-  }
-
-  [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
-
-  /// What an experiment on photographs of one of them prints.
-  [[nodiscard]] std::string photograph(const std::string& arguments) const {
-    const auto result = gonio_papers(arguments + " --names second_2 --thin 9 30 --components 3 --networks " +
-                                     at("n.npy") + " --materials " + at("measured"));
-    REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
-    return result.output;
-  }
-
- private:
-  scratch::folder folder_;
-};
-
 const std::string directions = std::string(GONIO_SOURCE_DIR) + "/examples/data/directions/";
+
+/// What an experiment on photographs of one of its materials prints.
+std::string photograph(const measured_database& database, const std::string& arguments) {
+  const auto result = gonio_papers(arguments + " --names second_2 " + database.options());
+  REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
+  return result.output;
+}
 
 /// The numbers of the first row that names a material, none of its cells that hold something else.
 std::vector<double> numbers_of(const std::string& table, const std::string& material) {
@@ -63,7 +38,7 @@ TEST_CASE("near-field-photographs: raw frames of a flat sample to a BRDF, and wh
   const measured_database database;
   const std::string arguments = "near-field-photographs --pixels 32 --block 8 --directions " + directions +
                                 "near-field-25-2-expected-error.csv --state " + database.at("state");
-  const std::string table = database.photograph(arguments);
+  const std::string table = photograph(database, arguments);
   // Samples, two errors in percent, four Delta E, and the last over the first.
   const auto numbers = numbers_of(table, "second_2");
   REQUIRE(numbers.size() >= 10);
@@ -72,19 +47,18 @@ TEST_CASE("near-field-photographs: raw frames of a flat sample to a BRDF, and wh
   CHECK(numbers[6] == doctest::Approx(numbers[7] * numbers[3]).epsilon(0.03));
   CHECK(numbers[7] < 3.0);
   const std::string kept = scratch::get(database.at("state"));
-  CHECK(database.photograph(arguments) == table);
+  CHECK(photograph(database, arguments) == table);
   CHECK(scratch::get(database.at("state")).find("\"second_2\"", kept.size()) == std::string::npos);
 
-  const auto refused = gonio_papers("near-field-photographs --names third_1 --thin 9 30 --components 3 --directions " +
-                                    directions + "near-field-25-2-expected-error.csv --networks " +
-                                    database.at("n.npy") + " --materials " + database.at("measured"));
+  const auto refused = gonio_papers("near-field-photographs --names third_1 --directions " + directions +
+                                    "near-field-25-2-expected-error.csv " + database.options());
   CHECK(refused.exit_code == 2);
   CHECK(refused.output.find("has no material third_1") != std::string::npos);
 }
 
 TEST_CASE("sphere-photograph: photographs of a sphere under published lights to a BRDF") {
   const measured_database database;
-  const std::string table = database.photograph("sphere-photograph --pixels 80 --published 2");
+  const std::string table = photograph(database, "sphere-photograph --pixels 80 --published 2");
   // Photographs, pixels, samples, by how many pixels the centre is off, an error in percent, two Delta E and their
   // ratio.
   const auto numbers = numbers_of(table, "second_2");

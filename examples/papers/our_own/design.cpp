@@ -210,8 +210,10 @@ class design_experiment : left_out_experiment {
     gonio::perceived_options options;
     if (method == "residual") options.variance_share = 0.0;
     if (method == "variance") options.variance_share = 1.0;
+    if (method == "worst-case") options.power = 8.0;
     const gonio::perceived_candidates seen(cells, options, given_.threads);
-    gonio::design::capture_plan plan = gonio::design::grow_greedily(seen, method == "exchanged-five" ? 5 : count);
+    gonio::design::capture_plan plan =
+        gonio::design::grow_greedily(seen, method == "exchanged-five" ? given_.first : count);
     if (method.starts_with("exchange")) plan = gonio::design::exchange(seen, std::move(plan));
     plan = gonio::design::grow_greedily(seen, count, std::move(plan));
     return of_cells(seen.geometry(), plan.candidates);
@@ -243,8 +245,9 @@ class design_experiment : left_out_experiment {
   }
 
   static bool is_designed(const std::string& method) {
-    static const std::vector<std::string> searched{"pursuit",  "information", "expected-error", "residual",
-                                                   "variance", "designed",    "exchange",       "exchanged-five"};
+    static const std::vector<std::string> searched{"pursuit",  "information", "expected-error",
+                                                   "residual", "variance",    "worst-case",
+                                                   "designed", "exchange",    "exchanged-five"};
     return std::ranges::find(searched, method) != searched.end();
   }
 
@@ -304,7 +307,7 @@ std::string worst_of(const json& row) {
 /// For each family the criterion that is best for all others: what choosing it costs who has not seen the material.
 json chosen_by_others(const json& rows, double samples) {
   const std::vector<std::string> criteria{"pursuit",  "information", "expected-error", "residual",
-                                          "variance", "designed",    "exchanged-five"};
+                                          "variance", "worst-case",  "designed",       "exchanged-five"};
   std::map<std::string, std::map<std::string, json>> by_method;
   for (const json& row : rows.elements())
     if (row["samples"].number() == samples && std::ranges::find(criteria, row["method"].text()) != criteria.end())
@@ -369,17 +372,21 @@ void add_design_experiment(command& app, const team& processes) {
   command.add_input("--environment", options->environment, "A light probe (.hdr): spheres in it are compared as well");
   command.add_option("-n,--counts", options->counts, "Numbers of samples that are judged").capture_default_str();
   command.add_option("--noise", options->noise, "Relative noise of the samples").capture_default_str();
+  command.add_option("--first", options->first, "Designed and exchanged directions that an adaptive scan begins with")
+      .check(check::positive_number())
+      .capture_default_str();
   command.add_option("--sets", options->sets, "Random sets of each number").check(check::positive_number());
   command
       .add_option(
           "--methods", options->methods,
-          "pursuit (Miandji et al. 2024), information, expected-error, residual, variance: other criteria than "
-          "that of designed, greedily; exchange: designed and exchanged; exchanged-five: the first five are; "
+          "pursuit (Miandji et al. 2024), information, expected-error, residual, variance, worst-case: other criteria "
+          "than that of designed, greedily; exchange: designed and exchanged; exchanged-five: the first are (--first); "
           "adaptive: further ones than the first by what was read, one by one, adaptive-5 in batches, first-five "
           "all by these; random; or a set of the folder: of point-20-published.csv, published")
       .capture_default_str();
   do_together(command, processes, options, [](const auto& given) {
     if (std::ranges::min(given.counts) < 1) gonio::refuse("--counts needs numbers of at least 1");
+    if (given.first > std::ranges::max(given.counts)) gonio::refuse("--first must not exceed the largest of --counts");
     run_and_print<design_experiment>(given, print);
   });
 }

@@ -11,9 +11,6 @@ namespace cli {
 
 namespace {
 
-/// Of a reading, relative: what flickers and lies askew in a laboratory that is well kept.
-constexpr double expected_noise = 0.02;
-
 gonio::io::recorded_scan read_reference(const adaptive_options& options, std::uint16_t largest_count) {
   gonio::io::recorded_scan scan = gonio::io::read_scan(options.reference);
   if (scan.largest_count != largest_count)
@@ -34,7 +31,9 @@ adaptive_choice::adaptive_choice(const adaptive_options& options, const calibrat
     : options_(options),
       calibration_(calibration_of(calibration, readings_of(reference), reference.largest_count)),
       reference_(reference_readings_of(reference)),
-      chooser_(gonio::reconstruction{gonio::io::read_prior(options.prior), {.noise = expected_noise}}) {}
+      chooser_(gonio::reconstruction{gonio::io::read_prior(options.prior),
+                                     {.noise = gonio::design::usual_apparatus().noise}},
+               gonio::design::usual_apparatus()) {}
 
 gonio::sample_set adaptive_choice::samples_of(const gonio::io::recorded_scan& scan) const {
   gonio::sample_set samples;

@@ -24,9 +24,12 @@ struct perceived_options {
   double variance_share = 0.5;
   Eigen::Index most_materials = 48;  ///< of a prior with more, so many are taken, evenly spaced
   int sphere_size = 8;               ///< points across each sphere
+  /// The criterion is the power mean of the materials' Delta E with this exponent: 1 is the mean, 8 almost the worst.
+  double power = 1.0;
 };
 
-/// A `design::sweeping_objective`. Its value is the mean Delta E over the materials, linearised at each of them.
+/// A `design::sweeping_objective`. Its value is the mean Delta E over the materials, linearised at each of them; with
+/// `perceived_options::power` another mean.
 ///
 /// The process without a family has the covariance P. From samples y_X of one of its materials, a point of a sphere
 /// with the slopes s is off by e = s (y - P_X K^-1 y_X), and the process states the variance v = s (P - P_X K^-1 P_X')
@@ -111,10 +114,12 @@ class perceived_candidates {
   void leave_out(const Eigen::MatrixXd& members, const std::vector<seen_material>& seen,
                  const Eigen::MatrixXf& discrepancy);
   [[nodiscard]] remainder remains(const left_out& some, std::span<const Eigen::Index> cells) const;
-  /// The mean Delta E of one material, by e and v of all of its points.
-  [[nodiscard]] double mean_seen(const Eigen::Ref<const Eigen::ArrayXf>& errors,
-                                 const Eigen::Ref<const Eigen::ArrayXf>& variances) const;
-  /// Adds the Delta E of a family's materials with each candidate of a range to the sums.
+  /// The mean Delta E of one material, by e and v of all of its points, to the power of the options.
+  [[nodiscard]] double seen_power(const Eigen::Ref<const Eigen::ArrayXf>& errors,
+                                  const Eigen::Ref<const Eigen::ArrayXf>& variances) const;
+  /// The mean over the materials by the sum of `seen_power`.
+  [[nodiscard]] double power_mean(double sum) const;
+  /// Adds `seen_power` of a family's materials with each candidate of a range to the sums.
   void add_with_each(const left_out& some, std::span<const Eigen::Index> cells, block range,
                      std::vector<double>& sums) const;
 

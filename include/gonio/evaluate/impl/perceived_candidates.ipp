@@ -37,6 +37,7 @@ GONIO_INLINE perceived_candidates::perceived_candidates(design::point_geometry g
     refuse({"the share of the variance is from 0 to 1, not ", options.variance_share});
   if (options.most_materials < 1 || options.sphere_size < 2)
     refuse("what is seen of a design needs at least one material and spheres of two points across");
+  if (!(options.power >= 1.0)) refuse({"the power of the mean over materials is at least 1, not ", options.power});
   for (Eigen::Index i = 0; i < geometry_.size(); ++i) allowed_.push_back(geometry_.allows(i));
 }
 
@@ -160,13 +161,19 @@ GONIO_INLINE perceived_candidates::remainder perceived_candidates::remains(const
   return left;
 }
 
-GONIO_INLINE double perceived_candidates::mean_seen(const Eigen::Ref<const Eigen::ArrayXf>& errors,
-                                                    const Eigen::Ref<const Eigen::ArrayXf>& variances) const {
+GONIO_INLINE double perceived_candidates::seen_power(const Eigen::Ref<const Eigen::ArrayXf>& errors,
+                                                     const Eigen::Ref<const Eigen::ArrayXf>& variances) const {
   const auto share = static_cast<float>(options_.variance_share);
   const Eigen::Index points = weights_.size();
   const Eigen::ArrayXf squares = (1.0F - share) * errors.square() + share * variances.max(0.0F);
   const auto of = [&](Eigen::Index channel) { return squares.segment(channel * points, points); };
-  return double{((of(0) + of(1) + of(2)).sqrt() * weights_).sum()};
+  const double mean = double{((of(0) + of(1) + of(2)).sqrt() * weights_).sum()};
+  return options_.power == 1.0 ? mean : std::pow(mean, options_.power);
+}
+
+GONIO_INLINE double perceived_candidates::power_mean(double sum) const {
+  const double mean = sum / static_cast<double>(materials_);
+  return options_.power == 1.0 ? mean : std::pow(mean, 1.0 / options_.power);
 }
 
 GONIO_INLINE double perceived_candidates::operator()(std::span<const Eigen::Index> cells) const {
@@ -175,10 +182,10 @@ GONIO_INLINE double perceived_candidates::operator()(std::span<const Eigen::Inde
   for (const left_out& some : families_) {
     const remainder left = remains(some, cells);
     for (Eigen::Index m = 0; m < some.materials(); ++m)
-      sum += mean_seen(left.errors.segment(of_each * m, of_each).array(),
-                       left.variances.segment(of_each * m, of_each).array());
+      sum += seen_power(left.errors.segment(of_each * m, of_each).array(),
+                        left.variances.segment(of_each * m, of_each).array());
   }
-  return sum / static_cast<double>(materials_);
+  return power_mean(sum);
 }
 
 GONIO_INLINE std::vector<float> perceived_candidates::errors_with_each(std::span<const Eigen::Index> cells) const {
@@ -191,7 +198,7 @@ GONIO_INLINE std::vector<float> perceived_candidates::errors_with_each(std::span
   for (const left_out& some : families_) add_with_each(some, cells, range, sums);
   std::vector<float> errors(range.size(), std::numeric_limits<float>::infinity());
   for (Eigen::Index i = 0; i < range.size(); ++i)
-    if (allowed_[range.begin + i]) errors[i] = static_cast<float>(sums[i] / static_cast<double>(materials_));
+    if (allowed_[range.begin + i]) errors[i] = static_cast<float>(power_mean(sums[i]));
   return errors;
 }
 
@@ -224,8 +231,8 @@ GONIO_INLINE void perceived_candidates::add_with_each(const left_out& some, std:
             for (Eigen::Index c = 0; c < 3; ++c)
               errors.segment(c * points, points) = left.errors.segment(of_each * m + c * points, points).array() -
                                                    step[3 * m + c] * with.segment(c * points, points);
-            sums[x - range.begin] += mean_seen(errors, left.variances.segment(of_each * m, of_each).array() -
-                                                           with.square() / static_cast<float>(variance));
+            sums[x - range.begin] += seen_power(errors, left.variances.segment(of_each * m, of_each).array() -
+                                                            with.square() / static_cast<float>(variance));
           }
         }
       },
