@@ -95,6 +95,43 @@ TEST_CASE("convert: tables for renderers are as fine as the albedo needs, or as 
           {"--albedo-tolerance needs", ".bsdf"});
 }
 
+TEST_CASE("convert: a file for renderers has no negative value unless that is asked for") {
+  const small_files files;
+  // Its red is negative away from the highlight, as a colour outside the gamut is.
+  gonio::brdf_table table = gonio::io::read_merl(files.path("t.binary"));
+  for (float* red = table.values().data(); red < table.values().data() + table.values().size(); red += 3) *red -= 0.1F;
+  gonio::io::write_merl(files.path("silk.binary"), table);
+  const gonio::direction wi(0.6, 0, 0.8), wo(0.48, 0.2, std::sqrt(1.0 - 0.48 * 0.48 - 0.04));
+  REQUIRE(table(wi, wo)[0] < -0.01);
+  const auto read = [&](const std::string& name) -> gonio::rgb {
+    const std::string path = files.path(name);
+    return name.ends_with(".bsdf") ? gonio::io::read_rgl(path).material(wi, wo)
+                                   : gonio::io::read_mbsdf(path).reflection(wi, wo);
+  };
+  for (const std::string kind : {".bsdf", ".mbsdf"}) {
+    CAPTURE(kind);
+    const std::string said = run("convert " + files.path("silk.binary") + " " + files.path("clipped" + kind));
+    CHECK(said.find("cells have a negative value, which is written as 0. That adds") != std::string::npos);
+    CHECK(said.find("--keep-negative") != std::string::npos);
+    CHECK(read("clipped" + kind)[0] == doctest::Approx(0.0).epsilon(1e-4));
+    CHECK(read("clipped" + kind)[1] == doctest::Approx(table(wi, wo)[1]).epsilon(0.05));
+    CHECK(run("convert --keep-negative " + files.path("silk.binary") + " " + files.path("kept" + kind)).empty());
+    CHECK(read("kept" + kind)[0] == doctest::Approx(table(wi, wo)[0]).epsilon(0.05));
+    // A file of the same kind that has them is clipped, too, and keeps all else.
+    run("convert " + files.path("kept" + kind) + " " + files.path("again" + kind));
+    CHECK(read("again" + kind)[0] == doctest::Approx(0.0).epsilon(1e-4));
+    CHECK(read("again" + kind)[1] == doctest::Approx(read("kept" + kind)[1]).epsilon(1e-5));
+    CHECK(run("convert " + files.path("again" + kind) + " " + files.path("third" + kind)).empty());
+    CHECK(scratch::get(files.here / ("third" + kind)) == scratch::get(files.here / ("again" + kind)));
+  }
+  run("convert " + files.path("silk.binary") + " " + files.path("silk_brdf.xompt"));
+  CHECK(scratch::get(files.here / "silk_brdf.xompt").find(": -") == std::string::npos);
+  // A table stays what was measured.
+  CHECK(run("convert " + files.path("silk.binary") + " " + files.path("silk.npy")).empty());
+  refuses("convert --keep-negative " + files.path("silk.binary") + " " + files.path("silk.npy"),
+          {"--keep-negative needs", ".bsdf or .mbsdf or .xompt"});
+}
+
 TEST_CASE("convert: arrays of half floats are half as large") {
   const small_files files;
   files.convert("t.binary", "t.npy");

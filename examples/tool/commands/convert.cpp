@@ -6,6 +6,7 @@
 #include "tool/options/albedo_tolerance_option.hpp"
 #include "tool/options/threads_option.hpp"
 #include <gonio/core/error.hpp>
+#include <gonio/io/text/text.hpp>
 
 #include <algorithm>
 #include <initializer_list>
@@ -28,12 +29,13 @@ void convert(const convert_options& options) {
   const file_kind& kind = written_kind(options.output);
   const auto needs = [&](bool asked, const char* option, std::initializer_list<std::string_view> endings) {
     if (!asked || std::ranges::find(endings, kind.extensions.front()) != endings.end()) return;
-    gonio::refuse({option, " needs an output that ends in ", *endings.begin(), endings.size() > 1 ? " or " : "",
-                   endings.size() > 1 ? *std::prev(endings.end()) : "", ", not ", options.output.native()});
+    gonio::refuse({option, " needs an output that ends in ",
+                   gonio::io::listed({endings.begin(), endings.size()}, " or "), ", not ", options.output.native()});
   };
   needs(options.how.as_spectra, "--spectra", {".bsdf"});
   needs(options.how.polar_steps != 0, "--polar-steps", {".mbsdf", ".xompt"});
   needs(options.how.as_halves, "--half", {".npy"});
+  needs(options.how.keeps_negative, "--keep-negative", {".bsdf", ".mbsdf", ".xompt"});
   require_bsdf(options.how.albedo_tolerance, options.output);
   write_file(options.output, read_file(options.input, options.reading), options.how);
 }
@@ -70,6 +72,9 @@ void add_convert(command& app) {
   add_albedo_tolerance_option(command, options->how.albedo_tolerance);
   command.add_flag("--half", options->how.as_halves,
                    "Of a .npy file: half floats, which have 11 bits and end at 65504, instead of float32");
+  command.add_flag("--keep-negative", options->how.keeps_negative,
+                   "Of a .bsdf, .mbsdf or .xompt file: negative values as they are, instead of 0. A renderer subtracts "
+                   "them from other light");
   add_threads_option(command, options->how.threads);
   command.callback([options] { convert(*options); });
 }

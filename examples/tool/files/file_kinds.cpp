@@ -10,6 +10,7 @@
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/io/text/text.hpp>
+#include <gonio/model/clipped_brdf.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -41,9 +42,56 @@ gonio::brdf_table as_table(const fs::path& path, const file_content& content, go
   return with_brdf(path, content, [&](const auto& f) { return gonio::tabulate(f, gonio::valid_cells(), threads); });
 }
 
+/// The cells at which negative values are counted.
+gonio::valid_cells cells_of(const file_content& content) {
+  const auto* table = std::get_if<gonio::brdf_table>(&content);
+  return table != nullptr ? table->cells() : gonio::valid_cells();
+}
+
+/// Whether a BRDF has negative values that a renderer's file must not have. Tells the user.
+template <gonio::brdf Brdf>
+bool must_be_clipped(const fs::path& path, const Brdf& f, const gonio::valid_cells& cells, const writing& how) {
+  if (how.keeps_negative) return false;
+  const gonio::model::clipped_values found = gonio::model::count_negative_values(f, cells);
+  if (found.cells == 0) return false;
+  const auto percent = [&](Eigen::Index channel) { return fixed(100.0 * found.added[channel], 2) + " %"; };
+  warn(path.native() + ": " + std::to_string(found.cells) + " of " + std::to_string(cells.size()) +
+       " cells have a negative value, which is written as 0. That adds " + percent(0) + " red, " + percent(1) +
+       " green and " + percent(2) + " blue to the light that the material reflects (--keep-negative keeps them)");
+  return true;
+}
+
+/// Calls `use` with the BRDF of a whole material as a renderer needs it: without negative values.
+template <class Use>
+auto with_clipped_brdf(const fs::path& path, const file_content& content, const writing& how, Use&& use) {
+  return with_brdf(path, content, [&](const auto& f) {
+    const gonio::brdf_view view(f);
+    return must_be_clipped(path, f, cells_of(content), how) ? use(gonio::model::clipped_brdf(view)) : use(view);
+  });
+}
+
+/// The reflectance over its own normals, so that nothing else of the material changes.
+gonio::model::adaptive_brdf clipped(const gonio::model::adaptive_brdf& material, const writing& how) {
+  const auto measured = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
+    return material.as_measured(wi, wo).max(0.0);
+  };
+  gonio::model::adaptive_brdf_parts parts = material.parts();
+  parts.reflectance = gonio::model::tabulate_over(material, measured, how.threads);
+  return gonio::model::adaptive_brdf(std::move(parts));
+}
+
 io::rgl_material as_rgl(const fs::path& path, const file_content& content, const writing& how) {
-  if (const auto* material = std::get_if<io::rgl_material>(&content)) return *material;
-  return with_brdf(path, content, [&](const auto& f) -> io::rgl_material {
+  if (const auto* material = std::get_if<io::rgl_material>(&content)) {
+    // Nearer to the horizon a value is interpolated with those below it, which are negative.
+    constexpr double lowest_cosine = 0.1;
+    const auto measured = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
+      if (std::min(wi.z(), wo.z()) < lowest_cosine) return gonio::rgb::Zero();
+      return material->material.as_measured(wi, wo).min(material->material.as_measured(wo, wi));
+    };
+    if (!must_be_clipped(path, measured, cells_of(content), how)) return *material;
+    return {clipped(material->material, how), material->description, {}};
+  }
+  return with_clipped_brdf(path, content, how, [&](const auto& f) -> io::rgl_material {
     return {gonio::model::tabulate_keeping_albedo(f, how.albedo_tolerance, how.threads), path.stem().string(), {}};
   });
 }
@@ -51,6 +99,7 @@ io::rgl_material as_rgl(const fs::path& path, const file_content& content, const
 /// As many cells as are asked for; else those of difference angles that a table has, or the usual ones.
 gonio::model::polar_grid polar_grid_of(const file_content& content, const writing& how) {
   if (how.polar_steps != 0) return {how.polar_steps, 2 * how.polar_steps};
+  if (const auto* material = std::get_if<io::mbsdf_material>(&content)) return material->reflection.grid();
   const auto* table = std::get_if<gonio::brdf_table>(&content);
   if (table == nullptr) return {};
   const gonio::grid_extents extents = table->cells().grid().extents();
@@ -59,11 +108,13 @@ gonio::model::polar_grid polar_grid_of(const file_content& content, const writin
 
 io::mbsdf_material as_mbsdf(const fs::path& path, const file_content& content, const writing& how) {
   const auto* material = std::get_if<io::mbsdf_material>(&content);
-  if (material != nullptr && how.polar_steps == 0) return *material;
-  return with_brdf(path, content, [&](const auto& f) -> io::mbsdf_material {
+  const auto tabulated = [&](const auto& f) -> io::mbsdf_material {
     return {gonio::model::tabulate_polar(f, polar_grid_of(content, how), how.threads),
             {{"name", path.stem().string()}, {"software", "gonio"}, {"values", "BRDF in 1/sr, linear Rec. 709"}}};
-  });
+  };
+  if (material == nullptr || how.polar_steps != 0) return with_clipped_brdf(path, content, how, tabulated);
+  if (!must_be_clipped(path, material->reflection, cells_of(content), how)) return *material;
+  return {tabulated(gonio::model::clipped_brdf(gonio::brdf_view(material->reflection))).reflection, material->metadata};
 }
 
 void write_merl(const fs::path& path, const file_content& content, const writing& how) {
@@ -105,7 +156,7 @@ void write_openmaterial(const fs::path& path, const file_content& content, const
   if (metadata.name.ends_with("_brdf")) metadata.name.resize(metadata.name.size() - 5);
   io::openmaterial_steps steps;
   if (how.polar_steps != 0) steps = {how.polar_steps, 2 * how.polar_steps};
-  io::write_openmaterial(path, with_brdf(path, content, [&](const auto& f) {
+  io::write_openmaterial(path, with_clipped_brdf(path, content, how, [&](const auto& f) {
                            return io::write_openmaterial(f, metadata, steps, how.threads);
                          }));
 }

@@ -33,6 +33,7 @@ struct writing {
       0;  ///< .mbsdf, .xompt: steps of each polar angle, twice as many of the azimuth; 0: the usual
   double albedo_tolerance = gonio::model::usual_albedo_tolerance;  ///< .bsdf
   bool as_halves = false;                                          ///< .npy: half floats instead of float32
+  bool keeps_negative = false;  ///< .bsdf, .mbsdf, .xompt: negative values are written as they are, not as 0
   gonio::thread_count threads;
 };
 
