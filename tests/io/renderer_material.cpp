@@ -119,6 +119,34 @@ TEST_CASE("a base that is not seen beside the highlight makes no dielectric") {
   CHECK(gonio::io::materialx_material(gold).find("\"base_metalness\" type=\"float\" value=\"1\"") != std::string::npos);
 }
 
+TEST_CASE("a highlight that no dielectric has is that of a metal, beside a base") {
+  const analytic_brdf orange({{lobe_kind::of<gonio::model::lambert_shape>(), {0.25, 0.375, 0.375}, {}},
+                              {lobe_kind::of<gonio::model::ggx_shape>(), {1.0, 0.75, 0.25}, {0.25, 0.5}}});
+  // The highlight reflects 0.5, 0.375 and 0.125: as much as the base.
+  CHECK(gonio::io::pbrt_material(orange) ==
+        "MakeNamedMaterial \"base\"\n"
+        "  \"string type\" \"diffuse\"\n"
+        "  \"rgb reflectance\" [ 0.5 0.75 0.75 ]\n"
+        "MakeNamedMaterial \"metal\"\n"
+        "  \"string type\" \"conductor\"\n"
+        "  \"rgb reflectance\" [ 1 0.75 0.25 ]\n"
+        "  \"float roughness\" [ 0.25 ]\n"
+        "  \"bool remaproughness\" false\n"
+        "Material \"mix\"\n"
+        "  \"string materials\" [ \"base\" \"metal\" ]\n"
+        "  \"float amount\" [ 0.5 ]\n");
+  const std::string surface = gonio::io::materialx_material(orange);
+  for (const char* line :
+       {"\"base_metalness\" type=\"float\" value=\"0.5\"", "\"specular_ior\" type=\"float\" value=\"1\""})
+    CHECK_MESSAGE(surface.find(line) != std::string::npos, line);
+  CHECK(surface.find("specular_color") == std::string::npos);
+  const auto document = read_json(gonio::io::gltf_material(orange));
+  const auto& material = document["materials"][0];
+  CHECK(material["pbrMetallicRoughness"]["metallicFactor"] == 0.5);
+  CHECK(material["pbrMetallicRoughness"]["baseColorFactor"][0] == doctest::Approx(0.75));
+  CHECK(material["extensions"]["KHR_materials_ior"]["ior"] == 1);
+}
+
 TEST_CASE("the same of OpenPBR, in MaterialX") {
   CHECK(gonio::io::materialx_material(paint("ggx"), "red_paint") ==
         "<?xml version=\"1.0\"?>\n"
@@ -160,12 +188,12 @@ TEST_CASE("the same of glTF") {
         "}\n");
   // A highlight brighter than all light: the factor is 1, the colour has the rest.
   analytic_brdf bright({{lobe_kind::of<gonio::model::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
-                        {lobe_kind::of<gonio::model::ggx_shape>(), {2.0, 1.0, 0.5}, {0.25, 0.25}}});
+                        {lobe_kind::of<gonio::model::ggx_shape>(), {2.0, 1.0, 0.5}, {0.25, 1.0 / 9.0}}});
   const auto document = read_json(gonio::io::gltf_material(bright));
   const auto& material = document["materials"][0];
   CHECK(document["extensionsUsed"].size() == 2);
   CHECK(material["pbrMetallicRoughness"]["metallicFactor"] == 0);
-  CHECK(material["extensions"]["KHR_materials_ior"]["ior"] == 3);
+  CHECK(material["extensions"]["KHR_materials_ior"]["ior"] == doctest::Approx(2.0));
   CHECK(material["extensions"]["KHR_materials_specular"]["specularFactor"] == 1);
   CHECK(material["extensions"]["KHR_materials_specular"]["specularColorFactor"][0] == 2.0);
   CHECK(material["extensions"]["KHR_materials_specular"]["specularColorFactor"][2] == 0.5);

@@ -3,6 +3,7 @@
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>
 #include <gonio/model/fit_model.hpp>
+#include <gonio/model/physical_properties.hpp>
 #include <gonio/model/sum_of_lobes.hpp>
 #include <gonio/model/ward.hpp>
 
@@ -12,6 +13,7 @@
 namespace {
 
 using gonio::rgb;
+using gonio::model::analytic_brdf;
 using gonio::model::lobe_kind;
 
 /// Directions above the horizon, denser near the highlight.
@@ -99,6 +101,45 @@ TEST_CASE("also by L1 and Huber's norm, in other metrics, weighted by the cosine
       check(gonio::log(), options, 1e-6);
       check(gonio::root(3.0), options, 1e-6);
     }
+}
+
+TEST_CASE("a fit reflects no more than falls in, by any norm and metric, and is no other where that holds anyway") {
+  const auto pairs = scattered_pairs(400);
+  const lobe_kind &lambert = lobe_kind::of<gonio::model::lambert_shape>(),
+                  &ggx = lobe_kind::of<gonio::model::ggx_shape>();
+  // Grazing light is reflected twice.
+  const analytic_brdf impossible({{lambert, {0.3, 0.2, 0.1}, {}}, {ggx, {4.0, 2.0, 1.0}, {0.1, 0.1}}}),
+      possible({{lambert, {0.3, 0.2, 0.1}, {}}, {ggx, {0.5, 0.5, 0.25}, {0.1, 0.1}}});
+  REQUIRE(gonio::model::find_largest_albedo(impossible).value > 1.5);
+  const auto check = [&](const auto& metric, gonio::model::model_fit_options options) {
+    const auto fit_of = [&](const analytic_brdf& truth, double largest) {
+      options.largest_albedo = largest;
+      return gonio::model::fit_model({&lambert, &ggx}, observed(truth, pairs), metric, options);
+    };
+    const auto bounded = fit_of(impossible, 1.0);
+    const double found = gonio::model::find_largest_albedo(bounded.model).value;
+    CHECK(found < 1.0005);
+    CHECK(found > 0.99);
+    // Far nearer than the same lobes, all darker.
+    const double darker = 1.0 / gonio::model::find_largest_albedo(impossible).value;
+    std::vector<gonio::model::analytic_lobe> scaled;
+    for (const auto& lobe : impossible.lobes())
+      scaled.emplace_back(lobe.kind(), darker * lobe.colour(), lobe.parameters());
+    const gonio::model::detail::model_loss loss({&lambert, &ggx}, observed(impossible, pairs),
+                                                gonio::model::detail::chosen_metric(metric), options);
+    Eigen::VectorXd x(loss.unknowns());
+    x.head(2) = loss.coded(std::vector{scaled[0].parameters(), scaled[1].parameters()});
+    for (Eigen::Index c = 0; c < 3; ++c)
+      for (Eigen::Index l = 0; l < 2; ++l) x[2 + 2 * c + l] = scaled[l].colour()[c];
+    CHECK(bounded.loss < 0.7 * loss.joint(x).value);
+    CHECK(fit_of(possible, 1.0).loss == fit_of(possible, std::numeric_limits<double>::infinity()).loss);
+  };
+  check(gonio::lin(), {});
+  check(gonio::log(), {.norm = gonio::model::fit_norm::huber, .cosine_weighted = true});
+  check(gonio::log(), {.norm = gonio::model::fit_norm::l1});
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::model::fit_model({&lambert}, observed(possible, pairs), gonio::lin(),
+                                                                 {.largest_albedo = 0.0})),
+                       doctest::Contains("must be positive, not 0"), gonio::error);
 }
 
 TEST_CASE("variable projection and the joint descent end in the same minimum of noisy data") {

@@ -13,6 +13,7 @@
 #include "tool/pages/report_page.hpp"
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/renderer_material.hpp>
+#include <gonio/model/physical_properties.hpp>
 
 #include <array>
 #include <iostream>
@@ -54,7 +55,7 @@ bool is_table(const std::filesystem::path& path) {
   return extension == ".binary" || extension == ".gz";
 }
 
-void print(const gonio::model::model_fit& fit, std::size_t measurements) {
+void print(const gonio::model::model_fit& fit, const gonio::model::largest_albedo& albedo, std::size_t measurements) {
   std::cout << measurements << " measurements, loss " << fit.loss << " after " << fit.evaluations << " evaluations"
             << (fit.converged ? "" : ", which did not converge") << '\n';
   for (const gonio::model::analytic_lobe& lobe : fit.model.lobes()) {
@@ -67,6 +68,8 @@ void print(const gonio::model::model_fit& fit, std::size_t measurements) {
     }
     std::cout << '\n';
   }
+  std::cout << "largest albedo " << fixed(albedo.value, 3) << ", of light at " << fixed(gonio::degrees(albedo.theta), 0)
+            << " degrees" << (albedo.value > 1.0 ? ": more than falls in" : "") << '\n';
 }
 
 /// The page for people. `samples` are those that were fitted, or some values of the table.
@@ -114,13 +117,18 @@ void fit(const fit_command_options& options) {
     }
   }
   // Print the fit.
-  json all{{"measurements", observations.size()},  {"loss", found.loss},
-           {"evaluations", found.evaluations},     {"converged", found.converged},
-           {"promised_gain", found.promised_gain}, {"lobes", to_json(found.model)}};
+  const gonio::model::largest_albedo albedo = gonio::model::find_largest_albedo(found.model);
+  json all{{"measurements", observations.size()},
+           {"loss", found.loss},
+           {"evaluations", found.evaluations},
+           {"converged", found.converged},
+           {"promised_gain", found.promised_gain},
+           {"lobes", to_json(found.model)},
+           {"largest_albedo", {{"value", albedo.value}, {"theta", gonio::degrees(albedo.theta)}}}};
   all.update(facts_of(measured));
   if (options.report.is_given())
     write_report(options, found.model, table ? in_plane_values(*table) : measured.samples, all);
-  if (!options.print_json) return print(found, observations.size());
+  if (!options.print_json) return print(found, albedo, observations.size());
   std::cout << all.dump(2) << '\n';
 }
 

@@ -42,6 +42,11 @@ void add_fit_options(command& to, gonio::model::model_fit_options& options) {
       .default_str(options.norm == gonio::model::fit_norm::huber ? "huber" : "l2");
   to.add_flag("--cosine-weighted", options.cosine_weighted,
               "Compare reflectance times the cosine of the light (the default)");
+  to.add_option("--largest-albedo", options.largest_albedo,
+                "What the model may reflect at most of light that falls in at up to 88 degrees: 1 is all of it, inf "
+                "bounds nothing")
+      .check(check::positive_number())
+      .capture_default_str();
   to.add_option("--starts", options.random_starts, "Random starts beside the consecutive scheme")
       .check(check::range(0, 10'000))
       .capture_default_str();

@@ -17,7 +17,8 @@ namespace cli {
 struct model_choice {
   std::string model = "ggx", metric = "log";
   bool fresnel = false;
-  gonio::model::model_fit_options fit{.norm = gonio::model::fit_norm::huber, .cosine_weighted = true};
+  gonio::model::model_fit_options fit{
+      .norm = gonio::model::fit_norm::huber, .cosine_weighted = true, .largest_albedo = 1.0};
 };
 
 /// The lobes of `ggx` (beside a Lambertian one), or of `sum:ggx+ward` (as they stand). Throws gonio::error.
@@ -26,7 +27,7 @@ struct model_choice {
 /// A kind with Fresnel's factor: phong becomes phong-fresnel. Throws gonio::error for a kind that has none.
 [[nodiscard]] const gonio::model::lobe_kind& with_fresnel_factor(const gonio::model::lobe_kind& kind);
 
-/// Adds `--loss`, `--cosine-weighted`, `--starts` and `--seed`.
+/// Adds `--loss`, `--cosine-weighted`, `--largest-albedo`, `--starts` and `--seed`.
 void add_fit_options(command& to, gonio::model::model_fit_options& options);
 
 /// Adds `--cell-weights`.

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -31,6 +32,8 @@ struct model_fit_options {
   /// Where L1 and Huber's norm turn from squares to sizes, as a share of the median size of the mapped measurements: L1
   /// is sqrt(r^2 + (rounding median)^2), so that its error in the minimum is below that.
   double rounding = 1e-3, huber_width = 0.1;
+  /// What a channel of the model may reflect at most of light that falls in at up to 88 degrees; 1 is all of it.
+  double largest_albedo = std::numeric_limits<double>::infinity();
   /// Random starts beside the consecutive scheme, of which the best end counts.
   Eigen::Index random_starts = 0;
   std::uint64_t seed = 0;
@@ -83,14 +86,19 @@ class model_loss {
   [[nodiscard]] local_parabola projected(const Eigen::VectorXd& u) const;
 
   /// The loss as a function of shapes and colours, and Gauss and Newton's parabola of it, whose norm is that of squares
-  /// weighted by how far each residual is out.
-  [[nodiscard]] local_parabola joint(const Eigen::VectorXd& x) const;
+  /// weighted by how far each residual is out. Half the square of what an albedo exceeds the largest one by is added,
+  /// times the steepness, relative to the loss of a black model.
+  [[nodiscard]] local_parabola joint(const Eigen::VectorXd& x, double albedo_steepness = 0.0) const;
 
   /// Whether the colours are linear in the residuals, which are squared.
   [[nodiscard]] bool separates() const noexcept { return metric_.linear && options_.norm == fit_norm::l2; }
 
   /// The loss of a model that is black.
   [[nodiscard]] double of_nothing() const noexcept { return loss_of_nothing_; }
+
+  /// The largest albedo of a model, relative to the one that it may have; 0 if it may have any. By the midpoint rule
+  /// over `bins`^2 half vectors at each angle.
+  [[nodiscard]] rgb relative_albedo(const Eigen::VectorXd& x, int bins) const;
 
   /// Shapes and the colours that are best for them by squares of linear residuals.
   [[nodiscard]] Eigen::VectorXd with_colours(const Eigen::VectorXd& u) const;
@@ -110,6 +118,11 @@ class model_loss {
   }
   /// L x 3.
   [[nodiscard]] Eigen::MatrixXd colours(const Eigen::VectorXd& x) const;
+
+  /// The albedos of the lobes and their slopes by coded parameters: a column of L + P for each of `albedo_angles`.
+  [[nodiscard]] Eigen::MatrixXd lobe_albedos(const std::vector<lobe_kind::values>& parameters, int bins) const;
+  void add_albedo_penalty(const std::vector<lobe_kind::values>& parameters, const Eigen::MatrixXd& colour,
+                          double steepness, local_parabola& to) const;
 
   /// The products with the weights of one channel.
   [[nodiscard]] Eigen::MatrixXd products(const Eigen::VectorXd& u, Eigen::Index channel) const;

@@ -23,8 +23,13 @@ struct rough_surface {
 
   /// The refractive index whose reflectance at normal incidence is f0.
   [[nodiscard]] double refractive_index() const;
-  /// Has no base, or one that is not seen beside the highlight.
-  [[nodiscard]] bool metal() const;
+  /// What the highlight reflects at normal incidence.
+  [[nodiscard]] rgb highlight() const { return specular * f0; }
+  /// The share of the highlight in all that is reflected, where it is that of a metal: 1 if no base is seen beside it,
+  /// 0 for a dielectric.
+  [[nodiscard]] double metalness() const;
+  /// The colour that a metal and its base share: a share `metalness` of it is the highlight at normal incidence.
+  [[nodiscard]] rgb metal_colour() const;
 };
 
 /// The same highlight at normal incidence with no colour above 1, for renderers that refuse such.
@@ -58,8 +63,8 @@ struct conductor {
 /// A `Material` of pbrt-v4, linear sRGB. GGX beside Lambert becomes `coateddiffuse`: roughness (not remapped) and
 /// refractive index are carried over, and a base that has the albedo in diffuse light below a coat that absorbs
 /// nothing; the colour of the highlight is not, because the coat has none. GGX by itself becomes `conductor` with the
-/// reflectance at normal incidence, colour times f0. Throws gonio::error for other models: pbrt has no Beckmann
-/// distribution.
+/// reflectance at normal incidence, colour times f0, and so does a highlight that no dielectric has, above 0.3: beside
+/// a base, a `mix` of both. Throws gonio::error for other models: pbrt has no Beckmann distribution.
 [[nodiscard]] std::string pbrt_material(const model::analytic_brdf& model);
 
 /// A `bsdf` of Mitsuba 3, linear sRGB: the sum of the lobes, as a `blendbsdf` of equal shares of a `diffuse` and a
@@ -70,14 +75,15 @@ struct conductor {
 /// A MaterialX 1.39 document (.mtlx) with an `open_pbr_surface`, linear Rec. 709: OpenPBR 1.1, whose roughness is the
 /// root of GGX's. GGX beside Lambert carries over albedo, roughness, refractive index and, as `specular_color`, the
 /// colour of the highlight at normal incidence; the base has only the light that the interface lets through. GGX by
-/// itself becomes a metal in the colour times f0. Throws gonio::error for other models, and for a name that is not
-/// letters, digits and underscores.
+/// itself becomes a metal in the colour times f0; a highlight above 0.3 beside a base becomes one with a
+/// `base_metalness` below 1, whose base has the same colour. Throws gonio::error for other models, and for a name that
+/// is not letters, digits and underscores.
 [[nodiscard]] std::string materialx_material(const model::analytic_brdf& model, const std::string& name = "material");
 
 /// A glTF 2.0 document with one material: metallic-roughness, whose roughness is the root of GGX's, with
 /// KHR_materials_ior and KHR_materials_specular where there is a base. There the highlight has its colour at normal
-/// incidence, and its largest channel, at most 1, at grazing angles. Throws gonio::error for models but GGX, beside
-/// Lambert or by itself.
+/// incidence, and its largest channel, at most 1, at grazing angles. Metals are those of OpenPBR. Throws gonio::error
+/// for models but GGX, beside Lambert or by itself.
 [[nodiscard]] std::string gltf_material(const model::analytic_brdf& model);
 
 /// Writes such a text; whole, or not at all.

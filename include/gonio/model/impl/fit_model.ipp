@@ -34,14 +34,39 @@ GONIO_INLINE std::vector<lobe_kind::values> typical_shapes(const std::vector<con
   return shapes;
 }
 
+/// How a fit descends by its norm.
+[[nodiscard]] GONIO_INLINE levenberg_marquardt_options descent_of(const model_fit_options& options) {
+  levenberg_marquardt_options descent{.iteration_limit = options.iteration_limit};
+  // Weighted squares approach the minimum of another norm by a share of the way at a time.
+  if (options.norm != fit_norm::l2) descent.smallest_gain = 1e-10;
+  return descent;
+}
+
+/// Goes on from a model that may reflect too much to the best one near it that does not: by a penalty that grows, and
+/// what that leaves, about 1e-4, by darker colours.
+GONIO_INLINE void bound_albedo(const model_loss& loss, Eigen::VectorXd& x, local_minimum& end,
+                               const model_fit_options& options) {
+  constexpr int bins = 400;
+  if ((loss.relative_albedo(x, bins) <= 1.0).all()) return;
+  for (const double steepness : {1.0, 1e2, 1e4}) {
+    const Eigen::Index before = end.evaluations;
+    end = levenberg_marquardt([&](const Eigen::VectorXd& u) { return loss.joint(u, steepness); }, x, loss.bounds(),
+                              descent_of(options));
+    end.evaluations += before;
+    x = end.unknowns;
+  }
+  const rgb relative = loss.relative_albedo(x, bins).max(1.0);
+  auto colours = x.tail(3 * loss.lobes()).reshaped(loss.lobes(), 3);
+  for (Eigen::Index c = 0; c < 3; ++c) colours.col(c) /= relative[c];
+  end.value = loss.joint(x).value;
+}
+
 /// Descends over everything, from shapes and the colours that suit them.
 [[nodiscard]] GONIO_INLINE std::pair<Eigen::VectorXd, local_minimum> fit_from(const model_loss& loss,
                                                                               const Eigen::VectorXd& shapes,
                                                                               const model_fit_options& options) {
   const unknown_bounds box = loss.bounds();
-  levenberg_marquardt_options descent{.iteration_limit = options.iteration_limit};
-  // Weighted squares approach the minimum of another norm by a share of the way at a time.
-  if (options.norm != fit_norm::l2) descent.smallest_gain = 1e-10;
+  const levenberg_marquardt_options descent = descent_of(options);
   const Eigen::Index p = loss.shapes();
   const auto joint = [&](const Eigen::VectorXd& x) { return loss.joint(x); };
   if (loss.separates()) {
@@ -78,6 +103,7 @@ GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
   if (3 * std::ssize(observations) < parameters)
     refuse(std::to_string(observations.size()) + " samples of three channels are too few for " +
            std::to_string(parameters) + " parameters");
+  if (!(options.largest_albedo > 0.0)) refuse({"the largest albedo must be positive, not ", options.largest_albedo});
   if (std::ranges::all_of(
           observations, [](const fit_observation& seen) { return (seen.value * seen.weight.of_each() == 0.0).all(); }))
     refuse("all measurements are zero, or count for nothing");
@@ -98,7 +124,9 @@ GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
     best = std::move(x);
     end = std::move(other);
   }
-  return {loss.model(best), end.value, evaluations, end.converged, end.promised_gain};
+  end.evaluations = evaluations;
+  if (std::isfinite(options.largest_albedo)) bound_albedo(loss, best, end, options);
+  return {loss.model(best), end.value, end.evaluations, end.converged, end.promised_gain};
 }
 
 }  // namespace gonio::model::detail

@@ -2,8 +2,10 @@
 /// Bodies of model/model_loss.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/parallel.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/model/model_loss.hpp>
+#include <gonio/model/physical_properties.hpp>
 #include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/nnls.hpp>
 #include <gonio/solve/normal_equations.hpp>
@@ -31,6 +33,9 @@ namespace gonio::model::detail {
     for (Eigen::Index i = 0; i < std::ssize(rows); ++i) found(i, j) = of(rows[i], columns[j]);
   return found;
 }
+
+/// Angles of the light, radians, at which an albedo is bounded: it grows towards grazing.
+inline constexpr std::array albedo_angles{0.0, 0.8, 1.05, 1.22, radians(80.0), radians(85.0), radians(88.0)};
 
 /// `count` numbers from `first` on.
 [[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> numbers_from(Eigen::Index first, Eigen::Index count) {
@@ -192,7 +197,7 @@ GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) cons
   return result;
 }
 
-GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x) const {
+GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x, double albedo_steepness) const {
   const Eigen::Index count = lobes(), p = shapes(), n = p + count;
   // Decode the shapes and the colours from the unknowns.
   const auto parameters = parameters_of(x);
@@ -250,7 +255,50 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x) const {
     result.hessian.block(own, 0, count, p) = part.block(p, 0, count, p);
     result.hessian.block(own, own, count, count) = part.block(p, p, count, count);
   }
+  if (albedo_steepness > 0.0) add_albedo_penalty(parameters, colour, albedo_steepness * loss_of_nothing_, result);
   return result;
+}
+
+GONIO_INLINE Eigen::MatrixXd model_loss::lobe_albedos(const std::vector<lobe_kind::values>& parameters,
+                                                      int bins) const {
+  Eigen::MatrixXd albedos(lobes() + shapes(), std::ssize(albedo_angles));
+  for_each_index(
+      albedos.cols(), 1,
+      [&](Eigen::Index angle) {
+        Eigen::VectorXd sum = Eigen::VectorXd::Zero(albedos.rows()), value(albedos.rows());
+        for_each_light(albedo_angles[angle], bins, [&](const direction& wi, const direction& wo, double weight) {
+          evaluate(lobe_geometry(wi, wo), parameters, value);
+          sum += weight * value;
+        });
+        albedos.col(angle) = sum;
+      },
+      options_.threads);
+  return albedos;
+}
+
+GONIO_INLINE void model_loss::add_albedo_penalty(const std::vector<lobe_kind::values>& parameters,
+                                                 const Eigen::MatrixXd& colour, double steepness,
+                                                 local_parabola& to) const {
+  constexpr int bins = 40;
+  const Eigen::Index count = lobes(), p = shapes();
+  const Eigen::MatrixXd albedos = lobe_albedos(parameters, bins);
+  for (Eigen::Index angle = 0; angle < albedos.cols(); ++angle)
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const double excess = albedos.col(angle).head(count).dot(colour.col(c)) - options_.largest_albedo;
+      if (excess <= 0.0) continue;
+      Eigen::VectorXd slopes = Eigen::VectorXd::Zero(unknowns());
+      for (Eigen::Index j = 0; j < p; ++j) slopes[j] = albedos(count + j, angle) * colour(owner(j).lobe, c);
+      slopes.segment(p + c * count, count) = albedos.col(angle).head(count);
+      to.value += 0.5 * steepness * excess * excess;
+      to.gradient += steepness * excess * slopes;
+      to.hessian += steepness * slopes * slopes.transpose();
+    }
+}
+
+GONIO_INLINE rgb model_loss::relative_albedo(const Eigen::VectorXd& x, int bins) const {
+  if (!std::isfinite(options_.largest_albedo)) return rgb::Zero();
+  const Eigen::MatrixXd albedos = lobe_albedos(parameters_of(x), bins).topRows(lobes()).transpose() * colours(x);
+  return albedos.colwise().maxCoeff().transpose().array() / options_.largest_albedo;
 }
 
 GONIO_INLINE Eigen::VectorXd model_loss::with_colours(const Eigen::VectorXd& u) const {

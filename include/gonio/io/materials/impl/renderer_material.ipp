@@ -21,9 +21,15 @@ GONIO_INLINE double rough_surface::refractive_index() const {
   return (1.0 + root) / (1.0 - root);
 }
 
-GONIO_INLINE bool rough_surface::metal() const {
-  constexpr double base_of_metal = 0.05;
-  return (diffuse <= base_of_metal * specular * f0).all();
+GONIO_INLINE double rough_surface::metalness() const {
+  constexpr double base_of_metal = 0.05, largest_of_dielectrics = 0.3;  // rutile has 0.21
+  if ((diffuse <= base_of_metal * highlight()).all()) return 1.0;
+  if (highlight().maxCoeff() <= largest_of_dielectrics) return 0.0;
+  return highlight().sum() / (highlight() + diffuse).sum();
+}
+
+GONIO_INLINE rgb rough_surface::metal_colour() const {
+  return (metalness() < 1.0 ? rgb(highlight() + diffuse) : highlight()).min(1.0);
 }
 
 GONIO_INLINE rough_surface bounded(rough_surface surface) {
@@ -106,13 +112,21 @@ GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
   const detail::rough_surface surface = detail::bounded(detail::as_ggx_surface(model, "pbrt"));
   const std::string roughness =
       "  \"float roughness\" [ " + shortest(surface.alpha) + " ]\n  \"bool remaproughness\" false\n";
-  if (surface.metal())
-    return "Material \"conductor\"\n  \"rgb reflectance\" [ " +
-           detail::three_numbers((surface.specular * surface.f0).min(1.0), " ") + " ]\n" + roughness;
+  const auto reflectance = [](const rgb& value) {
+    return "  \"rgb reflectance\" [ " + detail::three_numbers(value.min(1.0), " ") + " ]\n";
+  };
+  const double metalness = surface.metalness();
+  if (metalness == 1.0) return "Material \"conductor\"\n" + reflectance(surface.highlight()) + roughness;
+  if (metalness > 0.0)  // a point is either, as often as it has to be
+    return "MakeNamedMaterial \"base\"\n  \"string type\" \"diffuse\"\n" +
+           reflectance(surface.diffuse / (1.0 - metalness)) +
+           "MakeNamedMaterial \"metal\"\n  \"string type\" \"conductor\"\n" +
+           reflectance(surface.highlight() / metalness) + roughness +
+           "Material \"mix\"\n  \"string materials\" [ \"base\" \"metal\" ]\n  \"float amount\" [ " +
+           shortest(metalness) + " ]\n";
   // A thick coat absorbs, and ten bounces are too few below a dense one.
   const double index = surface.refractive_index();
-  return "Material \"coateddiffuse\"\n  \"rgb reflectance\" [ " +
-         detail::three_numbers(detail::base_below_coat(surface.diffuse, index), " ") + " ]\n" + roughness +
+  return "Material \"coateddiffuse\"\n" + reflectance(detail::base_below_coat(surface.diffuse, index)) + roughness +
          "  \"float eta\" [ " + shortest(index) + " ]\n  \"float thickness\" [ 0 ]\n  \"integer maxdepth\" [ 100 ]\n";
 }
 
@@ -153,13 +167,14 @@ GONIO_INLINE std::string materialx_material(const model::analytic_brdf& model, c
       "  <open_pbr_surface name=\"" +
       name + "_surface\" type=\"surfaceshader\">\n";
   text += input("base_weight", "float", "1");
-  text += colour("base_color", surface.metal() ? rgb(surface.specular * surface.f0) : surface.diffuse);
-  text += input("base_metalness", "float", surface.metal() ? "1" : "0");
+  const double metalness = surface.metalness();
+  text += colour("base_color", metalness > 0.0 ? surface.metal_colour() : surface.diffuse);
+  text += input("base_metalness", "float", shortest(metalness));
   text += input("specular_roughness", "float", shortest(std::sqrt(surface.alpha)));
-  if (!surface.metal()) {
-    text += colour("specular_color", surface.specular);
-    text += input("specular_ior", "float", shortest(surface.refractive_index()));
-  }
+  if (metalness == 0.0) text += colour("specular_color", surface.specular);
+  // The base of a metal has no highlight of its own.
+  if (metalness < 1.0)
+    text += input("specular_ior", "float", metalness > 0.0 ? "1" : shortest(surface.refractive_index()));
   return text + "  </open_pbr_surface>\n  <surfacematerial name=\"" + name + "\" type=\"material\">\n" +
          "    <input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"" + name + "_surface\"/>\n" +
          "  </surfacematerial>\n</materialx>\n";
@@ -167,15 +182,19 @@ GONIO_INLINE std::string materialx_material(const model::analytic_brdf& model, c
 
 GONIO_INLINE std::string gltf_material(const model::analytic_brdf& model) {
   const detail::rough_surface surface = detail::as_ggx_surface(model, "glTF");
-  const rgb base = surface.metal() ? rgb(surface.specular * surface.f0) : surface.diffuse;
+  const double metalness = surface.metalness();
+  const rgb base = metalness > 0.0 ? surface.metal_colour() : surface.diffuse;
   const std::string core =
       "      \"pbrMetallicRoughness\": {\n        \"baseColorFactor\": [" + detail::three_numbers(base.min(1.0), ", ") +
-      ", 1],\n        \"metallicFactor\": " + (surface.metal() ? "1" : "0") +
+      ", 1],\n        \"metallicFactor\": " + shortest(metalness) +
       ",\n        \"roughnessFactor\": " + shortest(std::sqrt(std::min(surface.alpha, 1.0))) + "\n      }";
   const std::string begin = "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"gonio\"},\n";
   const std::string materials = "  \"materials\": [\n    {\n" + core;
   const std::string end = "\n    }\n  ]\n}\n";
-  if (surface.metal()) return begin + materials + end;
+  if (metalness == 1.0) return begin + materials + end;
+  if (metalness > 0.0)
+    return begin + "  \"extensionsUsed\": [\"KHR_materials_ior\"],\n" + materials +
+           ",\n      \"extensions\": {\"KHR_materials_ior\": {\"ior\": 1}}" + end;
   // f0 and f90 are multiplied by the factor, f0 alone by the colour.
   const double factor = std::min(surface.specular.maxCoeff(), 1.0);
   const rgb colour = factor > 0.0 ? rgb(surface.specular / factor) : rgb(rgb::Ones());
