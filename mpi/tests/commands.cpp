@@ -221,7 +221,7 @@ TEST_CASE("gonio-mpi design: the directions of gonio design") {
     return "design --prior '" + (given.folder / "small.prior").string() + "' " + options + " -o '" +
            (given.folder / output).string() + "'";
   };
-  for (const char* options : {"-n 5", "-n 3 --search greedy", "-n 2 --criterion d-optimal", "--published 5",
+  for (const char* options : {"-n 5", "-n 3 --search exchange", "-n 2 --criterion d-optimal", "--published 5",
                               "-n 2 --geometry near-field --step 30", "-n 3 --noise 0.05 --seed 4"}) {
     CAPTURE(options);
     const std::string said = run_alone(design(options, "alone.csv"));
@@ -232,17 +232,18 @@ TEST_CASE("gonio-mpi design: the directions of gonio design") {
   }
   check_refused_by_all(in_ranks(2, design("-n 0", "none.csv")), {"cannot choose 0"});
   // Ranks go on with the sweeps of a gonio that came to its end, but could not write the page that it was asked for.
-  const std::string said = run_alone(design("-n 5", "alone.csv"));
+  const std::string exchanged = "-n 5 --search exchange";
+  const std::string said = run_alone(design(exchanged, "alone.csv"));
   const auto part = given.folder / "ranks.csv.part";
   const auto page = given.folder / "page.html";
   scratch::fs::create_symlink("/dev/full", page);
-  CHECK(run_program(GONIO_TOOL, design("-n 5 --report '" + page.string() + '\'', "ranks.csv")).exit_code == 2);
+  CHECK(run_program(GONIO_TOOL, design(exchanged + " --report '" + page.string() + '\'', "ranks.csv")).exit_code == 2);
   const std::string whole = scratch::get(part);
   REQUIRE(std::ranges::count(whole, '\n') > 10);
   for (const std::size_t size : {whole.size(), whole.size() / 2, std::size_t{3}}) {
     CAPTURE(size);
     scratch::put(part, whole.substr(0, size));
-    const std::string again = run_in(2, design("-n 5", "ranks.csv"));
+    const std::string again = run_in(2, design(exchanged, "ranks.csv"));
     CHECK(again.starts_with("went on behind sweep ") == (size > 3));
     CHECK(again.ends_with(said));
     CHECK(scratch::get(given.folder / "ranks.csv") == scratch::get(given.folder / "alone.csv"));
