@@ -107,6 +107,8 @@ TEST_CASE("samples that are likely to disappoint are accepted with a warning") {
   warns(around, " --noise 0.6", {"noise of 60 % leaves little of the values: is it 0.60 %, that is --noise 0.0060?"});
   warns("30,0,30,180,.2,.2,.2\n" + around + "30,0,30,180,.8,.8,.8\n", "",
         {"samples 1 and 5 have the same directions, but the values 0.200 and 0.800"});
+  warns("30,0,30,180,.0001,.0002,.1\n" + around + "30,0,30,180,.0001,.0009,.1\n", "",
+        {"samples 1 and 5 have the same directions, but the values 0.0002 and 0.0009 (green)"});
   warns("30,0,30,180,.2,.2,.2\n30,0,10,180,.1,.1,.1\n30,0,50,0,.1,.1,.1\n", "",
         {"all samples are in the plane of incidence", "the highlight is known to a factor of "});
   warns("20,0,40,90,.3,.3,.3\n30,0,10,60,.3,.3,.3\n50,0,20,130,.3,.3,.3\n", " --method pull-push",

@@ -127,6 +127,13 @@ TEST_CASE("a sample that the others contradict is named and left out") {
   CHECK(fit["left_out"][0]["sample"] == 6);
   CHECK(fit["left_out"][0]["others"][1].get<double>() == doctest::Approx(truth).epsilon(0.3));
   CHECK(read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output)["left_out"].empty());
+  // The channel that is wrong is the one that is told of.
+  auto red = gonio::io::read_samples(at("samples.csv"));
+  red[5].value.x() = -0.133;
+  scratch::put(at("red.csv"), gonio::io::write_samples(red));
+  const std::string of_red = run("reconstruct " + at("red.csv"));
+  CHECK_MESSAGE(of_red.find(": measured -0.133") != std::string::npos, of_red);
+  CHECK(of_red.find(", red)") != std::string::npos);
   const auto kept = gonio_tool("reconstruct --no-reject " + at("wrong.csv") + " -o " + at("with.binary"));
   CHECK(kept.output.starts_with("20 samples,"));
   const auto error = [&](const char* file) {

@@ -298,9 +298,9 @@ TEST_CASE("impossible options and samples are refused") {
   refused({.part = {.relative = 0.1, .degrees_of_freedom = 0.0}}, {"degrees of freedom above 0"});
   refused({.part = {0.1}, .tolerance = -1.0}, {"tolerance", "not negative"});
   refused({.part = {0.1}, .same_direction = 1.0}, {"radians"});
-  const auto many = noisy(checked_material(), std::vector<Eigen::Index>(501, 77), 0.0, 0);
+  const auto many = noisy(checked_material(), std::vector<Eigen::Index>(2501, 77), 0.0, 0);
   scratch::check_refused([&] { return gonio::check_conformity(conformity_estimator(), many, samples, noise_of(0.1)); },
-                         {"at most 500", "501"});
+                         {"at most 2500", "2501"});
   scratch::check_refused(
       [&] { return gonio::check_conformity(conformity_estimator(), gonio::located_samples{}, samples, noise_of(0.1)); },
       {"at least one sample"});

@@ -212,6 +212,17 @@ TEST_CASE("of many samples those of a narrow highlight are among those that are 
   CHECK(gonio::detail::judged_together(samples.subset(some)) == some);
 }
 
+TEST_CASE("a sample is told of by the channel that disagrees most, by a factor, and a negative one disagrees") {
+  gonio::outlying_sample each;
+  each.predicted = {0.2, 0.1, 0.05};
+  each.measured = {0.25, 0.11, 0.2};
+  CHECK(each.worst_channel() == 2);
+  each.measured = {-0.133, 0.1, 0.2};
+  CHECK(each.worst_channel() == 0);
+  each.measured = each.predicted;
+  CHECK(each.worst_channel() == 0);
+}
+
 TEST_CASE("of many samples, what is off by more than a factor of three counts less than half") {
   for (const double ratio : {0.2, 0.4}) {
     CAPTURE(ratio);

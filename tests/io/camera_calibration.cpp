@@ -55,6 +55,15 @@ TEST_CASE("OpenCV's calibrations are read, YAML and XML") {
   }
 }
 
+TEST_CASE("calibrations of fisheye lenses are refused, whose coefficients mean something else") {
+  refuses_calibration("%YAML:1.0\n---\nfisheye_model: 1\n" + calibration_yaml.substr(14),
+                      "'fisheye_model' is a lens model");
+  refuses_calibration(calibration_yaml + "distortion_model: equidistant\n",
+                      "'distortion_model' 'equidistant' is a lens");
+  for (const char* usual : {"fisheye_model: 0\n", "distortion_model: plumb_bob\n", "distortion_model: \"plumb_bob\"\n"})
+    CHECK(read_camera_calibration(calibration_yaml + usual, "camera").distortion.k1 == -0.28);
+}
+
 TEST_CASE("a set-up takes its camera from a calibration, or says it itself") {
   const auto calibration = read_camera_calibration(calibration_yaml, "camera.yml");
   const std::string pose = "position 0 0 12\ntarget 0 0 0\nup 0 1 0\nlamp 3 4 5\n";

@@ -1,10 +1,12 @@
 #include "scratch.hpp"
+#include <gonio/core/rgb.hpp>
 #include <gonio/io/images/hdr_rows.hpp>
 #include <gonio/io/images/image.hpp>
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -67,6 +69,48 @@ TEST_CASE("HDR rows: what is stored, flat and in runs") {
   CHECK(pixel(header("-Y 2 +X 8") + runs + runs, 1, 5) == expected);
 }
 
+TEST_CASE("HDR rows: what the header says of colours and of the order of rows is applied") {
+  const scratch::folder here;
+  const auto pixel = [&](const std::string& lines, const std::string& code = colour) {
+    scratch::put(here / "a.hdr", "#?RADIANCE\n" + lines + "\n-Y 1 +X 1\n" + code);
+    return gonio::rgb(Eigen::Map<const Eigen::Array3f>(gonio::io::read_hdr(here / "a.hdr").data()).cast<double>());
+  };
+  const std::string rgbe = "FORMAT=32-bit_rle_rgbe\n", xyze = "FORMAT=32-bit_rle_xyze\n", white = "\x80\x80\x80\x81";
+  const gonio::rgb stored(1.0, 0.5, 0.25);
+  CHECK((pixel(rgbe + "EXPOSURE= 2.0\n") == stored / 2.0).all());
+  // Programs append a line for each change.
+  CHECK(
+      (pixel("EXPOSURE=2\n" + rgbe + "EXPOSURE=4\nCOLORCORR= 1 2 4\n") == stored / gonio::rgb(8.0, 16.0, 32.0)).all());
+  // Rec. 709's own primaries change nothing, and Radiance's keep white; its red is yellower.
+  CHECK((pixel(rgbe + "PRIMARIES= .64 .33 .30 .60 .15 .06 .3127 .3290\n") - stored).abs().maxCoeff() < 2e-4);
+  const std::string radiance = rgbe + "PRIMARIES= .640 .330 .290 .600 .150 .060 .3333 .3333\n";
+  CHECK((pixel(radiance, white) - 1.0).abs().maxCoeff() < 1e-6);
+  const gonio::rgb red = pixel(radiance, std::string("\x80\x00\x00\x81", 4));
+  CHECK(red[0] > 0.9);
+  CHECK(std::abs(red[1]) < 0.1);
+  CHECK((pixel(xyze) - gonio::from_xyz(stored) / 179.0).abs().maxCoeff() < 1e-8);
+
+  scratch::put(here / "b.hdr", "#?RADIANCE\n" + rgbe + "\n+Y 3 +X 1\n" + colour + white + std::string(4, '\0'));
+  const gonio::io::hdr_rows file(here / "b.hdr");
+  std::vector<float> found(9);
+  file.read({0, 3}, found);
+  CHECK(found == std::vector<float>{0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f, 1.0f, 0.5f, 0.25f});
+  found.resize(6);
+  file.read({1, 3}, found);
+  CHECK(found[5] == 0.25f);
+  CHECK(found[0] == 1.0f);
+}
+
+TEST_CASE("HDR rows: a dark first pixel is no row of runs") {
+  const scratch::folder here;
+  std::string flat("\x02\x02\x01\x70", 4);
+  for (int i = 1; i < 8; ++i) flat += colour;
+  scratch::put(here / "a.hdr", header("-Y 1 +X 8") + flat);
+  const gonio::image found = gonio::io::read_hdr(here / "a.hdr");
+  CHECK(found(0, 0, 0) > found(0, 0, 2));
+  CHECK(found(0, 1, 0) == 1.0f);
+}
+
 TEST_CASE("HDR rows: files that say more than they have are refused") {
   const scratch::folder here;
   const auto refused = [&](const std::string& content, std::initializer_list<std::string> words) {
@@ -84,6 +128,18 @@ TEST_CASE("HDR rows: files that say more than they have are refused") {
   const std::string row("\x02\x02\x00\x08", 4);
   refused(header("-Y 1 +X 8") + row + std::string(28, '\0'), {"a.hdr", "cannot be decoded (a run has no pixel"});
   refused(header("-Y 1 +X 8") + row + std::string(28, '\x7F'), {"a.hdr", "leaves its row"});
-  refused(header("-Y 1 +X 9") + row + std::string(28, '\x7F'), {"a.hdr", "begin as a row of runs"});
+  std::string runs = row;
+  for (int channel = 0; channel < 4; ++channel) runs += std::string("\x88\x7F");
+  refused(header("-Y 2 +X 8") + runs + std::string("\x02\x02\x00\x09", 4) + std::string(28, '\x7F'),
+          {"a.hdr", "begin as a row of runs"});
+  refused(header("-Y 2 +X 8") + runs + std::string(28, '\x7F'), {"a.hdr", "begin as a row of runs"});
+  const auto headed = [](const std::string& lines) {
+    return "#?RADIANCE\n" + lines + "\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + colour;
+  };
+  refused(headed("EXPOSURE=bright"), {"a.hdr: the line 'EXPOSURE'", "must hold 1 number"});
+  refused(headed("COLORCORR=1 2"), {"a.hdr: the line 'COLORCORR'", "must hold 3 numbers"});
+  refused(headed("EXPOSURE=0"), {"a.hdr", "must be positive"});
+  refused(headed("PRIMARIES=.3 .3 .3 .3 .3 .3 .3 .3"), {"a.hdr", "PRIMARIES", "no three colours"});
+  refused("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-X 1 +Y 1\n" + colour, {"a.hdr", "-Y or +Y"});
   scratch::check_refuses_non_files([](const auto& path) { return gonio::io::hdr_rows(path); });
 }

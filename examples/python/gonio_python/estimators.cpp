@@ -175,8 +175,9 @@ std::array<double, 3> channels_of(const gonio::rgb& colour) { return {colour[0],
 std::string sentence_of(const gonio::outlying_sample& each) {
   std::ostringstream text;
   text.precision(3);
-  text << "row " << each.number << ": measured " << each.measured[1] << ", the others say " << each.predicted[1]
-       << " (green)";
+  const Eigen::Index worst = each.worst_channel();
+  text << "row " << each.number << ": measured " << each.measured[worst] << ", the others say " << each.predicted[worst]
+       << " (" << gonio::channels().name(worst) << ")";
   return text.str();
 }
 

@@ -24,13 +24,15 @@ namespace {
 
 using reconstructed_brdf = gonio::reconstructed<gonio::log_relative>;
 
-/// Of the one value, or of the green channel, which has most of the luminance: "sample 6 disagrees, left out:
-/// measured 2.09, the others say 0.140 (0.110 to 0.170)".
+/// Of the one value, or of the channel that disagrees most: "sample 6 disagrees, left out: measured 2.09, the others
+/// say 0.140 (0.110 to 0.170, red)".
 std::string told(const gonio::outlying_sample& out, const std::string& what_is_done) {
-  const double low = out.predicted.y() * std::exp(-out.deviation), high = out.predicted.y() * std::exp(out.deviation);
+  const Eigen::Index channel = out.worst_channel();
+  const double predicted = out.predicted[channel];
   return "sample " + std::to_string(out.number + 1) + " disagrees, " + what_is_done + ": measured " +
-         reflectance(out.measured.y()) + ", the others say " + reflectance(out.predicted.y()) + " (" +
-         reflectance(low) + " to " + reflectance(high) + (is_grey(out.measured) ? ")" : ", green)");
+         reflectance(out.measured[channel]) + ", the others say " + reflectance(predicted) + " (" +
+         reflectance(predicted * std::exp(-out.deviation)) + " to " + reflectance(predicted * std::exp(out.deviation)) +
+         (is_grey(out.measured) ? "" : ", " + gonio::channels().name(channel)) + ")";
 }
 
 /// docs/reference/formats.md has the columns.

@@ -76,9 +76,7 @@ std::string escape_html(std::string_view text) {
   return result;
 }
 
-std::string escape_script(std::string_view json_text) {
-  return replaced(replaced(json_text, "</", "<\\/"), "<!", "\\u003c!");
-}
+std::string escape_script(std::string_view json_text) { return replaced(json_text, "<", "\\u003c"); }
 
 std::string base64(std::span<const std::byte> bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

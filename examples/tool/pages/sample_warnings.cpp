@@ -46,8 +46,8 @@ std::string contradiction(const gonio::sample_set& samples, double noise) {
     largest = green(high) / green(low);
     const auto [first, second] = std::minmax(low, high);
     sentence = "samples " + std::to_string(first + 1) + " and " + std::to_string(second + 1) +
-               " have the same directions, but the values " + fixed(green(first), 3) + " and " +
-               fixed(green(second), 3) + (is_grey(samples[first].value) ? "" : " (green)");
+               " have the same directions, but the values " + reflectance(green(first)) + " and " +
+               reflectance(green(second)) + (is_grey(samples[first].value) ? "" : " (green)");
   }
   return sentence;
 }

@@ -31,6 +31,10 @@ struct outlying_sample {
   rgb predicted;             ///< sr^-1, from all that are not contradicted
   double deviation = 0.0;    ///< of the prediction, in the metric's domain: relative where that is a logarithm
   double probability = 0.0;  ///< that the sample is wrong
+
+  /// The channel in which reading and prediction differ by the largest factor; a negative value counts as zero, and
+  /// 0.001 sr^-1 is added to both.
+  [[nodiscard]] Eigen::Index worst_channel() const;
 };
 
 /// What was found about n samples.

@@ -38,7 +38,7 @@ GONIO_INLINE Eigen::Index distinct_channels(const Eigen::MatrixXd& values) {
 }
 
 GONIO_INLINE located_samples both_of(const located_samples& part, const located_samples& reference) {
-  constexpr Eigen::Index most_of_part = 500, most = 2000, most_values = 3000;
+  constexpr Eigen::Index most_of_part = 2500, most = 6000, most_values = 7500;
   const Eigen::Index n = part.size(), all = n + reference.size();
   if (n == 0 || n == all) refuse("a part and a reference have at least one sample each");
   if (n > most_of_part) refuse({"a part is compared in at most ", most_of_part, " directions, not ", n});

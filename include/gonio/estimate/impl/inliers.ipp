@@ -33,6 +33,13 @@ GONIO_INLINE std::vector<Eigen::Index> inliers::kept() const {
   return positions;
 }
 
+GONIO_INLINE Eigen::Index outlying_sample::worst_channel() const {
+  constexpr double floor = 1e-3;
+  Eigen::Index worst = 0;
+  ((measured.max(0.0) + floor) / (predicted.max(0.0) + floor)).log().abs().maxCoeff(&worst);
+  return worst;
+}
+
 GONIO_INLINE inliers all_inliers(Eigen::Index n) { return {Eigen::VectorXd::Ones(n), {}}; }
 
 GONIO_INLINE located_samples weighted(const located_samples& samples, const inliers& found) {

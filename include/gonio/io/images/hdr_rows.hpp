@@ -15,18 +15,19 @@
 
 namespace gonio::io {
 
-/// An open HDR file whose rows run from top to bottom. Any number of threads may read it.
+/// An open HDR file. Any number of threads may read it.
 class hdr_rows {
  public:
   /// Reads through the file once. Throws gonio::error naming it if it is no HDR image, is truncated or damaged, goes on
-  /// behind its last row, or has more than 16384 pixels one way.
+  /// behind its last row, or has more than 16384 pixels one way, and for axes but -Y or +Y and +X.
   explicit hdr_rows(const std::filesystem::path& path);
 
   [[nodiscard]] Eigen::Index rows() const noexcept { return std::ssize(begins_) - 1; }
   [[nodiscard]] Eigen::Index columns() const noexcept { return columns_; }
 
-  /// Red, green and blue of the pixels of some rows, one row after the other, as they are stored: EXPOSURE is not
-  /// applied. `out` has 3 x columns x rows numbers. Throws gonio::error if the file was changed meanwhile.
+  /// Red, green and blue of the pixels of some rows, from the top, in linear Rec. 709: as they are stored, divided by
+  /// EXPOSURE and COLORCORR, and converted from PRIMARIES or XYZ where the header names them. Negative values are
+  /// outside the gamut. `out` has 3 x columns x rows numbers. Throws gonio::error if the file was changed meanwhile.
   void read(block rows, std::span<float> out) const;
 
  private:
@@ -35,7 +36,9 @@ class hdr_rows {
   std::string name_;
   descriptor file_;
   Eigen::Index columns_ = 0;
-  bool has_runs_ = false;              ///< rows are run-length encoded
+  bool has_runs_ = false;  ///< rows are run-length encoded
+  bool from_bottom_ = false, has_colours_ = false;
+  Eigen::Matrix3f colours_;            ///< what makes Rec. 709 of stored numbers
   std::vector<std::uint64_t> begins_;  ///< of each row in the file, and the end of the last
 };
 

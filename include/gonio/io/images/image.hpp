@@ -111,8 +111,7 @@ struct stb_extents {
 /// Writes a PNG: clipped to [0, 1], sRGB-encoded, rounded to 8 bits. NaN is refused.
 void write_png(const std::filesystem::path& path, const image& picture);
 
-/// Reads a Radiance HDR image whose rows run from top to bottom, as nearly all do. EXPOSURE is not
-/// applied: values are those stored.
+/// Reads a Radiance HDR image: linear Rec. 709, as `hdr_rows::read` has it.
 [[nodiscard]] image read_hdr(const std::filesystem::path& path);
 
 /// Writes a Radiance HDR image. Negative values become 0; NaN and what RGBE cannot hold, from 1.7e38 on,

@@ -23,8 +23,9 @@ struct camera_calibration {
 };
 
 /// Throws gonio::error naming the entry that is missing or not what it should be: a matrix of another shape than its
-/// numbers, a size that is no whole number, focal lengths that are not positive, axes that are not at right angles, or
-/// coefficients beyond k3 that are not zero. `name` is what errors call the text.
+/// numbers, a size that is no whole number, focal lengths that are not positive, axes that are not at right angles,
+/// coefficients beyond k3 that are not zero, or a fisheye lens (OpenCV's `fisheye_model`, ROS's `distortion_model`
+/// equidistant), whose four coefficients mean something else. `name` is what errors call the text.
 [[nodiscard]] camera_calibration read_camera_calibration(std::string_view text, const std::string& name);
 
 /// Reads a calibration. Throws gonio::error naming the file.

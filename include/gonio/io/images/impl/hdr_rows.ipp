@@ -3,9 +3,14 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/rgb.hpp>
 #include <gonio/io/bytes/believable.hpp>
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/images/hdr_rows.hpp>
+#include <gonio/io/text/text.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -26,8 +31,50 @@ namespace gonio::io::detail {
 /// What an HDR file's header says.
 struct hdr_header {
   std::size_t rows = 0, columns = 0;
-  std::size_t size = 0;  ///< bytes before the first row
+  std::size_t size = 0;                                   ///< bytes before the first row
+  bool from_bottom = false;                               ///< the first row is the lowest
+  Eigen::Matrix3d colours = Eigen::Matrix3d::Identity();  ///< what makes linear Rec. 709 of stored numbers
 };
+
+/// The numbers of a line "EXPOSURE= 2.5", one or more. Throws gonio::error unless there are `count` finite ones.
+[[nodiscard]] GONIO_INLINE Eigen::VectorXd hdr_numbers(std::string_view line, Eigen::Index count,
+                                                       const std::string& name) {
+  const auto equals = line.find('=');
+  Eigen::VectorXd numbers(count);
+  std::string_view rest = line.substr(equals + 1);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    rest = trimmed(rest);
+    const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
+    if (read_number(rest.substr(0, end), numbers[i]) != nullptr)
+      gonio::refuse({name, ": the line ", in_quotes(line.substr(0, equals)), " of the HDR file must hold ", count,
+                     count == 1 ? " number" : " numbers"});
+    rest.remove_prefix(end);
+  }
+  return numbers;
+}
+
+/// What makes Rec. 709 of colours with the primaries red, green and blue and the white that are given as x and y, such
+/// that white stays white.
+[[nodiscard]] GONIO_INLINE Eigen::Matrix3d from_primaries(const Eigen::VectorXd& xy, const std::string& name) {
+  Eigen::Matrix<double, 3, 4> xyz;
+  for (Eigen::Index i = 0; i < 4; ++i)
+    xyz.col(i) = Eigen::Vector3d(xy[2 * i], xy[2 * i + 1], 1.0 - xy[2 * i] - xy[2 * i + 1]) / xy[2 * i + 1];
+  const Eigen::Matrix3d primaries = xyz.leftCols(3);
+  const Eigen::Vector3d amounts = primaries.inverse() * xyz.col(3);
+  Eigen::Matrix3d found;
+  for (Eigen::Index i = 0; i < 3; ++i) found.col(i) = from_xyz((amounts[i] * primaries.col(i)).array()).matrix();
+  const Eigen::Vector3d of_white = found.rowwise().sum();
+  for (Eigen::Index row = 0; row < 3; ++row) found.row(row) /= of_white[row];
+  if (!found.allFinite()) gonio::refuse({name, ": the PRIMARIES of the HDR file are no three colours and a white"});
+  return found;
+}
+
+/// Of the colours that Radiance writes as X, Y and Z of candela per square metre: 179 lumens are a watt.
+[[nodiscard]] GONIO_INLINE Eigen::Matrix3d from_radiance_xyz() {
+  Eigen::Matrix3d found;
+  for (Eigen::Index i = 0; i < 3; ++i) found.col(i) = from_xyz(rgb(Eigen::Vector3d::Unit(i).array())).matrix() / 179.0;
+  return found;
+}
 
 /// The fewest bytes that the pixels can take: all rows in runs of 127.
 [[nodiscard]] constexpr std::size_t least_hdr_size(std::size_t rows, std::size_t columns) noexcept {
@@ -49,29 +96,59 @@ struct hdr_header {
   return true;
 }
 
+/// The colours of a header, whose lines come one by one.
+class hdr_colours {
+ public:
+  explicit hdr_colours(const std::string& name) : name_(name) {}
+
+  void read(std::string_view line) {
+    if (line.starts_with("EXPOSURE=")) divisor_ *= hdr_numbers(line, 1, name_)[0];
+    if (line.starts_with("COLORCORR=")) divisor_ = divisor_.cwiseProduct(hdr_numbers(line, 3, name_));
+    if (line.starts_with("PRIMARIES=")) primaries_ = from_primaries(hdr_numbers(line, 8, name_), name_);
+    if (line == "FORMAT=32-bit_rle_xyze") primaries_ = from_radiance_xyz();
+    is_known_ = is_known_ || line == "FORMAT=32-bit_rle_rgbe" || line == "FORMAT=32-bit_rle_xyze";
+  }
+  [[nodiscard]] bool is_known() const noexcept { return is_known_; }
+  [[nodiscard]] Eigen::Matrix3d matrix() const {
+    if (!(divisor_.array() > 0.0).all())
+      gonio::refuse({name_, ": EXPOSURE and COLORCORR of the HDR file must be positive"});
+    return primaries_ * divisor_.cwiseInverse().asDiagonal();
+  }
+
+ private:
+  const std::string& name_;
+  bool is_known_ = false;
+  Eigen::Vector3d divisor_ = Eigen::Vector3d::Ones();
+  Eigen::Matrix3d primaries_ = Eigen::Matrix3d::Identity();
+};
+
 /// Lines of text, an empty one, and a line with the size.
 [[nodiscard]] GONIO_INLINE hdr_header read_hdr_header(std::string_view text, const std::string& name) {
   if (!text.starts_with("#?RADIANCE\n") && !text.starts_with("#?RGBE\n"))
     gonio::refuse({name, ": is not a Radiance HDR file"});
   hdr_header header;
-  bool is_rgbe = false, is_sized = false;
+  hdr_colours colours(name);
+  bool is_sized = false;
   for (bool before_empty = true; !is_sized;) {
     const auto end = text.find('\n', header.size);
     if (end == std::string_view::npos) break;
     std::string_view line = text.substr(header.size, end - header.size);
     header.size = end + 1;
-    is_rgbe = is_rgbe || line == "FORMAT=32-bit_rle_rgbe";
     if (!before_empty) {
-      is_sized = read_hdr_extent(line, "-Y ", header.rows) && read_hdr_extent(line, "+X ", header.columns);
+      header.from_bottom = line.starts_with('+');
+      is_sized = read_hdr_extent(line, header.from_bottom ? "+Y " : "-Y ", header.rows) &&
+                 read_hdr_extent(line, "+X ", header.columns);
       break;
     }
     before_empty = !line.empty();
+    colours.read(line);
   }
-  if (!is_rgbe || !is_sized)
-    gonio::refuse(
-        {name,
-         ": the header of the HDR file is truncated or of an unknown kind (expected 32-bit_rle_rgbe, -Y and +X)"});
+  if (!colours.is_known() || !is_sized)
+    gonio::refuse({name,
+                   ": the header of the HDR file is truncated or of an unknown kind (expected 32-bit_rle_rgbe or "
+                   "32-bit_rle_xyze, -Y or +Y, and +X)"});
   check_image_size(header.rows, header.columns, name);
+  header.colours = colours.matrix();
   return header;
 }
 
@@ -169,10 +246,13 @@ GONIO_INLINE hdr_rows::hdr_rows(const std::filesystem::path& path) : name_(path.
   if (size < detail::least_hdr_size(header.rows, header.columns)) gonio::refuse({name_, ": the HDR file is truncated"});
   detail::check_believable_pixels(detail::hdr_claims, header.rows, header.columns, size, name_);
   columns_ = static_cast<Eigen::Index>(header.columns);
-  // A pixel of flat rows has a mantissa of 128 or more.
-  const std::string_view first = std::string_view(text).substr(header.size).substr(0, 3);
-  has_runs_ = header.columns >= 8 && first.size() == 3 && first.starts_with("\x02\x02") &&
-              static_cast<unsigned char>(first[2]) < 128;
+  has_colours_ = !header.colours.isIdentity(0.0);
+  colours_ = header.colours.cast<float>();
+  from_bottom_ = header.from_bottom;
+  // A row of runs begins with two twos and the number of its columns. A dark pixel may look so, but seldom by as much.
+  const std::string_view first = std::string_view(text).substr(header.size).substr(0, 4);
+  has_runs_ = header.columns >= 8 && first.size() == 4 && first.starts_with("\x02\x02") &&
+              256u * static_cast<unsigned char>(first[2]) + static_cast<unsigned char>(first[3]) == header.columns;
   // Find where the rows begin.
   row_reader reader(*this, header.size);
   begins_.push_back(header.size);
@@ -185,16 +265,20 @@ GONIO_INLINE hdr_rows::hdr_rows(const std::filesystem::path& path) : name_(path.
 
 GONIO_INLINE void hdr_rows::read(block rows, std::span<float> out) const {
   static const std::array<float, 256> factors = detail::rgbe_factors();
-  row_reader reader(*this, begins_.at(static_cast<std::size_t>(rows.begin)));
   const auto columns = static_cast<std::size_t>(columns_);
   const std::size_t across = has_runs_ ? 1 : 4,
                     along = has_runs_ ? columns : 1;  // from pixel to pixel, from channel to channel
-  for (auto* pixel = out.data(); rows.begin < rows.end; ++rows.begin) {
+  // Of the file's rows, which are read one after the other; the highest may be the last.
+  const block stored = from_bottom_ ? block{this->rows() - rows.end, this->rows() - rows.begin} : rows;
+  row_reader reader(*this, begins_.at(static_cast<std::size_t>(stored.begin)));
+  for (Eigen::Index row = 0; row < stored.size(); ++row) {
     const std::span<const std::uint8_t> codes = reader.next();
+    float* pixel = out.data() + 3 * columns_ * (from_bottom_ ? stored.size() - 1 - row : row);
     for (std::size_t i = 0; i < columns; ++i, pixel += 3) {
       const float factor = factors[codes[i * across + 3 * along]];
       for (std::size_t channel = 0; channel < 3; ++channel)
         pixel[channel] = static_cast<float>(codes[i * across + channel * along]) * factor;
+      if (has_colours_) Eigen::Map<Eigen::Vector3f>{pixel} = (colours_ * Eigen::Map<Eigen::Vector3f>(pixel)).eval();
     }
   }
 }

@@ -41,6 +41,18 @@ class storage_text {
     return {};
   }
 
+  /// The word of an entry, without quotes; nothing if it is not there.
+  [[nodiscard]] std::optional<std::string_view> find_word(std::string_view entry) const {
+    const auto value = find(text_, entry);
+    if (!value) return {};
+    constexpr std::string_view blanks = " \t\r\n";
+    std::string_view text = value->substr(std::min(value->find_first_not_of(blanks), value->size()));
+    text = text.substr(0, text.find_first_of(blanks));
+    if (text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front())
+      text = text.substr(1, text.size() - 2);
+    return text;
+  }
+
   /// A whole number that counts pixels.
   [[nodiscard]] std::size_t pixels(std::initializer_list<std::string_view> names) const {
     for (const std::string_view each : names)
@@ -152,7 +164,18 @@ GONIO_INLINE camera_intrinsics calibrated_intrinsics(const storage_text& text) {
           k[5] + 0.5};
 }
 
+/// Refuses lenses whose coefficients mean something else.
+GONIO_INLINE void require_rational_lens(const storage_text& text) {
+  constexpr std::string_view way_out = ": undistort the images before, by cv::fisheye::undistortImage for instance";
+  if (const auto fisheye = text.find_word("fisheye_model"); fisheye && *fisheye != "0")
+    text.refuse("fisheye_model", "is a lens model that is not read" + std::string(way_out));
+  const auto model = text.find_word("distortion_model");
+  if (model && *model != "plumb_bob" && *model != "radtan" && *model != "rational_polynomial")
+    text.refuse("distortion_model", in_quotes(*model) + " is a lens model that is not read" + std::string(way_out));
+}
+
 GONIO_INLINE lens_distortion calibrated_distortion(const storage_text& text) {
+  require_rational_lens(text);
   const auto matrix = text.find_matrix({"distortion_coefficients", "distCoeffs", "dist_coeffs",
                                         "Distortion_Coefficients", "DistortionCoefficients", "D"});
   if (!matrix) return {};
