@@ -7,6 +7,8 @@
 #include <gonio/io/materials/table_npy.hpp>
 #include <gonio/table/tensor_view.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -14,14 +16,28 @@ namespace python {
 
 namespace {
 
-/// Cells below the horizon are not looked at.
-gonio::brdf_table table_from_dense(const py::object& given) {
+constexpr std::array<const char*, 2> anchor_words{"centre", "lower_corner"};  // in the order of gonio::cell_anchor
+
+const char* word_of(gonio::cell_anchor anchor) { return anchor_words[static_cast<std::size_t>(anchor)]; }
+
+gonio::cell_anchor anchor_of(const std::string& word) {
+  for (const auto anchor : {gonio::cell_anchor::centre, gonio::cell_anchor::lower_corner})
+    if (word == word_of(anchor)) return anchor;
+  gonio::refuse({"anchor is '", word, "': expected 'centre' or 'lower_corner'"});
+}
+
+/// Cells below the horizon, or below `minimum_cosine`, are not looked at.
+gonio::brdf_table table_from_dense(const py::object& given, const std::string& anchor, double minimum_cosine) {
+  if (!(minimum_cosine >= 0.0 && minimum_cosine < 1.0))
+    gonio::refuse({"minimum_cosine is ", std::string(py::str(py::float_(minimum_cosine))),
+                   ": expected at least 0 and less than 1"});
   const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(given);
   if (!array) gonio::refuse("values is no array of numbers");
   if (array.ndim() != 4 || array.shape(3) != 3)
     gonio::refuse({"values has shape ", shape_of(array), ": expected (theta_h, theta_d, phi_d, 3)"});
   const auto extent = [&](int axis) { return static_cast<int>(std::min<py::ssize_t>(array.shape(axis), 1 << 30)); };
-  gonio::brdf_table table(gonio::valid_cells(gonio::grid({extent(0), extent(1), extent(2)})));
+  const gonio::grid cells({extent(0), extent(1), extent(2)}, anchor_of(anchor));
+  gonio::brdf_table table(gonio::valid_cells(cells, minimum_cosine));
   const float* from = array.data();
   for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -62,6 +78,17 @@ py::array_t<double> angles_of_cells(const gonio::brdf_table& table) {
   return angles;
 }
 
+/// Cells below the horizon continue those above, as a look-up reads them.
+py::array_t<float> filled_array(const gonio::brdf_table& table) {
+  const gonio::valid_cells& cells = table.cells();
+  const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
+  py::array_t<float> array(extents{theta_h, theta_d, phi_d, 3});
+  float* to = array.mutable_data();
+  for (Eigen::Index linear = 0; linear < cells.grid().size(); ++linear)
+    to = std::copy_n(table.values().data() + 3 * cells.representative(linear), 3, to);
+  return array;
+}
+
 void add_table_class(py::module_& m) {
   py::class_<gonio::brdf_table> table(
       m, "Table",
@@ -69,8 +96,12 @@ void add_table_class(py::module_& m) {
       "Only cells with both directions above the horizon are kept. Values are as measured and may be negative.");
   table.def(py::init([] { return gonio::brdf_table(gonio::valid_cells()); }),
             "A table of zeros over the 90 x 90 x 180 cells of a MERL file.");
-  table.def(py::init(&table_from_dense), py::arg("values"),
-            "From an array of shape (theta_h, theta_d, phi_d, 3). Cells below the horizon are not looked at.");
+  table.def(
+      py::init(&table_from_dense), py::arg("values"), py::kw_only(), py::arg("anchor") = "centre",
+      py::arg("minimum_cosine") = 0.0,
+      "From an array of shape (theta_h, theta_d, phi_d, 3), sr^-1. anchor: where in its cell each value was taken,\n"
+      "'centre' or 'lower_corner'. minimum_cosine: cells at which that of a direction is not larger are not looked\n"
+      "at, nor are those below the horizon.");
   table.def_property_readonly("values", &values_of,
                               "The table's own memory as an array of float32, shape (cells, 3): what is written there\n"
                               "is in the table.");
@@ -82,12 +113,22 @@ void add_table_class(py::module_& m) {
         return py::make_tuple(theta_h, theta_d, phi_d);
       },
       "Cells of the grid along theta_h, theta_d and phi_d, those below the horizon included.");
+  table.def_property_readonly(
+      "anchor", [](const gonio::brdf_table& t) { return word_of(t.cells().grid().anchor()); },
+      "Where in its cell each value was taken: 'centre' or 'lower_corner', of a file as its cells without a value "
+      "tell.");
+  table.def_property_readonly(
+      "minimum_cosine", [](const gonio::brdf_table& t) { return t.cells().minimum_cosine(); },
+      "There are values where both cosines are larger; 0 down to the horizon.");
   table.def("directions", &directions_of_cells,
             "The directions at which the values were taken: shape (cells, 6), wi and wo.");
   table.def("angles", &angles_of_cells, "The same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
   table.def(
-      "dense", [](const gonio::brdf_table& t) { return array_of(gonio::dense_tensor(t)); },
-      "A copy of shape (theta_h, theta_d, phi_d, 3), NaN below the horizon.");
+      "dense",
+      [](const gonio::brdf_table& t, bool fill) { return fill ? filled_array(t) : array_of(gonio::dense_tensor(t)); },
+      py::arg("fill") = false,
+      "A copy of shape (theta_h, theta_d, phi_d, 3). Cells below the horizon are NaN or, with fill, continue those\n"
+      "above as a look-up reads them.");
   table.def("copy", [](const gonio::brdf_table& t) { return t; });
   add_brdf_methods(m, table);
 }
