@@ -54,15 +54,27 @@ gonio::sample_set samples_from_arrays(const py::object& directions, const py::ob
   return samples;
 }
 
-gonio::sample_set chosen(const gonio::sample_set& samples, const std::vector<py::ssize_t>& rows) {
-  const auto count = static_cast<py::ssize_t>(samples.size());
+gonio::sample_set chosen(const gonio::sample_set& samples, const py::object& rows) {
   gonio::sample_set some;
-  for (const py::ssize_t row : rows) {
-    if (row < 0 || row >= count)
-      gonio::refuse({"there is no sample in row ", row, ": expected rows from 0 to ", count - 1});
+  for (const py::ssize_t row : rows_of(rows, static_cast<py::ssize_t>(samples.size())))
     some.push_back(samples[static_cast<std::size_t>(row)]);
-  }
   return some;
+}
+
+/// A single number chooses one sample; IndexError behind the last one ends a loop over all.
+gonio::sample_set indexed(const gonio::sample_set& samples, const py::object& index) {
+  if (py::isinstance<py::ellipsis>(index)) return samples;
+  if (py::isinstance<py::tuple>(index))
+    gonio::refuse("samples have one axis: expected a whole number, a slice or an array");
+  if (PyIndex_Check(index.ptr()) == 0 || py::isinstance<py::array>(index) || py::isinstance<py::bool_>(index))
+    return chosen(samples, index);
+  const auto count = static_cast<py::ssize_t>(samples.size());
+  const py::ssize_t row = PyNumber_AsSsize_t(index.ptr(), PyExc_IndexError);
+  if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+  if (row < -count || row >= count)
+    throw py::index_error(
+        gonio::message_of({"there is no sample in row ", row, ": expected rows from ", -count, " to ", count - 1}));
+  return {samples[static_cast<std::size_t>(row < 0 ? row + count : row)]};
 }
 
 constexpr py::ssize_t from_sample_to_sample = sizeof(gonio::sample), from_number_to_number = sizeof(double);
@@ -125,7 +137,13 @@ void add_samples(py::module_& m) {
       "phi_d in radians. values: (n, 3), or (n,) for grey. weights: (n, 3), (n,) or none. The samples keep copies.");
   type.def("__len__", [](const gonio::sample_set& samples) { return samples.size(); });
   add_columns(type);
-  type.def("subset", &chosen, py::arg("rows"), "Copies of some of the samples, in the order of their rows.");
+  type.def(
+      "subset", &chosen, py::arg("rows"),
+      "Copies of some of the samples. rows: a mask of shape (n,) of True and False, a slice, or numbers of samples in\n"
+      "the order in which they are wanted; negative ones count from the end. Raises Error for rows that are not "
+      "there.");
+  type.def("__getitem__", &indexed, py::arg("index"),
+           "The same by an index; of a single number samples with one row. Raises IndexError if it is not there.");
   m.def(
       "read_samples", &read_samples, py::arg("path"), py::arg("quantity") = py::none(),
       py::arg("columns") = std::map<std::string, std::string>(), py::call_guard<py::gil_scoped_release>(),
