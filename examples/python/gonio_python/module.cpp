@@ -35,6 +35,7 @@ PYBIND11_MODULE(_gonio, m) {
   auto error = pybind11::register_exception<gonio::error>(m, "Error", PyExc_ValueError);
   error.attr("__module__") = "gonio";
   error.doc() = "Bad input. The message is one sentence: what is wrong, where, and what was expected.";
+  python::add_cells(m);
   python::add_tables(m);
   python::add_samples(m);
   python::add_estimators(m);

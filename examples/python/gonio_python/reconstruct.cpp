@@ -1,6 +1,7 @@
 /// What `gonio reconstruct` does, by the same code: methods by name, with the tool's defaults.
 
 #include "arrays.hpp"
+#include "copies.hpp"
 #include "json_to_python.hpp"
 #include "subjects.hpp"
 #include "tool/options/reconstruct_choice.hpp"
@@ -131,6 +132,16 @@ void add_reconstruct(py::module_& m) {
   type.def_readonly("details", &reconstructed::details, "What the tool prints with --json.");
   type.def_readonly("sentence", &reconstructed::sentence, "The same for people.");
   type.def_readonly("warnings", &reconstructed::warnings, "What Python's warnings have been told, too.");
+
+  type.def("__repr__", [](const reconstructed& r) { return "<gonio.Reconstruction: " + r.sentence + '>'; });
+  add_copies(
+      type,
+      [](const reconstructed& r) { return py::make_tuple(r.table, r.uncertainty, r.details, r.sentence, r.warnings); },
+      [](const py::tuple& state) {
+        require_state(state, 5);
+        return reconstructed{state[0].cast<gonio::brdf_table>(), state[1].cast<std::optional<gonio::brdf_table>>(),
+                             state[2], state[3].cast<std::string>(), state[4].cast<std::vector<std::string>>()};
+      });
 
   const auto nothing = py::none();
   m.def("reconstruct", &reconstruct_from, py::arg("samples"), py::arg("method") = cli::reconstruct_options{}.method,

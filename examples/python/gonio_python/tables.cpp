@@ -1,6 +1,8 @@
 /// Tables of BRDFs: views of their memory, and their files.
 
 #include "brdf_methods.hpp"
+#include "cells.hpp"
+#include "copies.hpp"
 #include "subjects.hpp"
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/rgl.hpp>
@@ -8,36 +10,24 @@
 #include <gonio/table/tensor_view.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace python {
 
 namespace {
 
-constexpr std::array<const char*, 2> anchor_words{"centre", "lower_corner"};  // in the order of gonio::cell_anchor
-
-const char* word_of(gonio::cell_anchor anchor) { return anchor_words[static_cast<std::size_t>(anchor)]; }
-
-gonio::cell_anchor anchor_of(const std::string& word) {
-  for (const auto anchor : {gonio::cell_anchor::centre, gonio::cell_anchor::lower_corner})
-    if (word == word_of(anchor)) return anchor;
-  gonio::refuse({"anchor is '", word, "': expected 'centre' or 'lower_corner'"});
-}
-
 /// Cells below the horizon, or below `minimum_cosine`, are not looked at.
 gonio::brdf_table table_from_dense(const py::object& given, const std::string& anchor, double minimum_cosine) {
-  if (!(minimum_cosine >= 0.0 && minimum_cosine < 1.0))
-    gonio::refuse({"minimum_cosine is ", std::string(py::str(py::float_(minimum_cosine))),
-                   ": expected at least 0 and less than 1"});
   const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(given);
   if (!array) gonio::refuse("values is no array of numbers");
   if (array.ndim() != 4 || array.shape(3) != 3)
     gonio::refuse({"values has shape ", shape_of(array), ": expected (theta_h, theta_d, phi_d, 3)"});
   const auto extent = [&](int axis) { return static_cast<int>(std::min<py::ssize_t>(array.shape(axis), 1 << 30)); };
-  const gonio::grid cells({extent(0), extent(1), extent(2)}, anchor_of(anchor));
-  gonio::brdf_table table(gonio::valid_cells(cells, minimum_cosine));
+  gonio::brdf_table table(cells_of({extent(0), extent(1), extent(2)}, anchor, minimum_cosine));
   const float* from = array.data();
   for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -58,26 +48,6 @@ py::array_t<float> values_of(const py::object& self) {
   return view_of(table.values().data(), {table.cells().size(), 3}, {3 * step, step}, self);
 }
 
-py::array_t<double> directions_of_cells(const gonio::brdf_table& table) {
-  std::vector<gonio::direction_pair> pairs;
-  pairs.reserve(static_cast<std::size_t>(table.cells().size()));
-  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
-    pairs.push_back(gonio::to_directions(table.cells().angles(cell)));
-  return array_of(pairs);
-}
-
-py::array_t<double> angles_of_cells(const gonio::brdf_table& table) {
-  py::array_t<double> angles({table.cells().size(), Eigen::Index{3}});
-  double* to = angles.mutable_data();
-  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell) {
-    const auto [theta_h, theta_d, phi_d] = table.cells().angles(cell);
-    *to++ = theta_h;
-    *to++ = theta_d;
-    *to++ = phi_d;
-  }
-  return angles;
-}
-
 /// Cells below the horizon continue those above, as a look-up reads them.
 py::array_t<float> filled_array(const gonio::brdf_table& table) {
   const gonio::valid_cells& cells = table.cells();
@@ -87,6 +57,26 @@ py::array_t<float> filled_array(const gonio::brdf_table& table) {
   for (Eigen::Index linear = 0; linear < cells.grid().size(); ++linear)
     to = std::copy_n(table.values().data() + 3 * cells.representative(linear), 3, to);
   return array;
+}
+
+py::array_t<float> dense_array(const gonio::brdf_table& table) { return array_of(gonio::dense_tensor(table)); }
+
+/// What numpy asks for.
+py::object as_array(const gonio::brdf_table& table, const py::object& dtype, const py::object& copy) {
+  if (!copy.is_none() && !copy.cast<bool>()) gonio::refuse("a table as an array is a copy: copy=False cannot be had");
+  const py::array_t<float> array = dense_array(table);
+  return dtype.is_none() ? py::object(array) : array.attr("astype")(dtype);
+}
+
+py::tuple state_of_table(const gonio::brdf_table& table) {
+  return py::make_tuple(state_of(table.cells()), array_of_numbers(table.values()));
+}
+
+gonio::brdf_table table_of_state(const py::tuple& state) {
+  require_state(state, 2);
+  auto table = gonio::brdf_table::uninitialised(cells_of_state(state[0].cast<py::tuple>()));
+  copy_numbers(state[1], table.values().data(), std::ssize(table.values()));
+  return table;
 }
 
 void add_table_class(py::module_& m) {
@@ -106,12 +96,9 @@ void add_table_class(py::module_& m) {
                               "The table's own memory as an array of float32, shape (cells, 3): what is written there\n"
                               "is in the table.");
   table.def("__len__", [](const gonio::brdf_table& t) { return t.cells().size(); });
+  table.def_property_readonly("cells", &gonio::brdf_table::cells, "Where the values were taken.");
   table.def_property_readonly(
-      "shape",
-      [](const gonio::brdf_table& t) {
-        const auto [theta_h, theta_d, phi_d] = t.cells().grid().extents();
-        return py::make_tuple(theta_h, theta_d, phi_d);
-      },
+      "shape", [](const py::object& self) { return py::object(self.attr("cells").attr("shape")); },
       "Cells of the grid along theta_h, theta_d and phi_d, those below the horizon included.");
   table.def_property_readonly(
       "anchor", [](const gonio::brdf_table& t) { return word_of(t.cells().grid().anchor()); },
@@ -120,17 +107,42 @@ void add_table_class(py::module_& m) {
   table.def_property_readonly(
       "minimum_cosine", [](const gonio::brdf_table& t) { return t.cells().minimum_cosine(); },
       "There are values where both cosines are larger; 0 down to the horizon.");
-  table.def("directions", &directions_of_cells,
-            "The directions at which the values were taken: shape (cells, 6), wi and wo.");
-  table.def("angles", &angles_of_cells, "The same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
+  table.def(
+      "directions", [](const gonio::brdf_table& t) { return directions_of(t.cells()); },
+      "The directions at which the values were taken: shape (cells, 6), wi and wo.");
+  table.def(
+      "angles", [](const gonio::brdf_table& t) { return angles_of(t.cells()); },
+      "The same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
   table.def(
       "dense",
       [](const gonio::brdf_table& t, bool fill) { return fill ? filled_array(t) : array_of(gonio::dense_tensor(t)); },
       py::arg("fill") = false,
       "A copy of shape (theta_h, theta_d, phi_d, 3). Cells below the horizon are NaN or, with fill, continue those\n"
       "above as a look-up reads them.");
+  table.def("__array__", &as_array, py::arg("dtype") = py::none(), py::arg("copy") = py::none(),
+            "numpy.asarray(table) is table.dense().");
+  table.def(
+      "__getitem__",
+      [](const gonio::brdf_table& t, const py::object& index) { return dense_array(t).attr("__getitem__")(index); },
+      py::arg("index"),
+      "As of numpy.asarray(table), which is made for it: table[theta_h, theta_d, phi_d] is red, green and blue. Make\n"
+      "the array once for many of these.");
   table.def("copy", [](const gonio::brdf_table& t) { return t; });
+  table.def("__repr__", [](const gonio::brdf_table& t) { return "<gonio.Table: " + sentence_of(t.cells()) + '>'; });
+  add_copies(table, &state_of_table, &table_of_state);
   add_brdf_methods(m, table);
+}
+
+/// The bytes of a file.
+py::tuple state_of_adaptive(const gonio::model::adaptive_brdf& material) {
+  const std::vector<std::byte> bytes = gonio::io::write_rgl(gonio::io::rgl_material{material, "", {}});
+  return py::make_tuple(py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+gonio::model::adaptive_brdf adaptive_of_state(const py::tuple& state) {
+  require_state(state, 1);
+  const auto text = state[0].cast<std::string>();
+  return gonio::io::read_rgl(std::as_bytes(std::span(text)), "a pickle").material;
 }
 
 }  // namespace
@@ -141,6 +153,8 @@ void add_tables(py::module_& m) {
       m, "AdaptiveBrdf",
       "A material of the RGL database: values over a parameterisation that follows its highlight (Dupuy and Jakob\n"
       "2018). The mean of both orders of the directions, as measurements are not reciprocal.");
+  adaptive.def("__repr__", [](const gonio::model::adaptive_brdf&) { return "<gonio.AdaptiveBrdf>"; });
+  add_copies(adaptive, &state_of_adaptive, &adaptive_of_state);
   add_brdf_methods(m, adaptive);
   m.def(
       "read_merl", [](const std::filesystem::path& path) { return gonio::io::read_merl_any(path); }, py::arg("path"),
