@@ -133,6 +133,9 @@ void add_reconstruct(py::module_& m) {
   type.def_readonly("sentence", &reconstructed::sentence, "The same for people.");
   type.def_readonly("warnings", &reconstructed::warnings, "What Python's warnings have been told, too.");
 
+  type.def(
+      "_repr_html_", [](const py::object& self) { return sphere_as_html(self.attr("table"), self); },
+      "For notebooks: a small sphere, and what repr says.");
   type.def("__repr__", [](const reconstructed& r) { return "<gonio.Reconstruction: " + r.sentence + '>'; });
   add_copies(
       type,

@@ -86,6 +86,8 @@ void add_table_class(py::module_& m) {
       "Only cells with both directions above the horizon are kept. Values are as measured and may be negative.");
   table.def(py::init([] { return gonio::brdf_table(gonio::valid_cells()); }),
             "A table of zeros over the 90 x 90 x 180 cells of a MERL file.");
+  table.def(py::init([](const gonio::valid_cells& cells) { return gonio::brdf_table(cells); }), py::arg("cells"),
+            "A table of zeros over some cells.");
   table.def(
       py::init(&table_from_dense), py::arg("values"), py::kw_only(), py::arg("anchor") = "centre",
       py::arg("minimum_cosine") = 0.0,
@@ -146,6 +148,12 @@ gonio::model::adaptive_brdf adaptive_of_state(const py::tuple& state) {
 }
 
 }  // namespace
+
+void write_rgl(const std::filesystem::path& path, const gonio::model::adaptive_brdf& f) {
+  gonio::io::write_rgl(path, f);
+}
+
+void write_rgl(const std::filesystem::path& path, const brdf_by_pointer& f) { gonio::io::write_rgl(path, f); }
 
 void add_tables(py::module_& m) {
   add_table_class(m);
