@@ -80,7 +80,7 @@ class StubTest(unittest.TestCase):
             # pybind11's own, from 2.12 on: _pybind11_conduit_v1_.
             of_others = ("__", "_pybind11_")
             actual = {n: m for n, m in vars(getattr(gonio, name)).items() if not n.startswith(of_others)}
-            actual.update({n: m for n, m in vars(getattr(gonio, name)).items() if n in ("__call__", "__len__", "__getitem__", "__array__")})
+            actual.update({n: m for n, m in vars(getattr(gonio, name)).items() if n in ("__call__", "__len__", "__getitem__", "__iter__", "__array__")})
             declared = self.members_of(name)
             self.assertEqual(set(declared) - {"__init__"}, set(actual), name)
             for member, value in actual.items():

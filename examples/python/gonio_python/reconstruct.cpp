@@ -5,6 +5,7 @@
 #include "json_to_python.hpp"
 #include "subjects.hpp"
 #include "tool/options/reconstruct_choice.hpp"
+#include "words.hpp"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -14,6 +15,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace python {
 
@@ -35,7 +37,7 @@ class given_options {
   void take(const char* name, Option& option, const std::optional<Value>& value, double lowest,
             double highest = std::numeric_limits<double>::max()) {
     if (value && !(static_cast<double>(*value) >= lowest && static_cast<double>(*value) <= highest))
-      gonio::refuse({name, " is ", std::string(py::str(py::cast(*value))), ": expected ", bounds(lowest, highest)});
+      gonio::refuse({in_python(name), std::string(py::str(py::cast(*value))), ": expected ", bounds(lowest, highest)});
     take(name, option, value);
   }
   void take_flag(const char* name, bool& option, bool value) {
@@ -62,6 +64,17 @@ std::optional<std::string> eta_text(const py::object& eta) {
   return std::string(py::repr(py::float_(eta)));
 }
 
+/// A file or what was read of one.
+using given_prior = std::optional<std::variant<std::filesystem::path, gonio::log_relative_pca>>;
+
+void take_prior(const given_prior& prior, cli::material_source& materials, given_options& given) {
+  if (!prior) return;
+  if (const auto* held = std::get_if<gonio::log_relative_pca>(&*prior))
+    given.take("--prior", materials.held_prior, std::optional(*held));
+  else
+    given.take("--prior", materials.prior, std::optional(std::get<std::filesystem::path>(*prior)));
+}
+
 struct reconstructed {
   gonio::brdf_table table;
   std::optional<gonio::brdf_table> uncertainty;
@@ -70,9 +83,9 @@ struct reconstructed {
   std::vector<std::string> warnings;
 };
 
-reconstructed reconstruct_from(const gonio::sample_set& samples, const std::string& method,
-                               const std::optional<std::filesystem::path>& prior, const std::optional<paths>& networks,
-                               const std::optional<paths>& merl, const std::optional<std::vector<std::string>>& exclude,
+reconstructed reconstruct_from(const gonio::sample_set& samples, const std::string& method, const given_prior& prior,
+                               const std::optional<paths>& networks, const std::optional<paths>& merl,
+                               const std::optional<std::vector<std::string>>& exclude,
                                const std::optional<std::string>& metric, std::optional<double> root,
                                const std::optional<std::string>& solver, const py::object& eta,
                                std::optional<double> lambda_share, std::optional<double> variance,
@@ -85,8 +98,8 @@ reconstructed reconstruct_from(const gonio::sample_set& samples, const std::stri
   given_options given;
   options.method = method;
   options.threads.value = threads;
-  options.materials.prior = prior_file(prior);
-  given.take("--prior", options.materials.prior, prior);
+  options.materials.prior = prior_file({});
+  take_prior(prior, options.materials, given);
   given.take("--networks", options.materials.networks, networks);
   given.take("--merl", options.materials.tables, merl);
   given.take("--exclude", options.materials.exclude, exclude);
@@ -113,6 +126,7 @@ reconstructed reconstruct_from(const gonio::sample_set& samples, const std::stri
     const py::gil_scoped_release released;
     found.emplace(cli::reconstruct(options, samples));
   }
+  for (std::string& sentence : found->warnings) sentence = in_python(sentence);
   warn(found->warnings);
   return {std::move(found->table), std::move(found->uncertainty), to_python(found->details), found->sentence,
           found->warnings};
@@ -158,7 +172,8 @@ void add_reconstruct(py::module_& m) {
         "Completes a BRDF from samples as `gonio reconstruct` does. method: pca, soft-specular, linear, correction, "
         "rbf,\n"
         "pull-push or scattered. The other arguments are the tool's options (docs/reference/tool.md); None is its\n"
-        "default. A method refuses what it would ignore.");
+        "default, which of prior is the one that ships with the package. prior: a Prior, or the path of one. A method\n"
+        "refuses what it would ignore.");
 }
 
 }  // namespace python

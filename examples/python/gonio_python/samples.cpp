@@ -189,6 +189,9 @@ void add_samples(py::module_& m) {
       "Copies of some of the samples. rows: a mask of shape (n,) of True and False, a slice, or numbers of samples in\n"
       "the order in which they are wanted; negative ones count from the end. Raises Error for rows that are not "
       "there.");
+  type.def(
+      "__iter__", [](const py::object& self) { return py::reinterpret_steal<py::iterator>(PySeqIter_New(self.ptr())); },
+      "Each sample as samples with one row.");
   type.def("__getitem__", &indexed, py::arg("index"),
            "The same by an index; of a single number samples with one row. Raises IndexError if it is not there.");
   m.def(

@@ -1,7 +1,7 @@
 """What the compiled module has, for type checkers; tests/python/test_stub.py compares the two."""
 
 import os
-from typing import Any, Mapping, Optional, Sequence, Tuple, TypedDict, Union, overload
+from typing import Any, Iterator, Mapping, Optional, Sequence, Tuple, TypedDict, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -83,6 +83,7 @@ class Samples:
     def weights(self) -> _Doubles: ...
     def subset(self, rows: _Rows) -> Samples: ...
     def __getitem__(self, index: _Rows) -> Samples: ...
+    def __iter__(self) -> Iterator[Samples]: ...
 
 def read_samples(path: _Path, quantity: Optional[str] = None, columns: Mapping[str, str] = {}) -> Samples: ...
 def write_samples(path: _Path, samples: Samples) -> None: ...
@@ -179,7 +180,7 @@ def reconstruct(
     samples: Samples,
     method: str = "pca",
     *,
-    prior: Optional[_Path] = None,
+    prior: Union[None, Prior, _Path] = None,
     networks: Optional[Sequence[_Path]] = None,
     merl: Optional[Sequence[_Path]] = None,
     exclude: Optional[Sequence[str]] = None,
