@@ -92,6 +92,15 @@ class AnchorTest(unittest.TestCase):
             again = gonio.Table(table.dense(), anchor=table.anchor, minimum_cosine=table.minimum_cosine)
             np.testing.assert_array_equal(again.values, table.values)
 
+    def test_an_array_in_a_file_has_values_at_centres(self):
+        wi, wo = random_pairs(5000, smallest_cosine=0.1)
+        table = table_of_formula("gold-metal", "lower_corner", shape=(90, 90, 180))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "table.npy"
+            gonio.write_npy(path, table)
+            stored = gonio.Table(np.load(path))
+        self.assertLess(np.median(np.abs(stored(wi, wo) / table(wi, wo) - 1)), 3e-3)
+
     def test_filled(self):
         table = table_of_formula("gold-metal", "lower_corner")
         dense, filled = table.dense(), table.dense(fill=True)

@@ -171,10 +171,11 @@ void add_tables(py::module_& m) {
       "read_rgl",
       [](const std::filesystem::path& path) { return gonio::io::colours_of(gonio::io::read_rgl(path), path); },
       py::arg("path"), py::call_guard<py::gil_scoped_release>(), "Reads a material of the RGL database (.bsdf).");
-  m.def("write_npy", &gonio::io::write_table_npy, py::arg("path"), py::arg("table"),
-        py::call_guard<py::gil_scoped_release>(),
-        "Writes a table as numpy's own file: float32, shape (theta_h, theta_d, phi_d, 3), cells below the horizon\n"
-        "filled with the value above.");
+  m.def(
+      "write_npy", &gonio::io::write_table_npy, py::arg("path"), py::arg("table"),
+      py::call_guard<py::gil_scoped_release>(),
+      "Writes a table as numpy's own file: float32, shape (theta_h, theta_d, phi_d, 3), values at the cells' centres,\n"
+      "cells below the horizon filled with the value above.");
 }
 
 }  // namespace python
