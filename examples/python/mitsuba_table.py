@@ -18,12 +18,8 @@ import gonio
 SPECULAR_SHARE = 0.5
 
 
-def filled(table):
-    """The table along theta_h, theta_d and phi_d; below the horizon as at the next smaller theta_h above it."""
-    dense = table.dense()
-    place = np.arange(dense.shape[0])[:, None, None]
-    above = np.maximum.accumulate(np.where(np.isfinite(dense[..., 0]), place, 0), axis=0)
-    return np.maximum(np.take_along_axis(dense, above[..., None], axis=0), 0)
+# From the beginning of an axis to its first value, in cells.
+FIRST_VALUE = {"centre": 0.5, "lower_corner": 0.0}
 
 
 def highlight_roughness(table):
@@ -45,8 +41,8 @@ class GonioTable(mi.BSDF):
         if not mi.is_rgb:
             raise gonio.Error("gonio_table needs an RGB variant of Mitsuba, not " + mi.variant())
         table = gonio.read_merl(props["filename"])
-        self.extents = table.shape
-        self.values = mi.Float(filled(table).ravel())  # uploaded once
+        self.extents, self.first_value = table.shape, FIRST_VALUE[table.anchor]
+        self.values = mi.Float(np.maximum(table.dense(fill=True), 0).ravel())  # uploaded once
         self.alpha = highlight_roughness(table)
         self.m_flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide
         self.m_components = [self.m_flags]
@@ -54,7 +50,7 @@ class GonioTable(mi.BSDF):
     # ---- the table --------------------------------------------------------------------------------------------------
 
     def coordinates(self, wi, wo):
-        """Where a pair is on the grid: along theta_h, theta_d and phi_d, in cells."""
+        """Where a pair is on the grid: along theta_h, theta_d and phi_d, in cells from the first value."""
         along_half, difference = wi + wo, wi - wo
         length = dr.norm(along_half)
         half = along_half * dr.rcp(dr.maximum(length, 1e-20))
@@ -67,12 +63,8 @@ class GonioTable(mi.BSDF):
         theta_h, theta_d = dr.atan2(sine, half.z), dr.atan2(dr.norm(difference), length)
         phi_d = dr.atan2(y, x) / dr.pi
         phi_d -= dr.floor(phi_d)
-        counts = self.extents
-        return (
-            dr.sqrt(theta_h * (2 / dr.pi)) * counts[0] - 0.5,
-            theta_d * (2 / dr.pi) * counts[1] - 0.5,
-            phi_d * counts[2] - 0.5,
-        )
+        shares = dr.sqrt(theta_h * (2 / dr.pi)), theta_d * (2 / dr.pi), phi_d
+        return tuple(share * extent - self.first_value for share, extent in zip(shares, self.extents))
 
     def reflectance(self, wi, wo, active):
         """Between the eight values around: theta_h and theta_d end at the border, phi_d begins again."""

@@ -15,6 +15,7 @@
 #include <gonio/table/spectral_table.hpp>
 #include <gonio/table/stored_codes.hpp>
 #include <gonio/table/surface_image.hpp>
+#include <gonio/table/table_convention.hpp>
 #include <gonio/table/tensor_view.hpp>
 #include <gonio/table/upsample.hpp>
 #include <gonio/table/valid_cells.hpp>

@@ -7,11 +7,11 @@
 
 using gonio::cell_anchor;
 using gonio::grid_extents;
-using gonio::io::infer_convention;
+using gonio::infer_convention;
+using gonio::table_convention;
 using gonio::io::merl_options;
 using gonio::io::read_merl;
 using gonio::io::read_merl_any;
-using gonio::io::table_convention;
 using gonio::io::write_merl;
 using scratch::check_refused;
 

@@ -55,6 +55,17 @@ TEST_CASE("an array is read as the table that it was written of") {
   scratch::check_refused([&] { return parse(folder / "wrong.npy"); }, {"wrong.npy", "cell 0", "not finite"});
 }
 
+TEST_CASE("an array has the values of a table by lower corners at the cells' centres") {
+  const scratch::folder folder;
+  const gonio::grid corner({16, 12, 24}, gonio::cell_anchor::lower_corner), centre(corner.extents());
+  gonio::brdf_table table{gonio::valid_cells(corner)};
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
+    table.set(cell, gonio::rgb::Constant(1.0 + table.cells().angles(cell).theta_d));
+  gonio::io::write_table_npy(folder / "t.npy", table);
+  const auto array = read_npy<float, 4>(folder / "t.npy");
+  for (int d = 0; d + 1 < 12; ++d) CHECK(array(0, d, 0, 1) == doctest::Approx(1.0 + centre.theta_d(d)).epsilon(1e-6));
+}
+
 TEST_CASE("a table as half floats takes half the room, and each value 11 bits") {
   const scratch::folder folder;
   gonio::brdf_table table(gonio::valid_cells(gonio::grid({8, 5, 6})));

@@ -194,6 +194,25 @@ class ReconstructTest(unittest.TestCase):
                 printed.pop("samples")
                 self.assertEqual(ours.details, printed)
 
+    def test_a_prior_that_was_read(self):
+        prior, copied = gonio.read_prior(), self.samples.subset(slice(12))
+        for arguments in ({}, {"eta": 3.0}, {"method": "rbf", "metric": "log-relative"},
+                          {"method": "linear", "exclude": prior.names[:3]}):
+            with self.subTest(arguments=arguments), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                by_file = gonio.reconstruct(copied, prior=PRIOR, **arguments)
+                held = gonio.reconstruct(copied, prior=prior, **arguments)
+                np.testing.assert_array_equal(held.table.values, by_file.table.values)
+                self.assertEqual(held.sentence, by_file.sentence)
+
+    def test_a_prior_is_not_ignored(self):
+        with self.assertRaisesRegex(gonio.Error, "prior= needs method='pca' or soft-specular or"):
+            gonio.reconstruct(self.samples, "scattered", prior=gonio.read_prior())
+
+    def test_warnings_name_pythons_arguments(self):
+        with self.assertWarnsRegex(UserWarning, "method='correction' needs at least .* samples.*method='pca' was taken"):
+            gonio.reconstruct(self.samples, "correction")
+
     def test_uncertainty_if_asked_for(self):
         self.assertIsNone(gonio.reconstruct(self.samples).uncertainty)
         known = gonio.reconstruct(self.samples, uncertainty=True).uncertainty
@@ -216,12 +235,22 @@ class ReconstructTest(unittest.TestCase):
     def test_refusals(self):
         for arguments, sentence in [
             ({"method": "magic"}, "there is no method 'magic': expected one of pca, "),
-            ({"method": "scattered", "noise": 0.1}, "--noise needs --method pca, not --method scattered"),
-            ({"noise": -1.0}, "--noise is -1.0: expected at least 0"),
-            ({"discrepancy": 11.0}, "--discrepancy is 11.0: expected 0 to 10"),
-            ({"noise": float("nan")}, "--noise is nan: expected at least 0"),
-            ({"eta": "many"}, "--eta needs a positive number, gcv or loo, not 'many'"),
-            ({"solver": "nnls"}, "--solver nnls finds weights of at least 0"),
+            ({"method": "scattered", "noise": 0.1}, "noise= needs method='pca', not method='scattered'"),
+            ({"noise": -1.0}, "noise=-1.0: expected at least 0"),
+            ({"discrepancy": 11.0}, "discrepancy=11.0: expected 0 to 10"),
+            ({"noise": float("nan")}, "noise=nan: expected at least 0"),
+            ({"eta": "many"}, "eta= needs a positive number, gcv or loo, not 'many'"),
+            ({"solver": "nnls"}, "solver='nnls' finds weights of at least 0"),
+            ({"noise": 0.1, "eta": 2.0}, "noise= and eta= both set the penalty: give one of them"),
+            ({"misplaced_degrees": 1.0, "solver": "lasso"},
+             "misplaced_degrees= needs solver='tikhonov', and noise= or a number as its eta="),
+            ({"reject": False, "eta": 2.0, "uncertainty": True},
+             "reject=False, --residuals, --report, uncertainty=True and --uncertainty-image need a discrepancy"),
+            ({"as_printed": True}, "as_printed=True needs method='correction', not method='pca'"),
+            ({"lambda_share": 0.1, "method": "rbf"}, "lambda_share= needs method='pca' or linear"),
+            ({"method": "soft-specular", "prior": gonio.read_prior()},
+             "method='soft-specular' needs the file of a prior= that gonio learn --split wrote"),
+            ({"prior": "nowhere--seed.prior"}, "nowhere--seed.prior"),
         ]:
             with self.subTest(arguments=arguments), self.assertRaises(gonio.Error) as raised:
                 gonio.reconstruct(self.samples, **arguments)

@@ -62,9 +62,64 @@ class SamplesTest(unittest.TestCase):
         np.testing.assert_array_equal(again.values, samples.values)
         np.testing.assert_allclose(again.angles, samples.angles, atol=1e-12)
 
-    def test_subset(self):
+    def test_rows_are_chosen_as_numpy_does(self):
         samples = gonio.read_samples(MEASUREMENTS)
-        np.testing.assert_array_equal(samples.subset([3, 1]).values, samples.values[[3, 1]])
+        mask = np.ones(len(samples), bool)
+        mask[[3, 7]] = False
+        for rows in (
+            mask, list(mask), ~mask, np.zeros(len(samples), bool), slice(None), slice(None, None, 5), slice(-3, None),
+            slice(30, 2, -4), [3, 1], (3, 1), [3, 3], [-1, 0, -20], np.array([19, 2], np.uint8), np.arange(6)[::-2],
+            np.array([2**64 - 1], np.uint64), range(2, 9, 3), [],
+        ):
+            index = list(rows) if isinstance(rows, (tuple, range)) else rows
+            expected = samples.values[np.array(index, int) if isinstance(index, list) and not index else index]
+            with self.subTest(rows=rows):
+                np.testing.assert_array_equal(samples.subset(rows).values, expected)
+                if not isinstance(rows, tuple):
+                    np.testing.assert_array_equal(samples[rows].values, expected)
+
+    def test_all_of_a_sample_is_chosen(self):
+        samples = gonio.Samples(DIRECTIONS, [0.1, 0.2], [[1, 2, 3], [4, 5, 6]])
+        chosen = samples.subset([True, False])
+        np.testing.assert_array_equal(chosen.directions, samples.directions[:1])
+        np.testing.assert_array_equal(chosen.weights, [[1, 2, 3]])
+        chosen.values[:] = 7
+        self.assertEqual(samples.values.max(), 0.2)
+
+    def test_a_single_index(self):
+        samples = gonio.read_samples(MEASUREMENTS)
+        for row in (0, 3, -1, -20, np.int32(4), np.uint8(5)):
+            np.testing.assert_array_equal(samples[row].values, samples.values[[row]])
+        np.testing.assert_array_equal(samples[...].values, samples.values)
+        self.assertEqual([float(each.values[0, 0]) for each in samples], list(samples.values[:, 0]))
+        for row in (20, -21, 2**70):
+            with self.assertRaises(IndexError):
+                samples[row]
+
+    def test_rows_that_are_refused(self):
+        samples = gonio.read_samples(MEASUREMENTS)
+        of_type = ": expected whole numbers, True and False for each sample, or a slice"
+        for rows, sentence in [
+            (np.ones(5, bool), "rows is a mask of shape (5,): expected (20,), one value for each sample"),
+            (np.ones((20, 1), bool), "rows is a mask of shape (20, 1): expected (20,), one value for each sample"),
+            (True, "rows is a mask of shape (): expected (20,), one value for each sample"),
+            ([0, 20], "there is no sample in row 20: expected rows from -20 to 19"),
+            ([0, -21], "there is no sample in row -21: expected rows from -20 to 19"),
+            ([1.0], "rows is of type float64" + of_type),
+            (["1"], "rows is of type <U1" + of_type),
+            (None, "rows is of type object" + of_type),
+            ({1, 2}, "rows is of type object" + of_type),
+            ([[1, 2]], "rows has shape (1, 2): expected (n,)"),
+            ([[1, 2], [3]], "rows is no array of numbers"),
+        ]:
+            for choose in (samples.subset, samples.__getitem__):
+                with self.subTest(rows=rows, choose=choose.__name__), self.assertRaises(gonio.Error) as raised:
+                    choose(rows)
+                self.assertEqual(str(raised.exception), sentence)
+        with self.assertRaisesRegex(gonio.Error, r"rows has shape \(\): expected \(n,\)"):
+            samples.subset(3)
+        with self.assertRaisesRegex(gonio.Error, "samples have one axis"):
+            samples[0, 1]
 
     def test_none(self):
         with self.assertRaisesRegex(gonio.Error, "there are no samples"):

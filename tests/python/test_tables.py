@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 
 import gonio
-from surroundings import unit
+from surroundings import random_pairs, table_of_formula, unit
 
 
 class TableTest(unittest.TestCase):
@@ -57,6 +57,69 @@ class TableTest(unittest.TestCase):
             stored = np.load(path.with_suffix(".npy"))
             valid = np.isfinite(dense)
             np.testing.assert_array_equal(stored[valid], dense[valid])
+
+
+class AnchorTest(unittest.TestCase):
+    def test_a_file_keeps_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "table.binary"
+            for anchor in ("centre", "lower_corner"):
+                for minimum_cosine in (0, 0.05):
+                    table = table_of_formula("gold-metal", anchor, minimum_cosine=minimum_cosine)
+                    gonio.write_merl(path, table)
+                    again = gonio.read_merl(path)
+                    self.assertEqual(again.anchor, anchor)
+                    self.assertAlmostEqual(again.minimum_cosine, minimum_cosine, delta=0.002)
+                    np.testing.assert_array_equal(again.values, table.values)
+
+    def test_values_were_taken_there(self):
+        for anchor, first in (("centre", 0.5), ("lower_corner", 0)):
+            table = gonio.Table(np.zeros((9, 9, 18, 3)), anchor=anchor)
+            self.assertEqual(table.anchor, anchor)
+            np.testing.assert_allclose(table.angles()[0], [(first / 9) ** 2 * np.pi / 2, first / 9 * np.pi / 2,
+                                                           first / 18 * np.pi])
+
+    def test_both_kinds_of_table_are_of_the_same_material(self):
+        wi, wo = random_pairs(5000, smallest_cosine=0.1)
+        truth = gonio.formula_material("gold-metal")(wi, wo)
+        for anchor in ("centre", "lower_corner"):
+            table = table_of_formula("gold-metal", anchor, shape=(90, 90, 180))
+            self.assertLess(np.median(np.abs(table(wi, wo) / truth - 1)), 2e-3)
+
+    def test_dense_and_back(self):
+        for anchor in ("centre", "lower_corner"):
+            table = table_of_formula("gold-metal", anchor, minimum_cosine=0.02)
+            again = gonio.Table(table.dense(), anchor=table.anchor, minimum_cosine=table.minimum_cosine)
+            np.testing.assert_array_equal(again.values, table.values)
+
+    def test_an_array_in_a_file_has_values_at_centres(self):
+        wi, wo = random_pairs(5000, smallest_cosine=0.1)
+        table = table_of_formula("gold-metal", "lower_corner", shape=(90, 90, 180))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "table.npy"
+            gonio.write_npy(path, table)
+            stored = gonio.Table(np.load(path))
+        self.assertLess(np.median(np.abs(stored(wi, wo) / table(wi, wo) - 1)), 3e-3)
+
+    def test_filled(self):
+        table = table_of_formula("gold-metal", "lower_corner")
+        dense, filled = table.dense(), table.dense(fill=True)
+        known = np.isfinite(dense)
+        np.testing.assert_array_equal(filled[known], dense[known])
+        below = ~known[1:, ..., 0] & np.isfinite(filled[1:, ..., 0])
+        self.assertEqual(below.sum(), (~known[1:, ..., 0]).sum())
+        np.testing.assert_array_equal(filled[1:][below], filled[:-1][below])
+
+    def test_refusals(self):
+        values = np.zeros((9, 9, 18, 3))
+        for arguments, sentence in [
+            ({"anchor": "corner"}, "anchor is 'corner': expected 'centre' or 'lower_corner'"),
+            ({"minimum_cosine": 1}, "minimum_cosine is 1.0: expected at least 0 and less than 1"),
+            ({"minimum_cosine": np.nan}, "minimum_cosine is nan: expected at least 0 and less than 1"),
+        ]:
+            with self.subTest(sentence=sentence), self.assertRaises(gonio.Error) as raised:
+                gonio.Table(values, **arguments)
+            self.assertEqual(str(raised.exception), sentence)
 
 
 class EvaluationTest(unittest.TestCase):

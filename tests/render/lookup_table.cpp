@@ -1,5 +1,6 @@
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/render/lookup_table.hpp>
+#include <gonio/render/merl_view.hpp>
 #include <gonio/table/brdf_table.hpp>
 
 #include <doctest/doctest.h>
@@ -12,6 +13,7 @@ using gonio::direction;
 using gonio::rgb;
 using gonio::render::interpolation;
 using gonio::render::lookup_table;
+using gonio::render::merl_view;
 
 static_assert(gonio::render::table_over_cells<gonio::brdf_table>);
 
@@ -41,6 +43,17 @@ std::vector<gonio::direction_pair> some_pairs(std::size_t count) {
     if (wo.z() > 0.0) pairs.push_back({wi, wo});
   }
   return pairs;
+}
+
+/// What a MERL file of a table holds behind its header.
+std::vector<double> planes_of(const gonio::brdf_table& table) {
+  const Eigen::Index plane = table.cells().grid().size();
+  std::vector<double> planes(3 * plane, -1.0);
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
+    for (Eigen::Index channel = 0; channel < 3; ++channel)
+      planes[channel * plane + table.cells().linear(cell)] =
+          table.values()[3 * cell + channel] / gonio::merl_scale[channel];
+  return planes;
 }
 
 double relative_difference(const rgb& a, const rgb& b) { return ((a - b).abs() / b.abs().max(1e-6)).maxCoeff(); }
@@ -134,16 +147,28 @@ TEST_CASE("lookup table: half numbers are good to three digits, whatever the tab
   }
 }
 
+TEST_CASE("lookup table: planes of a MERL file say where in its cells their values were taken") {
+  const auto material = gonio::model::formula_material("gold-metal");
+  for (const auto anchor : {gonio::cell_anchor::centre, gonio::cell_anchor::lower_corner}) {
+    const gonio::grid cells(coarse.extents(), anchor);
+    const auto table = gonio::tabulate(material, gonio::valid_cells(cells));
+    const std::vector<double> planes = planes_of(table);
+    const auto copied = lookup_table<double>::from_merl(planes, coarse.extents());
+    const merl_view<interpolation::trilinear> viewed(planes, coarse.extents());
+    CHECK(copied.grid() == cells);
+    CHECK(viewed.grid() == cells);
+    for (const auto& [wi, wo] : some_pairs(500)) {
+      CHECK(relative_difference(copied(wi, wo), table(wi, wo)) < 1e-6);
+      CHECK(relative_difference(viewed(wi, wo), table(wi, wo)) < 1e-6);
+    }
+  }
+}
+
 TEST_CASE("lookup table: of a formula, and of the planes of a MERL file") {
   const auto material = gonio::model::formula_material("gold-metal");
   const auto table = gonio::tabulate(material, gonio::valid_cells(coarse));
   const auto from_formula = lookup_table<float>::tabulated(material, coarse);
-  std::vector<double> planes(3 * coarse.size(), -1.0);
-  const std::array scale{1500.0, 1500.0 / 1.15, 1500.0 / 1.66};
-  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
-    for (std::size_t channel = 0; channel < 3; ++channel)
-      planes[channel * coarse.size() + table.cells().linear(cell)] =
-          table.values()[3 * cell + channel] * scale[channel];
+  std::vector<double> planes = planes_of(table);
   const auto from_planes = lookup_table<float>::from_merl(planes, coarse);
   for (const auto& [wi, wo] : some_pairs(500)) {
     CHECK(relative_difference(from_formula(wi, wo), table(wi, wo)) < 1e-6);

@@ -36,6 +36,38 @@ gonio::sample_directions directions_of_angles(const double* angles, const std::s
   return gonio::half_difference{angles[0], angles[1], gonio::fold_phi_d(angles[2])};
 }
 
+std::vector<py::ssize_t> rows_of_slice(const py::slice& given, py::ssize_t count) {
+  py::ssize_t start = 0, stop = 0, step = 0, length = 0;
+  if (!given.compute(count, &start, &stop, &step, &length)) throw py::error_already_set();
+  std::vector<py::ssize_t> rows(static_cast<std::size_t>(length));
+  for (py::ssize_t i = 0; i < length; ++i) rows[static_cast<std::size_t>(i)] = start + i * step;
+  return rows;
+}
+
+std::vector<py::ssize_t> rows_of_mask(const py::array& given, py::ssize_t count) {
+  if (given.ndim() != 1 || given.shape(0) != count)
+    gonio::refuse(
+        {"rows is a mask of shape ", shape_of(given), ": expected (", count, ",), one value for each sample"});
+  const py::array_t<bool> mask(given);
+  std::vector<py::ssize_t> rows;
+  for (py::ssize_t i = 0; i < count; ++i)
+    if (mask.at(i)) rows.push_back(i);
+  return rows;
+}
+
+std::vector<py::ssize_t> rows_of_numbers(const py::array& given, py::ssize_t count) {
+  if (given.ndim() != 1) gonio::refuse({"rows has shape ", shape_of(given), ": expected (n,)"});
+  const py::array_t<py::ssize_t, py::array::forcecast> numbers(given);
+  std::vector<py::ssize_t> rows;
+  for (py::ssize_t i = 0; i < numbers.size(); ++i) {
+    const py::ssize_t row = numbers.at(i);
+    if (row < -count || row >= count)
+      gonio::refuse({"there is no sample in row ", row, ": expected rows from ", -count, " to ", count - 1});
+    rows.push_back(row < 0 ? row + count : row);
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::string shape_of(const py::array& array) { return py::str(array.attr("shape")); }
@@ -107,6 +139,18 @@ std::vector<gonio::sample_directions> sample_directions_of(const py::object& giv
                      given_as(pair.wo.z()), ")"});
   }
   return all;
+}
+
+std::vector<py::ssize_t> rows_of(const py::object& given, py::ssize_t count) {
+  if (py::isinstance<py::slice>(given)) return rows_of_slice(given.cast<py::slice>(), count);
+  const auto array = py::array::ensure(given);
+  if (!array) gonio::refuse("rows is no array of numbers");
+  const char kind = array.dtype().kind();
+  if (kind == 'b') return rows_of_mask(array, count);
+  if (kind == 'i' || kind == 'u') return rows_of_numbers(array, count);
+  if (array.ndim() == 1 && array.size() == 0) return {};  // an empty list has no whole numbers for numpy, either
+  gonio::refuse({"rows is of type ", std::string(py::str(array.dtype())),
+                 ": expected whole numbers, True and False for each sample, or a slice"});
 }
 
 py::array_t<double> array_of(const std::vector<gonio::direction_pair>& pairs) {

@@ -75,6 +75,10 @@ class direction_pairs {
 [[nodiscard]] std::vector<gonio::sample_directions> sample_directions_of(const py::object& given,
                                                                          const std::string& name);
 
+/// Which of `count` rows are chosen, as numpy understands it: by a slice, by a mask of `count` values of True and
+/// False, or by whole numbers, of which negative ones count from the end. Throws gonio::error for anything else.
+[[nodiscard]] std::vector<py::ssize_t> rows_of(const py::object& given, py::ssize_t count);
+
 /// The pairs as an array of shape (n, 6).
 [[nodiscard]] py::array_t<double> array_of(const std::vector<gonio::direction_pair>& pairs);
 

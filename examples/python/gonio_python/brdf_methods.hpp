@@ -2,20 +2,27 @@
 /// What Python's BRDFs have in common, whatever they are.
 
 #include "arrays.hpp"
+#include "subjects.hpp"
 #include <gonio/core/brdf.hpp>
 #include <gonio/io/materials/merl.hpp>
+#include <gonio/model/adaptive_brdf.hpp>
 #include <gonio/table/brdf_table.hpp>
 
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <concepts>
+#include <filesystem>
+#include <optional>
+#include <string>
 
 namespace python {
 
-/// A table over the cells of a MERL file: of a fit by the way that it knows, of anything else value by value.
+/// A table over some cells, by default those of a MERL file: of a fit by the way that it knows, of anything else value
+/// by value.
 template <gonio::brdf Brdf>
-[[nodiscard]] gonio::brdf_table table_of(const Brdf& f, gonio::thread_count threads) {
-  const gonio::valid_cells cells;
+[[nodiscard]] gonio::brdf_table table_of(const Brdf& f, gonio::thread_count threads,
+                                         const gonio::valid_cells& cells = gonio::valid_cells()) {
   if constexpr (requires {
                   { f.tabulate(cells, threads) } -> std::same_as<gonio::brdf_table>;
                 })
@@ -26,6 +33,68 @@ template <gonio::brdf Brdf>
     return f.tabulate(cells);
   else
     return gonio::tabulate(f, cells, threads);
+}
+
+/// Any BRDF behind a function pointer, for what need not be compiled for each.
+struct brdf_by_pointer {
+  const void* f;
+  gonio::rgb (*value)(const void*, const gonio::direction&, const gonio::direction&) noexcept;
+
+  [[nodiscard]] gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
+    return value(f, wi, wo);
+  }
+};
+
+template <gonio::brdf Brdf>
+[[nodiscard]] brdf_by_pointer pointer_to(const Brdf& f) noexcept {
+  return {&f, [](const void* held, const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
+            return (*static_cast<const Brdf*>(held))(wi, wo);
+          }};
+}
+
+/// A material of the RGL database; its own tables if it is one.
+void write_rgl(const std::filesystem::path& path, const gonio::model::adaptive_brdf& f);
+void write_rgl(const std::filesystem::path& path, const brdf_by_pointer& f);
+
+/// Adds files that renderers read to the module.
+template <gonio::brdf Brdf>
+void add_brdf_files(py::module_& m) {
+  m.def(
+      "write_merl",
+      [](const std::filesystem::path& path, const Brdf& f) {
+        if constexpr (std::same_as<Brdf, gonio::brdf_table>)
+          gonio::io::write_merl(path, f);
+        else
+          gonio::io::write_merl(path, table_of(f, {}));
+      },
+      py::arg("path"), py::arg("brdf"), py::call_guard<py::gil_scoped_release>(),
+      "Writes a MERL file, which renderers read. An existing file is replaced once the new one is complete.");
+  m.def(
+      "write_rgl",
+      [](const std::filesystem::path& path, const Brdf& f) {
+        if constexpr (std::same_as<Brdf, gonio::model::adaptive_brdf>)
+          write_rgl(path, f);
+        else
+          write_rgl(path, pointer_to(f));
+      },
+      py::arg("path"), py::arg("brdf"), py::call_guard<py::gil_scoped_release>(),
+      "Writes a file of the RGL database (.bsdf) in RGB, which Mitsuba's `measured` reads: values over a\n"
+      "parameterisation that follows the highlight. An existing file is replaced once the new one is complete.");
+}
+
+/// Wherever a table is taken, so is a BRDF of this class: over the cells of a MERL file.
+template <gonio::brdf Brdf>
+void add_conversion_to_table() {
+  auto table = py::reinterpret_borrow<py::class_<gonio::brdf_table>>(py::type::of<gonio::brdf_table>());
+  table.def(py::init([](const Brdf& f) {
+              if constexpr (std::same_as<Brdf, gonio::brdf_table>)
+                return f;
+              else
+                return table_of(f, {});
+            }),
+            py::prepend(), py::arg("brdf"),
+            "Of another BRDF, over the 90 x 90 x 180 cells of a MERL file; of a table a copy.");
+  if constexpr (!std::same_as<Brdf, gonio::brdf_table>) py::implicitly_convertible<Brdf, gonio::brdf_table>();
 }
 
 /// Values in sr^-1 of many pairs.
@@ -46,26 +115,24 @@ template <gonio::brdf Brdf>
   return values;
 }
 
-/// Adds the call `f(wi, wo)` and `tabulate()` to a class, and to the module `write_merl` of its objects.
+/// Adds what every BRDF has to a class, and files of its objects to the module.
 template <gonio::brdf Brdf, class... Extra>
 void add_brdf_methods(py::module_& m, py::class_<Brdf, Extra...>& type) {
   type.def("__call__", &evaluate<Brdf>, py::arg("wi"), py::arg("wo"), py::arg("threads") = 0,
            "Reflectance in sr^-1, without the cosine, for the directions to the light and to the viewer: arrays of\n"
            "shape (..., 3) of unit vectors, normal +z. The result has the same shape; it is zero below the horizon.");
   type.def(
-      "tabulate", [](const Brdf& f, unsigned threads) { return table_of(f, gonio::thread_count{threads}); },
-      py::arg("threads") = 0, py::call_guard<py::gil_scoped_release>(),
-      "A table over the 90 x 90 x 180 cells of a MERL file.");
-  m.def(
-      "write_merl",
-      [](const std::filesystem::path& path, const Brdf& f) {
-        if constexpr (std::same_as<Brdf, gonio::brdf_table>)
-          gonio::io::write_merl(path, f);
-        else
-          gonio::io::write_merl(path, table_of(f, {}));
+      "tabulate",
+      [](const Brdf& f, unsigned threads, const std::optional<gonio::valid_cells>& cells) {
+        return table_of(f, gonio::thread_count{threads}, cells ? *cells : gonio::valid_cells());
       },
-      py::arg("path"), py::arg("brdf"), py::call_guard<py::gil_scoped_release>(),
-      "Writes a MERL file, which renderers read. An existing file is replaced once the new one is complete.");
+      py::arg("threads") = 0, py::kw_only(), py::arg("cells") = py::none(), py::call_guard<py::gil_scoped_release>(),
+      "A table over cells such as another table's `cells`; by default the 90 x 90 x 180 of a MERL file.");
+  type.def(
+      "_repr_html_", [](const py::object& self) { return sphere_as_html(self, self); },
+      "For notebooks: a small sphere, and what repr says.");
+  add_brdf_files<Brdf>(m);
+  add_conversion_to_table<Brdf>();
 }
 
 }  // namespace python

@@ -1,6 +1,7 @@
 /// Where to measure.
 
 #include "arrays.hpp"
+#include "copies.hpp"
 #include "subjects.hpp"
 #include "tool/options/design_search.hpp"
 #include <gonio/core/error.hpp>
@@ -123,10 +124,32 @@ py::array_t<double> published(Eigen::Index count) {
   return array_of(pairs);
 }
 
+py::tuple state_of(const found_design& design) {
+  return py::make_tuple(array_of(design.directions), design.value, design.quality.expected_error,
+                        design.quality.unknown_share);
+}
+
+found_design design_of_state(const py::tuple& state) {
+  require_state(state, 4);
+  found_design design{{}, state[1].cast<double>(), {state[2].cast<double>(), state[3].cast<double>()}};
+  const auto rows = matrix_of<Eigen::MatrixXd>(state[0]);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Eigen::RowVectorXd row = rows.row(i);
+    design.directions.push_back({row.segment<3>(0), row.segment<3>(3)});
+  }
+  return design;
+}
+
 }  // namespace
 
 void add_design(py::module_& m) {
   py::class_<found_design> type(m, "Design", "Directions to measure, and what is expected of them.");
+  type.def("__repr__", [](const found_design& d) {
+    return "<gonio.Design: " + std::to_string(d.directions.size()) + " directions>";
+  });
+  add_copies(
+      type, [](const found_design& d) { return state_of(d); },
+      [](const py::tuple& state) { return design_of_state(state); });
   type.def_property_readonly(
       "directions", [](const found_design& d) { return array_of(d.directions); },
       "Light and viewer of each measurement, of an image its centre: shape (n, 6), wi and wo.");

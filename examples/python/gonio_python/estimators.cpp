@@ -1,6 +1,8 @@
 /// Priors, and estimators as the library has them: one fit, and how sure it is.
 
 #include "brdf_methods.hpp"
+#include "cells.hpp"
+#include "copies.hpp"
 #include "subjects.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/reconstruction.hpp>
@@ -14,8 +16,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace python {
 
@@ -23,7 +27,24 @@ namespace {
 
 using fitted_pca = gonio::fitted_brdf<gonio::log_relative_pca>;
 using estimator_type = gonio::reconstruction<gonio::log_relative>;
-using reconstructed_brdf = estimator_type::result_type;
+
+/// What makes an estimator. It is pickled by these, and its results by these and their samples, of which the same fit
+/// is made again.
+struct estimator_arguments {
+  gonio::log_relative_pca prior;
+  double variance = 0.0, noise = 0.0;
+  bool rejects = true;
+  unsigned threads = 0;
+};
+
+struct configured_estimator : estimator_type {
+  estimator_arguments arguments;
+};
+
+struct reconstructed_brdf : estimator_type::result_type {
+  estimator_arguments arguments;
+  gonio::sample_set samples;
+};
 
 /// A matrix of Eigen, column by column in memory.
 template <class Matrix>
@@ -36,11 +57,53 @@ py::array_t<typename Matrix::Scalar> matrix_view(const Matrix& matrix, const py:
 py::array_t<double> weights_of_material(const gonio::log_relative_pca& prior, const std::string& name) {
   const auto found = std::ranges::find(prior.names(), name);
   if (found == prior.names().end()) gonio::refuse("the prior has no material '" + name + "'");
-  const Eigen::MatrixXd weights = prior.weights_of(found - prior.names().begin());
-  py::array_t<double> array({weights.rows(), weights.cols()});
-  for (Eigen::Index i = 0; i < weights.rows(); ++i)
-    for (Eigen::Index c = 0; c < weights.cols(); ++c) array.mutable_at(i, c) = weights(i, c);
-  return array;
+  return copy_of(prior.weights_of(found - prior.names().begin()));
+}
+
+py::tuple state_of_prior(const gonio::log_relative_pca& prior) {
+  return py::make_tuple(state_of(prior.cells()), array_of_numbers(prior.metric().reference()),
+                        static_cast<int>(prior.metric().weighting()), prior.names(), copy_of(prior.singular_values()),
+                        copy_of(prior.components()), array_of_numbers(prior.mean()), copy_of(prior.coefficients()),
+                        prior.explained_variance(), prior.source(), array_of_numbers(prior.wavelengths()));
+}
+
+gonio::log_relative_pca prior_of_state(const py::tuple& state) {
+  require_state(state, 11);
+  const gonio::valid_cells cells = cells_of_state(state[0].cast<py::tuple>());
+  std::vector<float> reference(static_cast<std::size_t>(cells.size())), mean(reference.size());
+  copy_numbers(state[1], reference.data(), cells.size());
+  copy_numbers(state[6], mean.data(), cells.size());
+  std::vector<double> wavelengths(py::len(state[10]));
+  copy_numbers(state[10], wavelengths.data(), std::ssize(wavelengths));
+  const gonio::log_relative metric(cells, reference, static_cast<gonio::cosine_weighting>(state[2].cast<int>()));
+  return gonio::log_relative_pca({cells, metric, state[3].cast<std::vector<std::string>>(),
+                                  matrix_of<Eigen::MatrixXd>(state[4]).col(0), matrix_of<gonio::cell_matrix>(state[5]),
+                                  mean, matrix_of<Eigen::MatrixXf>(state[7]), state[8].cast<double>(),
+                                  state[9].cast<std::string>(), wavelengths});
+}
+
+/// What a cell of the prior is, for whoever evaluates one without gonio.
+void add_domain(py::class_<gonio::log_relative_pca>& prior) {
+  prior.def_property_readonly("cells", &gonio::log_relative_pca::cells,
+                              "Where components, mean and reference have their values.");
+  prior.def_property_readonly(
+      "reference",
+      [](const py::object& self) {
+        const auto reference = self.cast<gonio::log_relative_pca&>().metric().reference();
+        return read_only(reference.data(), {static_cast<py::ssize_t>(reference.size())}, {sizeof(float)}, self);
+      },
+      "The median material, sr^-1, that the metric is relative to: shape (cells,).");
+  prior.def_property_readonly(
+      "cosine_weight",
+      [](const py::object& self) {
+        const auto& f = self.cast<gonio::log_relative_pca&>();
+        py::array_t<double> weights(extents{f.cells().size()});
+        for (Eigen::Index cell = 0; cell < f.cells().size(); ++cell)
+          weights.mutable_at(cell) = f.metric().cosine_weight(gonio::cosines(f.cells().angles(cell)));
+        return weights;
+      },
+      "c of each cell, by which reflectance is weighted: shape (cells,). The mapped value of a fit's weights w is\n"
+      "y = components @ w + mean, and its reflectance (exp(y) (reference c + .001) - .001) / c in sr^-1, at least 0.");
 }
 
 void add_prior(py::module_& m) {
@@ -78,6 +141,12 @@ void add_prior(py::module_& m) {
         return read_only(values.data(), {values.size()}, {sizeof(double)}, self);
       },
       "Largest first: shape (k,).");
+  prior.def("__repr__", [](const gonio::log_relative_pca& f) {
+    return gonio::message_of(
+        {"<gonio.Prior: ", f.size(), " components of ", f.names().size(), " materials, ", sentence_of(f.cells()), ">"});
+  });
+  add_domain(prior);
+  add_copies(prior, &state_of_prior, &prior_of_state);
   prior.def("weights_of", &weights_of_material, py::arg("name"),
             "The weights that expand to one of the materials: shape (k, channels).");
   m.def(
@@ -107,26 +176,71 @@ py::object report_of(const fitted_pca& fit) {
   return report;
 }
 
+/// The report's numbers, as `report_of` names them.
+std::optional<gonio::solve_report> report_of_state(const py::handle& state) {
+  if (state.is_none()) return std::nullopt;
+  const auto channels = [&](const char* name) -> Eigen::VectorXd {
+    const auto numbers = state[name].cast<std::vector<double>>();
+    return Eigen::Map<const Eigen::VectorXd>(numbers.data(), std::ssize(numbers));
+  };
+  return gonio::solve_report{channels("residual"), channels("objective"), channels("kkt_residual"),
+                             state["iterations"].cast<int>()};
+}
+
+void add_fit_copies(py::class_<fitted_pca>& fit) {
+  add_copies(
+      fit, [](const fitted_pca& f) { return py::make_tuple(f.functions(), copy_of(f.weights()), report_of(f)); },
+      [](const py::tuple& state) {
+        require_state(state, 3);
+        return fitted_pca(state[0].cast<gonio::log_relative_pca>(), matrix_of<Eigen::MatrixXd>(state[1]),
+                          report_of_state(state[2]));
+      });
+}
+
+using decomposition_type = gonio::decomposition<gonio::log_relative_pca, gonio::tikhonov>;
+
+/// A decomposition, and what it was made of.
+struct configured_decomposition : decomposition_type {
+  gonio::log_relative_pca prior;
+  double eta = 0.0;
+  unsigned threads = 0;
+};
+
+configured_decomposition decomposition_of(const gonio::log_relative_pca& prior, double eta, unsigned threads) {
+  return {decomposition_type(prior, gonio::tikhonov(eta), gonio::thread_count{threads}), prior, eta, threads};
+}
+
 void add_decomposition(py::module_& m) {
   py::class_<fitted_pca> fit(m, "Fit", "A BRDF as a combination of a prior's components.");
   fit.def_property_readonly(
       "weights", [](const py::object& self) { return matrix_view(self.cast<fitted_pca&>().weights(), self); },
       "One column for each channel: shape (k, 3). A view, to be read.");
   fit.def_property_readonly("report", &report_of, "What the solver says of the weights, by channel.");
+  fit.def("__repr__", [](const fitted_pca& f) {
+    return gonio::message_of({"<gonio.Fit: ", f.weights().rows(), " components>"});
+  });
+  add_fit_copies(fit);
   add_brdf_methods(m, fit);
 
-  using estimator = gonio::decomposition<gonio::log_relative_pca, gonio::tikhonov>;
-  py::class_<estimator> type(
+  py::class_<configured_decomposition> type(
       m, "Decomposition",
       "Fits a prior's components with a penalty on the squares of their weights (Nielsen et al.\n"
       "2015, Eq. 12).");
-  type.def(py::init([](const gonio::log_relative_pca& prior, double eta, unsigned threads) {
-             return estimator(prior, gonio::tikhonov(eta), gonio::thread_count{threads});
-           }),
-           py::arg("prior"), py::arg("eta") = gonio::default_eta, py::arg("threads") = 0);
-  type.def("fit", &estimator::fit<gonio::sample_set>, py::arg("samples"), py::call_guard<py::gil_scoped_release>(),
-           "The BRDF that the samples, or all cells of a table, are of.");
-  type.def("fit", &estimator::fit<gonio::brdf_table>, py::arg("samples"), py::call_guard<py::gil_scoped_release>());
+  type.def(py::init(&decomposition_of), py::arg("prior"), py::arg("eta") = gonio::default_eta, py::arg("threads") = 0);
+  type.def("__repr__", [](const configured_decomposition& self) {
+    return "<gonio.Decomposition: eta " + std::string(py::str(py::float_(self.eta))) + '>';
+  });
+  add_copies(
+      type, [](const configured_decomposition& self) { return py::make_tuple(self.prior, self.eta, self.threads); },
+      [](const py::tuple& state) {
+        require_state(state, 3);
+        return decomposition_of(state[0].cast<gonio::log_relative_pca>(), state[1].cast<double>(),
+                                state[2].cast<unsigned>());
+      });
+  type.def("fit", &configured_decomposition::fit<gonio::sample_set>, py::arg("samples"),
+           py::call_guard<py::gil_scoped_release>(), "The BRDF that the samples, or all cells of a table, are of.");
+  type.def("fit", &configured_decomposition::fit<gonio::brdf_table>, py::arg("samples"),
+           py::call_guard<py::gil_scoped_release>());
 }
 
 gonio::confidence_level level_of(double probability) {
@@ -196,14 +310,54 @@ void add_outlying_sample(py::module_& m) {
 }
 
 /// Throws gonio::error for an impossible model.
-estimator_type estimator_of(gonio::log_relative_pca prior, double variance, double noise, bool rejects,
-                            unsigned threads) {
-  if (!(variance > 0.0 && variance <= 10.0))
-    gonio::refuse({"variance is ", variance, ": expected more than 0, at most 10"});
-  if (!(noise >= 0.0 && std::isfinite(noise))) gonio::refuse({"noise is ", noise, ": expected at least 0"});
+configured_estimator estimator_of(const estimator_arguments& given) {
+  if (!(given.variance > 0.0 && given.variance <= 10.0))
+    gonio::refuse({"variance is ", given.variance, ": expected more than 0, at most 10"});
+  if (!(given.noise >= 0.0 && std::isfinite(given.noise)))
+    gonio::refuse({"noise is ", given.noise, ": expected at least 0"});
   const estimator_type estimator{
-      std::move(prior), {.variance = variance, .noise = noise}, gonio::thread_count{threads}};
-  return rejects ? estimator : estimator.keeping_all();
+      given.prior, {.variance = given.variance, .noise = given.noise}, gonio::thread_count{given.threads}};
+  return {given.rejects ? estimator : estimator.keeping_all(), given};
+}
+
+reconstructed_brdf fit_of(const configured_estimator& estimator, const gonio::sample_set& samples) {
+  return {estimator.fit(samples), estimator.arguments, samples};
+}
+
+py::tuple state_of_arguments(const estimator_arguments& given) {
+  return py::make_tuple(given.prior, given.variance, given.noise, given.rejects, given.threads);
+}
+
+configured_estimator estimator_of_state(const py::tuple& state) {
+  require_state(state, 5);
+  return estimator_of({state[0].cast<gonio::log_relative_pca>(), state[1].cast<double>(), state[2].cast<double>(),
+                       state[3].cast<bool>(), state[4].cast<unsigned>()});
+}
+
+std::string sentence_of(const reconstructed_brdf& fit) {
+  return gonio::message_of(
+      {"<gonio.ReconstructedBrdf: of ", fit.samples.size(), " samples, ", fit.rejected().size(), " rejected>"});
+}
+
+void add_estimator(py::module_& m) {
+  py::class_<configured_estimator> type(
+      m, "Estimator",
+      "What `gonio reconstruct` does: a prior's components and what they cannot say are fitted together. variance: of\n"
+      "what the components cannot say, in squared logarithms. noise: of the values, relative to them (0.02 is 2 %).\n"
+      "reject: leave out samples that the others contradict.");
+  type.def(
+      py::init([](const gonio::log_relative_pca& prior, double variance, double noise, bool reject, unsigned threads) {
+        return estimator_of({prior, variance, noise, reject, threads});
+      }),
+      py::arg("prior"), py::arg("variance") = gonio::discrepancy_model{}.variance, py::arg("noise") = 0.0,
+      py::arg("reject") = true, py::arg("threads") = 0);
+  type.def("__repr__", [](const configured_estimator& self) {
+    return "<gonio.Estimator: noise " + std::string(py::str(py::float_(self.arguments.noise))) + '>';
+  });
+  add_copies(
+      type, [](const configured_estimator& self) { return state_of_arguments(self.arguments); }, &estimator_of_state);
+  type.def("fit", &fit_of, py::arg("samples"), py::call_guard<py::gil_scoped_release>(),
+           "The BRDF that the samples are of, and how sure that is.");
 }
 
 void add_reconstruction(py::module_& m) {
@@ -218,20 +372,21 @@ void add_reconstruction(py::module_& m) {
   fit.def_property_readonly(
       "highlight_known_to_factor", [](const reconstructed_brdf& f) { return f.certainty().highlight_factor; },
       "To which factor the highlight is known, with a probability of 95 %.");
-  fit.def_property_readonly("rejected", &reconstructed_brdf::rejected,
-                            "Rows of the samples that count less than half, or not at all, the worst first.");
-  fit.def_property_readonly("contradicted", &reconstructed_brdf::contradicted,
-                            "Samples that the others contradict, the worst first; twenty of them at most.");
-  fit.def_property_readonly("outlier_share", &reconstructed_brdf::outlier_share, "Of all samples.");
-  py::class_<estimator_type> type(
-      m, "Estimator",
-      "What `gonio reconstruct` does: a prior's components and what they cannot say are fitted together. variance: of\n"
-      "what the components cannot say, in squared logarithms. noise: of the values, relative to them (0.02 is 2 %).\n"
-      "reject: leave out samples that the others contradict.");
-  type.def(py::init(&estimator_of), py::arg("prior"), py::arg("variance") = gonio::discrepancy_model{}.variance,
-           py::arg("noise") = 0.0, py::arg("reject") = true, py::arg("threads") = 0);
-  type.def("fit", &estimator_type::fit, py::arg("samples"), py::call_guard<py::gil_scoped_release>(),
-           "The BRDF that the samples are of, and how sure that is.");
+  fit.def_property_readonly(
+      "rejected", [](const reconstructed_brdf& f) { return f.rejected(); },
+      "Rows of the samples that count less than half, or not at all, the worst first.");
+  fit.def_property_readonly(
+      "contradicted", [](const reconstructed_brdf& f) { return f.contradicted(); },
+      "Samples that the others contradict, the worst first; twenty of them at most.");
+  fit.def_property_readonly(
+      "outlier_share", [](const reconstructed_brdf& f) { return f.outlier_share(); }, "Of all samples.");
+  fit.def("__repr__", [](const reconstructed_brdf& f) { return sentence_of(f); });
+  add_copies(
+      fit, [](const reconstructed_brdf& f) { return py::make_tuple(state_of_arguments(f.arguments), f.samples); },
+      [](const py::tuple& state) {
+        require_state(state, 2);
+        return fit_of(estimator_of_state(state[0].cast<py::tuple>()), state[1].cast<gonio::sample_set>());
+      });
 }
 
 }  // namespace
@@ -240,6 +395,7 @@ void add_estimators(py::module_& m) {
   add_prior(m);
   add_decomposition(m);
   add_reconstruction(m);
+  add_estimator(m);
 }
 
 }  // namespace python

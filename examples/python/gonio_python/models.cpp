@@ -1,6 +1,7 @@
 /// Analytic models: fits of them, formula materials, and what renderers read.
 
 #include "brdf_methods.hpp"
+#include "copies.hpp"
 #include "json_to_python.hpp"
 #include "subjects.hpp"
 #include "tool/options/model_choice.hpp"
@@ -11,6 +12,8 @@
 
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace python {
 
@@ -63,6 +66,73 @@ gonio::model::model_fit fit_table(const gonio::brdf_table& table, const std::str
   return cli::fit_chosen(choice, gonio::model::fit_observations(table, choice.fit.threads, weighting));
 }
 
+/// The kind, the colour and the parameters of each lobe.
+py::tuple state_of_lobes(const gonio::model::analytic_brdf& f) {
+  py::list lobes;
+  for (const gonio::model::analytic_lobe& lobe : f.lobes())
+    lobes.append(py::make_tuple(std::string(lobe.kind().name()), array_of_numbers(lobe.colour()),
+                                array_of_numbers(lobe.parameters())));
+  return py::make_tuple(lobes);
+}
+
+gonio::model::analytic_brdf brdf_of_lobes(const py::tuple& state) {
+  require_state(state, 1);
+  std::vector<gonio::model::analytic_lobe> lobes;
+  for (const py::handle each : state[0]) {
+    const auto lobe = py::reinterpret_borrow<py::tuple>(each);
+    require_state(lobe, 3);
+    gonio::rgb colour;
+    gonio::model::lobe_kind::values parameters{};
+    copy_numbers(lobe[1], colour.data(), colour.size());
+    copy_numbers(lobe[2], parameters.data(), std::ssize(parameters));
+    lobes.emplace_back(gonio::model::lobe_kind_named(lobe[0].cast<std::string>()), colour, parameters);
+  }
+  return gonio::model::analytic_brdf(std::move(lobes));
+}
+
+std::string sentence_of(const gonio::model::analytic_brdf& f) {
+  std::string names;
+  for (const gonio::model::analytic_lobe& lobe : f.lobes())
+    names += (names.empty() ? "" : " + ") + std::string(lobe.kind().name());
+  return "<gonio.AnalyticBrdf: " + names + '>';
+}
+
+void add_model_copies(py::class_<gonio::model::model_fit>& type) {
+  using gonio::model::model_fit;
+  add_copies(
+      type,
+      [](const model_fit& fit) {
+        return py::make_tuple(fit.model, fit.loss, fit.evaluations, fit.converged, fit.promised_gain);
+      },
+      [](const py::tuple& state) {
+        require_state(state, 5);
+        return model_fit{state[0].cast<gonio::model::analytic_brdf>(), state[1].cast<double>(),
+                         state[2].cast<Eigen::Index>(), state[3].cast<bool>(), state[4].cast<double>()};
+      });
+}
+
+/// A formula that knows its name.
+struct named_formula : gonio::model::formula_brdf {
+  std::string name;
+};
+
+named_formula formula_named(const std::string& name) { return {gonio::model::formula_material(name), name}; }
+
+void add_formulas(py::module_& m) {
+  py::class_<named_formula> formula(
+      m, "FormulaBrdf", "A material given by a formula: it is in no database, and its true values are known.");
+  formula.def("__repr__", [](const named_formula& f) { return "<gonio.FormulaBrdf: " + f.name + '>'; });
+  add_copies(
+      formula, [](const named_formula& f) { return py::make_tuple(f.name); },
+      [](const py::tuple& state) {
+        require_state(state, 1);
+        return formula_named(state[0].cast<std::string>());
+      });
+  add_brdf_methods(m, formula);
+  m.def("formula_material", &formula_named, py::arg("name"), "A formula material by its name.");
+  m.def("formula_material_names", &gonio::model::formula_material_names);
+}
+
 void add_fit_function(py::module_& m) {
   using gonio::model::model_fit;
   py::class_<model_fit> type(m, "ModelFit", "A fitted model, and what is known of its minimum.");
@@ -71,6 +141,10 @@ void add_fit_function(py::module_& m) {
   type.def_readonly("evaluations", &model_fit::evaluations, "Of the loss.");
   type.def_readonly("converged", &model_fit::converged, "Did the fit reach a minimum?");
   type.def_readonly("promised_gain", &model_fit::promised_gain, "What one more step promises.");
+  type.def("__repr__", [](const model_fit& fit) {
+    return "<gonio.ModelFit: " + sentence_of(fit.model) + (fit.converged ? ", converged>" : ", not converged>");
+  });
+  add_model_copies(type);
   const cli::model_choice standard;
   m.def(
       "fit_model", &fit_samples, py::arg("measurements"), py::arg("model") = standard.model, py::kw_only(),
@@ -97,14 +171,14 @@ void add_models(py::module_& m) {
       "Each lobe's name, colour and parameters.");
   analytic.def("mitsuba", &gonio::io::mitsuba_material, "The material as XML of Mitsuba 3.");
   analytic.def("pbrt", &gonio::io::pbrt_material, "The material as text of pbrt-v4.");
+  analytic.def("materialx", &gonio::io::materialx_material, py::arg("name") = "material",
+               "The material as a document of MaterialX.");
+  analytic.def("gltf", &gonio::io::gltf_material, "The material as a glTF file without geometry.");
+  analytic.def("__repr__", [](const gonio::model::analytic_brdf& f) { return sentence_of(f); });
+  add_copies(analytic, &state_of_lobes, &brdf_of_lobes);
   add_brdf_methods(m, analytic);
   add_fit_function(m);
-
-  py::class_<gonio::model::formula_brdf> formula(
-      m, "FormulaBrdf", "A material given by a formula: it is in no database, and its true values are known.");
-  add_brdf_methods(m, formula);
-  m.def("formula_material", &gonio::model::formula_material, py::arg("name"), "A formula material by its name.");
-  m.def("formula_material_names", &gonio::model::formula_material_names);
+  add_formulas(m);
 }
 
 }  // namespace python

@@ -1,9 +1,12 @@
 /// The Python module: it says what went wrong, and has its subjects.
 
 #include "subjects.hpp"
+#include "words.hpp"
 #include <gonio/core/error.hpp>
 
 #include <pybind11/pybind11.h>
+
+#include <exception>
 
 namespace python {
 
@@ -22,6 +25,20 @@ gonio::progress interruption() {
   };
 }
 
+/// What the library and the tool refuse, in Python's words.
+void add_error(py::module_& m) {
+  static const py::handle type = py::exception<gonio::error>(m, "Error", PyExc_ValueError).release();
+  type.attr("__module__") = "gonio";
+  type.attr("__doc__") = "Bad input. The message is one sentence: what is wrong, where, and what was expected.";
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const gonio::error& refusal) {
+      PyErr_SetString(type.ptr(), in_python(refusal.what()).c_str());
+    }
+  });
+}
+
 void warn(const std::vector<std::string>& sentences) {
   for (const std::string& sentence : sentences)
     if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0) throw py::error_already_set();
@@ -32,9 +49,8 @@ void warn(const std::vector<std::string>& sentences) {
 PYBIND11_MODULE(_gonio, m) {
   m.doc() = "Complete BRDFs from a few reflectance measurements.";
   m.attr("__version__") = GONIO_VERSION;
-  auto error = pybind11::register_exception<gonio::error>(m, "Error", PyExc_ValueError);
-  error.attr("__module__") = "gonio";
-  error.doc() = "Bad input. The message is one sentence: what is wrong, where, and what was expected.";
+  python::add_error(m);
+  python::add_cells(m);
   python::add_tables(m);
   python::add_samples(m);
   python::add_estimators(m);

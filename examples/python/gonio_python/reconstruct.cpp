@@ -1,9 +1,11 @@
 /// What `gonio reconstruct` does, by the same code: methods by name, with the tool's defaults.
 
 #include "arrays.hpp"
+#include "copies.hpp"
 #include "json_to_python.hpp"
 #include "subjects.hpp"
 #include "tool/options/reconstruct_choice.hpp"
+#include "words.hpp"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -13,6 +15,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace python {
 
@@ -34,7 +37,7 @@ class given_options {
   void take(const char* name, Option& option, const std::optional<Value>& value, double lowest,
             double highest = std::numeric_limits<double>::max()) {
     if (value && !(static_cast<double>(*value) >= lowest && static_cast<double>(*value) <= highest))
-      gonio::refuse({name, " is ", std::string(py::str(py::cast(*value))), ": expected ", bounds(lowest, highest)});
+      gonio::refuse({in_python(name), std::string(py::str(py::cast(*value))), ": expected ", bounds(lowest, highest)});
     take(name, option, value);
   }
   void take_flag(const char* name, bool& option, bool value) {
@@ -61,6 +64,17 @@ std::optional<std::string> eta_text(const py::object& eta) {
   return std::string(py::repr(py::float_(eta)));
 }
 
+/// A file or what was read of one.
+using given_prior = std::optional<std::variant<std::filesystem::path, gonio::log_relative_pca>>;
+
+void take_prior(const given_prior& prior, cli::material_source& materials, given_options& given) {
+  if (!prior) return;
+  if (const auto* held = std::get_if<gonio::log_relative_pca>(&*prior))
+    given.take("--prior", materials.held_prior, std::optional(*held));
+  else
+    given.take("--prior", materials.prior, std::optional(std::get<std::filesystem::path>(*prior)));
+}
+
 struct reconstructed {
   gonio::brdf_table table;
   std::optional<gonio::brdf_table> uncertainty;
@@ -69,9 +83,9 @@ struct reconstructed {
   std::vector<std::string> warnings;
 };
 
-reconstructed reconstruct_from(const gonio::sample_set& samples, const std::string& method,
-                               const std::optional<std::filesystem::path>& prior, const std::optional<paths>& networks,
-                               const std::optional<paths>& merl, const std::optional<std::vector<std::string>>& exclude,
+reconstructed reconstruct_from(const gonio::sample_set& samples, const std::string& method, const given_prior& prior,
+                               const std::optional<paths>& networks, const std::optional<paths>& merl,
+                               const std::optional<std::vector<std::string>>& exclude,
                                const std::optional<std::string>& metric, std::optional<double> root,
                                const std::optional<std::string>& solver, const py::object& eta,
                                std::optional<double> lambda_share, std::optional<double> variance,
@@ -84,8 +98,8 @@ reconstructed reconstruct_from(const gonio::sample_set& samples, const std::stri
   given_options given;
   options.method = method;
   options.threads.value = threads;
-  options.materials.prior = prior_file(prior);
-  given.take("--prior", options.materials.prior, prior);
+  options.materials.prior = prior_file({});
+  take_prior(prior, options.materials, given);
   given.take("--networks", options.materials.networks, networks);
   given.take("--merl", options.materials.tables, merl);
   given.take("--exclude", options.materials.exclude, exclude);
@@ -112,6 +126,7 @@ reconstructed reconstruct_from(const gonio::sample_set& samples, const std::stri
     const py::gil_scoped_release released;
     found.emplace(cli::reconstruct(options, samples));
   }
+  for (std::string& sentence : found->warnings) sentence = in_python(sentence);
   warn(found->warnings);
   return {std::move(found->table), std::move(found->uncertainty), to_python(found->details), found->sentence,
           found->warnings};
@@ -132,6 +147,19 @@ void add_reconstruct(py::module_& m) {
   type.def_readonly("sentence", &reconstructed::sentence, "The same for people.");
   type.def_readonly("warnings", &reconstructed::warnings, "What Python's warnings have been told, too.");
 
+  type.def(
+      "_repr_html_", [](const py::object& self) { return sphere_as_html(self.attr("table"), self); },
+      "For notebooks: a small sphere, and what repr says.");
+  type.def("__repr__", [](const reconstructed& r) { return "<gonio.Reconstruction: " + r.sentence + '>'; });
+  add_copies(
+      type,
+      [](const reconstructed& r) { return py::make_tuple(r.table, r.uncertainty, r.details, r.sentence, r.warnings); },
+      [](const py::tuple& state) {
+        require_state(state, 5);
+        return reconstructed{state[0].cast<gonio::brdf_table>(), state[1].cast<std::optional<gonio::brdf_table>>(),
+                             state[2], state[3].cast<std::string>(), state[4].cast<std::vector<std::string>>()};
+      });
+
   const auto nothing = py::none();
   m.def("reconstruct", &reconstruct_from, py::arg("samples"), py::arg("method") = cli::reconstruct_options{}.method,
         py::kw_only(), py::arg("prior") = nothing, py::arg("networks") = nothing, py::arg("merl") = nothing,
@@ -144,7 +172,8 @@ void add_reconstruct(py::module_& m) {
         "Completes a BRDF from samples as `gonio reconstruct` does. method: pca, soft-specular, linear, correction, "
         "rbf,\n"
         "pull-push or scattered. The other arguments are the tool's options (docs/reference/tool.md); None is its\n"
-        "default. A method refuses what it would ignore.");
+        "default, which of prior is the one that ships with the package. prior: a Prior, or the path of one. A method\n"
+        "refuses what it would ignore.");
 }
 
 }  // namespace python

@@ -19,7 +19,10 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace python {
 
@@ -58,27 +61,63 @@ py::array_t<float> sphere_in_environment(const gonio::brdf_table& table, const p
   return array_of(std::move(*drawn));
 }
 
-py::object compare_tables(const gonio::brdf_table& estimate, const gonio::brdf_table& truth,
-                          const std::optional<gonio::log_relative_pca>& prior, unsigned threads) {
+/// A table as it is, another BRDF over some cells.
+gonio::brdf_table tabulated(const py::object& brdf, const char* name, const gonio::valid_cells& cells) {
+  if (py::isinstance<gonio::brdf_table>(brdf)) return brdf.cast<gonio::brdf_table>();
+  if (!py::hasattr(brdf, "tabulate"))
+    gonio::refuse({name, " is ", std::string(py::repr(brdf)), ": expected a BRDF of gonio, such as a Table"});
+  return brdf.attr("tabulate")(py::arg("cells") = cells).cast<gonio::brdf_table>();
+}
+
+/// Where two BRDFs are compared: at the truth's cells if it has some, else at the estimate's.
+gonio::valid_cells common_cells(const py::object& estimate, const py::object& truth) {
+  for (const py::object& each : {truth, estimate})
+    if (py::isinstance<gonio::brdf_table>(each)) return each.cast<const gonio::brdf_table&>().cells();
+  return gonio::valid_cells();
+}
+
+py::object compare_brdfs(const py::object& estimate, const py::object& truth,
+                         const std::optional<gonio::log_relative_pca>& prior, unsigned threads) {
   const std::filesystem::path shipped = prior ? std::filesystem::path() : prior_file({});
+  const gonio::valid_cells cells = common_cells(estimate, truth);
+  const gonio::brdf_table found = tabulated(estimate, "estimate", cells), expected = tabulated(truth, "truth", cells);
   gonio::comparison errors;
   {
     const py::gil_scoped_release released;
     const gonio::log_relative metric = prior ? prior->metric() : gonio::io::read_prior(shipped).metric();
-    const gonio::appearance_metric appearance(truth.cells(), 36, gonio::thread_count{threads});
-    errors = gonio::compare(estimate, truth, metric, appearance, gonio::thread_count{threads});
+    const gonio::appearance_metric appearance(cells, 36, gonio::thread_count{threads});
+    errors = gonio::compare(found, expected, metric, appearance, gonio::thread_count{threads});
   }
   return to_python(cli::to_json(errors));
 }
 
+/// As the tool exposes it.
+py::bytes sphere_png(const gonio::brdf_table& table, int size) {
+  std::vector<gonio::image> sphere{cli::sphere_image(table, {.size = size, .exposure = {}}, {})};
+  cli::expose_spheres(sphere, {});
+  const std::vector<std::byte> bytes = gonio::io::write_png(sphere.front(), "a sphere");
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace
+
+std::string sphere_as_html(const py::object& brdf, const py::object& described) {
+  constexpr int size = 96;
+  const py::object table = brdf.attr("tabulate")();
+  const py::object encoded =
+      py::module_::import("base64").attr("b64encode")(sphere_png(table.cast<const gonio::brdf_table&>(), size));
+  const py::object sentence = py::module_::import("html").attr("escape")(py::repr(described));
+  return gonio::message_of(
+      {"<img width=\"", size, "\" height=\"", size, "\" alt=\"a sphere under two lights\" src=\"data:image/png;base64,",
+       encoded.attr("decode")().cast<std::string>(), "\"><br><code>", sentence.cast<std::string>(), "</code>"});
+}
 
 void add_rendering(py::module_& m) {
   m.def(
       "render_sphere", &sphere_under_lights, py::arg("table"), py::kw_only(), py::arg("size") = 256,
       py::arg("threads") = 0,
-      "A sphere under two lights in linear light: float32 of shape (size, size, 3), which nobody else holds. A white\n"
-      "Lambertian sphere has the mean luminance 1.");
+      "A sphere of a table, or of any other BRDF, under two lights in linear light: float32 of shape (size, size, 3),\n"
+      "which nobody else holds. A white Lambertian sphere has the mean luminance 1.");
   m.def(
       "render_sphere_in", &sphere_in_environment, py::arg("table"), py::arg("environment"), py::kw_only(),
       py::arg("size") = 256, py::arg("quality") = 64, py::arg("white") = 0.4, py::arg("seed") = 1,
@@ -96,10 +135,12 @@ void add_rendering(py::module_& m) {
   m.def(
       "read_hdr", [](const std::filesystem::path& path) { return array_of(gonio::io::read_hdr(path)); },
       py::arg("path"), "Reads a Radiance HDR image: float32 of shape (rows, columns, 3).");
-  m.def("compare", &compare_tables, py::arg("estimate"), py::arg("truth"), py::arg("prior") = py::none(),
-        py::arg("threads") = 0,
-        "How an estimated table differs from the truth: what `gonio compare --json` prints. prior: whose metric maps\n"
-        "reflectance; without one that of the prior that ships with the package.");
+  m.def(
+      "compare", &compare_brdfs, py::arg("estimate"), py::arg("truth"), py::arg("prior") = py::none(),
+      py::arg("threads") = 0,
+      "How an estimate differs from the truth, both BRDFs of any kind: what `gonio compare --json` prints. They are\n"
+      "compared over the cells of the truth if it is a Table, else of the estimate, else of a MERL file. prior: whose\n"
+      "metric maps reflectance; without one that of the prior that ships with the package.");
 }
 
 }  // namespace python

@@ -1,6 +1,7 @@
 /// Measurements: arrays in, views of the library's memory out, and their files.
 
 #include "arrays.hpp"
+#include "copies.hpp"
 #include "subjects.hpp"
 #include "tool/files/measurement_files.hpp"
 #include <gonio/core/error.hpp>
@@ -9,9 +10,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 
 namespace python {
@@ -54,15 +57,24 @@ gonio::sample_set samples_from_arrays(const py::object& directions, const py::ob
   return samples;
 }
 
-gonio::sample_set chosen(const gonio::sample_set& samples, const std::vector<py::ssize_t>& rows) {
+gonio::sample_set chosen(const gonio::sample_set& samples, const py::object& rows) {
+  return samples.subset(rows_of(rows, static_cast<py::ssize_t>(samples.size())));
+}
+
+/// A single number chooses one sample; IndexError behind the last one ends a loop over all.
+gonio::sample_set indexed(const gonio::sample_set& samples, const py::object& index) {
+  if (py::isinstance<py::ellipsis>(index)) return samples;
+  if (py::isinstance<py::tuple>(index))
+    gonio::refuse("samples have one axis: expected a whole number, a slice or an array");
+  if (PyIndex_Check(index.ptr()) == 0 || py::isinstance<py::array>(index) || py::isinstance<py::bool_>(index))
+    return chosen(samples, index);
   const auto count = static_cast<py::ssize_t>(samples.size());
-  gonio::sample_set some;
-  for (const py::ssize_t row : rows) {
-    if (row < 0 || row >= count)
-      gonio::refuse({"there is no sample in row ", row, ": expected rows from 0 to ", count - 1});
-    some.push_back(samples[static_cast<std::size_t>(row)]);
-  }
-  return some;
+  const py::ssize_t row = PyNumber_AsSsize_t(index.ptr(), PyExc_IndexError);
+  if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+  if (row < -count || row >= count)
+    throw py::index_error(
+        gonio::message_of({"there is no sample in row ", row, ": expected rows from ", -count, " to ", count - 1}));
+  return {samples[static_cast<std::size_t>(row < 0 ? row + count : row)]};
 }
 
 constexpr py::ssize_t from_sample_to_sample = sizeof(gonio::sample), from_number_to_number = sizeof(double);
@@ -107,6 +119,49 @@ void add_columns(py::class_<gonio::sample_set>& type) {
       "How much each sample counts in each channel: a view of shape (n, 3), which may be written to.");
 }
 
+/// Rows of directions, angles, values, weights and apertures. Directions are kept as they were given, to the last bit.
+py::tuple state_of(const gonio::sample_set& samples) {
+  constexpr Eigen::Index columns = 6 + 3 + 3 + 3 + 2;
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(samples.size()), columns);
+  Eigen::Index i = 0;
+  for (const gonio::sample& each : samples) {
+    const auto& [wi, wo] = each.directions.pair();
+    const auto& [theta_h, theta_d, phi_d] = each.angles();
+    rows.row(i++) << wi.transpose(), wo.transpose(), theta_h, theta_d, phi_d, each.value.matrix().transpose(),
+        each.weight.of_each().matrix().transpose(), each.aperture.source, each.aperture.receiver;
+  }
+  return py::make_tuple(copy_of(rows));
+}
+
+gonio::sample_set samples_of_state(const py::tuple& state) {
+  require_state(state, 1);
+  const auto rows = matrix_of<Eigen::MatrixXd>(state[0]);
+  gonio::sample_set samples;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Eigen::RowVectorXd row = rows.row(i);
+    const gonio::half_difference angles{row[6], row[7], row[8]};
+    gonio::sample_directions directions(gonio::direction_pair{row.segment<3>(0), row.segment<3>(3)});
+    const gonio::half_difference& found = directions.angles();
+    if (found.theta_h != angles.theta_h || found.theta_d != angles.theta_d || found.phi_d != angles.phi_d)
+      directions = angles;
+    samples.push_back({directions, gonio::rgb(row.segment<3>(9)), gonio::rgb(row.segment<3>(12)), {row[15], row[16]}});
+  }
+  return samples;
+}
+
+std::string sentence_of(const gonio::sample_set& samples) {
+  if (samples.empty()) return "<gonio.Samples: none>";
+  double least = samples.front().value[0], most = least;
+  for (const gonio::sample& each : samples) {
+    least = std::min(least, each.value.minCoeff());
+    most = std::max(most, each.value.maxCoeff());
+  }
+  std::ostringstream text;
+  text.precision(3);
+  text << "<gonio.Samples: " << samples.size() << ", from " << least << " to " << most << " sr^-1>";
+  return text.str();
+}
+
 gonio::sample_set read_samples(const std::filesystem::path& path, const std::optional<std::string>& quantity,
                                const std::map<std::string, std::string>& columns) {
   cli::measurement_options options{quantity.value_or(""), {}};
@@ -124,8 +179,21 @@ void add_samples(py::module_& m) {
       "From arrays. directions: shape (n, 6), unit vectors wi and wo, normal +z, or (n, 3), theta_h, theta_d and\n"
       "phi_d in radians. values: (n, 3), or (n,) for grey. weights: (n, 3), (n,) or none. The samples keep copies.");
   type.def("__len__", [](const gonio::sample_set& samples) { return samples.size(); });
+  type.def("__repr__", [](const gonio::sample_set& samples) { return sentence_of(samples); });
+  add_copies(
+      type, [](const gonio::sample_set& samples) { return state_of(samples); },
+      [](const py::tuple& state) { return samples_of_state(state); });
   add_columns(type);
-  type.def("subset", &chosen, py::arg("rows"), "Copies of some of the samples, in the order of their rows.");
+  type.def(
+      "subset", &chosen, py::arg("rows"),
+      "Copies of some of the samples. rows: a mask of shape (n,) of True and False, a slice, or numbers of samples in\n"
+      "the order in which they are wanted; negative ones count from the end. Raises Error for rows that are not "
+      "there.");
+  type.def(
+      "__iter__", [](const py::object& self) { return py::reinterpret_steal<py::iterator>(PySeqIter_New(self.ptr())); },
+      "Each sample as samples with one row.");
+  type.def("__getitem__", &indexed, py::arg("index"),
+           "The same by an index; of a single number samples with one row. Raises IndexError if it is not there.");
   m.def(
       "read_samples", &read_samples, py::arg("path"), py::arg("quantity") = py::none(),
       py::arg("columns") = std::map<std::string, std::string>(), py::call_guard<py::gil_scoped_release>(),

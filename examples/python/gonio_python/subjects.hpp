@@ -13,6 +13,7 @@
 
 namespace python {
 
+void add_cells(pybind11::module_& m);
 void add_tables(pybind11::module_& m);
 void add_samples(pybind11::module_& m);
 void add_estimators(pybind11::module_& m);
@@ -26,6 +27,9 @@ void add_rendering(pybind11::module_& m);
 
 /// What long work calls now and then: it ends with KeyboardInterrupt after Ctrl-C.
 [[nodiscard]] gonio::progress interruption();
+
+/// What notebooks show: a small sphere of a BRDF under two lights, and what `repr` says of an object.
+[[nodiscard]] std::string sphere_as_html(const pybind11::object& brdf, const pybind11::object& described);
 
 /// Through Python's own `warnings`.
 void warn(const std::vector<std::string>& sentences);

@@ -1,27 +1,33 @@
 /// Tables of BRDFs: views of their memory, and their files.
 
 #include "brdf_methods.hpp"
+#include "cells.hpp"
+#include "copies.hpp"
 #include "subjects.hpp"
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/rgl.hpp>
 #include <gonio/io/materials/table_npy.hpp>
 #include <gonio/table/tensor_view.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace python {
 
 namespace {
 
-/// Cells below the horizon are not looked at.
-gonio::brdf_table table_from_dense(const py::object& given) {
+/// Cells below the horizon, or below `minimum_cosine`, are not looked at.
+gonio::brdf_table table_from_dense(const py::object& given, const std::string& anchor, double minimum_cosine) {
   const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(given);
   if (!array) gonio::refuse("values is no array of numbers");
   if (array.ndim() != 4 || array.shape(3) != 3)
     gonio::refuse({"values has shape ", shape_of(array), ": expected (theta_h, theta_d, phi_d, 3)"});
   const auto extent = [&](int axis) { return static_cast<int>(std::min<py::ssize_t>(array.shape(axis), 1 << 30)); };
-  gonio::brdf_table table(gonio::valid_cells(gonio::grid({extent(0), extent(1), extent(2)})));
+  gonio::brdf_table table(cells_of({extent(0), extent(1), extent(2)}, anchor, minimum_cosine));
   const float* from = array.data();
   for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -42,24 +48,35 @@ py::array_t<float> values_of(const py::object& self) {
   return view_of(table.values().data(), {table.cells().size(), 3}, {3 * step, step}, self);
 }
 
-py::array_t<double> directions_of_cells(const gonio::brdf_table& table) {
-  std::vector<gonio::direction_pair> pairs;
-  pairs.reserve(static_cast<std::size_t>(table.cells().size()));
-  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
-    pairs.push_back(gonio::to_directions(table.cells().angles(cell)));
-  return array_of(pairs);
+/// Cells below the horizon continue those above, as a look-up reads them.
+py::array_t<float> filled_array(const gonio::brdf_table& table) {
+  const gonio::valid_cells& cells = table.cells();
+  const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
+  py::array_t<float> array(extents{theta_h, theta_d, phi_d, 3});
+  float* to = array.mutable_data();
+  for (Eigen::Index linear = 0; linear < cells.grid().size(); ++linear)
+    to = std::copy_n(table.values().data() + 3 * cells.representative(linear), 3, to);
+  return array;
 }
 
-py::array_t<double> angles_of_cells(const gonio::brdf_table& table) {
-  py::array_t<double> angles({table.cells().size(), Eigen::Index{3}});
-  double* to = angles.mutable_data();
-  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell) {
-    const auto [theta_h, theta_d, phi_d] = table.cells().angles(cell);
-    *to++ = theta_h;
-    *to++ = theta_d;
-    *to++ = phi_d;
-  }
-  return angles;
+py::array_t<float> dense_array(const gonio::brdf_table& table) { return array_of(gonio::dense_tensor(table)); }
+
+/// What numpy asks for.
+py::object as_array(const gonio::brdf_table& table, const py::object& dtype, const py::object& copy) {
+  if (!copy.is_none() && !copy.cast<bool>()) gonio::refuse("a table as an array is a copy: copy=False cannot be had");
+  const py::array_t<float> array = dense_array(table);
+  return dtype.is_none() ? py::object(array) : array.attr("astype")(dtype);
+}
+
+py::tuple state_of_table(const gonio::brdf_table& table) {
+  return py::make_tuple(state_of(table.cells()), array_of_numbers(table.values()));
+}
+
+gonio::brdf_table table_of_state(const py::tuple& state) {
+  require_state(state, 2);
+  auto table = gonio::brdf_table::uninitialised(cells_of_state(state[0].cast<py::tuple>()));
+  copy_numbers(state[1], table.values().data(), std::ssize(table.values()));
+  return table;
 }
 
 void add_table_class(py::module_& m) {
@@ -69,30 +86,74 @@ void add_table_class(py::module_& m) {
       "Only cells with both directions above the horizon are kept. Values are as measured and may be negative.");
   table.def(py::init([] { return gonio::brdf_table(gonio::valid_cells()); }),
             "A table of zeros over the 90 x 90 x 180 cells of a MERL file.");
-  table.def(py::init(&table_from_dense), py::arg("values"),
-            "From an array of shape (theta_h, theta_d, phi_d, 3). Cells below the horizon are not looked at.");
+  table.def(py::init([](const gonio::valid_cells& cells) { return gonio::brdf_table(cells); }), py::arg("cells"),
+            "A table of zeros over some cells.");
+  table.def(
+      py::init(&table_from_dense), py::arg("values"), py::kw_only(), py::arg("anchor") = "centre",
+      py::arg("minimum_cosine") = 0.0,
+      "From an array of shape (theta_h, theta_d, phi_d, 3), sr^-1. anchor: where in its cell each value was taken,\n"
+      "'centre' or 'lower_corner'. minimum_cosine: cells at which that of a direction is not larger are not looked\n"
+      "at, nor are those below the horizon.");
   table.def_property_readonly("values", &values_of,
                               "The table's own memory as an array of float32, shape (cells, 3): what is written there\n"
                               "is in the table.");
   table.def("__len__", [](const gonio::brdf_table& t) { return t.cells().size(); });
+  table.def_property_readonly("cells", &gonio::brdf_table::cells, "Where the values were taken.");
   table.def_property_readonly(
-      "shape",
-      [](const gonio::brdf_table& t) {
-        const auto [theta_h, theta_d, phi_d] = t.cells().grid().extents();
-        return py::make_tuple(theta_h, theta_d, phi_d);
-      },
+      "shape", [](const py::object& self) { return py::object(self.attr("cells").attr("shape")); },
       "Cells of the grid along theta_h, theta_d and phi_d, those below the horizon included.");
-  table.def("directions", &directions_of_cells,
-            "The directions at which the values were taken: shape (cells, 6), wi and wo.");
-  table.def("angles", &angles_of_cells, "The same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
+  table.def_property_readonly(
+      "anchor", [](const gonio::brdf_table& t) { return word_of(t.cells().grid().anchor()); },
+      "Where in its cell each value was taken: 'centre' or 'lower_corner', of a file as its cells without a value "
+      "tell.");
+  table.def_property_readonly(
+      "minimum_cosine", [](const gonio::brdf_table& t) { return t.cells().minimum_cosine(); },
+      "There are values where both cosines are larger; 0 down to the horizon.");
   table.def(
-      "dense", [](const gonio::brdf_table& t) { return array_of(gonio::dense_tensor(t)); },
-      "A copy of shape (theta_h, theta_d, phi_d, 3), NaN below the horizon.");
+      "directions", [](const gonio::brdf_table& t) { return directions_of(t.cells()); },
+      "The directions at which the values were taken: shape (cells, 6), wi and wo.");
+  table.def(
+      "angles", [](const gonio::brdf_table& t) { return angles_of(t.cells()); },
+      "The same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
+  table.def(
+      "dense",
+      [](const gonio::brdf_table& t, bool fill) { return fill ? filled_array(t) : array_of(gonio::dense_tensor(t)); },
+      py::arg("fill") = false,
+      "A copy of shape (theta_h, theta_d, phi_d, 3). Cells below the horizon are NaN or, with fill, continue those\n"
+      "above as a look-up reads them.");
+  table.def("__array__", &as_array, py::arg("dtype") = py::none(), py::arg("copy") = py::none(),
+            "numpy.asarray(table) is table.dense().");
+  table.def(
+      "__getitem__",
+      [](const gonio::brdf_table& t, const py::object& index) { return dense_array(t).attr("__getitem__")(index); },
+      py::arg("index"),
+      "As of numpy.asarray(table), which is made for it: table[theta_h, theta_d, phi_d] is red, green and blue. Make\n"
+      "the array once for many of these.");
   table.def("copy", [](const gonio::brdf_table& t) { return t; });
+  table.def("__repr__", [](const gonio::brdf_table& t) { return "<gonio.Table: " + sentence_of(t.cells()) + '>'; });
+  add_copies(table, &state_of_table, &table_of_state);
   add_brdf_methods(m, table);
 }
 
+/// The bytes of a file.
+py::tuple state_of_adaptive(const gonio::model::adaptive_brdf& material) {
+  const std::vector<std::byte> bytes = gonio::io::write_rgl(gonio::io::rgl_material{material, "", {}});
+  return py::make_tuple(py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+gonio::model::adaptive_brdf adaptive_of_state(const py::tuple& state) {
+  require_state(state, 1);
+  const auto text = state[0].cast<std::string>();
+  return gonio::io::read_rgl(std::as_bytes(std::span(text)), "a pickle").material;
+}
+
 }  // namespace
+
+void write_rgl(const std::filesystem::path& path, const gonio::model::adaptive_brdf& f) {
+  gonio::io::write_rgl(path, f);
+}
+
+void write_rgl(const std::filesystem::path& path, const brdf_by_pointer& f) { gonio::io::write_rgl(path, f); }
 
 void add_tables(py::module_& m) {
   add_table_class(m);
@@ -100,6 +161,8 @@ void add_tables(py::module_& m) {
       m, "AdaptiveBrdf",
       "A material of the RGL database: values over a parameterisation that follows its highlight (Dupuy and Jakob\n"
       "2018). The mean of both orders of the directions, as measurements are not reciprocal.");
+  adaptive.def("__repr__", [](const gonio::model::adaptive_brdf&) { return "<gonio.AdaptiveBrdf>"; });
+  add_copies(adaptive, &state_of_adaptive, &adaptive_of_state);
   add_brdf_methods(m, adaptive);
   m.def(
       "read_merl", [](const std::filesystem::path& path) { return gonio::io::read_merl_any(path); }, py::arg("path"),
@@ -108,10 +171,11 @@ void add_tables(py::module_& m) {
       "read_rgl",
       [](const std::filesystem::path& path) { return gonio::io::colours_of(gonio::io::read_rgl(path), path); },
       py::arg("path"), py::call_guard<py::gil_scoped_release>(), "Reads a material of the RGL database (.bsdf).");
-  m.def("write_npy", &gonio::io::write_table_npy, py::arg("path"), py::arg("table"),
-        py::call_guard<py::gil_scoped_release>(),
-        "Writes a table as numpy's own file: float32, shape (theta_h, theta_d, phi_d, 3), cells below the horizon\n"
-        "filled with the value above.");
+  m.def(
+      "write_npy", &gonio::io::write_table_npy, py::arg("path"), py::arg("table"),
+      py::call_guard<py::gil_scoped_release>(),
+      "Writes a table as numpy's own file: float32, shape (theta_h, theta_d, phi_d, 3), values at the cells' centres,\n"
+      "cells below the horizon filled with the value above.");
 }
 
 }  // namespace python

@@ -121,12 +121,8 @@ void write_merl(const fs::path& path, const file_content& content, const writing
   io::write_merl(path, as_table(path, content, how.threads));
 }
 
-/// Such an array has the values at the cells' centres.
 void write_array(const fs::path& path, const file_content& content, const writing& how) {
-  gonio::brdf_table table = as_table(path, content, how.threads);
-  const gonio::grid& cells = table.cells().grid();
-  if (cells.anchor() != gonio::cell_anchor::centre)
-    table = gonio::resample(table, gonio::valid_cells(gonio::grid(cells.extents())), how.threads);
+  const gonio::brdf_table table = as_table(path, content, how.threads);
   if (how.as_halves)
     io::write_table_npy_halves(path, table);
   else

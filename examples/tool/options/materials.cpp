@@ -203,6 +203,10 @@ gonio::material_rows stream_folder(const material_source& source, gonio::io::scr
 
 }  // namespace
 
+gonio::log_relative_pca prior_of(const material_source& source) {
+  return source.held_prior ? *source.held_prior : gonio::io::read_prior(source.prior);
+}
+
 option_group add_material_options(command& to, material_source& source) {
   option_group group = to.add_option_group("source", "Where the materials come from (any of them, together)");
   group.add_input("--networks", source.networks, "Files of networks (.npy, names in merl_names.txt beside each)");
@@ -215,7 +219,7 @@ option_group add_material_options(command& to, material_source& source) {
 
 gonio::material_set read_materials(const material_source& source, gonio::thread_count threads,
                                    const gonio::progress& listener) {
-  if (source.is_prior()) return gonio::expand(gonio::io::read_prior(source.prior), threads);
+  if (source.is_prior()) return gonio::expand(prior_of(source), threads);
   const std::size_t sources = source.networks.size() + source.tables.size() + source.rgl.size();
   if (sources == 1 && !source.tables.empty())
     return gonio::io::read_merl_directory(source.tables.front(), source.exclude, listener);

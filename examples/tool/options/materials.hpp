@@ -3,6 +3,7 @@
 
 #include "command.hpp"
 #include "team.hpp"
+#include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/io/materials/scratch_materials.hpp>
@@ -23,9 +24,13 @@ struct material_source {
   std::vector<std::string> exclude;
   bool as_spectra = false;       ///< reflectance at wavelengths, of RGL materials that have it; else colours
   std::string wavelengths = {};  ///< as 400:10:700, nanometres; those of the materials if it is empty
+  std::optional<gonio::log_relative_pca> held_prior = {};  ///< one in memory, instead of the file
 
   [[nodiscard]] bool is_prior() const { return networks.empty() && tables.empty() && rgl.empty(); }
 };
+
+/// The prior that is held, or else that of the file.
+[[nodiscard]] gonio::log_relative_pca prior_of(const material_source& source);
 
 /// Adds `--networks`, `--merl`, `--rgl` and `--exclude`. Returns the first three.
 option_group add_material_options(command& to, material_source& source);

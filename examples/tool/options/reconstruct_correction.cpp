@@ -124,8 +124,7 @@ reconstruction reconstruct_by_corrections(const reconstruct_options& options, co
   static_cast<void>(gamma_of(options));  // refused before the work
   const Eigen::Index counting = std::ssize(gonio::counting_positions(samples));
   if (counting < fewest_corrected_samples && !options.has_own_options) {
-    reconstruction result =
-        reconstruct_with_discrepancy(options, gonio::io::read_prior(options.materials.prior), samples);
+    reconstruction result = reconstruct_with_discrepancy(options, prior_of(options.materials), samples);
     result.warnings.push_back("--method correction needs at least " + std::to_string(fewest_corrected_samples) +
                               " samples, not " + std::to_string(counting) + ": --method pca was taken");
     return result;

@@ -69,7 +69,7 @@ component_choice choose_components(const reconstruct_options& options) {
                   " needs --method linear");
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
     gonio::refuse("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
-  component_choice chosen{gonio::io::read_prior(options.materials.prior), solver};
+  component_choice chosen{prior_of(options.materials), solver};
   chosen.is_penalised = penalised && options.solver.eta.empty();
   chosen.has_discrepancy = options.discrepancy != 0.0 && chosen.is_penalised && options.angular_error == 0.0;
   if (chosen.has_discrepancy || options.angular_error != 0.0) return chosen;
@@ -106,6 +106,8 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
 
 reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options, const gonio::sample_set& samples) {
   const std::filesystem::path& file = options.materials.prior;
+  if (options.materials.held_prior)
+    gonio::refuse("--method soft-specular needs the file of a --prior that gonio learn --split wrote");
   if (gonio::io::is_prior(file))
     gonio::refuse({"--method soft-specular needs a --prior that gonio learn --split wrote; ", file.native(),
                    " has one of all materials"});
@@ -151,8 +153,7 @@ reconstruction reconstruct_by_materials(const reconstruct_options& options, cons
 reconstruction reconstruct_by_radial_functions(const reconstruct_options& options, const gonio::sample_set& samples) {
   const gonio::valid_cells cells;
   const auto centres = gonio::farthest_point_centres(cells, gonio::published_centre_count, options.seed);
-  const auto metric =
-      chosen_metric(options, [&] { return gonio::io::read_prior(options.materials.prior).metric().on(cells); });
+  const auto metric = chosen_metric(options, [&] { return prior_of(options.materials).metric().on(cells); });
   return fit(gonio::rbf<gonio::any_metric>{cells, metric, centres}, gonio::tikhonov{1e-6}, samples, options);
 }
 

@@ -253,7 +253,7 @@ json warnings_of(const reported_fit& fit) {
 /// What was done, beside the command.
 json record_of_fit(const reported_fit& fit) {
   const auto& [options, measured, found, truth] = fit;
-  const gonio::log_relative_pca prior = gonio::io::read_prior(options.materials.prior);
+  const gonio::log_relative_pca prior = prior_of(options.materials);
   return record_of(
       {{"Samples", options.samples.string() + ": " + std::to_string(measured.samples.size()) + ", of which " +
                        std::to_string(gonio::counting_positions(measured.samples).size()) + " count"},

@@ -10,6 +10,7 @@
 #include <gonio/render/grid_coordinates.hpp>
 #include <gonio/render/horizon_index.hpp>
 #include <gonio/render/padded_grid.hpp>
+#include <gonio/table/table_convention.hpp>
 
 #include <Eigen/Core>
 
@@ -66,11 +67,16 @@ class lookup_table {
     });
   }
 
-  /// Of what a MERL file holds after its header: three planes in the file's scale. Negative values, by which a file
-  /// marks cells without one, are black. Throws gonio::error if the planes do not have the grid's size or a value is
-  /// not finite.
-  [[nodiscard]] static lookup_table from_merl(std::span<const double> planes,
-                                              const gonio::grid& cells = gonio::grid()) {
+  /// Of what a MERL file holds after its header: three planes in the file's scale. Where in its cells the values were
+  /// taken, the cells without a value tell (`infer_convention`), as they tell `read_merl`. Negative values, by which a
+  /// file marks these cells, are black. Throws gonio::error if the planes do not have the grid's size or a value is not
+  /// finite.
+  [[nodiscard]] static lookup_table from_merl(std::span<const double> planes, const grid_extents& extents = {}) {
+    return from_merl(planes, gonio::grid(extents, infer_convention(planes, extents).anchor));
+  }
+
+  /// The same on a grid whose anchor is known.
+  [[nodiscard]] static lookup_table from_merl(std::span<const double> planes, const gonio::grid& cells) {
     const Eigen::Index plane = cells.size();
     if (std::ssize(planes) != 3 * plane)
       refuse("three planes of " + std::to_string(plane) + " values were expected of a MERL table, not " +

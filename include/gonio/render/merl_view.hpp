@@ -8,6 +8,7 @@
 #include <gonio/render/grid_coordinates.hpp>
 #include <gonio/render/horizon_index.hpp>
 #include <gonio/render/lookup_table.hpp>
+#include <gonio/table/table_convention.hpp>
 
 #include <Eigen/Core>
 
@@ -31,15 +32,19 @@ namespace gonio::render {
 template <interpolation Interpolation = interpolation::nearest>
 class merl_view {
  public:
-  /// O(cells of the grid). Throws gonio::error if the planes do not have its size.
-  explicit merl_view(std::span<const double> planes, const gonio::grid& cells = gonio::grid())
-      : planes_(planes), index_(cells), finder_(cells) {
+  /// O(cells of the grid). Where in its cells the values were taken, the cells without a value tell
+  /// (`infer_convention`), as they tell `read_merl`. Throws gonio::error if the planes do not have the grid's size.
+  explicit merl_view(std::span<const double> planes, const grid_extents& extents = {})
+      : merl_view(planes, gonio::grid(extents, infer_convention(planes, extents).anchor)) {}
+  /// The same on a grid whose anchor is known.
+  merl_view(std::span<const double> planes, const gonio::grid& cells) : planes_(planes), index_(cells), finder_(cells) {
     if (std::ssize(planes) != 3 * cells.size())
       refuse("three planes of " + std::to_string(cells.size()) + " values were expected of a MERL table, not " +
              std::to_string(planes.size()) + " values");
   }
   /// Planes that end with the statement cannot be viewed.
-  explicit merl_view(std::vector<double>&& planes, const gonio::grid& cells = gonio::grid()) = delete;
+  explicit merl_view(std::vector<double>&& planes, const grid_extents& extents = {}) = delete;
+  merl_view(std::vector<double>&& planes, const gonio::grid& cells) = delete;
 
   /// Reflectance in sr^-1 of a pair, `float` or `double`.
   template <std::floating_point Real>

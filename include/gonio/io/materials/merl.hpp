@@ -9,15 +9,14 @@
 #include <gonio/core/brdf.hpp>
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/table/brdf_table.hpp>
+#include <gonio/table/table_convention.hpp>
 
 #include <array>
 #include <bit>
-#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,14 +26,6 @@ namespace gonio::io {
 
 static_assert(std::endian::native == std::endian::little,
               "MERL files are little-endian, as is every supported machine");
-
-/// Where in its cells a table's values were taken, and how far above the horizon they begin.
-struct table_convention {
-  cell_anchor anchor = cell_anchor::centre;
-  double minimum_cosine = 0.0;
-
-  friend bool operator==(const table_convention&, const table_convention&) = default;
-};
 
 struct merl_options {
   /// Overrides what the cells marked -1 say.
@@ -46,7 +37,6 @@ struct merl_options {
 
 namespace detail {
 
-inline constexpr double merl_empty = -1.0;
 inline constexpr std::size_t merl_header_size = 3 * sizeof(std::int32_t);
 
 [[nodiscard]] std::string to_text(const grid_extents& extents);
@@ -64,61 +54,14 @@ class merl_planes {
 
   [[nodiscard]] double operator()(std::size_t channel, std::size_t linear) const noexcept;
   [[nodiscard]] bool empty(std::size_t linear) const noexcept {
-    return (*this)(0, linear) == merl_empty && (*this)(1, linear) == merl_empty && (*this)(2, linear) == merl_empty;
+    constexpr double empty = gonio::detail::merl_empty;
+    return (*this)(0, linear) == empty && (*this)(1, linear) == empty && (*this)(2, linear) == empty;
   }
 
  private:
   const std::byte* data_;
   std::size_t cells_;
 };
-
-/// How an anchor sorts the cells by the smaller of their two cosines.
-struct mark_statistics {
-  double largest_marked = -std::numeric_limits<double>::infinity();
-  double smallest_unmarked = std::numeric_limits<double>::infinity();
-
-  /// How well the anchor explains the marks: 0 not at all; 1 by a threshold, but cells below the horizon
-  /// are filled; 2 by a threshold above the horizon; 3 by the horizon itself.
-  [[nodiscard]] int rank() const noexcept;
-
-  /// The threshold that belongs to it, never below the horizon.
-  [[nodiscard]] double minimum_cosine() const noexcept {
-    return rank() == 2 ? 0.5 * (largest_marked + smallest_unmarked) : 0.0;
-  }
-};
-
-template <std::predicate<std::size_t> Marked>
-[[nodiscard]] mark_statistics sort_marks(const grid& cells, const Marked& marked) {
-  mark_statistics found;
-  for_each_smaller_cosine(cells, [&](std::size_t linear, double cosine) {
-    if (std::abs(cosine) <= valid_cells::horizon) return;
-    if (marked(linear))
-      found.largest_marked = std::max(found.largest_marked, cosine);
-    else
-      found.smallest_unmarked = std::min(found.smallest_unmarked, cosine);
-  });
-  return found;
-}
-
-}  // namespace detail
-
-/// Finds the convention of a table from which of its cells are marked as empty.
-///
-/// An anchor explains the marks if at its nodes the smaller cosine of every marked cell lies below that of
-/// every unmarked one. Its minimum cosine is 0 unless marked cells lie above the horizon, then the middle
-/// of the gap. Where both anchors explain them, one with the horizon in its gap goes before one with a gap
-/// above it, and that before one with filled cells below the horizon; among equals the centre. Where
-/// neither does, as for the files of the MERL database itself, and where nothing is marked, the answer is
-/// centre and 0. Cells within 1e-9 of the horizon have no say.
-template <std::predicate<std::size_t> Marked>
-[[nodiscard]] table_convention infer_convention(const grid_extents& extents, const Marked& marked) {
-  const detail::mark_statistics centre = detail::sort_marks(grid(extents, cell_anchor::centre), marked);
-  const detail::mark_statistics corner = detail::sort_marks(grid(extents, cell_anchor::lower_corner), marked);
-  if (corner.rank() > centre.rank()) return {cell_anchor::lower_corner, corner.minimum_cosine()};
-  return {cell_anchor::centre, centre.minimum_cosine()};
-}
-
-namespace detail {
 
 [[noreturn]] void refuse_cell(const std::string& name, const grid& cells, std::size_t linear, std::size_t channel,
                               double value);

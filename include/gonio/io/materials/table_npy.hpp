@@ -11,7 +11,8 @@
 
 namespace gonio::io {
 
-/// Writes a table for whoever reads arrays. A cell below the horizon has the value of the one above it in theta_h that
+/// Writes a table for whoever reads arrays: its values at the cells' centres, to which a table by lower corners is
+/// interpolated. A cell below the horizon has the value of the one above it in theta_h that
 /// is not: no hole for an interpolation to fall into. Which cells these are is geometry: see `valid_cells`.
 void write_table_npy(const std::filesystem::path& path, const brdf_table& table);
 

@@ -50,12 +50,6 @@ GONIO_INLINE double merl_planes::operator()(std::size_t channel, std::size_t lin
   return value;
 }
 
-GONIO_INLINE int mark_statistics::rank() const noexcept {
-  if (!std::isfinite(smallest_unmarked) || !(largest_marked + valid_cells::horizon < smallest_unmarked)) return 0;
-  if (smallest_unmarked <= 0.0) return 1;
-  return largest_marked > 0.0 ? 2 : 3;
-}
-
 GONIO_INLINE void refuse_cell(const std::string& name, const grid& cells, std::size_t linear, std::size_t channel,
                               double value) {
   constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
@@ -100,7 +94,7 @@ GONIO_INLINE void write_merl(const std::filesystem::path& path, const brdf_table
   const grid& cells = table.cells().grid();
   const auto [theta_h, theta_d, phi_d] = cells.extents();
   const std::array<std::int32_t, 3> header{theta_h, theta_d, phi_d};
-  std::vector<double> plane(cells.size(), detail::merl_empty);
+  std::vector<double> plane(cells.size(), gonio::detail::merl_empty);
   file_writer file(path);
   file.write({reinterpret_cast<const std::byte*>(header.data()), detail::merl_header_size});
   for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -18,6 +18,7 @@ namespace detail {
 
 [[nodiscard]] inline xt::xtensor<float, 4> table_as_array(const brdf_table& table) {
   const grid& cells = table.cells().grid();
+  if (cells.anchor() != cell_anchor::centre) return table_as_array(resample(table, valid_cells(grid(cells.extents()))));
   const auto [theta_h, theta_d, phi_d] = cells.extents();
   const auto wide = [](int extent) { return static_cast<std::size_t>(extent); };
   xt::xtensor<float, 4> array({wide(theta_h), wide(theta_d), wide(phi_d), std::size_t{3}});

@@ -1,0 +1,93 @@
+/// The tool's options as Python's arguments.
+
+#include "words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace python {
+
+namespace {
+
+/// Options whose arguments have another name, or stand for one value of it.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> renamed{{{"lambda", "lambda_share="},
+                                                                                {"misplaced", "misplaced_degrees="},
+                                                                                {"no-reject", "reject=False"},
+                                                                                {"uncertainty", "uncertainty=True"},
+                                                                                {"as-printed", "as_printed=True"},
+                                                                                {"in-sample", "in_sample=True"},
+                                                                                {"fresnel", "fresnel=True"}}};
+
+/// Those that have the same name but for hyphens.
+constexpr std::array<std::string_view, 22> same{
+    "prior",    "networks", "merl",        "exclude",      "metric",    "root",      "solver", "eta",
+    "variance", "noise",    "discrepancy", "gamma",        "method",    "geometry",  "search", "iterations",
+    "seed",     "start",    "starts",      "common-shift", "criterion", "neighbours"};
+
+/// Those of `same` whose value is a word.
+constexpr std::array<std::string_view, 6> chosen_by_word{"method",   "metric",    "solver",
+                                                         "geometry", "criterion", "search"};
+
+/// Words of a sentence that are no value of an option.
+constexpr std::array<std::string_view, 9> plain_words{"and", "or", "not", "need", "needs", "goes", "was", "to", "of"};
+
+template <class Words>
+bool contains(const Words& words, std::string_view word) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+bool is_lower_case(char c) { return c >= 'a' && c <= 'z'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The lower-case word with hyphens inside at the beginning of a text.
+std::string_view word_at(std::string_view text) {
+  const auto end = std::ranges::find_if_not(text, [](char c) { return is_lower_case(c) || is_digit(c) || c == '-'; });
+  return text.substr(0, static_cast<std::size_t>(end - text.begin()));
+}
+
+/// "eta=" of "eta"; nothing of what is no argument.
+std::string argument_of(std::string_view option) {
+  for (const auto& [name, argument] : renamed)
+    if (name == option) return std::string(argument);
+  if (!contains(same, option)) return {};
+  std::string argument(option);
+  std::ranges::replace(argument, '-', '_');
+  return argument + '=';
+}
+
+/// How much of the text behind an option is its value, a space included, and the value as Python writes it.
+std::pair<std::size_t, std::string> value_behind(std::string_view option, std::string_view text) {
+  if (text.size() < 2 || text.front() != ' ') return {0, ""};
+  const std::string_view word = word_at(text.substr(1));
+  if (is_digit(text[1])) return {1, ""};  // the number follows as it is
+  if (!contains(chosen_by_word, option) || word.empty() || !is_lower_case(word.front()) || contains(plain_words, word))
+    return {0, ""};
+  return {1 + word.size(), '\'' + std::string(word) + '\''};
+}
+
+}  // namespace
+
+std::string in_python(std::string_view sentence) {
+  std::string told;
+  while (!sentence.empty()) {
+    const bool begins =
+        sentence.starts_with("--") && (told.empty() || !(is_lower_case(told.back()) || told.back() == '-'));
+    const std::string_view option = begins ? word_at(sentence.substr(2)) : std::string_view();
+    const std::string argument = argument_of(option);
+    if (argument.empty()) {
+      told += sentence.front();
+      sentence.remove_prefix(1);
+      continue;
+    }
+    sentence.remove_prefix(2 + option.size());
+    told += argument;
+    if (!argument.ends_with('=')) continue;
+    const auto [length, value] = value_behind(option, sentence);
+    told += value;
+    sentence.remove_prefix(length);
+  }
+  return told;
+}
+
+}  // namespace python

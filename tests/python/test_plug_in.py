@@ -1,0 +1,57 @@
+"""How the plug-in for Mitsuba looks tables up, on numpy: Mitsuba need not be there."""
+
+import importlib.util
+import pathlib
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+import numpy as np
+
+import gonio
+from surroundings import SOURCE, random_pairs, table_of_formula
+
+STUBS = pathlib.Path(__file__).with_name("stubs")
+
+
+def module_from(path, name):
+    spec = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+class LookUpTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.mi = module_from(STUBS / "mitsuba.py", "mitsuba")
+        stubs = {"mitsuba": cls.mi, "drjit": module_from(STUBS / "drjit.py", "drjit")}
+        with mock.patch.dict(sys.modules, stubs):
+            cls.plug_in = module_from(SOURCE / "examples" / "python" / "mitsuba_table.py", "mitsuba_table_on_numpy")
+
+    def check_agreement(self, table):
+        with tempfile.TemporaryDirectory() as folder:
+            file = str(pathlib.Path(folder) / "paint.binary")
+            gonio.write_merl(file, table)
+            bsdf = self.plug_in.GonioTable({"filename": file})
+        wi, wo = random_pairs(20000, smallest_cosine=1e-3)
+        value = bsdf.reflectance(self.mi.Vector3f(wi.T), self.mi.Vector3f(wo.T), True).T
+        np.testing.assert_allclose(value, np.maximum(table(wi, wo), 0), rtol=1e-6, atol=1e-9)
+
+    def test_values_are_those_of_the_table(self):
+        for anchor in ("centre", "lower_corner"):
+            for minimum_cosine in (0, 0.02):
+                with self.subTest(anchor=anchor, minimum_cosine=minimum_cosine):
+                    self.check_agreement(table_of_formula("gold-metal", anchor, minimum_cosine=minimum_cosine))
+
+    def test_negative_values_are_black(self):
+        table = gonio.Table(np.full((9, 9, 18, 3), -0.5))
+        with tempfile.TemporaryDirectory() as folder:
+            file = str(pathlib.Path(folder) / "dark.binary")
+            gonio.write_merl(file, table)
+            self.assertEqual(self.plug_in.GonioTable({"filename": file}).values.max(), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
