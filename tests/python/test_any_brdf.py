@@ -100,6 +100,14 @@ class FileTest(unittest.TestCase):
         np.testing.assert_array_equal(again(wi, wo), stored(wi, wo))
         self.assertEqual(repr(again), "<gonio.AdaptiveBrdf>")
 
+    def test_rgl_has_no_negative_values(self):
+        silk = gonio.Table(np.full((12, 12, 24, 3), [-0.1, 0.1, 0.2]))
+        gonio.write_rgl(self.path, silk)
+        wi, wo = random_pairs(200, smallest_cosine=0.2)
+        values = gonio.read_rgl(self.path)(wi, wo)
+        self.assertGreaterEqual(values.min(), 0.0)
+        np.testing.assert_allclose(values[:, 1], 0.1, rtol=0.06)
+
     def test_rgl_that_cannot_be_written(self):
         with self.assertRaisesRegex(gonio.Error, "nowhere"):
             gonio.write_rgl("/nowhere/gold.bsdf", gonio.formula_material("gold-metal"))

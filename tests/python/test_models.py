@@ -26,6 +26,12 @@ class FitTest(unittest.TestCase):
         fit = gonio.fit_model(self.samples, "sum:ward", loss="l1", metric="cubic")
         self.assertEqual([lobe["lobe"] for lobe in fit.model.lobes], ["ward"])
 
+    def test_no_fit_reflects_more_than_falls_in(self):
+        bright = gonio.Samples(self.samples.directions, 4 * self.samples.values)
+        bounded, free = gonio.fit_model(bright), gonio.fit_model(bright, largest_albedo=np.inf)
+        self.assertGreater(bounded.loss, free.loss)
+        self.assertLess(bounded.model.lobes[1]["colour"][0], free.model.lobes[1]["colour"][0])
+
     def test_of_a_table(self):
         grey = gonio.Table(np.full((12, 12, 24, 3), 0.1))
         colour = gonio.fit_model(grey, "lambert", loss="l2", metric="lin", cell_weights="cosine").model.lobes[0]["colour"]
@@ -37,6 +43,8 @@ class FitTest(unittest.TestCase):
         self.assertIn("Material", model.pbrt())
 
     def test_refusals(self):
+        with self.assertRaisesRegex(gonio.Error, "largest albedo must be positive"):
+            gonio.fit_model(self.samples, largest_albedo=0.0)
         for arguments, sentence in [
             (("phing",), "phing"),
             (("sum:ggx+",), ""),

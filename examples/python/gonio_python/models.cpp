@@ -32,8 +32,8 @@ Value named(const std::string& word, const char* name, const std::map<std::strin
 }
 
 cli::model_choice choice_of(const std::string& model, const std::string& metric, const std::string& loss,
-                            bool cosine_weighted, bool fresnel, Eigen::Index starts, std::uint64_t seed,
-                            unsigned threads) {
+                            bool cosine_weighted, bool fresnel, double largest_albedo, Eigen::Index starts,
+                            std::uint64_t seed, unsigned threads) {
   cli::model_choice choice;
   choice.model = model;
   choice.metric = named<std::string>(metric, "metric", {{"lin", "lin"}, {"log", "log"}, {"cubic", "cubic"}});
@@ -42,6 +42,7 @@ cli::model_choice choice_of(const std::string& model, const std::string& metric,
       named<fit_norm>(loss, "loss", {{"l1", fit_norm::l1}, {"l2", fit_norm::l2}, {"huber", fit_norm::huber}});
   choice.fit.cosine_weighted = cosine_weighted;
   if (starts < 0 || starts > 10'000) gonio::refuse({"starts is ", starts, ": expected 0 to 10000"});
+  choice.fit.largest_albedo = largest_albedo;
   choice.fit.random_starts = starts;
   choice.fit.seed = seed;
   choice.fit.threads.value = threads;
@@ -50,15 +51,17 @@ cli::model_choice choice_of(const std::string& model, const std::string& metric,
 
 gonio::model::model_fit fit_samples(const gonio::sample_set& samples, const std::string& model,
                                     const std::string& metric, const std::string& loss, bool cosine_weighted,
-                                    bool fresnel, Eigen::Index starts, std::uint64_t seed, unsigned threads) {
-  const auto choice = choice_of(model, metric, loss, cosine_weighted, fresnel, starts, seed, threads);
+                                    bool fresnel, double largest_albedo, Eigen::Index starts, std::uint64_t seed,
+                                    unsigned threads) {
+  const auto choice = choice_of(model, metric, loss, cosine_weighted, fresnel, largest_albedo, starts, seed, threads);
   return cli::fit_chosen(choice, gonio::model::fit_observations(samples));
 }
 
 gonio::model::model_fit fit_table(const gonio::brdf_table& table, const std::string& model, const std::string& metric,
-                                  const std::string& loss, bool cosine_weighted, bool fresnel, Eigen::Index starts,
-                                  std::uint64_t seed, unsigned threads, const std::string& cell_weights) {
-  const auto choice = choice_of(model, metric, loss, cosine_weighted, fresnel, starts, seed, threads);
+                                  const std::string& loss, bool cosine_weighted, bool fresnel, double largest_albedo,
+                                  Eigen::Index starts, std::uint64_t seed, unsigned threads,
+                                  const std::string& cell_weights) {
+  const auto choice = choice_of(model, metric, loss, cosine_weighted, fresnel, largest_albedo, starts, seed, threads);
   const auto weighting = named<cell_weighting>(cell_weights, "cell_weights",
                                                {{"equal", cell_weighting::equal},
                                                 {"solid-angle", cell_weighting::solid_angle},
@@ -150,16 +153,18 @@ void add_fit_function(py::module_& m) {
       "fit_model", &fit_samples, py::arg("measurements"), py::arg("model") = standard.model, py::kw_only(),
       py::arg("metric") = standard.metric, py::arg("loss") = "huber",
       py::arg("cosine_weighted") = standard.fit.cosine_weighted, py::arg("fresnel") = standard.fresnel,
-      py::arg("starts") = standard.fit.random_starts, py::arg("seed") = standard.fit.seed, py::arg("threads") = 0,
-      py::call_guard<py::gil_scoped_release>(),
+      py::arg("largest_albedo") = standard.fit.largest_albedo, py::arg("starts") = standard.fit.random_starts,
+      py::arg("seed") = standard.fit.seed, py::arg("threads") = 0, py::call_guard<py::gil_scoped_release>(),
       "Fits an analytic model as `gonio fit` does: a lobe beside a Lambertian one, or with 'sum:ward+ggx' the lobes\n"
       "that are named. measurements: samples, or a table, whose cells count as cell_weights says (equal, solid-angle,\n"
-      "cosine).");
+      "cosine). The model reflects at most largest_albedo of light that falls in at up to 88 degrees; inf bounds\n"
+      "nothing.");
   m.def("fit_model", &fit_table, py::arg("measurements"), py::arg("model") = standard.model, py::kw_only(),
         py::arg("metric") = standard.metric, py::arg("loss") = "huber",
         py::arg("cosine_weighted") = standard.fit.cosine_weighted, py::arg("fresnel") = standard.fresnel,
-        py::arg("starts") = standard.fit.random_starts, py::arg("seed") = standard.fit.seed, py::arg("threads") = 0,
-        py::arg("cell_weights") = "equal", py::call_guard<py::gil_scoped_release>());
+        py::arg("largest_albedo") = standard.fit.largest_albedo, py::arg("starts") = standard.fit.random_starts,
+        py::arg("seed") = standard.fit.seed, py::arg("threads") = 0, py::arg("cell_weights") = "equal",
+        py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/rgl.hpp>
 #include <gonio/io/materials/table_npy.hpp>
+#include <gonio/model/clipped_brdf.hpp>
 #include <gonio/table/tensor_view.hpp>
 
 #include <algorithm>
@@ -153,7 +154,9 @@ void write_rgl(const std::filesystem::path& path, const gonio::model::adaptive_b
   gonio::io::write_rgl(path, f);
 }
 
-void write_rgl(const std::filesystem::path& path, const brdf_by_pointer& f) { gonio::io::write_rgl(path, f); }
+void write_rgl(const std::filesystem::path& path, const brdf_by_pointer& f) {
+  gonio::io::write_rgl(path, gonio::model::clipped_brdf(f));
+}
 
 void add_tables(py::module_& m) {
   add_table_class(m);
