@@ -35,8 +35,13 @@ GONIO_INLINE std::vector<Eigen::Index> inliers::kept() const {
 
 GONIO_INLINE Eigen::Index outlying_sample::worst_channel() const {
   constexpr double floor = 1e-3;
+  const auto factor = [this](Eigen::Index c) {
+    const double ratio = (std::max(measured[c], 0.0) + floor) / (std::max(predicted[c], 0.0) + floor);
+    return std::max(ratio, 1.0 / ratio);
+  };
   Eigen::Index worst = 0;
-  ((measured.max(0.0) + floor) / (predicted.max(0.0) + floor)).log().abs().maxCoeff(&worst);
+  for (const Eigen::Index c : {1, 2})
+    if (factor(c) > factor(worst)) worst = c;
   return worst;
 }
 
