@@ -136,6 +136,16 @@ TEST_CASE("options of one method given to another") {
   refuses(start + "pull-push --iteration-figure " + (folder / "story").string(),
           {"--iteration-figure", "--method correction"});
   refuses(start + "correction --solver nnls", {"--solver", "pca or linear"});
+  // An option of a solver or a metric that is not taken would do nothing.
+  for (const auto& [options, sentence] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"pca --root 2", "--root needs --metric root"},
+           {"pca --variance 0.5", "--variance needs --solver tsvd, not tikhonov"},
+           {"pca --lambda 0.5", "--lambda needs --solver lasso, not tikhonov"},
+           {"pca --solver ls --eta 3", "--eta needs --solver tikhonov, not ls"},
+           {"linear --eta gcv", "--eta needs --solver tikhonov, not nnls"},
+           {"linear --metric log --root 3", "--root needs --metric root"},
+           {"rbf --root 3", "--root needs --metric root"}})
+    refuses(start + options, {sentence});
   refuses(start + "rbf --eta 3", {"--eta", "pca or soft-specular or linear"});
   refuses(start + "soft-specular --solver nnls", {"--solver", "pca or linear"});
   refuses(start + "soft-specular --uncertainty u.binary", {"--uncertainty", "--method pca"});

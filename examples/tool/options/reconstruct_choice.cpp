@@ -65,6 +65,19 @@ reconstruction with_warnings(reconstruction result, const reconstruct_options& o
   return result;
 }
 
+/// Refuses options of a solver or a metric that is not the one that is taken.
+void require_taken(const reconstruct_options& options, const std::function<bool(const std::string&)>& is_given) {
+  const std::string own = options.method == "linear" ? "nnls" : "tikhonov";
+  const std::string& solver = options.solver.name.empty() ? own : options.solver.name;
+  const auto needs = [&](const char* option, const std::string& needed, bool is_there) {
+    if (is_given(option) && !is_there) gonio::refuse({option, " needs ", needed});
+  };
+  needs("--eta", "--solver tikhonov, not " + solver, solver == "tikhonov");
+  needs("--lambda", "--solver lasso, not " + solver, solver == "lasso");
+  needs("--variance", "--solver tsvd, not " + solver, solver == "tsvd");
+  needs("--root", "--metric root", options.metric == "root");
+}
+
 }  // namespace
 
 const std::vector<reconstruct_method>& reconstruct_methods() {
@@ -135,6 +148,7 @@ void take_given(reconstruct_options& options, const std::function<bool(const std
         if (takes(m, option)) names += (names.empty() ? "" : " or ") + std::string(m.name);
       gonio::refuse(std::string(option) + " needs --method " + names + ", not --method " + chosen.name);
     }
+  require_taken(options, is_given);
   options.has_own_options = std::ranges::any_of(chosen.takes, [&](std::string_view option) {
     return option != "--prior" && option != "--seed" && is_given(std::string(option));
   });

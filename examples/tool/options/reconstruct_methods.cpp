@@ -76,8 +76,7 @@ component_choice choose_components(const reconstruct_options& options) {
   if (options.keeps_all || !options.residuals.empty() || options.wants_uncertainty())
     gonio::refuse(
         "--no-reject, --residuals, --report, --uncertainty and --uncertainty-image need a discrepancy: they go with "
-        "none of "
-        "--discrepancy 0, --eta and other solvers than tikhonov");
+        "none of --discrepancy 0, --eta and other solvers than tikhonov");
   if (options.discrepancy != 0.0 && options.discrepancy != reconstruct_options{}.discrepancy)
     gonio::refuse("--discrepancy goes with none of --eta and other solvers than tikhonov");
   return chosen;
