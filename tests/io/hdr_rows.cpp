@@ -83,6 +83,7 @@ TEST_CASE("HDR rows: what the header says of colours and of the order of rows is
       (pixel("EXPOSURE=2\n" + rgbe + "EXPOSURE=4\nCOLORCORR= 1 2 4\n") == stored / gonio::rgb(8.0, 16.0, 32.0)).all());
   // Rec. 709's own primaries change nothing, and Radiance's keep white; its red is yellower.
   CHECK((pixel(rgbe + "PRIMARIES= .64 .33 .30 .60 .15 .06 .3127 .3290\n") - stored).abs().maxCoeff() < 2e-4);
+  CHECK((pixel(rgbe + "PRIMARIES=0 0 0 0 0 0 0 0\n") == stored).all());
   const std::string radiance = rgbe + "PRIMARIES= .640 .330 .290 .600 .150 .060 .3333 .3333\n";
   CHECK((pixel(radiance, white) - 1.0).abs().maxCoeff() < 1e-6);
   const gonio::rgb red = pixel(radiance, std::string("\x80\x00\x00\x81", 4));

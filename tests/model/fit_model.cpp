@@ -125,7 +125,8 @@ TEST_CASE("a fit reflects no more than falls in, by any norm and metric, and is 
     std::vector<gonio::model::analytic_lobe> scaled;
     for (const auto& lobe : impossible.lobes())
       scaled.emplace_back(lobe.kind(), darker * lobe.colour(), lobe.parameters());
-    const gonio::model::detail::model_loss loss({&lambert, &ggx}, observed(impossible, pairs),
+    const auto observations = observed(impossible, pairs);
+    const gonio::model::detail::model_loss loss({&lambert, &ggx}, observations,
                                                 gonio::model::detail::chosen_metric(metric), options);
     Eigen::VectorXd x(loss.unknowns());
     x.head(2) = loss.coded(std::vector{scaled[0].parameters(), scaled[1].parameters()});

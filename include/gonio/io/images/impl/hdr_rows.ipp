@@ -104,7 +104,7 @@ class hdr_colours {
   void read(std::string_view line) {
     if (line.starts_with("EXPOSURE=")) divisor_ *= hdr_numbers(line, 1, name_)[0];
     if (line.starts_with("COLORCORR=")) divisor_ = divisor_.cwiseProduct(hdr_numbers(line, 3, name_));
-    if (line.starts_with("PRIMARIES=")) primaries_ = from_primaries(hdr_numbers(line, 8, name_), name_);
+    if (line.starts_with("PRIMARIES=")) read_primaries(hdr_numbers(line, 8, name_));
     if (line == "FORMAT=32-bit_rle_xyze") primaries_ = from_radiance_xyz();
     is_known_ = is_known_ || line == "FORMAT=32-bit_rle_rgbe" || line == "FORMAT=32-bit_rle_xyze";
   }
@@ -116,6 +116,11 @@ class hdr_colours {
   }
 
  private:
+  /// Photoshop writes eight zeros for the usual ones.
+  void read_primaries(const Eigen::VectorXd& xy) {
+    if ((xy.array() != 0.0).any()) primaries_ = from_primaries(xy, name_);
+  }
+
   const std::string& name_;
   bool is_known_ = false;
   Eigen::Vector3d divisor_ = Eigen::Vector3d::Ones();
