@@ -29,6 +29,7 @@
 #include <gonio/io/measurements/impl/openmaterial.ipp>
 #include <gonio/io/measurements/impl/reference_reflectance.ipp>
 #include <gonio/io/measurements/impl/sample_collector.ipp>
+#include <gonio/io/measurements/impl/sample_columns.ipp>
 #include <gonio/io/measurements/impl/sample_header.ipp>
 #include <gonio/io/measurements/impl/sample_provenance.ipp>
 #include <gonio/io/measurements/impl/sample_quantity.ipp>
@@ -48,4 +49,5 @@
 #include <gonio/io/text/impl/named_files.ipp>
 #include <gonio/io/text/impl/rules.ipp>
 #include <gonio/io/text/impl/text.ipp>
+#include <gonio/io/text/impl/utf16.ipp>
 #include <gonio/io/text/impl/words.ipp>

@@ -33,6 +33,7 @@
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/reference_reflectance.hpp>
 #include <gonio/io/measurements/sample_collector.hpp>
+#include <gonio/io/measurements/sample_columns.hpp>
 #include <gonio/io/measurements/sample_header.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
@@ -52,4 +53,5 @@
 #include <gonio/io/text/named_files.hpp>
 #include <gonio/io/text/rules.hpp>
 #include <gonio/io/text/text.hpp>
+#include <gonio/io/text/utf16.hpp>
 #include <gonio/io/text/words.hpp>
