@@ -22,10 +22,12 @@
 #include <gonio/io/materials/impl/soft_specular_prior.ipp>
 #include <gonio/io/materials/impl/svbrdf_map.ipp>
 #include <gonio/io/materials/impl/table_npy.ipp>
+#include <gonio/io/measurements/impl/alta.ipp>
 #include <gonio/io/measurements/impl/astm_e1392.ipp>
 #include <gonio/io/measurements/impl/bird.ipp>
 #include <gonio/io/measurements/impl/bird_data.ipp>
 #include <gonio/io/measurements/impl/cornell.ipp>
+#include <gonio/io/measurements/impl/klems_xml.ipp>
 #include <gonio/io/measurements/impl/openmaterial.ipp>
 #include <gonio/io/measurements/impl/reference_reflectance.ipp>
 #include <gonio/io/measurements/impl/sample_collector.ipp>

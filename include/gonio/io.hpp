@@ -27,9 +27,11 @@
 #include <gonio/io/materials/soft_specular_prior.hpp>
 #include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/io/materials/table_npy.hpp>
+#include <gonio/io/measurements/alta.hpp>
 #include <gonio/io/measurements/astm_e1392.hpp>
 #include <gonio/io/measurements/bird.hpp>
 #include <gonio/io/measurements/cornell.hpp>
+#include <gonio/io/measurements/klems_xml.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/reference_reflectance.hpp>
 #include <gonio/io/measurements/sample_collector.hpp>
