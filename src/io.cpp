@@ -22,13 +22,16 @@
 #include <gonio/io/materials/impl/soft_specular_prior.ipp>
 #include <gonio/io/materials/impl/svbrdf_map.ipp>
 #include <gonio/io/materials/impl/table_npy.ipp>
+#include <gonio/io/measurements/impl/alta.ipp>
 #include <gonio/io/measurements/impl/astm_e1392.ipp>
 #include <gonio/io/measurements/impl/bird.ipp>
 #include <gonio/io/measurements/impl/bird_data.ipp>
 #include <gonio/io/measurements/impl/cornell.ipp>
+#include <gonio/io/measurements/impl/klems_xml.ipp>
 #include <gonio/io/measurements/impl/openmaterial.ipp>
 #include <gonio/io/measurements/impl/reference_reflectance.ipp>
 #include <gonio/io/measurements/impl/sample_collector.ipp>
+#include <gonio/io/measurements/impl/sample_columns.ipp>
 #include <gonio/io/measurements/impl/sample_header.ipp>
 #include <gonio/io/measurements/impl/sample_provenance.ipp>
 #include <gonio/io/measurements/impl/sample_quantity.ipp>
@@ -48,4 +51,5 @@
 #include <gonio/io/text/impl/named_files.ipp>
 #include <gonio/io/text/impl/rules.ipp>
 #include <gonio/io/text/impl/text.ipp>
+#include <gonio/io/text/impl/utf16.ipp>
 #include <gonio/io/text/impl/words.ipp>

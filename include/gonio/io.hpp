@@ -27,12 +27,15 @@
 #include <gonio/io/materials/soft_specular_prior.hpp>
 #include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/io/materials/table_npy.hpp>
+#include <gonio/io/measurements/alta.hpp>
 #include <gonio/io/measurements/astm_e1392.hpp>
 #include <gonio/io/measurements/bird.hpp>
 #include <gonio/io/measurements/cornell.hpp>
+#include <gonio/io/measurements/klems_xml.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/reference_reflectance.hpp>
 #include <gonio/io/measurements/sample_collector.hpp>
+#include <gonio/io/measurements/sample_columns.hpp>
 #include <gonio/io/measurements/sample_header.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
@@ -52,4 +55,5 @@
 #include <gonio/io/text/named_files.hpp>
 #include <gonio/io/text/rules.hpp>
 #include <gonio/io/text/text.hpp>
+#include <gonio/io/text/utf16.hpp>
 #include <gonio/io/text/words.hpp>

@@ -75,17 +75,21 @@ TEST_CASE("the first decimal mark is that of all numbers") {
   CHECK(german == csv_dialect{';', ','});
   CHECK(german.read_number("+7", value) == nullptr);
   CHECK(value == 7.0);
-  for (const char* wrong : {"1.5", "1,5,5", "1.234,5", "1,234.5", ",", "", "x", "nan", "1,5x"}) {
+  for (const char* wrong : {"1.5", "1,5,5", "1.23,5", "1,234.5", ",", "", "x", "nan", "1,5x"}) {
     CAPTURE(wrong);
     CHECK(german.read_number(wrong, value) != nullptr);
   }
   csv_dialect english{';'};
   CHECK(english.read_number("1.5", value) == nullptr);
   CHECK(english.decimal_mark == '.');
-  for (const char* wrong : {"1,5", "1.5.5", "1,234.5", "inf"}) {
+  for (const char* wrong : {"1,5", "1.5.5", "1.234,5", "1,23.5", "inf"}) {
     CAPTURE(wrong);
     CHECK(english.read_number(wrong, value) != nullptr);
   }
+  CHECK(german.read_number("1.234,5", value) == nullptr);  // thousands
+  CHECK(value == 1234.5);
+  CHECK(english.read_number("1,234.5", value) == nullptr);
+  CHECK(value == 1234.5);
   csv_dialect unknown{';'};
   CHECK(unknown.read_number("1,x", value) != nullptr);
   CHECK(unknown.decimal_mark == '?');  // what is no number shows nothing

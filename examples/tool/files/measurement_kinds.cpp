@@ -1,9 +1,11 @@
 #include "measurement_kinds.hpp"
 
 #include "file_start.hpp"
+#include <gonio/io/measurements/alta.hpp>
 #include <gonio/io/measurements/astm_e1392.hpp>
 #include <gonio/io/measurements/bird.hpp>
 #include <gonio/io/measurements/cornell.hpp>
+#include <gonio/io/measurements/klems_xml.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/ssdd.hpp>
 #include <gonio/io/measurements/zemax_bsdf.hpp>
@@ -14,7 +16,7 @@ namespace cli {
 
 namespace {
 
-constexpr std::array<measurement_kind, 6> kinds{{
+constexpr std::array<measurement_kind, 8> kinds{{
     {"Zemax BSDF", [](std::string_view, std::string_view start) { return gonio::io::looks_like_zemax_bsdf(start); },
      gonio::io::read_zemax_bsdf},
     {"SSDD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_ssdd(start); },
@@ -29,6 +31,10 @@ constexpr std::array<measurement_kind, 6> kinds{{
        return extension == ".xompt" || gonio::io::looks_like_openmaterial(start);
      },
      gonio::io::read_openmaterial},
+    {"ALTA", [](std::string_view, std::string_view start) { return gonio::io::looks_like_alta(start); },
+     gonio::io::read_alta},
+    {"Klems matrix", [](std::string_view, std::string_view start) { return gonio::io::looks_like_klems_xml(start); },
+     gonio::io::read_klems_xml},
     {"BiRD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_bird(start); },
      gonio::io::read_bird},
     {"spectral samples of Cornell", [](std::string_view extension, std::string_view) { return extension == ".brdf"; },

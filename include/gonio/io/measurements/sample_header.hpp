@@ -2,14 +2,15 @@
 /// The header line of a file of samples: which column each field of a line is, what the columns' names and units say of
 /// the numbers, and which columns are not needed. io/measurements/samples.hpp has the names.
 
+#include <gonio/io/measurements/sample_columns.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
 #include <gonio/io/text/csv_reader.hpp>
 #include <gonio/io/text/text.hpp>
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,75 +36,16 @@ struct sample_reading {
 
 namespace detail {
 
-// The columns, grouped; the numbers below index this list. The last holds text.
-inline constexpr std::array<std::string_view, 25> sample_columns{"theta_h",
-                                                                 "theta_d",
-                                                                 "phi_d",
-                                                                 "theta_i",
-                                                                 "phi_i",
-                                                                 "theta_o",
-                                                                 "phi_o",
-                                                                 "wi_x",
-                                                                 "wi_y",
-                                                                 "wi_z",
-                                                                 "wo_x",
-                                                                 "wo_y",
-                                                                 "wo_z",
-                                                                 "r",
-                                                                 "g",
-                                                                 "b",
-                                                                 "weight",
-                                                                 "weight_r",
-                                                                 "weight_g",
-                                                                 "weight_b",
-                                                                 "value",
-                                                                 "wavelength",
-                                                                 "source_half_angle",
-                                                                 "receiver_half_angle",
-                                                                 "quantity"};
-
-struct column_group {
-  std::size_t first = 0;
-  std::size_t count = 0;
-
-  [[nodiscard]] bool has(std::size_t column) const noexcept { return column >= first && column < first + count; }
-};
-inline constexpr column_group half_difference_group{0, 3};
-inline constexpr column_group angle_group{3, 4};
-inline constexpr column_group vector_group{7, 6};
-inline constexpr column_group colour_group{13, 3};
-inline constexpr column_group weight_group{16, 1};
-inline constexpr column_group channel_weight_group{17, 3};
-inline constexpr column_group grey_group{20, 1};
-inline constexpr std::size_t wavelength_column = 21, quantity_column = 24;
-inline constexpr column_group half_angle_group{22, 2};
-
-/// A name in the header line as it is written, and without the unit behind it: "Theta In [deg]" is theta_i, degrees.
-struct written_column {
-  std::string text, name, unit;
-};
-
-/// The name in small letters. A unit is in brackets behind it, or its last word if that is a word for a unit:
-/// theta_i_deg.
-[[nodiscard]] written_column written(std::string_view field);
-
-enum class column_unit { none, degrees, radians, nanometres, percent, per_steradian, unknown };
-[[nodiscard]] column_unit unit_named(std::string_view name);
-
-/// What a column may be called, in letters and digits alone: Theta_In, "theta in" and thetaIn are one name.
-struct known_name {
-  std::string_view letters;
-  std::size_t column;
-  std::optional<sample_quantity> quantity = {};  ///< if the name says it
-};
+/// Do the fields of a line name at least two columns of directions? Then it is a header line.
+[[nodiscard]] bool name_directions(std::span<const std::string_view> fields, const sample_reading& reading);
 
 class sample_header {
  public:
   /// Of a field that is no column of samples.
   static constexpr std::size_t ignored = sample_columns.size();
 
-  /// Of the line that the file is at.
-  void read(const csv_reader& file, const sample_reading& reading, bool needs_value);
+  /// Of the line that the file is at, and of the line of units below it, if there is one, to which the file then turns.
+  void read(csv_reader& file, const sample_reading& reading, bool needs_value);
 
   [[nodiscard]] const std::vector<std::size_t>& columns() const noexcept { return columns_; }
   [[nodiscard]] const column_group& directions() const noexcept { return directions_; }
@@ -119,6 +61,8 @@ class sample_header {
   [[nodiscard]] bool has_wavelength() const noexcept { return has_wavelength_; }
   /// Polar angles without azimuths: their signs say which side of the normal a direction is on.
   [[nodiscard]] bool is_in_plane() const noexcept { return is_in_plane_; }
+  /// What the file calls a column of phi_o - phi_i, which stands for both azimuths; empty if it has none.
+  [[nodiscard]] const std::string& relative_azimuth() const noexcept { return relative_azimuth_; }
   [[nodiscard]] const std::vector<std::size_t>& columns_in_radians() const noexcept { return in_radians_; }
   /// What the columns' names and units say that the values are.
   [[nodiscard]] const stated_quantity& quantity() const noexcept { return quantity_; }
@@ -132,6 +76,7 @@ class sample_header {
   void require_named(const sample_reading& reading, const text_place& place) const;
   void find_directions(const text_place& place);
   void find_values(bool needs_value, const text_place& place);
+  void take_r_for_value(const text_place& place);
   void find_weights(const text_place& place);
   [[nodiscard]] bool has(std::size_t column) const { return has_any({column, 1}); }
   [[nodiscard]] bool has_any(const column_group& group) const;
@@ -145,6 +90,7 @@ class sample_header {
   std::vector<written_column> extra_;
   column_group directions_, values_, weights_ = weight_group;
   stated_quantity quantity_;
+  std::string relative_azimuth_;
   bool is_in_plane_ = false, has_wavelength_ = false;
 };
 

@@ -38,8 +38,15 @@ class sample_rows {
  public:
   sample_rows(std::string_view text, const std::string& name, bool needs_value, const sample_reading& reading);
 
-  /// Turns to the next line of numbers. At the end of the file it is false, or an error if there was none.
+  /// Turns to the next line of numbers. At the end of the file it is false, or an error if there was none. Where values
+  /// are needed, lines that have none ("n/a", "OVER") are left out.
   [[nodiscard]] bool next();
+
+  /// How many lines had no value, and what the first of them had: "no value (line 92: 'OVER')".
+  [[nodiscard]] std::size_t rows_without_value() const noexcept { return missing_; }
+  [[nodiscard]] const std::string& first_without_value() const noexcept { return first_missing_; }
+  /// Refuses a file more than half of whose lines have no value.
+  void require_values() const;
 
   [[nodiscard]] parsed_row row() const noexcept {
     return {numbers_, header_.directions(), header_.values(), header_.weights(), quantity_.quantity(), csv_.place(),
@@ -59,7 +66,9 @@ class sample_rows {
   void read_comment(std::string_view comment);
   void read_header();
   void read_fields();
+  [[nodiscard]] bool has_value();
   void read_number_of(std::size_t column, std::string_view field, std::size_t& percent_signs);
+  [[noreturn]] void refuse_number(std::size_t column, std::string_view field, const char* wrong) const;
   void read_quantity(std::string_view field);
   void check_percent_signs(std::size_t signs);
   void check_wavelength();
@@ -68,6 +77,7 @@ class sample_rows {
   void read_half_angle(std::size_t column, const comment_entry& entry);
   void look_at_sides();
   void finish() const;
+  void note_assumptions() const;
 
   csv_reader csv_;
   bool needs_value_;
@@ -78,7 +88,8 @@ class sample_rows {
   std::optional<double> wavelength_;
   std::optional<theta_o_sign> sign_;
   sample_row numbers_ = sample_row(sample_columns.size());
-  std::size_t rows_ = 0;
+  std::size_t rows_ = 0, missing_ = 0;
+  std::string first_missing_, missing_message_;
   bool has_percent_signs_ = false, has_signed_angle_ = false;
   std::size_t line_of_unknown_side_ = 0;  ///< where two angles are not 0 and none is negative
 };

@@ -3,7 +3,8 @@
 /// The separator is the one of comma, semicolon and tab that stands most often in the header line, outside of double
 /// quotes (of equals, the first of these); if none does, it is runs of blanks. The decimal mark is that of the first
 /// number that has one, a point or a comma: a field of a comma-separated file that holds a comma is in quotes. From
-/// then on the other mark is refused, so that 1.234 among decimal commas is not taken for 1234.
+/// then on the other mark is refused, so that 1.234 among decimal commas is not taken for 1234. Thousands may be set
+/// apart where that cannot be a decimal mark: 1.081,43 and 1,081.43, 1'081.43, 1 081,43 with a no-break space.
 
 #include <cstddef>
 #include <string>
@@ -35,8 +36,8 @@ struct csv_dialect {
 
 namespace detail {
 
-/// Refuses what is often saved instead of CSV: a workbook, UTF-16 text. `name` is what the sentence calls the file.
-void require_plain_text(std::string_view text, const std::string& name);
+/// Refuses what is often saved instead of CSV, a workbook. `name` is what the sentence calls the file.
+void require_no_workbook(std::string_view text, const std::string& name);
 
 }  // namespace detail
 

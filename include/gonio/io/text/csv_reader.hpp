@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,13 +23,24 @@ namespace gonio::io {
 
 class csv_reader {
  public:
-  /// `name` is what errors call the file. Throws gonio::error if the text is a workbook or UTF-16.
+  /// `name` is what errors call the file. UTF-16 is converted; a first line `sep=;` names the separator, as in Excel.
+  /// Throws gonio::error if the text is a workbook.
   csv_reader(std::string_view text, const std::string& name);
 
   /// Turns to the next line, first to the header line, and false at the end. `read_comment` is called with what stands
   /// behind the `#` of each comment above it. Throws gonio::error, with the line, if a double quote is not closed or if
   /// there are other than the header line's fields; empty ones behind those are dropped.
   [[nodiscard]] bool next(const std::function<void(std::string_view)>& read_comment = {});
+
+  /// Takes the next line if it has as many fields as the header line and `is_it` is true of them.
+  [[nodiscard]] bool next_if(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
+
+  /// Looks for the header line among the first 1,000: the first whose fields are one by `is_it`. Of a file that has
+  /// one, the lines above it are passed over, but for comments.
+  void find_header(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
+
+  /// How many lines above the header line were passed over.
+  [[nodiscard]] std::size_t passed_over() const noexcept { return passed_over_; }
 
   /// Of the line, trimmed and without quotes.
   [[nodiscard]] const std::vector<std::string_view>& fields() const noexcept { return fields_; }
@@ -45,14 +57,20 @@ class csv_reader {
   [[nodiscard]] const text_place& place() const noexcept { return place_; }
 
  private:
+  void read_separator();
+  [[nodiscard]] csv_dialect dialect_of_header(std::string_view line) const;
   [[nodiscard]] bool next_line(std::string_view& line, const std::function<void(std::string_view)>& read_comment);
   [[noreturn]] void refuse_size(std::string_view line) const;
 
+  std::shared_ptr<const std::string> converted_;  ///< of UTF-16
   std::string_view left_;
   text_place place_;
   csv_dialect dialect_;
   std::vector<std::string_view> fields_;
-  std::size_t columns_ = 0;  ///< of the header line; 0 above it
+  char separator_ = '\0';        ///< that the first line names
+  std::size_t columns_ = 0;      ///< of the header line; 0 above it
+  std::size_t header_line_ = 0;  ///< 0 if it is the first that is no comment
+  std::size_t passed_over_ = 0;
 };
 
 }  // namespace gonio::io

@@ -4,6 +4,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/spelling.hpp>
+#include <gonio/io/measurements/sample_columns.hpp>
 #include <gonio/io/measurements/sample_header.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
 #include <gonio/io/text/csv_dialect.hpp>
@@ -11,136 +12,16 @@
 #include <gonio/io/text/text.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace gonio::io::detail {
 
-// ---- names and units -----------------------------------------------------------------------------------------------
-
-inline constexpr std::array known_names{known_name{"thetah", 0},
-                                        known_name{"thetad", 1},
-                                        known_name{"phid", 2},
-                                        known_name{"thetai", 3},
-                                        known_name{"thetain", 3},
-                                        known_name{"phii", 4},
-                                        known_name{"phiin", 4},
-                                        known_name{"thetao", 5},
-                                        known_name{"thetaout", 5},
-                                        known_name{"thetar", 5},
-                                        known_name{"thetas", 5},
-                                        known_name{"phio", 6},
-                                        known_name{"phiout", 6},
-                                        known_name{"phir", 6},
-                                        known_name{"phis", 6},
-                                        known_name{"wix", 7},
-                                        known_name{"wiy", 8},
-                                        known_name{"wiz", 9},
-                                        known_name{"wox", 10},
-                                        known_name{"woy", 11},
-                                        known_name{"woz", 12},
-                                        known_name{"r", 13},
-                                        known_name{"red", 13},
-                                        known_name{"g", 14},
-                                        known_name{"green", 14},
-                                        known_name{"b", 15},
-                                        known_name{"blue", 15},
-                                        known_name{"weight", 16},
-                                        known_name{"weightr", 17},
-                                        known_name{"weightg", 18},
-                                        known_name{"weightb", 19},
-                                        known_name{"value", 20},
-                                        known_name{"reflectance", 20},
-                                        known_name{"brdf", 20, sample_quantity::brdf},
-                                        known_name{"bsdf", 20, sample_quantity::brdf},
-                                        known_name{"brdfcosine", 20, sample_quantity::brdf_cosine},
-                                        known_name{"brdfcos", 20, sample_quantity::brdf_cosine},
-                                        known_name{"ccbrdf", 20, sample_quantity::brdf_cosine},
-                                        known_name{"ccbsdf", 20, sample_quantity::brdf_cosine},
-                                        known_name{"reflectancefactor", 20, sample_quantity::reflectance_factor},
-                                        known_name{"radiancefactor", 20, sample_quantity::reflectance_factor},
-                                        known_name{"percent", 20, sample_quantity::percent},
-                                        known_name{"wavelength", 21},
-                                        known_name{"lambda", 21},
-                                        known_name{"sourcehalfangle", 22},
-                                        known_name{"receiverhalfangle", 23},
-                                        known_name{"quantity", quantity_column}};
-
-[[gnu::cold]] GONIO_INLINE column_unit unit_named(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, column_unit>, 18> known{
-      {{"", column_unit::none},
-       {"-", column_unit::none},
-       {"deg", column_unit::degrees},
-       {"degree", column_unit::degrees},
-       {"degrees", column_unit::degrees},
-       {"\xC2\xB0", column_unit::degrees},  // the sign in UTF-8
-       {"\xB0", column_unit::degrees},      // and in Latin-1
-       {"rad", column_unit::radians},
-       {"radian", column_unit::radians},
-       {"radians", column_unit::radians},
-       {"nm", column_unit::nanometres},
-       {"%", column_unit::percent},
-       {"percent", column_unit::percent},
-       {"1/sr", column_unit::per_steradian},
-       {"/sr", column_unit::per_steradian},
-       {"sr^-1", column_unit::per_steradian},
-       {"sr-1", column_unit::per_steradian},
-       {"sr\xE2\x81\xBB\xC2\xB9", column_unit::per_steradian}}};  // superscripts
-  for (const auto& [each, unit] : known)
-    if (each == name) return unit;
-  return column_unit::unknown;
-}
-
-/// Is it a unit that a column may have?
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE bool fits(column_unit unit, std::size_t column) {
-  if (unit == column_unit::none) return true;
-  if (column < vector_group.first || half_angle_group.has(column))
-    return unit == column_unit::degrees || unit == column_unit::radians;
-  if (colour_group.has(column) || grey_group.has(column))
-    return unit == column_unit::percent || unit == column_unit::per_steradian;
-  return column == wavelength_column && unit == column_unit::nanometres;
-}
-
-[[gnu::cold]] GONIO_INLINE written_column written(std::string_view field) {
-  std::string text;
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    text += field[i];
-    if (field.substr(i).starts_with("\"\"")) ++i;  // a doubled quote is one
-  }
-  std::string_view name = text;
-  std::string unit;
-  if (name.ends_with(']') || name.ends_with(')')) {
-    const std::size_t open = name.find_last_of(name.back() == ']' ? '[' : '(');
-    if (open != std::string_view::npos) {
-      unit = lower_case(trimmed(name.substr(open + 1, name.size() - open - 2)));
-      name = name.substr(0, open);
-    }
-  } else if (const std::size_t word = name.find_last_of("_ /"); word != std::string_view::npos) {
-    std::string last = lower_case(name.substr(word + 1));
-    const bool is_unit = !last.empty() && last.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos &&
-                         unit_named(last) != column_unit::unknown;
-    if (is_unit) {
-      unit = std::move(last);
-      name = name.substr(0, word);
-    }
-  }
-  std::string lower = lower_case(trimmed(name));
-  return {std::move(text), std::move(lower), std::move(unit)};
-}
-
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE const known_name* find_known(std::string_view name) {
-  std::string letters;
-  for (const char c : name)
-    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) letters += c;
-  for (const known_name& each : known_names)
-    if (each.letters == letters) return &each;
-  return nullptr;
-}
+// ---- names ---------------------------------------------------------------------------------------------------------
 
 /// The nanometres that a column is called by: 400nm, "400 [nm]", w400, lambda_400, or a bare number that may be some; 0
 /// of any other name.
@@ -187,10 +68,24 @@ inline constexpr std::size_t longest_name = 40;
 
 // ---- the header line -----------------------------------------------------------------------------------------------
 
-[[gnu::cold]] GONIO_INLINE void sample_header::read(const csv_reader& file, const sample_reading& reading,
-                                                    bool needs_value) {
+[[gnu::cold]] GONIO_INLINE bool name_directions(std::span<const std::string_view> fields,
+                                                const sample_reading& reading) {
+  std::size_t count = 0;
+  for (const std::string_view field : fields) {
+    const written_column name = written(field);
+    const column_name* renamed = find_renamed(name, reading.columns);
+    const known_name* known = find_known(name.name);
+    const std::size_t column = renamed != nullptr ? column_named(renamed->column)
+                               : known != nullptr ? known->column
+                                                  : sample_header::ignored;
+    if (column < colour_group.first) ++count;
+  }
+  return count >= 2;
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_header::read(csv_reader& file, const sample_reading& reading, bool needs_value) {
   dialect_ = file.dialect();
-  const text_place& place = file.place();
+  const text_place place = file.place();
   double number = 0.0;
   csv_dialect of_numbers = dialect_;
   if (of_numbers.read_number(file.fields().front(), number) == nullptr)
@@ -202,7 +97,12 @@ inline constexpr std::size_t longest_name = 40;
     if (column_named(each.column) == ignored)
       place.refuse({"samples have no column ", in_quotes(each.column), " that ", in_quotes(each.in_file),
                     " could be, expected theta_i, value or another one of theirs"});
-  for (const std::string_view field : file.fields()) add(written(field), reading, place);
+  std::vector<written_column> names;
+  for (const std::string_view field : file.fields()) names.push_back(written(field));
+  if (file.next_if(are_units))
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i].unit.empty()) names[i].unit = unit_of(file.fields()[i]);
+  for (const written_column& each : names) add(each, reading, place);
   require_named(reading, place);
   find_directions(place);
   find_values(needs_value, place);
@@ -233,6 +133,7 @@ inline constexpr std::size_t longest_name = 40;
   const std::size_t column = known.column;
   const column_unit unit = unit_named(written.unit);
   if (!fits(unit, column)) return false;
+  if (known.is_relative && has(column)) return false;  // phi_o says it
   const std::string text = in_quotes(written.text);
   const std::string_view name = sample_columns[column];
   const bool is_synonym = written.text != name;
@@ -240,6 +141,7 @@ inline constexpr std::size_t longest_name = 40;
     place.refuse({"column ", text, is_synonym ? ", which is " : "", is_synonym ? name : "", is_synonym ? "," : "",
                   " appears twice"});
   columns_.push_back(column);
+  if (known.is_relative) relative_azimuth_ = written.text;
   if (unit == column_unit::radians) in_radians_.push_back(column);
   if (known.quantity) quantity_.state(*known.quantity, message_of({"the name of column ", text}), place);
   if (unit == column_unit::percent) quantity_.state_percent_signs(message_of({"the unit of column ", text}), place);
@@ -283,9 +185,14 @@ inline constexpr std::size_t longest_name = 40;
                   "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z; ", as_it_looks()});
   if (groups > 1) place.refuse("directions are given in more than one way, expected one of them");
   is_in_plane_ = directions_.first == angle_group.first && !has(4) && !has(6);
-  if (!is_in_plane_) return require(directions_, place);
+  if (!relative_azimuth_.empty() && has(4))
+    place.refuse({in_quotes(relative_azimuth_),
+                  " is read as phi_o - phi_i, but there is a column phi_i, expected one of "
+                  "them"});
+  if (!is_in_plane_ && relative_azimuth_.empty()) return require(directions_, place);
   for (const std::size_t polar : {std::size_t{3}, std::size_t{5}})
     if (!has(polar)) refuse_missing(polar, place);
+  if (!is_in_plane_) return;
   // An azimuth that is misspelt is not one that is absent.
   for (const written_column& each : extra_)
     for (const std::size_t azimuth : {std::size_t{4}, std::size_t{6}})
@@ -295,6 +202,7 @@ inline constexpr std::size_t longest_name = 40;
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_header::find_values(bool needs_value, const text_place& place) {
+  take_r_for_value(place);
   const bool is_grey = has_any(grey_group), is_colour = has_any(colour_group), is_spectral = !wavelengths_.empty();
   if (int{is_grey} + int{is_colour} + int{is_spectral} > 1)
     place.refuse({"reflectance is given in two ways, expected r,g,b or value",
@@ -310,6 +218,18 @@ inline constexpr std::size_t longest_name = 40;
     place.refuse("r,g,b have no wavelength, expected value");
   if (has_wavelength_ && is_spectral)
     place.refuse({"the column wavelength stands beside ", name_of(ignored + 1), ", expected one of them"});
+}
+
+/// A column R without G and B is no red: with percent signs it is a reflectance factor.
+[[gnu::cold]] GONIO_INLINE void sample_header::take_r_for_value(const text_place& place) {
+  const auto r = std::ranges::find(columns_, colour_group.first);
+  if (r == columns_.end() || has(colour_group.first + 1) || has(colour_group.first + 2) || has_any(grey_group)) return;
+  if (quantity_.quantity() != sample_quantity::percent)
+    place.refuse(
+        {"column 'g' is missing, expected r,g,b, or value for one channel, or wavelengths, as 400nm; if the "
+         "column R is the one value, --columns value=R says so; the header line looks ",
+         description(dialect_)});
+  *r = grey_group.first;
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_header::find_weights(const text_place& place) {

@@ -13,6 +13,8 @@
 #include <gonio/io/text/csv_reader.hpp>
 #include <gonio/io/text/text.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -31,11 +33,13 @@ namespace gonio::io::detail {
 GONIO_INLINE bool sample_rows::next() {
   const auto comment = [this](std::string_view text) { read_comment(text); };
   if (header_.columns().empty()) {
+    csv_.find_header([this](const auto& fields) { return name_directions(fields, reading_); });
     if (!csv_.next(comment))
       gonio::refuse({csv_.place().name, ": is empty, expected a header line that names the columns"});
     read_header();
   }
-  if (csv_.next(comment)) {
+  while (csv_.next(comment)) {
+    if (needs_value_ && !has_value()) continue;
     read_fields();
     ++rows_;
     return true;
@@ -100,16 +104,66 @@ GONIO_INLINE void sample_rows::read_fields() {
   if (header_.is_in_plane()) look_at_sides();
 }
 
+/// What instruments and programs write where they have no number.
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE bool is_no_value(std::string_view field) {
+  constexpr std::array<std::string_view, 42> words{
+      "",          "-",         "--",         "---",     "?",         "nan",    "-nan",     "+nan",     "nan(ind)",
+      "-nan(ind)", "1.#ind",    "-1.#ind",    "1.#qnan", "1.#inf",    "inf",    "+inf",     "-inf",     "n/a",
+      "n.a.",      "na",        "#n/a",       "#nv",     "null",      "none",   "nil",      "missing",  "over",
+      "ovr",       "ovl",       "ovf",        "ovfl",    "o.l.",      "ol",     "overflow", "overload", "overrange",
+      "under",     "underflow", "underrange", "sat",     "saturated", "#value!"};
+  return field.size() <= 10 && std::ranges::find(words, lower_case(field)) != words.end();
+}
+
+/// Has the line a number in every column that is needed? Those that have not are counted.
+GONIO_INLINE bool sample_rows::has_value() {
+  const std::vector<std::size_t>& columns = header_.columns();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string_view field = csv_.fields()[i];
+    if (!field.empty() && field.back() >= '0' && field.back() <= '9') continue;
+    if (columns[i] == quantity_column || columns[i] == sample_header::ignored || !is_no_value(field)) continue;
+    if (++missing_ > 1) return false;
+    double number = 0.0;
+    const char* wrong = csv_.read_number(field, number);
+    first_missing_ = message_of({"no value (line ", csv_.place().line, ": ", in_quotes(field), ")"});
+    missing_message_ = message_of(
+        {"line ", csv_.place().line, ": column ", header_.name_of(columns[i]), ": ", in_quotes(field), wrong});
+    return false;
+  }
+  return true;
+}
+
+GONIO_INLINE void sample_rows::require_values() const {
+  const std::size_t all = missing_ + rows_;
+  if (2 * missing_ > all)
+    gonio::refuse({csv_.place().name, ", ", missing_message_, "; ", missing_, " of ", all,
+                   all == 1 ? " row has" : " rows have", " no value, expected at most half; the file looks ",
+                   description(csv_.dialect())});
+}
+
+/// Angles may have a degree sign, or the word.
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string_view without_degree_sign(std::string_view field) {
+  for (const std::string_view sign : {"\xC2\xB0", "\xC2\xBA", "\xB0", "\xBA", "deg"})
+    if (field.ends_with(sign)) return trimmed(field.substr(0, field.size() - sign.size()));
+  return field;
+}
+
 GONIO_INLINE void sample_rows::read_number_of(std::size_t column, std::string_view field, std::size_t& percent_signs) {
   const char* wrong = csv_.read_number(field, numbers_[column]);
   if (wrong == nullptr) return;
   if (field.ends_with('%') && header_.values().has(column)) {
     wrong = csv_.read_number(trimmed(field.substr(0, field.size() - 1)), numbers_[column]);
     ++percent_signs;
+  } else if (const std::string_view angle = without_degree_sign(field); angle.size() < field.size()) {
+    if (column < vector_group.first || half_angle_group.has(column)) wrong = csv_.read_number(angle, numbers_[column]);
   }
-  if (wrong != nullptr)
-    csv_.place().refuse({"column ", header_.name_of(column), ": ", in_quotes(field), wrong, "; the file looks ",
-                         description(csv_.dialect())});
+  if (wrong != nullptr) refuse_number(column, field, wrong);
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_rows::refuse_number(std::size_t column, std::string_view field,
+                                                           const char* wrong) const {
+  csv_.place().refuse({"column ", header_.name_of(column), ": ", in_quotes(field), wrong, "; the file looks ",
+                       description(csv_.dialect())});
 }
 
 /// The file may say in each line what its numbers are, if it is the same in all.
@@ -162,6 +216,7 @@ GONIO_INLINE void sample_rows::check_weights() const {
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::finish() const {
+  require_values();
   if (rows_ == 0) gonio::refuse({csv_.place().name, ": has a header line but no samples, expected at least one"});
   if (sign_ && header_.directions().first == half_difference_group.first)
     gonio::refuse({csv_.place().name, ": has half vectors, so that theta-o-sign says nothing of it"});
@@ -169,14 +224,26 @@ GONIO_INLINE void sample_rows::check_weights() const {
     text_place{csv_.place().name, line_of_unknown_side_}.refuse(
         "on which sides of the normal are light and viewer? There are no columns phi_i and phi_o, and no angle of the "
         "file is negative; expected these columns, or signs: those of one side are equal, or --theta-o-sign");
-  if (!reading_.note) return;
+  if (reading_.note) note_assumptions();
+}
+
+/// What the file does not say, and what of it is not read.
+[[gnu::cold]] GONIO_INLINE void sample_rows::note_assumptions() const {
+  const std::string& name = csv_.place().name;
+  if (const std::size_t lines = csv_.passed_over(); lines > 0)
+    reading_.note(message_of({name, ": ", lines, lines == 1 ? " line" : " lines", " above the header line ",
+                              lines == 1 ? "is" : "are", " not read"}));
   if (const std::string ignored = header_.note_of_ignored(); !ignored.empty())
-    reading_.note(message_of({csv_.place().name, ": ", ignored}));
+    reading_.note(message_of({name, ": ", ignored}));
   if (assumes_side())
     reading_.note(
-        message_of({csv_.place().name,
+        message_of({name,
                     ": there are no columns phi_i and phi_o: light and viewer are taken to be on the same side of the "
                     "normal where theta_i and theta_o have the same sign (--theta-o-sign light)"}));
+  if (const std::string& relative = header_.relative_azimuth(); !relative.empty() && !sign_)
+    reading_.note(message_of({name, ": ", in_quotes(relative),
+                              " is read as phi_o - phi_i: 0 degrees on the light's side of the normal, 180 in the "
+                              "mirror direction (--theta-o-sign mirror: the other way round)"}));
 }
 
 }  // namespace gonio::io::detail

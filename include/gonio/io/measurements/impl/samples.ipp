@@ -158,6 +158,19 @@ GONIO_INLINE void require_plausible_sides(const sample_set& samples, const std::
          "give --theta-o-sign mirror; a material that reflects the light back needs --theta-o-sign light"});
 }
 
+/// Says how many rows are left out and why; refuses a file more than half of which is. `kept` rows are not.
+GONIO_INLINE void note_left_out(const sample_rows& rows, std::size_t at_horizon, std::size_t kept,
+                                const sample_reading& reading, const std::string& name) {
+  const std::size_t left_out = at_horizon + rows.rows_without_value();
+  if (left_out == 0) return;
+  std::string reasons = at_horizon > 0 ? "light or viewer is at 90 degrees" : "";
+  if (rows.rows_without_value() > 0) reasons += message_of({reasons.empty() ? "" : "; ", rows.first_without_value()});
+  const std::string counts = message_of({name, ": ", left_out, " of ", left_out + kept,
+                                         left_out == 1 ? " rows is" : " rows are", " left out: ", reasons});
+  if (left_out > kept) gonio::refuse({counts, ", expected at most half"});
+  if (reading.note) reading.note(counts);
+}
+
 /// The names of the columns of values.
 [[nodiscard]] GONIO_INLINE std::string column_names(const channels& kinds) {
   if (kinds.are_colours()) return "r,g,b,";
@@ -180,7 +193,7 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
   sample_file file;
   detail::sample_rows rows(text, name, true, reading);
   std::vector<double> values;
-  Eigen::Index at_horizon = 0;
+  std::size_t at_horizon = 0;
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
     if (detail::is_at_horizon(row)) {
@@ -195,9 +208,7 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
     file.samples.add(at, values, detail::row_weight(row), detail::row_aperture(row));
   }
   if (file.samples.empty()) gonio::refuse({name, ": has no sample above the horizon, expected at least one"});
-  if (at_horizon > 0 && reading.note)
-    reading.note(message_of({name, ": ", at_horizon, at_horizon == 1 ? " row is" : " rows are",
-                             " left out: light or viewer is at 90 degrees"}));
+  detail::note_left_out(rows, at_horizon, static_cast<std::size_t>(file.samples.size()), reading, name);
   if (rows.assumes_side()) detail::require_plausible_sides(file.samples, name);
   if (rows.turns_viewers()) file.samples = with_viewers_turned(file.samples);
   file.quantity = rows.quantity();

@@ -43,12 +43,10 @@ namespace gonio::io {
 
 namespace gonio::io::detail {
 
-[[gnu::cold]] GONIO_INLINE void require_plain_text(std::string_view text, const std::string& name) {
+[[gnu::cold]] GONIO_INLINE void require_no_workbook(std::string_view text, const std::string& name) {
   const bool is_archive = text.starts_with("PK\x03\x04"), is_old_workbook = text.starts_with("\xD0\xCF\x11\xE0");
   if (is_archive || is_old_workbook)
     gonio::refuse({name, ": looks like a workbook of a spreadsheet, expected text: save its sheet as CSV"});
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    gonio::refuse({name, ": looks like UTF-16 text, expected UTF-8: save it as CSV UTF-8"});
 }
 
 [[gnu::cold]] GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string_view>& fields) {
@@ -92,9 +90,37 @@ namespace gonio::io::detail {
   }
 }
 
+/// Digits in groups of three, perhaps with a sign, and what follows them; nothing if there are no such groups.
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string without_group_marks(std::string_view field) {
+  // Apostrophes, no-break and thin spaces; points and commas if the other one follows.
+  const std::size_t comma = field.find(','), point = field.find('.');
+  const bool has_both = comma != std::string_view::npos && point != std::string_view::npos;
+  const std::string_view both = comma < point ? "," : ".";
+  const std::array<std::string_view, 7> marks{"'",    "\xE2\x80\x99",       "\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89",
+                                              "\xA0", has_both ? both : "'"};
+  for (const std::string_view mark : marks) {
+    std::string number;
+    std::string_view rest = field;
+    bool is_grouped = false;
+    for (std::size_t end = rest.find(mark); end != std::string_view::npos; end = rest.find(mark)) {
+      const std::string_view digits = rest.substr(is_grouped || rest.find_first_of("+-") != 0 ? 0 : 1);
+      const std::size_t count = std::min(digits.find_first_not_of("0123456789"), digits.size());
+      const bool fits = digits.substr(count).starts_with(mark) && (is_grouped ? count == 3 : count >= 1 && count <= 3);
+      if (!fits) return {};
+      number += rest.substr(0, end);
+      rest.remove_prefix(end + mark.size());
+      is_grouped = true;
+    }
+    if (is_grouped && std::min(rest.find_first_not_of("0123456789"), rest.size()) == 3) return number += rest;
+  }
+  return {};
+}
+
 /// Numbers of files with decimal commas, and of those that have shown no decimal mark yet.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE const char* read_marked_number(std::string_view field, csv_dialect& dialect,
                                                                         double& value) {
+  const std::string grouped = without_group_marks(field);
+  if (!grouped.empty()) field = grouped;
   const std::size_t comma = field.find(',');
   const bool has_comma = comma != std::string_view::npos, has_point = field.find('.') != std::string_view::npos;
   if (!has_comma && !has_point) return read_number(field, value);
@@ -131,8 +157,7 @@ GONIO_INLINE const char* csv_dialect::split(std::string_view line, std::vector<s
 GONIO_INLINE const char* csv_dialect::read_number(std::string_view field, double& value) {
   if (decimal_mark != '.') return detail::read_marked_number(field, *this, value);
   const char* wrong = io::read_number(field, value);
-  const bool has_comma = wrong != nullptr && field.find(',') != std::string_view::npos;
-  return has_comma ? detail::read_marked_number(field, *this, value) : wrong;
+  return wrong == nullptr ? wrong : detail::read_marked_number(field, *this, value);
 }
 
 }  // namespace gonio::io

@@ -1,0 +1,227 @@
+#pragma once
+/// Bodies of io/measurements/klems_xml.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/measurements/klems_xml.hpp>
+#include <gonio/io/measurements/sample_collector.hpp>
+#include <gonio/io/text/text.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gonio::io::detail {
+
+/// What stands in an element of XML, and where. Elements of these files have no others of the same name in them, but
+/// the matrices' bases, which are read through their own elements.
+class xml_element {
+ public:
+  /// Of the whole file.
+  xml_element(std::string_view file, const std::string& name) : file_(file), content_(file), name_(name) {}
+
+  /// The elements of this name in it, in their order.
+  [[nodiscard]] std::vector<xml_element> all(std::string_view name) const;
+  /// The first of these. Refused if there is none.
+  [[nodiscard]] xml_element first(std::string_view name) const;
+  /// The trimmed text of the first of these; empty if there is none.
+  [[nodiscard]] std::string_view text(std::string_view name) const;
+  /// What is between its tags.
+  [[nodiscard]] std::string_view content() const noexcept { return content_; }
+  /// Where a part of the file is.
+  [[nodiscard]] text_place place(std::string_view part) const {
+    return {name_, 1 + static_cast<std::size_t>(std::count(file_.data(), part.data(), '\n'))};
+  }
+
+ private:
+  xml_element(const xml_element& in, std::string_view content) : file_(in.file_), content_(content), name_(in.name_) {}
+  [[nodiscard]] std::string_view next(std::string_view& rest, std::string_view name) const;
+
+  std::string_view file_, content_;
+  std::string name_;
+};
+
+/// Takes the next element off the front of a text. A null view at the end.
+GONIO_INLINE std::string_view xml_element::next(std::string_view& rest, std::string_view name) const {
+  constexpr std::string_view ends_of_name = " \t\r\n/>";
+  const std::string close = message_of({"</", name, ">"});
+  for (std::size_t open = rest.find('<'); open != std::string_view::npos; open = rest.find('<')) {
+    rest.remove_prefix(open);
+    if (rest.starts_with("<!--")) {
+      rest.remove_prefix(std::min(rest.find("-->"), rest.size()));
+      continue;
+    }
+    rest.remove_prefix(1);
+    const std::string_view after = rest.substr(std::min(name.size(), rest.size()));
+    if (!rest.starts_with(name) || after.empty() || ends_of_name.find(after.front()) == std::string_view::npos)
+      continue;
+    const std::size_t tag = rest.find('>');
+    if (tag == std::string_view::npos) place(rest).refuse({"the tag <", name, "> is not closed"});
+    if (rest[tag - 1] == '/') return rest.substr(tag, 0);
+    const std::string_view content = rest.substr(tag + 1);
+    const std::size_t end = content.find(close);
+    if (end == std::string_view::npos) place(rest).refuse({"the element <", name, "> does not end, expected ", close});
+    rest = content.substr(end);
+    return content.substr(0, end);
+  }
+  return {};
+}
+
+GONIO_INLINE std::vector<xml_element> xml_element::all(std::string_view name) const {
+  std::vector<xml_element> found;
+  std::string_view rest = content_;
+  for (std::string_view each = next(rest, name); each.data() != nullptr; each = next(rest, name))
+    found.push_back(xml_element(*this, each));
+  return found;
+}
+
+GONIO_INLINE xml_element xml_element::first(std::string_view name) const {
+  std::string_view rest = content_;
+  const std::string_view found = next(rest, name);
+  if (found.data() == nullptr) place(content_).refuse({"there is no element <", name, "> here"});
+  return {*this, found};
+}
+
+GONIO_INLINE std::string_view xml_element::text(std::string_view name) const {
+  std::string_view rest = content_;
+  std::string_view found = next(rest, name);
+  while (!found.empty() && found.front() == '\n') found.remove_prefix(1);
+  return trimmed(found.substr(0, found.find('\n')));
+}
+
+// ---- bases ---------------------------------------------------------------------------------------------------------
+
+/// Centres of the patches of a basis, ring by ring; `azimuth` counts patches from 0.
+struct klems_patch {
+  double theta, azimuth;  ///< radians
+};
+
+inline constexpr std::size_t most_patches = 4096;
+
+[[nodiscard]] GONIO_INLINE double number_of(const xml_element& in, std::string_view name, double lowest,
+                                            double highest) {
+  const xml_element found = in.first(name);
+  const text_place place = found.place(found.content());
+  const double number = read_number(trimmed(found.content()), place, [&] { return message_of({"<", name, ">"}); });
+  if (!(number >= lowest && number <= highest))
+    place.refuse({"<", name, ">: ", shortest(number), ", expected from ", shortest(lowest), " to ", shortest(highest)});
+  return number;
+}
+
+[[nodiscard]] GONIO_INLINE std::vector<klems_patch> read_basis(const xml_element& basis) {
+  std::vector<klems_patch> patches;
+  for (const xml_element& ring : basis.all("AngleBasisBlock")) {
+    const double theta = radians(number_of(ring, "Theta", 0.0, 90.0));
+    const double count = number_of(ring, "nPhis", 1.0, static_cast<double>(most_patches));
+    if (count != std::floor(count) || static_cast<double>(patches.size()) + count > static_cast<double>(most_patches))
+      ring.place(ring.content())
+          .refuse(
+              {"<nPhis>: ", shortest(count), ", expected whole numbers, at most ", most_patches, " patches in all"});
+    for (double k = 0.0; k < count; ++k) patches.push_back({theta, 2.0 * std::numbers::pi * k / count});
+  }
+  if (patches.empty()) basis.place(basis.content()).refuse("the basis has no rings, expected <AngleBasisBlock>");
+  return patches;
+}
+
+/// The basis of this name.
+[[nodiscard]] GONIO_INLINE std::vector<klems_patch> basis_named(const xml_element& definition, std::string_view name,
+                                                                const text_place& place) {
+  for (const xml_element& each : definition.all("AngleBasis"))
+    if (each.text("AngleBasisName") == name) return read_basis(each);
+  place.refuse({"there is no <AngleBasis> with the name ", in_quotes(name)});
+}
+
+// ---- matrices ------------------------------------------------------------------------------------------------------
+
+/// The numbers of a matrix, which commas or blanks separate. More than expected are refused before they are kept.
+[[nodiscard]] GONIO_INLINE std::vector<double> read_matrix(const xml_element& data, std::size_t count) {
+  constexpr std::string_view between = ", \t\r\n";
+  std::vector<double> numbers;
+  std::string_view rest = data.content();
+  for (std::size_t begin = rest.find_first_not_of(between); begin != std::string_view::npos;
+       begin = rest.find_first_not_of(between)) {
+    rest.remove_prefix(begin);
+    const std::string_view word = rest.substr(0, rest.find_first_of(between));
+    double number = 0.0;
+    if (const char* wrong = read_number(word, number); wrong != nullptr)
+      data.place(word).refuse({"<ScatteringData>: ", in_quotes(word), wrong});
+    if (numbers.size() == count)
+      data.place(word).refuse({"<ScatteringData> goes on behind ", count, " numbers, which the patches ask for"});
+    require_float_range(number, data.place(word));
+    numbers.push_back(number);
+    rest.remove_prefix(word.size());
+  }
+  if (numbers.size() != count)
+    data.place(rest).refuse(
+        {"<ScatteringData> has ", numbers.size(), " numbers, expected ", count, ", one for each pair of patches"});
+  return numbers;
+}
+
+/// The matrix of reflection: of the front, or of the back.
+[[nodiscard]] GONIO_INLINE xml_element reflection_of(const xml_element& file, const std::string& name) {
+  std::string found;
+  for (const std::string_view wanted : {"Reflection Front", "Reflection Back"})
+    for (const xml_element& data : file.all("WavelengthData")) {
+      const std::string_view wavelength = data.text("Wavelength");
+      for (const xml_element& block : data.all("WavelengthDataBlock")) {
+        const std::string_view direction = block.text("WavelengthDataDirection");
+        if (direction == wanted && wavelength == "Visible") return block;
+        if (wanted == "Reflection Front" && found.size() < 200)
+          found += message_of({found.empty() ? "" : ", ", in_quotes(direction), " of ", in_quotes(wavelength)});
+      }
+    }
+  gonio::refuse({name, ": has no 'Reflection Front' or 'Reflection Back' of 'Visible', but ",
+                 found.empty() ? "no matrix" : found});
+}
+
+/// A direction by the centre of its patch; `turn` is added to the azimuth.
+[[nodiscard]] GONIO_INLINE direction centre_of(const klems_patch& patch, double turn) {
+  return spherical_direction(patch.theta, patch.azimuth + turn);
+}
+
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE bool looks_like_klems_xml(std::string_view text) {
+  return text.substr(0, 4096).find("<WindowElement") != std::string_view::npos;
+}
+
+GONIO_INLINE sample_set read_klems_xml(std::string_view text, const std::string& name) {
+  const detail::xml_element file(text, name), definition = file.first("DataDefinition");
+  const std::string_view structure = definition.text("IncidentDataStructure");
+  if (structure != "Columns" && structure != "Rows")
+    definition.place(definition.content())
+        .refuse({"<IncidentDataStructure> ", in_quotes(structure), " is not read, expected Columns or Rows"});
+  const detail::xml_element block = detail::reflection_of(file, name), data = block.first("ScatteringData");
+  const text_place place = block.place(block.content());
+  const auto columns = detail::basis_named(definition, block.text("ColumnAngleBasis"), place);
+  const auto rows = detail::basis_named(definition, block.text("RowAngleBasis"), place);
+  const std::vector<double> matrix = detail::read_matrix(data, rows.size() * columns.size());
+  const bool are_columns_incident = structure == "Columns";
+  detail::sample_collector collector;
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      const detail::klems_patch &incident = are_columns_incident ? columns[column] : rows[row],
+                                &outgoing = are_columns_incident ? rows[row] : columns[column];
+      const double value = matrix[row * columns.size() + column];
+      collector.add({detail::centre_of(incident, std::numbers::pi), detail::centre_of(outgoing, 0.0)}, {&value, 1});
+    }
+  return std::move(collector).samples(name);
+}
+
+GONIO_INLINE sample_set read_klems_xml(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return read_klems_xml(as_text(bytes), path.string());
+}
+
+}  // namespace gonio::io

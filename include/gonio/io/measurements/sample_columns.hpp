@@ -1,0 +1,95 @@
+#pragma once
+/// What the columns of a file of samples are and what they may be called: names in English, French and German, Greek
+/// letters, units behind a name or on a line of their own.
+
+#include <gonio/io/measurements/sample_quantity.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace gonio::io::detail {
+
+// The columns, grouped; the numbers below index this list. The last holds text.
+inline constexpr std::array<std::string_view, 25> sample_columns{"theta_h",
+                                                                 "theta_d",
+                                                                 "phi_d",
+                                                                 "theta_i",
+                                                                 "phi_i",
+                                                                 "theta_o",
+                                                                 "phi_o",
+                                                                 "wi_x",
+                                                                 "wi_y",
+                                                                 "wi_z",
+                                                                 "wo_x",
+                                                                 "wo_y",
+                                                                 "wo_z",
+                                                                 "r",
+                                                                 "g",
+                                                                 "b",
+                                                                 "weight",
+                                                                 "weight_r",
+                                                                 "weight_g",
+                                                                 "weight_b",
+                                                                 "value",
+                                                                 "wavelength",
+                                                                 "source_half_angle",
+                                                                 "receiver_half_angle",
+                                                                 "quantity"};
+
+struct column_group {
+  std::size_t first = 0;
+  std::size_t count = 0;
+
+  [[nodiscard]] bool has(std::size_t column) const noexcept { return column >= first && column < first + count; }
+};
+inline constexpr column_group half_difference_group{0, 3};
+inline constexpr column_group angle_group{3, 4};
+inline constexpr column_group vector_group{7, 6};
+inline constexpr column_group colour_group{13, 3};
+inline constexpr column_group weight_group{16, 1};
+inline constexpr column_group channel_weight_group{17, 3};
+inline constexpr column_group grey_group{20, 1};
+inline constexpr std::size_t wavelength_column = 21, quantity_column = 24;
+inline constexpr column_group half_angle_group{22, 2};
+
+/// A name in the header line as it is written, and without the unit behind it: "Theta In [deg]" is theta_i, degrees.
+struct written_column {
+  std::string text, name, unit;
+};
+
+/// The name in small letters. A unit is in brackets behind it, or its last word if that is a word for a unit:
+/// theta_i_deg.
+[[nodiscard]] written_column written(std::string_view field);
+
+enum class column_unit { none, degrees, radians, nanometres, percent, per_steradian, unknown };
+[[nodiscard]] column_unit unit_named(std::string_view name);
+
+/// What a column may be called, in letters and digits alone: Theta_In, "theta in" and thetaIn are one name.
+struct known_name {
+  std::string_view letters;
+  std::size_t column;
+  std::optional<sample_quantity> quantity = {};  ///< if the name says it
+  bool is_relative = false;                      ///< of phi_o: counted from the light's azimuth
+};
+
+/// The column that is called so, in English, French, German or Greek letters, with accents in UTF-8 or Latin-1.
+[[nodiscard]] const known_name* find_known(std::string_view name);
+
+/// Is it a unit that a column may have?
+[[nodiscard]] bool fits(column_unit unit, std::size_t column);
+
+/// Is it a line of units, as some programs write below the header line: no number, and a unit at least?
+[[nodiscard]] bool are_units(std::span<const std::string_view> fields);
+
+/// The unit in a field of such a line, in small letters and without brackets.
+[[nodiscard]] std::string unit_of(std::string_view field);
+
+}  // namespace gonio::io::detail
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/measurements/impl/sample_columns.ipp>
+#endif
