@@ -38,6 +38,7 @@
 #include <gonio/io/measurements/impl/sample_rows.ipp>
 #include <gonio/io/measurements/impl/samples.ipp>
 #include <gonio/io/measurements/impl/scan_journal.ipp>
+#include <gonio/io/measurements/impl/speos_brdf.ipp>
 #include <gonio/io/measurements/impl/ssdd.ipp>
 #include <gonio/io/measurements/impl/zemax_bsdf.ipp>
 #include <gonio/io/setups/impl/apparatus.ipp>

@@ -42,6 +42,7 @@
 #include <gonio/io/measurements/sample_rows.hpp>
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/io/measurements/scan_journal.hpp>
+#include <gonio/io/measurements/speos_brdf.hpp>
 #include <gonio/io/measurements/ssdd.hpp>
 #include <gonio/io/measurements/zemax_bsdf.hpp>
 #include <gonio/io/setups/apparatus.hpp>
