@@ -27,6 +27,7 @@
 #include <gonio/io/measurements/impl/bird.ipp>
 #include <gonio/io/measurements/impl/bird_data.ipp>
 #include <gonio/io/measurements/impl/cornell.ipp>
+#include <gonio/io/measurements/impl/fred_bsdf.ipp>
 #include <gonio/io/measurements/impl/klems_xml.ipp>
 #include <gonio/io/measurements/impl/openmaterial.ipp>
 #include <gonio/io/measurements/impl/reference_reflectance.ipp>

@@ -31,6 +31,7 @@
 #include <gonio/io/measurements/astm_e1392.hpp>
 #include <gonio/io/measurements/bird.hpp>
 #include <gonio/io/measurements/cornell.hpp>
+#include <gonio/io/measurements/fred_bsdf.hpp>
 #include <gonio/io/measurements/klems_xml.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/reference_reflectance.hpp>

@@ -82,6 +82,8 @@ TEST_CASE("info knows the files of other programs by how they begin, and reconst
         "OPTIS - brdf surface file v9.0\n0\npaint\n0\n\n1\t0\n1\n1 1\n30\n550\n50\n3 3\n\t0 180 360\n0 1 1 1\n"
         "40 2 1 2\n90 1 1 1\n",
         "Speos", 3);
+  check("black.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10\t0\n0\t0\t.1\n10\t0\t.2\n20\t90\t.1\n",
+        "FRED", 3);
   check("spectra.brdf", "2\n450 650\n0.5 0 0.4 3 .1 .2\n0.1 0 0.4 2 .1 .2\n0.2 0 0.5 1 .1 .3\n",
         "spectral samples of Cornell", 3);
 }
