@@ -27,6 +27,7 @@
 #include <gonio/io/measurements/impl/bird.ipp>
 #include <gonio/io/measurements/impl/bird_data.ipp>
 #include <gonio/io/measurements/impl/cornell.ipp>
+#include <gonio/io/measurements/impl/fred_bsdf.ipp>
 #include <gonio/io/measurements/impl/klems_xml.ipp>
 #include <gonio/io/measurements/impl/openmaterial.ipp>
 #include <gonio/io/measurements/impl/reference_reflectance.ipp>
@@ -38,6 +39,7 @@
 #include <gonio/io/measurements/impl/sample_rows.ipp>
 #include <gonio/io/measurements/impl/samples.ipp>
 #include <gonio/io/measurements/impl/scan_journal.ipp>
+#include <gonio/io/measurements/impl/speos_brdf.ipp>
 #include <gonio/io/measurements/impl/ssdd.ipp>
 #include <gonio/io/measurements/impl/zemax_bsdf.ipp>
 #include <gonio/io/setups/impl/apparatus.ipp>

@@ -31,6 +31,7 @@
 #include <gonio/io/measurements/astm_e1392.hpp>
 #include <gonio/io/measurements/bird.hpp>
 #include <gonio/io/measurements/cornell.hpp>
+#include <gonio/io/measurements/fred_bsdf.hpp>
 #include <gonio/io/measurements/klems_xml.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/reference_reflectance.hpp>
@@ -42,6 +43,7 @@
 #include <gonio/io/measurements/sample_rows.hpp>
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/io/measurements/scan_journal.hpp>
+#include <gonio/io/measurements/speos_brdf.hpp>
 #include <gonio/io/measurements/ssdd.hpp>
 #include <gonio/io/measurements/zemax_bsdf.hpp>
 #include <gonio/io/setups/apparatus.hpp>

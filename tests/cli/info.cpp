@@ -66,6 +66,24 @@ TEST_CASE("info knows the files of other programs by how they begin, and reconst
   check("tile.brdf", bird_json, "BiRD", 3);
   check("tile.json", bird_json, "BiRD", 3);
   CHECK(facts_of_file(given.at("tile.json"))["receiver_half_angle"][0] == doctest::Approx(1.514).epsilon(1e-3));
+  check(
+      "tape.dat",
+      "#DIM 3 1\n#PARAM_IN ISOTROPIC_TV_TL_DPHI\n#PARAM_OUT INV_STERADIAN\n0.5 0.5 3.1 .2\n0 0.5 0 .1\n1 0.5 3.1 .1\n",
+      "ALTA", 3);
+  check("blind.xml",
+        "<WindowElement><DataDefinition><IncidentDataStructure>Columns</IncidentDataStructure><AngleBasis>"
+        "<AngleBasisName>k</AngleBasisName><AngleBasisBlock><Theta>40</Theta><nPhis>2</nPhis></AngleBasisBlock>"
+        "</AngleBasis></DataDefinition><WavelengthData><Wavelength>Visible</Wavelength><WavelengthDataBlock>"
+        "<WavelengthDataDirection>Reflection Front</WavelengthDataDirection><ColumnAngleBasis>k</ColumnAngleBasis>"
+        "<RowAngleBasis>k</RowAngleBasis><ScatteringData>.2, .1, .1, .2</ScatteringData></WavelengthDataBlock>"
+        "</WavelengthData></WindowElement>",
+        "Klems matrix", 4);
+  check("paint.brdf",
+        "OPTIS - brdf surface file v9.0\n0\npaint\n0\n\n1\t0\n1\n1 1\n30\n550\n50\n3 3\n\t0 180 360\n0 1 1 1\n"
+        "40 2 1 2\n90 1 1 1\n",
+        "Speos", 3);
+  check("black.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10\t0\n0\t0\t.1\n10\t0\t.2\n20\t90\t.1\n",
+        "FRED", 3);
   check("spectra.brdf", "2\n450 650\n0.5 0 0.4 3 .1 .2\n0.1 0 0.4 2 .1 .2\n0.2 0 0.5 1 .1 .3\n",
         "spectral samples of Cornell", 3);
 }

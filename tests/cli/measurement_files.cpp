@@ -148,6 +148,23 @@ TEST_CASE("where samples come from stands in what is found of them") {
     CHECK(designed.find(words) != std::string::npos);
 }
 
+TEST_CASE("the quantity of any format can be stated") {
+  const scratch::folder here;
+  const std::string path = (here / "black.txt").string();
+  scratch::put(path, "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10\t0\n60\t0\t.25\n0\t0\t.25\n");
+  const auto largest = [&](const std::string& options) {
+    const std::string output = run("info " + path + options);
+    const std::size_t begin = output.find("maximum: [");
+    REQUIRE(begin != std::string::npos);
+    return std::stod(output.substr(begin + 10));
+  };
+  CHECK(largest("") == doctest::Approx(0.25));
+  CHECK(largest(" --quantity brdf") == doctest::Approx(0.25));
+  CHECK(largest(" --quantity brdf-cosine") == doctest::Approx(0.5));
+  CHECK(largest(" --quantity percent") == doctest::Approx(0.0025 / 3.14159265));
+  CHECK(run("info " + path + " --quantity brdf-cosine").find("brdf-cosine") != std::string::npos);
+}
+
 TEST_CASE("options on samples need samples") {
   const one_file file;
   const std::string table = (file.folder / "paint.binary").string(), out = (file.folder / "out.csv").string();
@@ -179,7 +196,7 @@ TEST_CASE("a highlight on the light's side is told of, and turned by an option i
   const std::string converted = (file.folder / "samples.csv").string();
   run("convert " + foreign + " --theta-o-sign mirror " + converted);
   CHECK(gonio::io::read_samples(converted)[0].angles().theta_h < 1e-6);
-  refuses("info " + foreign + " --quantity percent", {"says what its values are", "need a .csv file"});
+  refuses("info " + foreign + " --columns value=x", {"is no .csv file", "but "});
 }
 
 TEST_CASE("numbers that look like something else are accepted with a warning") {

@@ -211,6 +211,11 @@ put("alta", "vectors.alta", alta % (6, 1, "CARTESIAN", "INV_STERADIAN_COSINE_FAC
 klems = "<WindowElement><DataDefinition><IncidentDataStructure>%s</IncidentDataStructure><AngleBasis><AngleBasisName>k</AngleBasisName><AngleBasisBlock><Theta>40</Theta><nPhis>2</nPhis></AngleBasisBlock></AngleBasis></DataDefinition><WavelengthData><Wavelength>Visible</Wavelength><WavelengthDataBlock><WavelengthDataDirection>Reflection %s</WavelengthDataDirection><ColumnAngleBasis>k</ColumnAngleBasis><RowAngleBasis>k</RowAngleBasis><ScatteringData>\n1, 2\n3, 4</ScatteringData></WavelengthDataBlock></WavelengthData></WindowElement>\n"
 put("klems_xml", "front.xml", klems % ("Columns", "Front"))
 put("klems_xml", "back.xml", klems % ("Rows", "Back"))
+speos = "OPTIS - brdf surface file v9.0\n0\nmade up\n0\n\n1\t0\n%d\n1 2\n30\n450 550\n" + 2 * "50\n2 3\n\t0 180 360\n0 1 1 1\n60 1 2 1\n"
+put("speos_brdf", "brdf.brdf", speos % 1)
+put("speos_brdf", "intensity.brdf", speos % 0)
+put("fred_bsdf", "black.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10\t0\n0\t0\t.1\n10\t0\t.2\n")
+put("fred_bsdf", "two.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10 0\n10 0 .2\n50 20\n-30 110 -1e-3\n")
 ssdd = "VERSION 0.3\nSOFTWARE made up\n\nDATA_TYPE brdf\nCOLOR_MODEL %s\nPARAM_TYPE %s_coordinate_system\nPARAM0_LIST 0 40\nPARAM2_LIST 0 30\nPARAM3_LIST 0 180 360\nDATA %s\n"
 for kind in ("spherical", "specular", "half_difference"):
     put("ssdd", kind + ".ssdd", ssdd % ("monochrome", kind, "ascii") + "# numbers\n" + "1\n" * 12 + "DATA_TYPE specular_reflectance\nCOLOR_MODEL monochrome\nPARAM0_LIST 0\nDATA ascii\n.5\n")
@@ -299,6 +304,8 @@ words = {
     "astm_e1392": ['NUM_POINTS', 'VARS ', 'theta_i,phi_i,theta_s,phi_s,', 'R,G,B', 'X,Y,Z', '400nm', '700nm', 'BRDF', '1.5707', '6.2831', '1e308', 'nan', '#', ',', '\\x0A'],
     "alta": ['#DIM ', '#PARAM_IN ', '#PARAM_OUT ', '#VS ', '#FORMAT ', 'RUSIN_TH_TD_PD', 'RUSIN_TH_PH_TD_PD', 'SPHERICAL_TL_PL_TV_PV', 'ISOTROPIC_TV_TL_DPHI', 'ISOTROPIC_TL_TV_PROJ_DPHI', 'CARTESIAN', 'INV_STERADIAN', 'INV_STERADIAN_COSINE_FACTOR', 'RGB_COLOR', 'XYZ_COLOR', '1.5707', '6.2831', '1e308', 'nan', '#', '\\x0A'],
     "klems_xml": ['<WindowElement>', '<DataDefinition>', '</DataDefinition>', '<IncidentDataStructure>', 'Columns', 'Rows', 'TensorTree3', '<AngleBasis>', '</AngleBasis>', '<AngleBasisName>', '<AngleBasisBlock>', '</AngleBasisBlock>', '<Theta>', '</Theta>', '<nPhis>', '</nPhis>', '<WavelengthData>', '<Wavelength>', 'Visible', '<WavelengthDataBlock>', '</WavelengthDataBlock>', '<WavelengthDataDirection>', 'Reflection Front', '<ColumnAngleBasis>', '<RowAngleBasis>', '<ScatteringData>', '</ScatteringData>', '<!--', '-->', '/>', '4096', '1e308', 'nan'],
+    "speos_brdf": ['OPTIS - brdf surface file', '\\x0A0\\x0A', '1\\x090', '90', '180', '360', '100', '1e308', 'nan', '\\x09', '\\x0A', '#', '10000'],
+    "fred_bsdf": ['type bsdf_data', 'format angles=deg bsdf=value scale=1', '90', '360', '1e308', 'nan', '\\x09', '\\x0A', '#'],
     "ssdd": ['VERSION 0.3', 'DATA_TYPE', 'brdf', 'btdf', 'specular_reflectance', 'COLOR_MODEL', 'monochrome', 'rgb', 'xyz', 'spectrum', 'WAVELENGTH_LIST', 'PARAM_TYPE', 'spherical_coordinate_system', 'specular_coordinate_system', 'half_difference_coordinate_system', 'REDUCTION_TYPE', 'PARAM0_LIST', 'PARAM1_LIST', 'PARAM2_LIST', 'PARAM3_LIST', 'PARAM4_LIST', 'DATA', 'ascii', 'binary', '1e308', '360', 'nan', '# ', '\\x0A', '\\x00\\x00\\x80\\x7F'],
     "bird": ['"metadata"', '"data"', '"theta_i"', '"phi_i"', '"theta_r"', '"phi_r"', '"BRDF"', '"uBRDF"', '"wavelength_i"', '"wavelength_r"', '"polarization_i"', '"polarization_r"', '"adhoc_variables"', '"unit"', '"values"', '"uncertainty"', '"value"', '"deg"', '"rad"', '"sr^-1"', '"%"', '"nm"', '"s"', '"p"', '"u"', '[1,-1,0,0]', '{', '}', '[', ']', ':', ',', '1e308', 'null', '\\\\u001b', '\\\\ud83d'],
     "mbsdf": ['NVIDIA ARC MBSDF V1\\x0A', 'MBSDF_DATA=\\x0A', 'MBSDF_DATA_REFLECTION=\\x0A', 'MBSDF_DATA_TRANSMISSION=\\x0A', '="', '"\\x0A', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x00\\x80\\x7F'],

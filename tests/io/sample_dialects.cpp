@@ -137,7 +137,8 @@ TEST_CASE("thousands are set apart where that is unambiguous") {
   CHECK(value_of("-1.234.567,5") == doctest::Approx(-1234567.5));
   CHECK(value_of("1'234") == 1234.0);
   CHECK(value_of("1,234") == 1.234);  // a decimal comma: one mark alone may be one
-  for (const std::string number : {"1.23,4", "1.2345,6", "12345.678,9", "1,234,567", "1'23", "'123", "1.234.56"}) {
+  for (const std::string number :
+       {"1.23,4", "1.23.456,7", "1.2345,6", "12345.678,9", "1,234,567", "1'23", "'123", "1.234.56"}) {
     CAPTURE(number);
     check_text_refused("theta_h;theta_d;phi_d;r;g;b\n1;2;3;" + number + ";0;0\n", {"column r", "is not a number"});
   }

@@ -89,6 +89,18 @@ gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::f
   return samples;
 }
 
+/// Samples whose values are of this quantity, where their format says that they are a BRDF.
+gonio::sample_set of_quantity(const gonio::sample_set& samples, gonio::io::sample_quantity quantity) {
+  gonio::sample_set changed(samples.channels());
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
+    const double factor = brdf_factor(quantity, samples.directions(i).pair().wo);
+    std::vector<double> values(samples.values(i).begin(), samples.values(i).end());
+    for (double& value : values) value *= factor;
+    changed.add(samples.directions(i), values, samples.weight(i), samples.aperture(i));
+  }
+  return changed;
+}
+
 }  // namespace
 
 gonio::io::sample_reading reading_of(const measurement_options& options) {
@@ -102,10 +114,10 @@ gonio::io::sample_reading reading_of(const measurement_options& options) {
 void add_measurement_options(command& to, measurement_options& options) {
   const auto& names = gonio::io::sample_quantity_names;
   to.add_option("--quantity", options.quantity,
-                "What the numbers of a .csv file of samples are: brdf (sr^-1), brdf-cosine (times the cosine of the "
+                "What the numbers of a file of samples are: brdf (sr^-1), brdf-cosine (times the cosine of the "
                 "viewer's angle), reflectance-factor (1 is white) or percent (100 is white); needed for a column "
-                "value, or columns of wavelengths, "
-                "whose file does not say it")
+                "value, or columns of wavelengths, whose .csv file does not say it; of other formats, what their "
+                "instrument wrote in the place of a BRDF")
       .check(check::one_of(std::vector<std::string>(names.begin(), names.end())));
   to.add_option("--columns", options.columns, "What a .csv file of samples calls its columns: theta_o=Winkel,g=Y")
       .repeatable();
@@ -145,9 +157,13 @@ void require_unused(const measurement_options& options, const std::filesystem::p
 gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, const measurement_options& options) {
   gonio::io::sample_file file;
   if (const measurement_kind* kind = measurement_kind_of(path)) {
-    if (!options.quantity.empty() || !options.columns.empty())
-      gonio::refuse({path.native(), ": says what its values are: --quantity and --columns need a .csv file"});
+    if (!options.columns.empty())
+      gonio::refuse({path.native(), ": is no .csv file, whose columns --columns could name, but ", kind->name});
     file.samples = kind->read(path);
+    if (!options.quantity.empty()) {
+      file.quantity = gonio::io::quantity_named(options.quantity);
+      file.samples = of_quantity(file.samples, *file.quantity);
+    }
     file.sign = options.sign;
     if (file.sign == gonio::io::theta_o_sign::mirror) file.samples = gonio::with_viewers_turned(file.samples);
   } else {

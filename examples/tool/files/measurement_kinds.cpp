@@ -5,8 +5,10 @@
 #include <gonio/io/measurements/astm_e1392.hpp>
 #include <gonio/io/measurements/bird.hpp>
 #include <gonio/io/measurements/cornell.hpp>
+#include <gonio/io/measurements/fred_bsdf.hpp>
 #include <gonio/io/measurements/klems_xml.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
+#include <gonio/io/measurements/speos_brdf.hpp>
 #include <gonio/io/measurements/ssdd.hpp>
 #include <gonio/io/measurements/zemax_bsdf.hpp>
 
@@ -16,7 +18,7 @@ namespace cli {
 
 namespace {
 
-constexpr std::array<measurement_kind, 8> kinds{{
+constexpr std::array<measurement_kind, 10> kinds{{
     {"Zemax BSDF", [](std::string_view, std::string_view start) { return gonio::io::looks_like_zemax_bsdf(start); },
      gonio::io::read_zemax_bsdf},
     {"SSDD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_ssdd(start); },
@@ -35,6 +37,10 @@ constexpr std::array<measurement_kind, 8> kinds{{
      gonio::io::read_alta},
     {"Klems matrix", [](std::string_view, std::string_view start) { return gonio::io::looks_like_klems_xml(start); },
      gonio::io::read_klems_xml},
+    {"Speos", [](std::string_view, std::string_view start) { return gonio::io::looks_like_speos_brdf(start); },
+     gonio::io::read_speos_brdf},
+    {"FRED", [](std::string_view, std::string_view start) { return gonio::io::looks_like_fred_bsdf(start); },
+     gonio::io::read_fred_bsdf},
     {"BiRD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_bird(start); },
      gonio::io::read_bird},
     {"spectral samples of Cornell", [](std::string_view extension, std::string_view) { return extension == ".brdf"; },

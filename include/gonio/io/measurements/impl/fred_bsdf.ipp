@@ -1,0 +1,101 @@
+#pragma once
+/// Bodies of io/measurements/fred_bsdf.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/measurements/fred_bsdf.hpp>
+#include <gonio/io/measurements/sample_collector.hpp>
+#include <gonio/io/text/text.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gonio::io::detail {
+
+/// The words between runs of blanks.
+[[nodiscard]] GONIO_INLINE std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+    words.push_back(line.substr(0, end));
+    line = trimmed(line.substr(end));
+  }
+  return words;
+}
+
+/// Refuses a line `format` that says anything but degrees and plain values.
+GONIO_INLINE void check_fred_format(std::string_view line, const text_place& place) {
+  const std::vector<std::string_view> words = words_of(line);
+  const std::vector<std::string_view> expected{"format", "angles=deg", "bsdf=value", "scale=1"};
+  if (words != expected) place.refuse({in_quotes(line), " is not read, expected '", listed(expected, " "), "'"});
+}
+
+/// A direction by polar angle and azimuth, degrees; `turn` is added to the azimuth.
+[[nodiscard]] GONIO_INLINE direction fred_direction(std::string_view theta, std::string_view phi, double turn,
+                                                    const text_place& place) {
+  const double polar = read_number(theta, place, [] { return "a polar angle"; }),
+               azimuth = read_number(phi, place, [] { return "an azimuth"; });
+  if (!(std::abs(polar) <= 90.0))
+    place.refuse({"a polar angle is ", shortest(polar), ", expected degrees from -90 to 90"});
+  if (!(std::abs(azimuth) <= 360.0))
+    place.refuse({"an azimuth is ", shortest(azimuth), ", expected degrees from -360 to 360"});
+  return spherical_direction(radians(polar), radians(azimuth) + turn);
+}
+
+[[nodiscard]] GONIO_INLINE sample_collector collect_fred(std::string_view text, text_place& place) {
+  sample_collector collector;
+  std::optional<direction> wi;
+  int lines = 0;
+  for_each_line(text, place, [&](std::string_view line) {
+    if (++lines == 1 && line != "type bsdf_data") place.refuse({in_quotes(line), ", expected 'type bsdf_data'"});
+    if (lines == 2) check_fred_format(line, place);
+    if (lines <= 2) return;
+    const std::vector<std::string_view> words = words_of(line);
+    if (words.size() == 2) {
+      wi = fred_direction(words[0], words[1], std::numbers::pi, place);
+    } else if (words.size() == 3 && wi) {
+      const double value = read_number(words[2], place, [] { return "a value"; });
+      require_float_range(value, place);
+      collector.add({*wi, fred_direction(words[0], words[1], 0.0, place)}, {&value, 1});
+    } else {
+      place.refuse({words.size(), words.size() == 1 ? " number" : " numbers",
+                    ", expected two angles of the light, or two of the viewer and a value below them"});
+    }
+  });
+  if (lines < 2) gonio::refuse({place.name, ": ends before its lines 'type bsdf_data' and 'format'"});
+  return collector;
+}
+
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE bool looks_like_fred_bsdf(std::string_view text) {
+  text_place place;
+  std::string_view line;
+  text = without_byte_order_mark(text);
+  return next_line(text, place, line) && line == "type bsdf_data";
+}
+
+GONIO_INLINE sample_set read_fred_bsdf(std::string_view text, const std::string& name) {
+  text_place place{name, 0};
+  return detail::collect_fred(text, place).samples(name);
+}
+
+GONIO_INLINE sample_set read_fred_bsdf(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return read_fred_bsdf(as_text(bytes), path.string());
+}
+
+}  // namespace gonio::io

@@ -1,0 +1,234 @@
+#pragma once
+/// Bodies of io/measurements/speos_brdf.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/io/bytes/file.hpp>
+#include <gonio/io/measurements/sample_collector.hpp>
+#include <gonio/io/measurements/speos_brdf.hpp>
+#include <gonio/io/text/text.hpp>
+#include <gonio/io/text/words.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gonio::io::detail {
+
+inline constexpr std::string_view speos_header = "OPTIS - brdf surface file";
+
+/// Of one wavelength: values in the order of `theta`, for each of these in that of `phi`, degrees.
+struct speos_table {
+  std::vector<double> theta, phi, values;
+};
+
+/// The rows above the numbers. Takes them off the front of the text; `place` is then the last of them.
+GONIO_INLINE void read_speos_rows(std::string_view& text, text_place& place) {
+  const auto line = [&] {
+    if (text.empty())
+      gonio::refuse({place.name, ": ends after line ", place.line, ", expected a header of seven rows"});
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view whole = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    ++place.line;
+    return trimmed(whole);
+  };
+  if (!line().starts_with(speos_header)) place.refuse({"expected the header '", speos_header, "'"});
+  if (const std::string_view mode = line(); mode != "0")
+    place.refuse({"the mode is ", in_quotes(mode), ", expected 0, text: save the file as text in Speos"});
+  static_cast<void>(line());  // a comment
+  const double size = read_number(line(), place, [] { return "the size of the description"; });
+  if (!(size >= 0.0 && size <= static_cast<double>(text.size())))
+    place.refuse({"the description has ", shortest(size), " characters, and the file ", text.size(), " more"});
+  const std::string_view description = text.substr(0, static_cast<std::size_t>(size));
+  text.remove_prefix(description.size());
+  place.line += static_cast<std::size_t>(std::ranges::count(description, '\n'));
+  static_cast<void>(line());
+}
+
+/// Weights of the values at ascending nodes in an integral of `density` over the angle, linear between nodes.
+template <class Density>
+[[nodiscard]] std::vector<double> node_weights(const std::vector<double>& nodes, const Density& density) {
+  constexpr int steps = 64;
+  std::vector<double> weights(nodes.size(), 0.0);
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const double begin = radians(nodes[i]), width = radians(nodes[i + 1]) - begin;
+    for (int k = 0; k < steps; ++k) {
+      const double share = (k + 0.5) / steps, part = density(begin + share * width) * width / steps;
+      weights[i] += (1.0 - share) * part;
+      weights[i + 1] += share * part;
+    }
+  }
+  return weights;
+}
+
+/// Reads the numbers of such a file.
+class speos_reader {
+ public:
+  speos_reader(std::string_view text, text_place& place) : words_(text, place) {}
+
+  [[nodiscard]] sample_collector read();
+
+ private:
+  [[nodiscard]] double count(std::string_view what, double most);
+  [[nodiscard]] std::vector<double> ascending(double count, std::string_view what, double lowest, double highest);
+  [[nodiscard]] double ranged(std::string_view what, double lowest, double highest);
+  [[nodiscard]] speos_table read_table();
+  [[nodiscard]] std::vector<double> azimuth_weights(const std::vector<double>& phi) const;
+  void scale(speos_table& table, double reflectance) const;
+  void add(sample_collector& to, double incidence, const std::vector<speos_table>& spectrum) const;
+
+  word_reader words_;
+  bool has_cosine_ = false;
+};
+
+GONIO_INLINE double speos_reader::ranged(std::string_view what, double lowest, double highest) {
+  const double number = words_.read_number(what);
+  if (!(number >= lowest && number <= highest))
+    words_.place().refuse(
+        {what, ": ", shortest(number), ", expected from ", shortest(lowest), " to ", shortest(highest)});
+  return number;
+}
+
+GONIO_INLINE double speos_reader::count(std::string_view what, double most) {
+  const double number = ranged(what, 1.0, most);
+  if (number != std::floor(number)) words_.place().refuse({what, ": ", shortest(number), " is no count"});
+  return number;
+}
+
+GONIO_INLINE std::vector<double> speos_reader::ascending(double count, std::string_view what, double lowest,
+                                                         double highest) {
+  std::vector<double> numbers;
+  while (static_cast<double>(numbers.size()) < count) {
+    const double number = ranged(what, lowest, highest);
+    if (!numbers.empty() && !(number > numbers.back()))
+      words_.place().refuse({what, ": ", shortest(number), " stands behind ", shortest(numbers.back()),
+                             ", expected numbers that ascend"});
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+GONIO_INLINE speos_table speos_reader::read_table() {
+  constexpr double most_angles = 10'000.0;
+  const double thetas = count("the number of angles theta", most_angles),
+               phis = count("the number of angles phi", most_angles);
+  speos_table table;
+  table.phi = ascending(phis, "phi", 0.0, 360.0);
+  for (double i = 0.0; i < thetas; ++i) {
+    table.theta.push_back(ranged("theta", table.theta.empty() ? 0.0 : table.theta.back(), 90.0));
+    for (double k = 0.0; k < phis; ++k) table.values.push_back(words_.read_number("a value"));
+  }
+  return table;
+}
+
+/// Of a whole turn, or of half of one, which the other half mirrors. A turn may leave out its end.
+GONIO_INLINE std::vector<double> speos_reader::azimuth_weights(const std::vector<double>& phi) const {
+  const auto one = [](double) { return 1.0; };
+  constexpr double rounding = 1e-3;
+  const double width = phi.back() - phi.front();
+  std::vector<double> nodes = phi;
+  const bool is_half = std::abs(width - 180.0)<rounding, is_open = width> 180.0 + rounding && width < 360.0 - rounding;
+  if (phi.size() < 2 || width < 180.0 - rounding)
+    words_.place().refuse({"phi covers ", shortest(width), " degrees, expected 180 or 360"});
+  if (is_open) nodes.push_back(phi.front() + 360.0);
+  std::vector<double> weights = node_weights(nodes, one);
+  if (is_open) {
+    weights.front() += weights.back();
+    weights.pop_back();
+  }
+  if (is_half)
+    for (double& weight : weights) weight *= 2.0;
+  return weights;
+}
+
+/// To the BRDF: the table is proportional to it, and its reflectance, percent, is known.
+GONIO_INLINE void speos_reader::scale(speos_table& table, double reflectance) const {
+  const std::vector<double> of_phi = azimuth_weights(table.phi),
+                            of_theta = node_weights(table.theta, [&](double theta) {
+                              return std::sin(theta) * (has_cosine_ ? 1.0 : std::cos(theta));
+                            });
+  double sum = 0.0;
+  for (std::size_t i = 0; i < table.theta.size(); ++i)
+    for (std::size_t k = 0; k < table.phi.size(); ++k)
+      sum += of_theta[i] * of_phi[k] * table.values[i * table.phi.size() + k];
+  if (!(sum > 0.0)) words_.place().refuse("the table above reflects no light, so that nothing can be scaled by it");
+  for (std::size_t i = 0; i < table.theta.size(); ++i)
+    for (std::size_t k = 0; k < table.phi.size(); ++k) {
+      double& value = table.values[i * table.phi.size() + k];
+      value *= 0.01 * reflectance / sum;
+      if (has_cosine_) value /= std::max(std::cos(radians(table.theta[i])), 1e-9);
+      if (table.theta[i] < 90.0) require_float_range(value, words_.place());
+    }
+}
+
+GONIO_INLINE void speos_reader::add(sample_collector& to, double incidence,
+                                    const std::vector<speos_table>& spectrum) const {
+  const speos_table& first = spectrum.front();
+  const std::vector<bool> are_new = are_new_azimuths(first.phi);
+  const direction wi = spherical_direction(radians(incidence), std::numbers::pi);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < first.theta.size(); ++i)
+    for (std::size_t k = 0; k < first.phi.size(); ++k) {
+      const bool is_at_pole = first.theta[i] == 0.0;  // one direction, whatever its azimuth
+      if (first.theta[i] == 90.0 || !are_new[k] || (is_at_pole && k > 0)) continue;
+      values.clear();
+      for (const speos_table& each : spectrum) values.push_back(each.values[i * first.phi.size() + k]);
+      to.add({wi, spherical_direction(radians(first.theta[i]), radians(first.phi[k]))}, values);
+    }
+}
+
+GONIO_INLINE sample_collector speos_reader::read() {
+  constexpr double most = 10'000.0;
+  const bool reflects = words_.read_one_of({"0", "1"}) == 1, transmits = words_.read_one_of({"0", "1"}) == 1;
+  if (!reflects || transmits)
+    words_.place().refuse("the file has transmission, expected reflection alone, '1 0': save that part in Speos");
+  has_cosine_ = words_.read_one_of({"0", "1"}) == 0;
+  const double incidences = count("the number of angles of incidence", most),
+               wavelengths = count("the number of wavelengths", most);
+  const std::vector<double> all_incidences = ascending(incidences, "an angle of incidence", 0.0, 90.0);
+  sample_collector collector(channels(ascending(wavelengths, "a wavelength", 1.0, 1e6)));
+  for (const double incidence : all_incidences) {
+    std::vector<speos_table> spectrum;
+    while (static_cast<double>(spectrum.size()) < wavelengths) {
+      const double reflectance = ranged("the reflectance in percent", 0.0, 100.0);
+      spectrum.push_back(read_table());
+      scale(spectrum.back(), reflectance);
+      if (spectrum.back().theta != spectrum.front().theta || spectrum.back().phi != spectrum.front().phi)
+        words_.place().refuse("the table above has other directions than the one of the first wavelength");
+    }
+    add(collector, incidence, spectrum);
+  }
+  if (!words_.peek().empty()) words_.place().refuse("the file goes on behind its last table");
+  return collector;
+}
+
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE bool looks_like_speos_brdf(std::string_view text) {
+  return without_byte_order_mark(text).starts_with(detail::speos_header);
+}
+
+GONIO_INLINE sample_set read_speos_brdf(std::string_view text, const std::string& name) {
+  text_place place{name, 0};
+  text = without_byte_order_mark(text);
+  detail::read_speos_rows(text, place);
+  return detail::speos_reader(text, place).read().samples(name);
+}
+
+GONIO_INLINE sample_set read_speos_brdf(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return read_speos_brdf(as_text(bytes), path.string());
+}
+
+}  // namespace gonio::io
