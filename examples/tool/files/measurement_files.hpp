@@ -51,8 +51,8 @@ void add_aperture_options(command& to, aperture_option& given);
 void require_unused(const measurement_options& options, const std::filesystem::path& path);
 
 /// Measurements in the channels that the file has: samples as CSV, or in a format of the field that is recognised
-/// (measurement_kinds.hpp), which has no columns to name. What is ignored, assumed or implausible is told as a warning on
-/// standard error.
+/// (measurement_kinds.hpp), which has no columns to name. What is ignored, assumed or implausible is told as a warning
+/// on standard error.
 [[nodiscard]] gonio::io::sample_file read_measurement_file(const std::filesystem::path& path,
                                                            const measurement_options& options = {});
 
