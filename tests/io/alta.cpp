@@ -103,7 +103,7 @@ TEST_CASE("ALTA: what is no such file is refused") {
   check_alta_refused(plain, {"no line of numbers"});
   check_alta_refused("#DIM 3 1\n#PARAM_OUT INV_STERADIAN\n0 0 0 1\n", {"line 3", "no line #PARAM_IN"});
   check_alta_refused("#DIM 3 1\n#PARAM_IN RUSIN_TH_TD_PD\n0 0 0 1\n", {"line 3", "#PARAM_OUT INV_STERADIAN"});
-  check_alta_refused("#DIM 3\n", {"line 1", "#DIM", "''"});
+  check_alta_refused("#DIM 3\n", {"line 1", "#DIM: '3', expected two counts"});
   check_alta_refused("#DIM 3 1e9\n", {"line 1", "'1e9'", "from 1 to 16"});
   check_alta_refused("#PARAM_IN COS_TH\n", {"line 1", "'COS_TH'", "RUSIN_TH_TD_PD or"});
   check_alta_refused("#PARAM_OUT ENERGY\n", {"line 1", "'ENERGY'", "INV_STERADIAN or"});

@@ -79,8 +79,8 @@ void add_brdf_files(py::module_& m) {
       },
       py::arg("path"), py::arg("brdf"), py::call_guard<py::gil_scoped_release>(),
       "Writes a file of the RGL database (.bsdf) in RGB, which Mitsuba's `measured` reads: values over a\n"
-      "parameterisation that follows the highlight. Negative values become 0, but for those of an AdaptiveBrdf. An\n"
-      "existing file is replaced once the new one is complete.");
+      "parameterisation that follows the highlight. Negative values become 0. An existing file is replaced once the\n"
+      "new one is complete.");
 }
 
 /// Wherever a table is taken, so is a BRDF of this class: over the cells of a MERL file.

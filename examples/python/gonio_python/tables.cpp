@@ -151,7 +151,8 @@ gonio::model::adaptive_brdf adaptive_of_state(const py::tuple& state) {
 }  // namespace
 
 void write_rgl(const std::filesystem::path& path, const gonio::model::adaptive_brdf& f) {
-  gonio::io::write_rgl(path, f);
+  const bool is_negative = gonio::model::count_negative_values(f, gonio::valid_cells()).cells > 0;
+  gonio::io::write_rgl(path, is_negative ? gonio::model::clipped(f) : f);
 }
 
 void write_rgl(const std::filesystem::path& path, const brdf_by_pointer& f) {

@@ -124,7 +124,7 @@ void fit(const fit_command_options& options) {
            {"converged", found.converged},
            {"promised_gain", found.promised_gain},
            {"lobes", to_json(found.model)},
-           {"largest_albedo", {{"value", albedo.value}, {"theta", gonio::degrees(albedo.theta)}}}};
+           {"energy", {{"largest_albedo", albedo.value}, {"theta_i", gonio::degrees(albedo.theta)}}}};
   all.update(facts_of(measured));
   if (options.report.is_given())
     write_report(options, found.model, table ? in_plane_values(*table) : measured.samples, all);

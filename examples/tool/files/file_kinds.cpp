@@ -70,26 +70,10 @@ auto with_clipped_brdf(const fs::path& path, const file_content& content, const 
   });
 }
 
-/// The reflectance over its own normals, so that nothing else of the material changes.
-gonio::model::adaptive_brdf clipped(const gonio::model::adaptive_brdf& material, const writing& how) {
-  const auto measured = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
-    return material.as_measured(wi, wo).max(0.0);
-  };
-  gonio::model::adaptive_brdf_parts parts = material.parts();
-  parts.reflectance = gonio::model::tabulate_over(material, measured, how.threads);
-  return gonio::model::adaptive_brdf(std::move(parts));
-}
-
 io::rgl_material as_rgl(const fs::path& path, const file_content& content, const writing& how) {
   if (const auto* material = std::get_if<io::rgl_material>(&content)) {
-    // Nearer to the horizon a value is interpolated with those below it, which are negative.
-    constexpr double lowest_cosine = 0.1;
-    const auto measured = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
-      if (std::min(wi.z(), wo.z()) < lowest_cosine) return gonio::rgb::Zero();
-      return material->material.as_measured(wi, wo).min(material->material.as_measured(wo, wi));
-    };
-    if (!must_be_clipped(path, measured, cells_of(content), how)) return *material;
-    return {clipped(material->material, how), material->description, {}};
+    if (!must_be_clipped(path, material->material, cells_of(content), how)) return *material;
+    return {gonio::model::clipped(material->material, how.threads), material->description, {}};
   }
   return with_clipped_brdf(path, content, how, [&](const auto& f) -> io::rgl_material {
     return {gonio::model::tabulate_keeping_albedo(f, how.albedo_tolerance, how.threads), path.stem().string(), {}};

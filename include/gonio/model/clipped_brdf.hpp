@@ -4,7 +4,9 @@
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/model/adaptive_brdf.hpp>
 #include <gonio/model/physical_properties.hpp>
+#include <gonio/model/tabulate_adaptively.hpp>
 #include <gonio/table/valid_cells.hpp>
 
 #include <Eigen/Core>
@@ -36,27 +38,49 @@ struct clipped_values {
   rgb added{rgb::Zero()};
 };
 
-/// Counts the negative values of a BRDF at cells and integrates them. O(cells), and 61,200 evaluations of f if there
+/// Counts the negative values of a BRDF at cells and integrates them. O(cells), and 129,600 evaluations of f if there
 /// is one.
 template <brdf Brdf>
 [[nodiscard]] clipped_values count_negative_values(const Brdf& f, const valid_cells& cells) {
   clipped_values found;
-  for (Eigen::Index cell = 0; cell < std::ssize(cells); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     const direction_pair pair = to_directions(cells.angles(cell));
     if ((rgb(f(pair.wi, pair.wo)) < 0.0).any()) ++found.cells;
   }
   if (found.cells == 0) return found;
-  rgb reflected = rgb::Zero(), clipped = rgb::Zero();
-  for (int degree = 2; degree < 90; degree += 5) {
-    const double theta = radians(degree + 0.5), weight = std::sin(2.0 * theta);
-    detail::for_each_light(theta, 60, [&](const direction& wi, const direction& wo, double share) {
-      const rgb value = rgb(f(wi, wo)) * (weight * share);
-      reflected += value;
-      clipped += value.max(0.0);
-    });
+  constexpr int bins = 60;
+  const brdf_view measured(f);
+  const clipped_brdf clipped(measured);
+  rgb reflected = rgb::Zero(), without = rgb::Zero();
+  for (int degree = 0; degree < 90; degree += 5) {
+    const double theta = radians(degree + 2.5);
+    reflected += std::sin(2.0 * theta) * directional_albedo(measured, theta, bins);
+    without += std::sin(2.0 * theta) * directional_albedo(clipped, theta, bins);
   }
-  found.added = (clipped - reflected) / std::max(clipped.mean(), 1e-12);
+  found.added = (without - reflected) / std::max(without.mean(), 1e-12);
   return found;
+}
+
+/// The same of a material of the RGL database, as measured in either order of the directions. Values whose light or
+/// viewer is within 6 degrees of the horizon do not count: they are interpolated with those below it, which are
+/// negative.
+[[nodiscard]] inline clipped_values count_negative_values(const adaptive_brdf& material, const valid_cells& cells) {
+  constexpr double lowest_cosine = 0.1;
+  const auto measured = [&](const direction& wi, const direction& wo) noexcept -> rgb {
+    if (std::min(wi.z(), wo.z()) < lowest_cosine) return rgb::Zero();
+    return material.as_measured(wi, wo).min(material.as_measured(wo, wi));
+  };
+  return count_negative_values<decltype(measured)>(measured, cells);
+}
+
+/// Such a material whose negative values above the horizon are zero. Its normals do not change.
+[[nodiscard]] inline adaptive_brdf clipped(const adaptive_brdf& material, thread_count threads = {}) {
+  const auto measured = [&](const direction& wi, const direction& wo) noexcept -> rgb {
+    return material.as_measured(wi, wo).max(0.0);
+  };
+  adaptive_brdf_parts parts = material.parts();
+  parts.reflectance = tabulate_over(material, measured, threads);
+  return adaptive_brdf(std::move(parts));
 }
 
 }  // namespace gonio::model

@@ -96,8 +96,8 @@ class model_loss {
   /// The loss of a model that is black.
   [[nodiscard]] double of_nothing() const noexcept { return loss_of_nothing_; }
 
-  /// The largest albedo of a model, relative to the one that it may have; 0 if it may have any. By the midpoint rule
-  /// over `bins`^2 half vectors at each angle.
+  /// The largest albedo of each channel of a model, relative to the one that it may have. By the midpoint rule over
+  /// `bins`^2 half vectors at each angle.
   [[nodiscard]] rgb relative_albedo(const Eigen::VectorXd& x, int bins) const;
 
   /// Shapes and the colours that are best for them by squares of linear residuals.

@@ -31,8 +31,6 @@ class cornell_reader {
   [[nodiscard]] sample_collector samples() &&;
 
  private:
-  void split(std::string_view line);
-
   [[nodiscard]] double number(std::size_t field) const {
     return read_number(fields_[field], place_, [&] { return "field " + std::to_string(field + 1); });
   }

@@ -13,7 +13,7 @@
 
 namespace gonio::io {
 
-/// Does the text have the root element of such a file, WindowElement, in its first 4096 bytes?
+/// Does the text have the root element of such a file, WindowElement?
 [[nodiscard]] bool looks_like_klems_xml(std::string_view text);
 
 /// Samples from the text of such a file; `name` is what errors call it: one value, sr^-1 without the cosine, for each

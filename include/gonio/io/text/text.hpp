@@ -44,6 +44,9 @@ inline constexpr std::string_view blanks = " \t\r";
 /// The fields of a line between its commas, or another separator, trimmed; what `fields` held before is dropped.
 void split_fields(std::string_view line, std::vector<std::string_view>& fields, char separator = ',');
 
+/// The words of a line, which blanks separate; what `words` held before is dropped.
+void split_at_blanks(std::string_view line, std::vector<std::string_view>& words);
+
 /// Takes the next line that holds more than blanks off the front of a text; `place` is then there.
 [[nodiscard]] bool next_whole_line(std::string_view& text, text_place& place, std::string_view& line);
 

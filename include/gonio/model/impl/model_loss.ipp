@@ -35,7 +35,8 @@ namespace gonio::model::detail {
 }
 
 /// Angles of the light, radians, at which an albedo is bounded: it grows towards grazing.
-inline constexpr std::array albedo_angles{0.0, 0.8, 1.05, 1.22, radians(80.0), radians(85.0), radians(88.0)};
+inline constexpr std::array albedo_angles{0.0,           radians(45.0), radians(60.0), radians(70.0),
+                                          radians(80.0), radians(85.0), radians(88.0)};
 
 /// `count` numbers from `first` on.
 [[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> numbers_from(Eigen::Index first, Eigen::Index count) {
@@ -296,7 +297,6 @@ GONIO_INLINE void model_loss::add_albedo_penalty(const std::vector<lobe_kind::va
 }
 
 GONIO_INLINE rgb model_loss::relative_albedo(const Eigen::VectorXd& x, int bins) const {
-  if (!std::isfinite(options_.largest_albedo)) return rgb::Zero();
   const Eigen::MatrixXd albedos = lobe_albedos(parameters_of(x), bins).topRows(lobes()).transpose() * colours(x);
   return albedos.colwise().maxCoeff().transpose().array() / options_.largest_albedo;
 }

@@ -40,16 +40,13 @@ struct hdr_header {
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd hdr_numbers(std::string_view line, Eigen::Index count,
                                                        const std::string& name) {
   const auto equals = line.find('=');
+  std::vector<std::string_view> words;
+  split_at_blanks(line.substr(equals + 1), words);
   Eigen::VectorXd numbers(count);
-  std::string_view rest = line.substr(equals + 1);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    rest = trimmed(rest);
-    const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
-    if (read_number(rest.substr(0, end), numbers[i]) != nullptr)
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (i >= std::ssize(words) || read_number(words[i], numbers[i]) != nullptr)
       gonio::refuse({name, ": the line ", in_quotes(line.substr(0, equals)), " of the HDR file must hold ", count,
                      count == 1 ? " number" : " numbers"});
-    rest.remove_prefix(end);
-  }
   return numbers;
 }
 

@@ -76,6 +76,7 @@ class alta_reader {
   std::size_t inputs_ = 0, outputs_ = 0;  ///< by #DIM
   std::string output_;
   std::optional<sample_collector> collector_;
+  std::vector<std::string_view> words_;
   std::vector<double> numbers_, values_;
 };
 
@@ -100,15 +101,17 @@ GONIO_INLINE void alta_reader::read_entry(std::string_view line) {
 
 GONIO_INLINE void alta_reader::read_dimensions(std::string_view value) {
   constexpr double most = 16.0;
-  const std::size_t end = std::min(value.find_first_of(" \t"), value.size());
+  std::vector<std::string_view> words;
+  split_at_blanks(value, words);
+  if (words.size() != 2) place_.refuse({"#DIM: ", in_quotes(value), ", expected two counts from 1 to 16"});
   const auto count = [&](std::string_view word) {
     const double number = read_number(word, place_, [] { return "#DIM"; });
     if (!(number >= 1.0 && number <= most && number == std::floor(number)))
       place_.refuse({"#DIM: ", in_quotes(word), ", expected two counts from 1 to 16"});
     return static_cast<std::size_t>(number);
   };
-  inputs_ = count(value.substr(0, end));
-  outputs_ = count(trimmed(value.substr(end)));
+  inputs_ = count(words[0]);
+  outputs_ = count(words[1]);
 }
 
 GONIO_INLINE void alta_reader::read_input(std::string_view name) {
@@ -181,11 +184,8 @@ GONIO_INLINE direction_pair alta_reader::directions() const {
       return of_half(x[0], x[1], x[2]);
     case alta_input::half_difference_with_azimuth: {
       const direction_pair pair = of_half(x[0], x[2], x[3]);
-      const double cosine = std::cos(azimuth(x[1])), sine = std::sin(x[1]);
-      const auto turned = [&](const direction& w) {
-        return direction(cosine * w.x() - sine * w.y(), sine * w.x() + cosine * w.y(), w.z());
-      };
-      return {turned(pair.wi), turned(pair.wo)};
+      const double phi_h = azimuth(x[1]);
+      return {turned_about_normal(pair.wi, phi_h), turned_about_normal(pair.wo, phi_h)};
     }
     case alta_input::spherical:
       return {spherical_direction(polar_angle(x[0]), azimuth(x[1])),
@@ -204,13 +204,9 @@ GONIO_INLINE direction_pair alta_reader::directions() const {
 GONIO_INLINE void alta_reader::read_row(std::string_view line) {
   if (!collector_) begin_rows();
   numbers_.clear();
-  while (!line.empty()) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    numbers_.push_back(read_number(line.substr(0, end), place_, [&] {
-      return message_of({"number ", numbers_.size() + 1});
-    }));
-    line = trimmed(line.substr(end));
-  }
+  split_at_blanks(line, words_);
+  for (const std::string_view word : words_)
+    numbers_.push_back(read_number(word, place_, [&] { return message_of({"number ", numbers_.size() + 1}); }));
   const std::size_t needed = inputs_ + outputs_, most = needed + 2 * outputs_;  // confidence intervals
   if (numbers_.size() < needed || numbers_.size() > most)
     place_.refuse({numbers_.size(), " numbers, expected ", needed, " as #DIM says"});

@@ -18,7 +18,7 @@
 namespace gonio::io::detail {
 
 GONIO_INLINE void cornell_reader::read(std::string_view line) {
-  split(line);
+  split_at_blanks(line, fields_);
   if (count_ == 0)
     read_count();
   else if (!collector_)
@@ -32,15 +32,6 @@ GONIO_INLINE sample_collector cornell_reader::samples() && {
     gonio::refuse(
         {place_.name, ": ends before its ", count_, " wavelengths, of which there are ", wavelengths_.size()});
   return *std::move(collector_);
-}
-
-GONIO_INLINE void cornell_reader::split(std::string_view line) {
-  fields_.clear();
-  while (!line.empty()) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    fields_.push_back(line.substr(0, end));
-    line = trimmed(line.substr(end));
-  }
 }
 
 GONIO_INLINE void cornell_reader::read_count() {

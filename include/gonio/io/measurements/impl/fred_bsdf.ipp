@@ -23,20 +23,10 @@
 
 namespace gonio::io::detail {
 
-/// The words between runs of blanks.
-[[nodiscard]] GONIO_INLINE std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  while (!line.empty()) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    words.push_back(line.substr(0, end));
-    line = trimmed(line.substr(end));
-  }
-  return words;
-}
-
 /// Refuses a line `format` that says anything but degrees and plain values.
 GONIO_INLINE void check_fred_format(std::string_view line, const text_place& place) {
-  const std::vector<std::string_view> words = words_of(line);
+  std::vector<std::string_view> words;
+  split_at_blanks(line, words);
   const std::vector<std::string_view> expected{"format", "angles=deg", "bsdf=value", "scale=1"};
   if (words != expected) place.refuse({in_quotes(line), " is not read, expected '", listed(expected, " "), "'"});
 }
@@ -56,12 +46,13 @@ GONIO_INLINE void check_fred_format(std::string_view line, const text_place& pla
 [[nodiscard]] GONIO_INLINE sample_collector collect_fred(std::string_view text, text_place& place) {
   sample_collector collector;
   std::optional<direction> wi;
+  std::vector<std::string_view> words;
   int lines = 0;
   for_each_line(text, place, [&](std::string_view line) {
     if (++lines == 1 && line != "type bsdf_data") place.refuse({in_quotes(line), ", expected 'type bsdf_data'"});
     if (lines == 2) check_fred_format(line, place);
     if (lines <= 2) return;
-    const std::vector<std::string_view> words = words_of(line);
+    split_at_blanks(line, words);
     if (words.size() == 2) {
       wi = fred_direction(words[0], words[1], std::numbers::pi, place);
     } else if (words.size() == 3 && wi) {

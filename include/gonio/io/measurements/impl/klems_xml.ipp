@@ -193,7 +193,7 @@ inline constexpr std::size_t most_patches = 4096;
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_klems_xml(std::string_view text) {
-  return text.substr(0, 4096).find("<WindowElement") != std::string_view::npos;
+  return text.find("<WindowElement") != std::string_view::npos;
 }
 
 GONIO_INLINE sample_set read_klems_xml(std::string_view text, const std::string& name) {

@@ -136,7 +136,8 @@ GONIO_INLINE std::vector<double> speos_reader::azimuth_weights(const std::vector
   constexpr double rounding = 1e-3;
   const double width = phi.back() - phi.front();
   std::vector<double> nodes = phi;
-  const bool is_half = std::abs(width - 180.0)<rounding, is_open = width> 180.0 + rounding && width < 360.0 - rounding;
+  const bool is_half = std::abs(width - 180.0) < rounding;
+  const bool is_open = width - 180.0 > rounding && 360.0 - width > rounding;
   if (phi.size() < 2 || width < 180.0 - rounding)
     words_.place().refuse({"phi covers ", shortest(width), " degrees, expected 180 or 360"});
   if (is_open) nodes.push_back(phi.front() + 360.0);

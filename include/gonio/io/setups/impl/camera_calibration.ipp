@@ -165,7 +165,7 @@ GONIO_INLINE camera_intrinsics calibrated_intrinsics(const storage_text& text) {
 }
 
 /// Refuses lenses whose coefficients mean something else.
-GONIO_INLINE void require_rational_lens(const storage_text& text) {
+GONIO_INLINE void require_radial_and_tangential(const storage_text& text) {
   constexpr std::string_view way_out = ": undistort the images before, by cv::fisheye::undistortImage for instance";
   if (const auto fisheye = text.find_word("fisheye_model"); fisheye && *fisheye != "0")
     text.refuse("fisheye_model", "is a lens model that is not read" + std::string(way_out));
@@ -175,7 +175,7 @@ GONIO_INLINE void require_rational_lens(const storage_text& text) {
 }
 
 GONIO_INLINE lens_distortion calibrated_distortion(const storage_text& text) {
-  require_rational_lens(text);
+  require_radial_and_tangential(text);
   const auto matrix = text.find_matrix({"distortion_coefficients", "distCoeffs", "dist_coeffs",
                                         "Distortion_Coefficients", "DistortionCoefficients", "D"});
   if (!matrix) return {};

@@ -49,17 +49,6 @@ namespace gonio::io::detail {
     gonio::refuse({name, ": looks like a workbook of a spreadsheet, expected text: save its sheet as CSV"});
 }
 
-[[gnu::cold]] GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string_view>& fields) {
-  fields.clear();
-  for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;
-       begin = line.find_first_not_of(blanks)) {
-    line.remove_prefix(begin);
-    const std::size_t size = std::min(line.find_first_of(blanks), line.size());
-    fields.push_back(line.substr(0, size));
-    line.remove_prefix(size);
-  }
-}
-
 /// Takes a field that begins with a double quote off the front of a line, with both its quotes. False if there is no
 /// second one.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE bool read_quoted(std::string_view& line, std::string_view& field) {
@@ -148,7 +137,7 @@ namespace gonio::io {
 GONIO_INLINE const char* csv_dialect::split(std::string_view line, std::vector<std::string_view>& fields) const {
   if (line.find('"') != std::string_view::npos) return detail::split_quoted(line, separator, fields);
   if (separator == ' ')
-    detail::split_at_blanks(line, fields);
+    split_at_blanks(line, fields);
   else
     split_fields(line, fields, separator);
   return nullptr;

@@ -14,16 +14,14 @@
 namespace gonio::io::detail {
 
 GONIO_INLINE text_rule read_rule(std::string_view line, const text_place& place) {
-  line = trimmed(line.substr(0, line.find('#')));
+  std::vector<std::string_view> words;
+  split_at_blanks(line.substr(0, line.find('#')), words);
   text_rule rule;
-  while (!line.empty()) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    const std::string_view word = line.substr(0, end);
+  for (const std::string_view word : words) {
     if (rule.name.empty())
       rule.name = word;
     else
       rule.numbers.push_back(read_number(word, place, [&] { return "number of " + in_quotes(rule.name); }));
-    line = trimmed(line.substr(end));
   }
   return rule;
 }

@@ -90,6 +90,17 @@ GONIO_INLINE void split_fields(std::string_view line, std::vector<std::string_vi
   fields.push_back(trimmed(line));
 }
 
+GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string_view>& words) {
+  words.clear();
+  for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;
+       begin = line.find_first_not_of(blanks)) {
+    line.remove_prefix(begin);
+    const std::size_t size = std::min(line.find_first_of(blanks), line.size());
+    words.push_back(line.substr(0, size));
+    line.remove_prefix(size);
+  }
+}
+
 [[gnu::cold]] GONIO_INLINE std::errc read_by_strtod(std::string_view digits, double& value) {
   // What strtod takes and from_chars does not: blanks and plus signs before a number, and hexadecimal digits.
   constexpr std::string_view begins = "-.0123456789iInN";
