@@ -18,8 +18,8 @@ namespace {
 
 using json = nlohmann::json;
 
-/// Samples of red paint, which is a sum of Lambert and GGX, in a file.
-std::string write_samples(const scratch::folder& folder, std::size_t count) {
+/// Samples of red paint, which is a sum of Lambert and GGX, in a file; or of one that is brighter by a factor.
+std::string write_samples(const scratch::folder& folder, std::size_t count, double factor = 1.0) {
   const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -28,7 +28,7 @@ std::string write_samples(const scratch::folder& folder, std::size_t count) {
     const gonio::half_difference angles{uniform(random) * uniform(random), 1.4 * uniform(random),
                                         3.0 * uniform(random)};
     const auto [wi, wo] = gonio::to_directions(angles);
-    if (wi.z() > 0.05 && wo.z() > 0.05) samples.push_back({angles, paint(wi, wo), 1.0});
+    if (wi.z() > 0.05 && wo.z() > 0.05) samples.push_back({angles, factor * paint(wi, wo), 1.0});
   }
   const std::string path = (folder / "samples.csv").string();
   gonio::io::write_samples(path, samples);
@@ -43,6 +43,20 @@ json fitted(const std::string& arguments) {
 }
 
 }  // namespace
+
+TEST_CASE("a fit reflects at most what falls in, or what is asked for, and says how much that is") {
+  const scratch::folder folder;
+  const std::string bright = write_samples(folder, 60, 4.0);
+  const auto albedo = [&](const std::string& options) {
+    return fitted(bright + options)["energy"]["largest_albedo"].get<double>();
+  };
+  CHECK(albedo("") == doctest::Approx(1.0).epsilon(0.003));
+  CHECK(albedo(" --largest-albedo 0.8") == doctest::Approx(0.8).epsilon(0.003));
+  CHECK(albedo(" --largest-albedo 100") > 1.5);
+  const auto told = gonio_tool("fit " + bright + " --largest-albedo 100");
+  CHECK(told.output.find("of light at 88 degrees: more than falls in") != std::string::npos);
+  CHECK(gonio_tool("fit " + bright + " --largest-albedo 0").exit_code == 2);
+}
 
 TEST_CASE("samples of a model give its parameters back") {
   const scratch::folder folder;

@@ -43,8 +43,8 @@ void add_fit_options(command& to, gonio::model::model_fit_options& options) {
   to.add_flag("--cosine-weighted", options.cosine_weighted,
               "Compare reflectance times the cosine of the light (the default)");
   to.add_option("--largest-albedo", options.largest_albedo,
-                "What the model may reflect at most of light that falls in at up to 88 degrees: 1 is all of it, inf "
-                "bounds nothing")
+                "What the model may reflect at most of light that falls in at up to 88 degrees: 1 is all of it, a "
+                "large number bounds nothing")
       .check(check::positive_number())
       .capture_default_str();
   to.add_option("--starts", options.random_starts, "Random starts beside the consecutive scheme")
