@@ -1,5 +1,6 @@
 # cmake -D TOOL=build/.../bin/gonio [-D CHECK=ON] -P cmake/tool_reference.cmake: writes docs/reference/tool.md, the help
-# of each subcommand as the tool prints it, with lines of at most 120 characters. CHECK: fails where the page differs.
+# of each subcommand as the tool prints it, with lines of at most 120 characters. CHECK: fails where the page differs; a
+# tool without `gonio shape` is compared with the rest of the page.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/tool_help.cmake")
 cmake_path(SET source NORMALIZE "${CMAKE_CURRENT_LIST_DIR}/..")
@@ -44,6 +45,13 @@ function(describe)
   endforeach()
 endfunction()
 
+# without_shape(TEXT): takes gonio shape and its subcommands off the text in a variable.
+function(without_shape variable)
+  string(REGEX REPLACE "\n  shape  [^\n]*" "" text "${${variable}}")
+  string(REGEX REPLACE "\n(## gonio shape[^#]*)+" "" text "${text}")
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
 set_property(GLOBAL PROPERTY text "# The options of the tool
 
 What `gonio --help` and `gonio SUBCOMMAND --help` print. Written by `cmake -D TOOL=build/.../bin/gonio -P
@@ -53,13 +61,24 @@ and one sentence if its input is bad.
 describe()
 get_property(text GLOBAL PROPERTY text)
 
+set(has_shape ON)
+if(text MATCHES "## gonio shape\n\n```\n.not in this build.")
+  set(has_shape OFF)
+endif()
 if(NOT CHECK)
+  if(NOT has_shape)
+    message(FATAL_ERROR "${TOOL} has no gonio shape: build it with -D GONIO_BUILD_SHAPE=ON")
+  endif()
   file(WRITE "${page}" "${text}")
   return()
 endif()
 set(present "")
 if(EXISTS "${page}")
   file(READ "${page}" present)
+endif()
+if(NOT has_shape)
+  without_shape(text)
+  without_shape(present)
 endif()
 if(NOT present STREQUAL text)
   message(FATAL_ERROR "docs/reference/tool.md is not what the tool prints now; write it again: "

@@ -1,4 +1,5 @@
 #include "../synthetic_materials.hpp"
+#include <gonio/basis/learn_streamed_pca.hpp>
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/evaluate/perceived_candidates.hpp>
 
@@ -18,6 +19,14 @@ gonio::log_relative_pca prior_of_families() {
   return learn(std::move(materials), 10);
 }
 
+/// Twelve materials of six families at four wavelengths, of which nobody sees the first.
+gonio::log_relative_pca prior_of_spectra() {
+  auto spectra = at_wavelengths(synthetic_materials(small_cells(), 16), {300.0, 450.0, 550.0, 650.0});
+  for (std::size_t m = 0; m < spectra.names.size(); ++m)
+    spectra.names[m] = "maker" + std::to_string(m / 2) + "_" + std::to_string(m);
+  return gonio::learn_streamed_pca(spectra, {.components = 10}).prior;
+}
+
 gonio::design::sequential_design<gonio::log_relative> cells_of(const gonio::log_relative_pca& prior) {
   gonio::design::apparatus with = gonio::design::usual_apparatus();
   with.constraint.smallest_separation = 0.0;
@@ -30,6 +39,23 @@ gonio::perceived_options options_of(double variance_share, Eigen::Index material
 
 const std::vector<Eigen::Index> measured{20, 77, 150};
 
+/// Mapped values of a prior's channels, less its mean, as those of colours.
+Eigen::MatrixXd in_colours(const gonio::design::sequential_design<gonio::log_relative>& cells,
+                           const Eigen::MatrixXd& mapped) {
+  const auto& prior = cells.estimator().prior();
+  if (prior.wavelengths().empty()) return mapped;
+  const gonio::spectral_colour colour(prior.wavelengths());
+  Eigen::MatrixXd three(mapped.rows(), 3);
+  for (Eigen::Index i = 0; i < mapped.rows(); ++i) {
+    const auto at = cells.locations()[i];
+    std::vector<double> values;
+    for (const double y : mapped.row(i)) values.push_back(prior.metric().inverse(y + cells.offsets()[i], at));
+    const gonio::rgb seen = colour(values).max(0.0);
+    for (Eigen::Index c = 0; c < 3; ++c) three(i, c) = prior.metric().forward(seen[c], at) - cells.offsets()[i];
+  }
+  return three;
+}
+
 /// The same from the definition: each material's family is taken out of the observations.
 double naive_value(const gonio::log_relative_pca& prior, double variance_share, double power = 1.0) {
   const auto cells = cells_of(prior);
@@ -40,14 +66,16 @@ double naive_value(const gonio::log_relative_pca& prior, double variance_share, 
       model.variance * gonio::discrepancy_covariance(cells.rows().angles, model.lengths);
   double sum = 0.0;
   for (Eigen::Index material = 0; material < 12; ++material) {
-    const Eigen::Index first = 6 * (material / 2);  // of its family's observations
-    Eigen::MatrixXd others(all.rows() - 6, all.cols());
-    others << all.topRows(first), all.bottomRows(all.rows() - first - 6);
+    const Eigen::Index left_out = 2 * prior.channels(),
+                       first = left_out * (material / 2);  // observations of its family
+    Eigen::MatrixXd others(all.rows() - left_out, all.cols());
+    others << all.topRows(first), all.bottomRows(all.rows() - first - left_out);
     const Eigen::RowVectorXd mean = others.colwise().mean();
     others.rowwise() -= mean;
     const Eigen::MatrixXd covariance =
         q * (others.transpose() * others / static_cast<double>(others.rows())) * q.transpose() + discrepancy;
-    const Eigen::MatrixXd own = q * prior.weights_of(material), off = own.colwise() - q * mean.transpose();
+    const Eigen::MatrixXd own = in_colours(cells, q * prior.weights_of(material)),
+                          off = own.colwise() - q * mean.transpose();
     const auto seen = perceived.at(prior.metric(), cells.locations(), own.colwise() + cells.offsets());
     Eigen::MatrixXd among(3, 3), with(off.rows(), 3), read(3, 3);
     for (Eigen::Index i = 0; i < 3; ++i) {
@@ -84,6 +112,14 @@ TEST_CASE("what is seen of a design is the mean over materials, each reconstruct
     // A hundredth of the discrepancy's variance is left out of what is seen.
     CHECK(candidates(measured) == doctest::Approx(naive_value(prior, share)).epsilon(0.02));
   }
+}
+
+TEST_CASE("materials at wavelengths are seen in colours") {
+  const auto prior = prior_of_spectra();
+  REQUIRE(prior.channels() == 4);
+  const gonio::perceived_candidates candidates(cells_of(prior), options_of(0.4));
+  CHECK(candidates.materials() == 12);
+  CHECK(candidates(measured) == doctest::Approx(naive_value(prior, 0.4)).epsilon(0.02));
 }
 
 TEST_CASE("a power mean over the materials is nearer to the worst") {

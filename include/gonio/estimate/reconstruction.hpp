@@ -77,7 +77,8 @@ class reconstruction {
   [[nodiscard]] sample_process process_of(const located_samples& samples) const {
     return process_of_mapped(map_samples(prior_, samples, threads_));
   }
-  /// The process of those that `fit` would keep; of more than `most_centres`, of some of them.
+  /// The process, in three channels (`channels::three`), of those that `fit` would keep; of more than `most_centres`,
+  /// of some of them.
   [[nodiscard]] sample_process process_of_inliers(const located_samples& samples) const;
 
  private:
@@ -166,7 +167,7 @@ sample_process reconstruction<Metric>::known_by(const selection& chosen) const {
 
 template <error_metric Metric>
 sample_process reconstruction<Metric>::process_of_inliers(const located_samples& samples) const {
-  const selection chosen = select(samples);
+  const selection chosen = select(samples.in_three_channels());
   return chosen.process ? *chosen.process : known_by(chosen);
 }
 

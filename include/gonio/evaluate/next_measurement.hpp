@@ -94,8 +94,8 @@ class measurement_chooser {
     std::vector<bool> free(geometry.size());
     for (Eigen::Index i = 0; i < geometry.size(); ++i) free[i] = geometry.allows(i);
     const valid_cells& cells = geometry.cells();
-    for (const sample& s : samples)
-      free[cells.representative(cells.grid().linear(cells.grid().nearest(s.angles())))] = false;
+    for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
+      free[cells.representative(cells.grid().linear(cells.grid().nearest(samples.directions(i).angles())))] = false;
     return free;
   }
 

@@ -5,12 +5,17 @@
 /// measured materials: docs/results/adaptive-design.md.
 
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/rgb.hpp>
 #include <gonio/design/sequential_design.hpp>
 #include <gonio/evaluate/perceived_sensitivity.hpp>
+#include <gonio/metric/error_metric.hpp>
+#include <gonio/table/channels.hpp>
+#include <gonio/table/location.hpp>
 #include <gonio/table/material_set.hpp>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <utility>
@@ -27,6 +32,25 @@ struct perceived_options {
   /// The criterion is the power mean of the materials' Delta E with this exponent: 1 is the mean, 8 almost the worst.
   double power = 1.0;
 };
+
+namespace detail {
+
+/// Mapped values of channels of any kind, n x c, as those of the three that `channels::three` makes of them: n x 3.
+template <error_metric Metric>
+[[nodiscard]] Eigen::MatrixXd mapped_in_three_channels(const Metric& metric, std::span<const location> locations,
+                                                       const Eigen::MatrixXd& mapped, const channels& kinds) {
+  if (kinds.are_colours()) return mapped;
+  Eigen::MatrixXd three(mapped.rows(), 3);
+  std::vector<double> reflectance(static_cast<std::size_t>(kinds.size()));
+  for (Eigen::Index i = 0; i < mapped.rows(); ++i) {
+    for (Eigen::Index c = 0; c < mapped.cols(); ++c) reflectance[c] = metric.inverse(mapped(i, c), locations[i]);
+    const rgb seen = kinds.three(reflectance);
+    for (Eigen::Index c = 0; c < 3; ++c) three(i, c) = metric.forward(std::max(seen[c], 0.0), locations[i]);
+  }
+  return three;
+}
+
+}  // namespace detail
 
 /// A `design::sweeping_objective`. Its value is the mean Delta E over the materials, linearised at each of them; with
 /// `perceived_options::power` another mean.
@@ -53,17 +77,19 @@ class perceived_candidates {
     const auto& prior = candidates.estimator().prior();
     const perceived_sensitivity perceived(geometry_.cells(), options.sphere_size, threads);
     weights_ = perceived.weights().cast<float>();
-    const Eigen::Index channels = prior.channels();
+    const channels kinds = prior.wavelengths().empty() ? channels() : channels(prior.wavelengths());
     const Eigen::MatrixXf discrepancy = discrepancy_factor();
     for (const family& some : families_of(prior.names())) {
-      Eigen::MatrixXd members(prior.size(), channels * std::ssize(some.members));
+      Eigen::MatrixXd members(prior.size(), kinds.size() * std::ssize(some.members));
       for (Eigen::Index i = 0; i < std::ssize(some.members); ++i)
-        members.middleCols(channels * i, channels) = prior.weights_of(some.members[i]);
+        members.middleCols(kinds.size() * i, kinds.size()) = prior.weights_of(some.members[i]);
       std::vector<seen_material> seen;
       for (const Eigen::Index material : some.judged) {
-        seen_material each{rows_.rows * prior.weights_of(material), {}};
-        each.slopes =
-            perceived.at(prior.metric(), candidates.locations(), each.mapped.colwise() + candidates.offsets());
+        const Eigen::MatrixXd own = (rows_.rows * prior.weights_of(material)).colwise() + candidates.offsets();
+        const Eigen::MatrixXd three =
+            detail::mapped_in_three_channels(prior.metric(), candidates.locations(), own, kinds);
+        seen_material each{three.colwise() - candidates.offsets(),
+                           perceived.at(prior.metric(), candidates.locations(), three)};
         seen.push_back(std::move(each));
       }
       leave_out(members, seen, discrepancy);
@@ -89,7 +115,7 @@ class perceived_candidates {
   struct family {
     std::vector<Eigen::Index> members, judged;
   };
-  /// A material at the n candidates: n x 3, less the prior's mean.
+  /// A material at the n candidates, in the three channels that are seen: n x 3, less the prior's mean.
   struct seen_material {
     Eigen::MatrixXd mapped;
     design::sensitivity slopes;
