@@ -58,7 +58,7 @@ if("libcxx" IN_LIST parts)
   step("libc++: configure" ${cmake} --preset libcxx)
   step("libc++: build" ${cmake} --build build/libcxx --parallel ${cores} --target gonio_tool ${targets})
   list(JOIN tested "|" tested)
-  step("libc++: test" ${ctest} --test-dir build/libcxx --tests-regex "^(${tested})$")
+  step("libc++: test" ${ctest} --test-dir build/libcxx --tests-regex "^(${tested}|help_offers_formats)$")
 endif()
 
 if("sanitize" IN_LIST parts)

@@ -61,6 +61,9 @@ endfunction()
 # gonio_install_part(NAME): an export set of its own for each target, so that who lacks what a part needs finds the rest.
 include(GNUInstallDirs)
 function(gonio_install_part name)
+  if(NOT gonio_package_dir) # GONIO_INSTALL is off
+    return()
+  endif()
   foreach(target IN ITEMS ${name} compiled_${name})
     if(TARGET gonio_${target})
       install(TARGETS gonio_${target} EXPORT gonio_${target}Targets)

@@ -47,6 +47,7 @@
 #include <gonio/io/setups/impl/near_field_setup.ipp>
 #include <gonio/io/setups/impl/setup_text.ipp>
 #include <gonio/io/setups/impl/sphere_setup.ipp>
+#include <gonio/io/text/impl/base64.ipp>
 #include <gonio/io/text/impl/csv_dialect.ipp>
 #include <gonio/io/text/impl/csv_reader.ipp>
 #include <gonio/io/text/impl/json_reader.ipp>

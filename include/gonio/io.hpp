@@ -51,6 +51,7 @@
 #include <gonio/io/setups/near_field_setup.hpp>
 #include <gonio/io/setups/setup_text.hpp>
 #include <gonio/io/setups/sphere_setup.hpp>
+#include <gonio/io/text/base64.hpp>
 #include <gonio/io/text/csv_dialect.hpp>
 #include <gonio/io/text/csv_reader.hpp>
 #include <gonio/io/text/json_reader.hpp>

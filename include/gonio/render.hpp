@@ -9,6 +9,11 @@
 /// const auto [wi, weight, pdf] = paint.sample(wo, u1, u2);
 /// ```
 
+// Renderers that take these headers as their own may compile with -Wsign-conversion; our indices are signed (decision
+// 18 of docs/decisions).
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+
 #include <gonio/render/bsdf_view.hpp>
 #include <gonio/render/cell_finder.hpp>
 #include <gonio/render/component_brdf.hpp>
@@ -19,3 +24,5 @@
 #include <gonio/render/merl_view.hpp>
 #include <gonio/render/padded_grid.hpp>
 #include <gonio/texels/texel_brdf.hpp>
+
+#pragma GCC diagnostic pop

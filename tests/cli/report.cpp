@@ -1,5 +1,6 @@
 /// gonio report: a page that a browser shows without a network, whatever the text of the measurements is.
 
+#include "../base64.hpp"
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "tool.hpp"
@@ -8,6 +9,7 @@
 #include <gonio/io/bytes/gzip.hpp>
 #include <gonio/io/materials/merl.hpp>
 #include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/text/base64.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -65,22 +67,6 @@ std::size_t occurrences(const std::string& text, const std::string& word) {
   return count;
 }
 
-std::vector<std::byte> from_base64(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::byte> bytes;
-  std::uint32_t bits = 0;
-  int known = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    bits = (bits << 6) | static_cast<std::uint32_t>(digits.find(c));
-    known += 6;
-    if (known < 8) continue;
-    known -= 8;
-    bytes.push_back(static_cast<std::byte>((bits >> known) & 255U));
-  }
-  return bytes;
-}
-
 std::string data_text(const std::string& page) {
   const std::string opening = R"(<script id="data" type="application/json">)";
   const std::size_t start = page.find(opening);
@@ -101,7 +87,7 @@ TEST_CASE("gonio report: text is escaped") {
 
 TEST_CASE("gonio report: bytes as a URL") {
   const auto url = [](std::vector<unsigned char> bytes) {
-    return cli::data_url("image/png", std::as_bytes(std::span(bytes)));
+    return gonio::io::data_url("image/png", std::as_bytes(std::span(bytes)));
   };
   // RFC 4648, section 10.
   CHECK(url({}) == "data:image/png;base64,");

@@ -64,9 +64,10 @@ void check_material(const Brdf& table) {
 int main(int count, char**) {
   const gonio::grid cells({30, 30, 60});
   // The planes of a MERL file: a grey Lambertian of albedo 0.5.
-  std::vector<double> planes(3 * cells.size());
+  const auto plane = static_cast<std::size_t>(cells.size());
+  std::vector<double> planes(3 * plane);
   const std::array scales{1500.0, 1500.0 / 1.15, 1500.0 / 1.66};
-  for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = 0.5 * std::numbers::inv_pi * scales[i / cells.size()];
+  for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = 0.5 * std::numbers::inv_pi * scales[i / plane];
   if (count > 1) planes.pop_back();
 
   const auto table = gonio::render::lookup_table<Eigen::half>::from_merl(planes, cells);

@@ -73,6 +73,36 @@ void check_like_grey(const Estimator& estimator) {
 
 gonio::measured<gonio::log> materials() { return {synthetic_materials(cells(), 8), gonio::log{}}; }
 
+TEST_CASE("the gradient says how values change with the weights, of colours and of wavelengths") {
+  const auto fit = gonio::decomposition{prior(), gonio::tikhonov{0.1}}.fit(measured_spectra());
+  const auto wi = gonio::spherical_direction(0.4, 0.2), wo = gonio::spherical_direction(0.9, 2.5);
+  const Eigen::MatrixXd gradient = fit.gradient(wi, wo);
+  REQUIRE(gradient.rows() == fit.weights().rows());
+  REQUIRE(gradient.cols() == 7);
+  constexpr double step = 1e-5;
+  for (const Eigen::Index k : {0, 3, 9})
+    for (const Eigen::Index band : {0, 6}) {
+      CAPTURE(k);
+      CAPTURE(band);
+      Eigen::MatrixXd more = fit.weights(), less = fit.weights();
+      more(k, band) += step;
+      less(k, band) -= step;
+      const auto value = [&](const Eigen::MatrixXd& weights) -> Eigen::ArrayXd {
+        return gonio::fitted_brdf(prior(), weights, {}, fit.channels()).values(wi, wo);
+      };
+      const Eigen::ArrayXd slope = (value(more) - value(less)) / (2.0 * step);
+      CHECK(gradient(k, band) == doctest::Approx(slope[band]).epsilon(1e-5));
+      CHECK(slope[3] == 0.0);  // a channel's value depends on its own weights alone
+    }
+  CHECK(fit.gradient(wi, {0.0, 0.6, -0.8}).isZero(0.0));
+  // A value that is clamped at zero stays there.
+  const gonio::fitted_brdf black(prior(), 1e3 * fit.weights(), {}, fit.channels());
+  const Eigen::ArrayXd dark = black.values(wi, wo);
+  REQUIRE((dark == 0.0).any());
+  for (Eigen::Index band = 0; band < 7; ++band)
+    CHECK(black.gradient(wi, wo).col(band).isZero(0.0) == (dark[band] == 0.0));
+}
+
 TEST_CASE("each wavelength is fitted by components as a grey material") {
   check_like_grey(gonio::decomposition{prior(), gonio::tikhonov{0.1}});
   check_like_grey(gonio::decomposition{prior(), gonio::lasso{1e-3}});

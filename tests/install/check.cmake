@@ -1,6 +1,7 @@
 # Builds and runs programs and projects that know only what was installed in PREFIX, and in a prefix of headers alone.
 cmake_minimum_required(VERSION 3.25)
-file(REMOVE_RECURSE "${SCRATCH}/build" "${SCRATCH}/shape_build" "${SCRATCH}/headers")
+file(REMOVE_RECURSE "${SCRATCH}/build" "${SCRATCH}/shape_build" "${SCRATCH}/render_build"
+     "${SCRATCH}/render_directory_build" "${SCRATCH}/headers")
 
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
@@ -60,4 +61,7 @@ endif()
 build_and_run(consumer build --no-warn-unused-cli
               -D CMAKE_DISABLE_FIND_PACKAGE_dlib=ON
               -D CMAKE_DISABLE_FIND_PACKAGE_Nanoflann=ON)
+# A renderer that has Eigen alone, with what is installed and with gonio as a directory of its own.
+build_and_run(render_consumer render_build)
+build_and_run(render_consumer render_directory_build -D "GONIO_SOURCE=${CMAKE_CURRENT_LIST_DIR}/../..")
 build_and_run(shape_consumer shape_build)

@@ -1,13 +1,22 @@
+#include "../base64.hpp"
 #include "../json.hpp"
 #include "scratch.hpp"
 #include <gonio/io/materials/renderer_material.hpp>
 #include <gonio/model/fresnel.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
+#include <numbers>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -172,10 +181,51 @@ TEST_CASE("the same of OpenPBR, in MaterialX") {
                          gonio::error);
 }
 
+TEST_CASE("a material of glTF is that of a sphere whose triangles look outwards") {
+  const auto document = read_json(gonio::io::gltf_material(metal()));
+  const std::string uri = document["buffers"][0]["uri"].get<std::string>(),
+                    start = "data:application/octet-stream;base64,";
+  REQUIRE(uri.starts_with(start));
+  const std::vector<std::byte> bytes = from_base64(uri.substr(start.size()));
+  REQUIRE(bytes.size() == document["buffers"][0]["byteLength"].get<std::size_t>());
+  const auto& views = document["bufferViews"];
+  const auto offset = views[1]["byteOffset"].get<std::size_t>();
+  CHECK(offset == views[0]["byteLength"].get<std::size_t>());
+  CHECK(bytes.size() == offset + views[1]["byteLength"].get<std::size_t>());
+  Eigen::Matrix3Xf points(3, document["accessors"][0]["count"].get<Eigen::Index>());
+  std::vector<std::uint16_t> corners(document["accessors"][1]["count"].get<std::size_t>());
+  REQUIRE(offset == 4 * static_cast<std::size_t>(points.size()));
+  REQUIRE(bytes.size() == offset + 2 * corners.size());
+  std::memcpy(points.data(), bytes.data(), offset);
+  std::memcpy(corners.data(), bytes.data() + offset, 2 * corners.size());
+  double volume = 0.0;  // of the tetrahedra to the centre
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    REQUIRE(std::max({corners[i], corners[i + 1], corners[i + 2]}) < points.cols());
+    const Eigen::Vector3f a = points.col(corners[i]), b = points.col(corners[i + 1]), c = points.col(corners[i + 2]);
+    CHECK((b - a).cross(c - a).dot(a + b + c) > 0.0f);
+    volume += double{a.dot(b.cross(c))} / 6.0;
+  }
+  CHECK(volume == doctest::Approx(4.0 / 3.0 * std::numbers::pi).epsilon(0.03));
+  CHECK((points.colwise().norm().array() - 1.0f).abs().maxCoeff() < 1e-6f);
+}
+
+TEST_CASE("the same of the Open Shading Language") {
+  CHECK(
+      gonio::io::osl_shader(paint("ggx")) ==
+      "shader gonio_material(color Diffuse = color(0.5, 0.25, 0.125),\n"
+      "                      color Highlight = color(1, 0.75, 0.5),\n"
+      "                      float Alpha = 0.25, float F0 = 0.25,\n"
+      "                      output closure color BSDF = 0)\n{\n"
+      "    BSDF = Diffuse * diffuse(N) + Highlight * generalized_schlick_bsdf(N, vector(0.0), color(1.0), color(0.0),\n"
+      "                                                                       Alpha, Alpha, color(F0), color(1.0),\n"
+      "                                                                       5.0, \"ggx\");\n}\n");
+  CHECK_THROWS_WITH_AS(gonio::io::osl_shader(paint("torrance-sparrow")), doctest::Contains("Cycles"), gonio::error);
+}
+
 TEST_CASE("the same of glTF") {
-  CHECK(gonio::io::gltf_material(metal()) ==
-        "{\n"
-        "  \"asset\": {\"version\": \"2.0\", \"generator\": \"gonio\"},\n"
+  const std::string text = gonio::io::gltf_material(metal());
+  CHECK(text.starts_with("{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"gonio\"},\n  \"scene\": 0,\n"));
+  CHECK(text.substr(text.find("  \"materials\"")) ==
         "  \"materials\": [\n"
         "    {\n"
         "      \"pbrMetallicRoughness\": {\n"

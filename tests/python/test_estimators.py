@@ -90,6 +90,18 @@ class DecompositionTest(unittest.TestCase):
         few = fit.fit(samples)
         np.testing.assert_array_equal(few.weights, fit.fit(samples.subset(range(5))).weights)
 
+    def test_gradient_by_the_weights(self):
+        prior, fit = self.prior, gonio.Decomposition(self.prior).fit(self.samples)
+        rows = np.array([[5, 500], [20000, 50000]])
+        pairs = prior.cells.directions()[rows]
+        wi, wo = pairs[..., :3], pairs[..., 3:]
+        gradient = fit.gradient(wi, wo)
+        self.assertEqual(gradient.shape, (2, 2, 3, len(prior)))
+        # The values are exp(y) (reference c + .001) / c less .001 / c.
+        slope = fit(wi, wo) + 0.001 / prior.cosine_weight[rows][..., None]
+        np.testing.assert_allclose(gradient, slope[..., None] * prior.components[rows][:, :, None], rtol=1e-4, atol=1e-9)
+        self.assertEqual(np.abs(fit.gradient([0, 0, 1], [0, 0, -1])).max(), 0)
+
     def test_nan_written_through_a_view_is_refused(self):
         samples = gonio.read_samples(MEASUREMENTS)
         samples.values[3, 0] = np.nan

@@ -197,6 +197,27 @@ void add_fit_copies(py::class_<fitted_pca>& fit) {
       });
 }
 
+py::array_t<double> gradients(const fitted_pca& fit, const py::object& wi, const py::object& wo, unsigned threads) {
+  const direction_pairs pairs(wi, wo);
+  const Eigen::Index channels = fit.weights().cols(), size = fit.weights().size();
+  py::array_t<double> found = results_for(pairs, size);
+  double* to = found.mutable_data();
+  {
+    const py::gil_scoped_release released;
+    gonio::for_each_index(
+        pairs.size(), 64,
+        [&](Eigen::Index i) {
+          const Eigen::MatrixXd slopes = fit.gradient(pairs.wi(i), pairs.wo(i));
+          std::copy_n(slopes.data(), size, to + size * i);
+        },
+        gonio::thread_count{threads});
+  }
+  extents shape(found.shape(), found.shape() + found.ndim() - 1);
+  shape.push_back(channels);
+  shape.push_back(size / channels);
+  return found.reshape(shape);
+}
+
 using decomposition_type = gonio::decomposition<gonio::log_relative_pca, gonio::tikhonov>;
 
 /// A decomposition, and what it was made of.
@@ -215,6 +236,11 @@ void add_decomposition(py::module_& m) {
   fit.def_property_readonly(
       "weights", [](const py::object& self) { return matrix_view(self.cast<fitted_pca&>().weights(), self); },
       "One column for each channel: shape (k, 3). A view, to be read.");
+  fit.def(
+      "gradient", &gradients, py::arg("wi"), py::arg("wo"), py::arg("threads") = 0,
+      "How the values change with the weights, for arrays of directions of shape (..., 3): shape (..., 3, k), the\n"
+      "derivative of each channel by that channel's weights. `np.einsum('nc,nck->kc', slopes_of_loss, gradient)` is\n"
+      "the gradient of a loss of n values.");
   fit.def_property_readonly("report", &report_of, "What the solver says of the weights, by channel.");
   fit.def("__repr__", [](const fitted_pca& f) {
     return gonio::message_of({"<gonio.Fit: ", f.weights().rows(), " components>"});

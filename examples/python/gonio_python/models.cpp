@@ -178,7 +178,8 @@ void add_models(py::module_& m) {
   analytic.def("pbrt", &gonio::io::pbrt_material, "The material as text of pbrt-v4.");
   analytic.def("materialx", &gonio::io::materialx_material, py::arg("name") = "material",
                "The material as a document of MaterialX.");
-  analytic.def("gltf", &gonio::io::gltf_material, "The material as a glTF file without geometry.");
+  analytic.def("gltf", &gonio::io::gltf_material, "A sphere of the material as a glTF file.");
+  analytic.def("osl", &gonio::io::osl_shader, "A shader for Blender's Cycles in the Open Shading Language.");
   analytic.def("__repr__", [](const gonio::model::analytic_brdf& f) { return sentence_of(f); });
   add_copies(analytic, &state_of_lobes, &brdf_of_lobes);
   add_brdf_methods(m, analytic);

@@ -37,7 +37,10 @@ constexpr std::array renderer_formats{
     renderer_format{"--mitsuba", ".xml", "Material of Mitsuba 3 to write (.xml)", gonio::io::mitsuba_material},
     renderer_format{"--materialx", ".mtlx", "Surface of OpenPBR to write, in MaterialX (.mtlx)",
                     [](const gonio::model::analytic_brdf& model) { return gonio::io::materialx_material(model); }},
-    renderer_format{"--gltf", ".gltf", "Material of glTF 2.0 to write (.gltf)", gonio::io::gltf_material}};
+    renderer_format{"--gltf", ".gltf", "Sphere of glTF 2.0 with the material, to write (.gltf)",
+                    gonio::io::gltf_material},
+    renderer_format{"--osl", ".osl", "Shader of Blender's Cycles to write, in the Open Shading Language (.osl)",
+                    gonio::io::osl_shader}};
 
 struct fit_command_options {
   measurement_options reading;

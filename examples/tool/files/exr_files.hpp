@@ -9,6 +9,9 @@
 
 namespace cli {
 
+/// Was it?
+extern const bool has_exr;
+
 [[nodiscard]] gonio::image read_exr(const std::filesystem::path& path);
 /// Read some rows at a time.
 [[nodiscard]] std::unique_ptr<image_rows> open_exr(const std::filesystem::path& path);

@@ -2,6 +2,7 @@
 
 #include "declared_files.hpp"
 #include "negative_answer.hpp"
+#include "tool/files/exr_files.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/core/printable.hpp>
 #include <gonio/core/spelling.hpp>
@@ -10,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <csignal>
 #include <exception>
@@ -211,24 +213,42 @@ declared_files::paths paths_in(const std::vector<std::filesystem::path>& values)
 
 std::vector<std::string> strings(std::initializer_list<const char*> words) { return {words.begin(), words.end()}; }
 
+/// A build without OpenEXR offers no .exr: neither among an output's extensions nor in a sentence.
+std::vector<std::string> offered(std::initializer_list<const char*> extensions) {
+  std::vector<std::string> all = strings(extensions);
+  if (!has_exr) std::erase(all, ".exr");
+  return all;
+}
+std::string offered(std::string sentence) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> ends{
+      {{", .npy or .exr", " or .npy"},
+       {".npy or .exr", ".npy"},
+       {".npy, .exr or .hdr", ".npy or .hdr"},
+       {", or .exr for the values themselves, of slices pi times the BRDF", ""}}};
+  for (const auto& [with, without] : ends)
+    if (const auto at = sentence.find(with); !has_exr && at != sentence.npos)
+      sentence.replace(at, with.size(), without);
+  return sentence;
+}
+
 }  // namespace
 
 option command::add_input(const std::string& names, std::filesystem::path& value, const std::string& description) {
-  auto* added = known_->add_option(names, value, description);
+  auto* added = known_->add_option(names, value, offered(description));
   files_->add_input(added->get_name(), paths_in(value));
   return option(*added);
 }
 
 option command::add_input(const std::string& names, std::vector<std::filesystem::path>& values,
                           const std::string& description) {
-  auto* added = known_->add_option(names, values, description);
+  auto* added = known_->add_option(names, values, offered(description));
   files_->add_input(added->get_name(), paths_in(values));
   return option(*added);
 }
 
 option command::add_input(const std::string& names, std::vector<std::pair<std::string, std::string>>& values,
                           const std::string& description) {
-  auto* added = known_->add_option(names, values, description);
+  auto* added = known_->add_option(names, values, offered(description));
   files_->add_input(added->get_name(), [&values] {
     std::vector<std::filesystem::path> all;
     for (const auto& [first, second] : values) all.insert(all.end(), {first, second});
@@ -253,8 +273,8 @@ option command::add_input_folders(const std::string& names, std::vector<std::fil
 
 option command::add_output(const std::string& names, std::filesystem::path& value,
                            std::initializer_list<const char*> extensions, const std::string& description) {
-  auto* added = known_->add_option(names, value, description);
-  files_->add_output(added->get_name(), paths_in(value), strings(extensions));
+  auto* added = known_->add_option(names, value, offered(description));
+  files_->add_output(added->get_name(), paths_in(value), offered(extensions));
   return option(*added);
 }
 

@@ -11,6 +11,7 @@
 #include <gonio/core/random.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/io/materials/prior.hpp>
+#include <gonio/io/text/base64.hpp>
 #include <gonio/model/physical_properties.hpp>
 
 #include <algorithm>
@@ -73,7 +74,7 @@ std::string sphere_url(const gonio::brdf_table& table, gonio::thread_count threa
   const image_options how{.size = 320, .exposure = {}};
   std::array spheres{sphere_image(table, how, threads)};
   expose_spheres(spheres, how);
-  return data_url("image/png", gonio::io::write_png(spheres.front(), "the sphere"));
+  return gonio::io::data_url("image/png", gonio::io::write_png(spheres.front(), "the sphere"));
 }
 
 /// The angle of the viewer in the light's plane, radians: positive on the far side from the light. NaN if it is more

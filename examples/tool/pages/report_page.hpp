@@ -23,12 +23,6 @@ namespace cli {
 /// What is read of it is the same.
 [[nodiscard]] std::string escape_script(std::string_view json_text);
 
-/// Bytes as text (RFC 4648).
-[[nodiscard]] std::string base64(std::span<const std::byte> bytes);
-
-/// Bytes as a URL that holds them in base64 (RFC 2397).
-[[nodiscard]] std::string data_url(std::string_view media_type, std::span<const std::byte> bytes);
-
 /// The whole page. `data` is what examples/report/report.js draws; its `kind` says of which command.
 [[nodiscard]] std::string report_page(const std::string& title, const json& data);
 

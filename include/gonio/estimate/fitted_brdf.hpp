@@ -83,6 +83,25 @@ class fitted_brdf {
     }
   }
 
+  /// How the values change with the weights, of their shape: sr^-1 for each unit of a weight of the same channel. Zero
+  /// below the horizon and where a value is clamped. By central differences of the metric's inverse, good to eight
+  /// digits. O(8 x size of the basis).
+  [[nodiscard]] Eigen::MatrixXd gradient(const direction& wi, const direction& wo) const requires basis<Basis> {
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(weights_.rows(), weights_.cols());
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return slopes;
+    constexpr double step = 1e-4;
+    const location place = locate(basis_.cells(), to_half_difference(wi, wo));
+    const Eigen::RowVectorXd row = row_at(basis_, place);
+    const double offset = offset_at(basis_, place);
+    const auto reflectance = [&](double y) { return basis_.metric().inverse(y, place); };
+    for (Eigen::Index c = 0; c < weights_.cols(); ++c) {
+      const double y = dot(row.data(), &weights_(0, c), row.size()) + offset;
+      if (reflectance(y) > 0.0)
+        slopes.col(c) = (reflectance(y + step) - reflectance(y - step)) / (2.0 * step) * row.transpose();
+    }
+    return slopes;
+  }
+
   /// The cells that locations for `at` are on.
   [[nodiscard]] const valid_cells& cells() const noexcept { return basis_.cells(); }
 

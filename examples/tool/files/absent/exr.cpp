@@ -13,6 +13,8 @@ namespace {
 
 }  // namespace
 
+const bool has_exr = false;
+
 gonio::image read_exr(const std::filesystem::path& path) { refuse_exr(path); }
 
 std::unique_ptr<image_rows> open_exr(const std::filesystem::path& path) { refuse_exr(path); }

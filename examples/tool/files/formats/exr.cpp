@@ -3,6 +3,8 @@
 
 namespace cli {
 
+const bool has_exr = true;
+
 gonio::image read_exr(const std::filesystem::path& path) { return gonio::io::read_exr(path); }
 
 std::unique_ptr<image_rows> open_exr(const std::filesystem::path& path) {

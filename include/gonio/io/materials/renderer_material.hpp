@@ -1,5 +1,6 @@
 #pragma once
-/// Fitted models as materials of renderers, text: pbrt-v4, Mitsuba 3, OpenPBR in MaterialX, and glTF 2.0.
+/// Fitted models as materials of renderers, text: pbrt-v4, Mitsuba 3, OpenPBR in MaterialX, glTF 2.0, and the Open
+/// Shading Language.
 
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/text/text.hpp>
@@ -80,11 +81,16 @@ struct conductor {
 /// is not letters, digits and underscores.
 [[nodiscard]] std::string materialx_material(const model::analytic_brdf& model, const std::string& name = "material");
 
-/// A glTF 2.0 document with one material: metallic-roughness, whose roughness is the root of GGX's, with
-/// KHR_materials_ior and KHR_materials_specular where there is a base. There the highlight has its colour at normal
-/// incidence, and its largest channel, at most 1, at grazing angles. Metals are those of OpenPBR. Throws gonio::error
-/// for models but GGX, beside Lambert or by itself.
+/// A glTF 2.0 document with a unit sphere of one material, which importers show: metallic-roughness, whose roughness is
+/// the root of GGX's, with KHR_materials_ior and KHR_materials_specular where there is a base. There the highlight has
+/// its colour at normal incidence, and its largest channel, at most 1, at grazing angles. Metals are those of OpenPBR.
+/// Throws gonio::error for models but GGX, beside Lambert or by itself.
 [[nodiscard]] std::string gltf_material(const model::analytic_brdf& model);
+
+/// A shader `gonio_material` in the Open Shading Language for Blender's Cycles, linear Rec. 709: the sum of a diffuse
+/// closure and `generalized_schlick_bsdf`, whose parameters begin as the model's. Only masking differs: Cycles' knows
+/// that both directions see the same heights. Throws gonio::error for models but GGX, beside Lambert or by itself.
+[[nodiscard]] std::string osl_shader(const model::analytic_brdf& model);
 
 /// Writes such a text; whole, or not at all.
 inline void write_renderer_material(const std::filesystem::path& path, const std::string& material) {

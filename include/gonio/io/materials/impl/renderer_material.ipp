@@ -2,17 +2,25 @@
 /// Bodies of io/materials/renderer_material.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/materials/renderer_material.hpp>
+#include <gonio/io/text/base64.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/model/analytic_brdf.hpp>
 #include <gonio/model/fresnel.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace gonio::io::detail {
 
@@ -104,6 +112,43 @@ GONIO_INLINE rough_surface as_ggx_surface(const model::analytic_brdf& model, con
   return surface;
 }
 
+/// The rest of a glTF document: a scene of a unit sphere whose material is the first one.
+[[nodiscard]] GONIO_INLINE std::string gltf_sphere() {
+  constexpr int columns = 32, rows = 16;
+  std::vector<float> points;
+  std::vector<std::uint16_t> corners;
+  for (int row = 0; row <= rows; ++row)
+    for (int column = 0; column <= columns; ++column) {
+      const direction at =
+          spherical_direction(std::numbers::pi * row / rows, 2.0 * std::numbers::pi * column / columns);
+      for (const double coordinate : {at.x(), at.z(), -at.y()}) points.push_back(static_cast<float>(coordinate));
+    }
+  const auto add = [&](int a, int b, int c) {
+    for (const int corner : {a, b, c}) corners.push_back(static_cast<std::uint16_t>(corner));
+  };
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const int above = row * (columns + 1) + column, below = above + columns + 1;
+      if (row + 1 < rows) add(above, below, below + 1);
+      if (row > 0) add(above, below + 1, above + 1);
+    }
+  std::vector<std::byte> bytes(4 * points.size() + 2 * corners.size());
+  std::memcpy(bytes.data(), points.data(), 4 * points.size());
+  std::memcpy(bytes.data() + 4 * points.size(), corners.data(), 2 * corners.size());
+  return message_of(
+      {"  \"scene\": 0,\n  \"scenes\": [{\"nodes\": [0]}],\n  \"nodes\": [{\"mesh\": 0}],\n"
+       "  \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0, \"NORMAL\": 0}, \"indices\": 1, "
+       "\"material\": 0}]}],\n"
+       "  \"accessors\": [\n    {\"bufferView\": 0, \"componentType\": 5126, \"type\": \"VEC3\", \"count\": ",
+       points.size() / 3,
+       ", \"min\": [-1, -1, -1], \"max\": [1, 1, 1]},\n"
+       "    {\"bufferView\": 1, \"componentType\": 5123, \"type\": \"SCALAR\", \"count\": ",
+       corners.size(), "}\n  ],\n  \"bufferViews\": [\n    {\"buffer\": 0, \"byteLength\": ", 4 * points.size(),
+       ", \"target\": 34962},\n    {\"buffer\": 0, \"byteOffset\": ", 4 * points.size(), ", \"byteLength\": ",
+       2 * corners.size(), ", \"target\": 34963}\n  ],\n  \"buffers\": [{\"byteLength\": ", bytes.size(),
+       ", \"uri\": \"", data_url("application/octet-stream", bytes), "\"}],\n"});
+}
+
 }  // namespace gonio::io::detail
 
 namespace gonio::io {
@@ -188,7 +233,8 @@ GONIO_INLINE std::string gltf_material(const model::analytic_brdf& model) {
       "      \"pbrMetallicRoughness\": {\n        \"baseColorFactor\": [" + detail::three_numbers(base.min(1.0), ", ") +
       ", 1],\n        \"metallicFactor\": " + shortest(metalness) +
       ",\n        \"roughnessFactor\": " + shortest(std::sqrt(std::min(surface.alpha, 1.0))) + "\n      }";
-  const std::string begin = "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"gonio\"},\n";
+  const std::string begin =
+      "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"gonio\"},\n" + detail::gltf_sphere();
   const std::string materials = "  \"materials\": [\n    {\n" + core;
   const std::string end = "\n    }\n  ]\n}\n";
   if (metalness == 1.0) return begin + materials + end;
@@ -203,6 +249,24 @@ GONIO_INLINE std::string gltf_material(const model::analytic_brdf& model) {
          shortest(surface.refractive_index()) +
          "},\n        \"KHR_materials_specular\": {\"specularFactor\": " + shortest(factor) +
          ", \"specularColorFactor\": [" + detail::three_numbers(colour, ", ") + "]}\n      }" + end;
+}
+
+GONIO_INLINE std::string osl_shader(const model::analytic_brdf& model) {
+  const detail::rough_surface surface = detail::as_ggx_surface(model, "Cycles' Schlick closure");
+  const auto colour = [](const char* name, const rgb& value) {
+    return "color " + std::string(name) + " = color(" + detail::three_numbers(value, ", ") + ")";
+  };
+  const auto number = [](const char* name, double value) {
+    return "float " + std::string(name) + " = " + shortest(value);
+  };
+  return "shader gonio_material(" + colour("Diffuse", surface.diffuse) + ",\n" + "                      " +
+         colour("Highlight", surface.specular) + ",\n" + "                      " + number("Alpha", surface.alpha) +
+         ", " + number("F0", surface.f0) + ",\n" +
+         "                      output closure color BSDF = 0)\n{\n"
+         "    BSDF = Diffuse * diffuse(N) + Highlight * generalized_schlick_bsdf(N, vector(0.0), color(1.0), "
+         "color(0.0),\n"
+         "                                                                       Alpha, Alpha, color(F0), color(1.0),\n"
+         "                                                                       5.0, \"ggx\");\n}\n";
 }
 
 }  // namespace gonio::io
