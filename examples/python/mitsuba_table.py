@@ -66,14 +66,13 @@ class GonioTable(mi.BSDF):
         shares = dr.sqrt(theta_h * (2 / dr.pi)), theta_d * (2 / dr.pi), phi_d
         return tuple(share * extent - self.first_value for share, extent in zip(shares, self.extents))
 
-    def reflectance(self, wi, wo, active):
-        """Between the eight values around: theta_h and theta_d end at the border, phi_d begins again."""
+    def corners(self, wi, wo):
+        """Weights and indices of the eight values around: theta_h and theta_d end at the border, phi_d begins again."""
         h, d, p = self.coordinates(wi, wo)
         heights, rows, columns = self.extents
         h, d = dr.clip(h, 0, heights - 1), dr.clip(d, 0, rows - 1)
         low = [mi.Int32(dr.floor(c)) for c in (h, d, p)]
         share = [c - dr.floor(c) for c in (h, d, p)]
-        total = mi.Color3f(0)
         for corner in range(8):
             up = [corner >> axis & 1 for axis in range(3)]
             weight = mi.Float(1)
@@ -83,7 +82,11 @@ class GonioTable(mi.BSDF):
             theta_d = dr.minimum(low[1] + up[1], rows - 1)
             phi_d = low[2] + up[2]
             phi_d = dr.select(phi_d < 0, phi_d + columns, dr.select(phi_d >= columns, phi_d - columns, phi_d))
-            index = mi.UInt32((theta_h * rows + theta_d) * columns + phi_d)
+            yield weight, mi.UInt32((theta_h * rows + theta_d) * columns + phi_d)
+
+    def reflectance(self, wi, wo, active):
+        total = mi.Color3f(0)
+        for weight, index in self.corners(wi, wo):
             total += weight * dr.gather(mi.Color3f, self.values, index, active)
         return total
 

@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 import gonio
-from surroundings import SOURCE, random_pairs, table_of_formula, unit
+from surroundings import MEASUREMENTS, SOURCE, random_pairs, table_of_formula, unit
 
 try:
     import drjit as dr
@@ -19,6 +19,7 @@ try:
     mi.set_variant("llvm_ad_rgb")
     dr.eval(mi.Float(1) + 1)  # fails without LLVM
     sys.path.insert(0, str(SOURCE / "examples" / "python"))
+    import mitsuba_prior  # noqa: F401
     import mitsuba_table  # noqa: F401
     from mitsuba.chi2 import BSDFAdapter, ChiSquareTest, SphericalDomain
 except (ImportError, RuntimeError) as unavailable:
@@ -77,6 +78,26 @@ class PlugInTest(unittest.TestCase):
         si = self.surface(np.repeat([unit(np.radians(30.0), 0.0)], count, axis=0))
         _, weight = bsdf.sample(mi.BSDFContext(), si, sampler.next_1d(), sampler.next_2d())
         np.testing.assert_allclose(np.array(weight).mean(axis=1), 1, atol=0.02)
+
+
+class PriorTest(unittest.TestCase):
+    def test_derivatives_by_weights_are_those_of_a_fit(self):
+        fit = gonio.Decomposition(gonio.read_prior()).fit(gonio.read_samples(MEASUREMENTS))
+        bsdf = mi.load_dict({"type": "gonio_prior", "components": len(fit.weights)})
+        parameters = mi.traverse(bsdf)
+        weights = mi.Float(fit.weights.astype(np.float32).ravel())
+        dr.enable_grad(weights)
+        parameters["weights"] = weights
+        parameters.update()
+        wi, wo = random_pairs(50, smallest_cosine=0.1)
+        si = dr.zeros(mi.SurfaceInteraction3f, len(wi))
+        si.wi = mi.Vector3f(np.ascontiguousarray(wi.T, dtype=np.float32))
+        value = bsdf.eval(mi.BSDFContext(), si, mi.Vector3f(np.ascontiguousarray(wo.T, np.float32)))
+        np.testing.assert_allclose(np.array(value).T, fit(wi, wo) * wo[:, 2:], rtol=1e-3, atol=1e-6)
+        dr.backward(dr.sum(value.x) + 2 * dr.sum(value.z))
+        expected = np.einsum("nck,n,c->kc", fit.gradient(wi, wo), wo[:, 2], [1, 0, 2])
+        scale = np.abs(expected).max()
+        np.testing.assert_allclose(np.array(dr.grad(weights)).reshape(-1, 3), expected, atol=1e-3 * scale)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""How the plug-in for Mitsuba looks tables up, on numpy: Mitsuba need not be there."""
+"""How the plug-ins for Mitsuba look values up, on numpy: Mitsuba need not be there."""
 
 import importlib.util
 import pathlib
@@ -10,7 +10,7 @@ from unittest import mock
 import numpy as np
 
 import gonio
-from surroundings import SOURCE, random_pairs, table_of_formula
+from surroundings import MEASUREMENTS, SOURCE, random_pairs, table_of_formula
 
 STUBS = pathlib.Path(__file__).with_name("stubs")
 
@@ -29,6 +29,8 @@ class LookUpTest(unittest.TestCase):
         stubs = {"mitsuba": cls.mi, "drjit": module_from(STUBS / "drjit.py", "drjit")}
         with mock.patch.dict(sys.modules, stubs):
             cls.plug_in = module_from(SOURCE / "examples" / "python" / "mitsuba_table.py", "mitsuba_table_on_numpy")
+            with mock.patch.dict(sys.modules, {"mitsuba_table": cls.plug_in}):
+                cls.of_prior = module_from(SOURCE / "examples" / "python" / "mitsuba_prior.py", "mitsuba_prior_on_numpy")
 
     def check_agreement(self, table):
         with tempfile.TemporaryDirectory() as folder:
@@ -44,6 +46,20 @@ class LookUpTest(unittest.TestCase):
             for minimum_cosine in (0, 0.02):
                 with self.subTest(anchor=anchor, minimum_cosine=minimum_cosine):
                     self.check_agreement(table_of_formula("gold-metal", anchor, minimum_cosine=minimum_cosine))
+
+    def test_weights_are_those_of_a_fit(self):
+        prior = gonio.read_prior()
+        fit = gonio.Decomposition(prior).fit(gonio.formula_material("red-paint").tabulate(cells=prior.cells))
+        self.check_weights(self.of_prior.GonioPrior({}), fit)
+        mean = gonio.Decomposition(prior, eta=1e15).fit(gonio.read_samples(MEASUREMENTS))
+        self.check_weights(self.of_prior.GonioPrior({"components": 5}), mean)
+
+    def check_weights(self, bsdf, fit):
+        bsdf.weights = fit.weights[: len(bsdf.functions)].ravel()
+        bsdf.parameters_changed()
+        wi, wo = random_pairs(20000, smallest_cosine=1e-3)
+        value = bsdf.reflectance(self.mi.Vector3f(wi.T), self.mi.Vector3f(wo.T), True).T
+        np.testing.assert_allclose(value, fit(wi, wo), rtol=1e-5, atol=1e-7)
 
     def test_negative_values_are_black(self):
         table = gonio.Table(np.full((9, 9, 18, 3), -0.5))

@@ -1,10 +1,14 @@
-"""numpy in the place of Mitsuba: what examples/python/mitsuba_table.py needs to be imported and to look a table up."""
+"""numpy in the place of Mitsuba: what the plug-ins of examples/python need to be imported and to look values up."""
 
 import numpy as np
 
 is_rgb = True
-Float = Color3f = np.float64
+Float = np.float64
 Int32 = UInt32 = np.int64
+
+
+def Color3f(*channels):
+    return np.float64(channels[0]) if len(channels) == 1 else np.stack(channels)
 
 
 class Vector3f(np.ndarray):
@@ -19,6 +23,12 @@ class Vector3f(np.ndarray):
 class BSDF:
     def __init__(self, props):
         pass
+
+
+class Frame3f:
+    @staticmethod
+    def cos_theta(vectors):
+        return vectors.z
 
 
 class BSDFFlags:

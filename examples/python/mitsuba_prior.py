@@ -1,0 +1,65 @@
+"""A plug-in for Mitsuba 3's vectorised RGB variants: the materials of a prior as a BSDF whose weights are parameters.
+
+    import mitsuba as mi
+    mi.set_variant("llvm_ad_rgb")
+    import mitsuba_prior  # registers "gonio_prior"
+    sphere = {"type": "sphere", "bsdf": {"type": "gonio_prior", "components": 20}}
+
+`mi.traverse` finds `weights`, those of the first component in red, green and blue first; derivatives go through it.
+Values are those of `gonio.Fit` with the same weights. `inverse_rendering.py` finds weights by an image.
+"""
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+import gonio
+from mitsuba_table import FIRST_VALUE, GonioTable
+
+EPSILON = 0.001  # of the logarithm, Nielsen et al. 2015, Eq. 1
+
+
+class GonioPrior(GonioTable):
+    """`prior` is a file of `gonio learn`, by default the one that ships; `components` the number of them to use, by
+    default all; `alpha` the GGX roughness of the normals that are drawn."""
+
+    def __init__(self, props):
+        mi.BSDF.__init__(self, props)
+        prior = gonio.read_prior(props.get("prior", None))
+        numbers = prior.cells.numbers().ravel()  # of the cell that each of the grid reads
+        self.extents, self.first_value = prior.cells.shape, FIRST_VALUE[prior.cells.anchor]
+        count = min(int(props.get("components", len(prior))), len(prior))
+        self.functions = [mi.Float(column) for column in np.ascontiguousarray(prior.components[numbers, :count].T)]
+        self.mean = mi.Float(prior.mean[numbers])
+        self.log_reference = mi.Float(np.log(np.maximum(prior.reference[numbers], 1e-8)))
+        self.alpha = float(props.get("alpha", 0.2))
+        self.m_flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide
+        self.m_components = [self.m_flags]
+        self.weights = dr.zeros(mi.Float, 3 * count)
+        self.parameters_changed()
+
+    def parameters_changed(self, keys=None):
+        """Expands the weights to the mapped values of all cells, one array for each channel."""
+        self.mapped = []
+        for channel in range(3):
+            values = mi.Float(self.mean)
+            for k, component in enumerate(self.functions):
+                values = dr.fma(component, dr.gather(mi.Float, self.weights, 3 * k + channel), values)
+            self.mapped.append(values)
+
+    def reflectance(self, wi, wo, active):
+        mapped, log_reference = mi.Color3f(0), mi.Float(0)
+        for weight, index in self.corners(wi, wo):
+            mapped += weight * mi.Color3f(*(dr.gather(mi.Float, values, index, active) for values in self.mapped))
+            log_reference += weight * dr.gather(mi.Float, self.log_reference, index, active)
+        cosines = dr.maximum(mi.Frame3f.cos_theta(wi) * mi.Frame3f.cos_theta(wo), EPSILON)
+        return dr.maximum((dr.exp(mapped) * (dr.exp(log_reference) * cosines + EPSILON) - EPSILON) / cosines, 0)
+
+    def traverse(self, callback):
+        callback.put("weights", self.weights, mi.ParamFlags.Differentiable)
+
+    def to_string(self):
+        return f"GonioPrior[components = {len(self.functions)}, alpha = {self.alpha:.3f}]"
+
+
+mi.register_bsdf("gonio_prior", GonioPrior)
