@@ -34,6 +34,7 @@
 #include <gonio/io/measurements/impl/sample_collector.ipp>
 #include <gonio/io/measurements/impl/sample_columns.ipp>
 #include <gonio/io/measurements/impl/sample_header.ipp>
+#include <gonio/io/measurements/impl/sample_layout.ipp>
 #include <gonio/io/measurements/impl/sample_provenance.ipp>
 #include <gonio/io/measurements/impl/sample_quantity.ipp>
 #include <gonio/io/measurements/impl/sample_rows.ipp>

@@ -38,6 +38,7 @@
 #include <gonio/io/measurements/sample_collector.hpp>
 #include <gonio/io/measurements/sample_columns.hpp>
 #include <gonio/io/measurements/sample_header.hpp>
+#include <gonio/io/measurements/sample_layout.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
 #include <gonio/io/measurements/sample_rows.hpp>
