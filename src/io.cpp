@@ -29,8 +29,10 @@
 #include <gonio/io/measurements/impl/cornell.ipp>
 #include <gonio/io/measurements/impl/fred_bsdf.ipp>
 #include <gonio/io/measurements/impl/klems_xml.ipp>
+#include <gonio/io/measurements/impl/lighttools_bsdf.ipp>
 #include <gonio/io/measurements/impl/openmaterial.ipp>
 #include <gonio/io/measurements/impl/reference_reflectance.ipp>
+#include <gonio/io/measurements/impl/rt300s.ipp>
 #include <gonio/io/measurements/impl/sample_collector.ipp>
 #include <gonio/io/measurements/impl/sample_columns.ipp>
 #include <gonio/io/measurements/impl/sample_header.ipp>

@@ -33,8 +33,10 @@
 #include <gonio/io/measurements/cornell.hpp>
 #include <gonio/io/measurements/fred_bsdf.hpp>
 #include <gonio/io/measurements/klems_xml.hpp>
+#include <gonio/io/measurements/lighttools_bsdf.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/reference_reflectance.hpp>
+#include <gonio/io/measurements/rt300s.hpp>
 #include <gonio/io/measurements/sample_collector.hpp>
 #include <gonio/io/measurements/sample_columns.hpp>
 #include <gonio/io/measurements/sample_header.hpp>

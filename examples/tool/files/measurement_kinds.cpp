@@ -7,7 +7,9 @@
 #include <gonio/io/measurements/cornell.hpp>
 #include <gonio/io/measurements/fred_bsdf.hpp>
 #include <gonio/io/measurements/klems_xml.hpp>
+#include <gonio/io/measurements/lighttools_bsdf.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
+#include <gonio/io/measurements/rt300s.hpp>
 #include <gonio/io/measurements/speos_brdf.hpp>
 #include <gonio/io/measurements/ssdd.hpp>
 #include <gonio/io/measurements/zemax_bsdf.hpp>
@@ -18,7 +20,11 @@ namespace cli {
 
 namespace {
 
-constexpr std::array<measurement_kind, 10> kinds{{
+constexpr std::array<measurement_kind, 12> kinds{{
+    // Before Zemax's files, which have the same first keywords.
+    {"LightTools BSDF",
+     [](std::string_view, std::string_view start) { return gonio::io::looks_like_lighttools_bsdf(start); },
+     gonio::io::read_lighttools_bsdf},
     {"Zemax BSDF", [](std::string_view, std::string_view start) { return gonio::io::looks_like_zemax_bsdf(start); },
      gonio::io::read_zemax_bsdf},
     {"SSDD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_ssdd(start); },
@@ -41,6 +47,8 @@ constexpr std::array<measurement_kind, 10> kinds{{
      gonio::io::read_speos_brdf},
     {"FRED", [](std::string_view, std::string_view start) { return gonio::io::looks_like_fred_bsdf(start); },
      gonio::io::read_fred_bsdf},
+    {"RT-300S", [](std::string_view, std::string_view start) { return gonio::io::looks_like_rt300s(start); },
+     gonio::io::read_rt300s},
     {"BiRD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_bird(start); },
      gonio::io::read_bird},
     {"spectral samples of Cornell", [](std::string_view extension, std::string_view) { return extension == ".brdf"; },
