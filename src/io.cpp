@@ -44,6 +44,7 @@
 #include <gonio/io/measurements/impl/scan_journal.ipp>
 #include <gonio/io/measurements/impl/speos_brdf.ipp>
 #include <gonio/io/measurements/impl/ssdd.ipp>
+#include <gonio/io/measurements/impl/tensor_tree_xml.ipp>
 #include <gonio/io/measurements/impl/zemax_bsdf.ipp>
 #include <gonio/io/setups/impl/apparatus.ipp>
 #include <gonio/io/setups/impl/camera_calibration.ipp>
@@ -58,3 +59,4 @@
 #include <gonio/io/text/impl/text.ipp>
 #include <gonio/io/text/impl/utf16.ipp>
 #include <gonio/io/text/impl/words.ipp>
+#include <gonio/io/text/impl/xml_element.ipp>

@@ -48,6 +48,7 @@
 #include <gonio/io/measurements/scan_journal.hpp>
 #include <gonio/io/measurements/speos_brdf.hpp>
 #include <gonio/io/measurements/ssdd.hpp>
+#include <gonio/io/measurements/tensor_tree_xml.hpp>
 #include <gonio/io/measurements/zemax_bsdf.hpp>
 #include <gonio/io/setups/apparatus.hpp>
 #include <gonio/io/setups/camera_calibration.hpp>
@@ -62,3 +63,4 @@
 #include <gonio/io/text/text.hpp>
 #include <gonio/io/text/utf16.hpp>
 #include <gonio/io/text/words.hpp>
+#include <gonio/io/text/xml_element.hpp>

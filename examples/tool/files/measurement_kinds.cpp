@@ -12,6 +12,7 @@
 #include <gonio/io/measurements/rt300s.hpp>
 #include <gonio/io/measurements/speos_brdf.hpp>
 #include <gonio/io/measurements/ssdd.hpp>
+#include <gonio/io/measurements/tensor_tree_xml.hpp>
 #include <gonio/io/measurements/zemax_bsdf.hpp>
 
 #include <array>
@@ -20,7 +21,7 @@ namespace cli {
 
 namespace {
 
-constexpr std::array<measurement_kind, 12> kinds{{
+constexpr std::array<measurement_kind, 13> kinds{{
     // Before Zemax's files, which have the same first keywords.
     {"LightTools BSDF",
      [](std::string_view, std::string_view start) { return gonio::io::looks_like_lighttools_bsdf(start); },
@@ -41,6 +42,9 @@ constexpr std::array<measurement_kind, 12> kinds{{
      gonio::io::read_openmaterial},
     {"ALTA", [](std::string_view, std::string_view start) { return gonio::io::looks_like_alta(start); },
      gonio::io::read_alta},
+    {"tensor tree",
+     [](std::string_view, std::string_view start) { return gonio::io::looks_like_tensor_tree_xml(start); },
+     gonio::io::read_tensor_tree_xml},
     {"Klems matrix", [](std::string_view, std::string_view start) { return gonio::io::looks_like_klems_xml(start); },
      gonio::io::read_klems_xml},
     {"Speos", [](std::string_view, std::string_view start) { return gonio::io::looks_like_speos_brdf(start); },

@@ -5,6 +5,7 @@
 /// (1), 1994). A patch is a ring of polar angles divided into equal azimuths, the first about azimuth 0.
 
 #include <gonio/io/text/text.hpp>
+#include <gonio/io/text/xml_element.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <filesystem>
@@ -12,6 +13,14 @@
 #include <string_view>
 
 namespace gonio::io {
+
+namespace detail {
+
+/// The block of reflection in the visible: of the front, or of the back. Throws gonio::error naming the file if there
+/// is neither.
+[[nodiscard]] xml_element reflection_of(const xml_element& file, const std::string& name);
+
+}  // namespace detail
 
 /// Does the text have the root element of such a file, WindowElement?
 [[nodiscard]] bool looks_like_klems_xml(std::string_view text);
