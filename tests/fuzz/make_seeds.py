@@ -221,6 +221,7 @@ put("tensor_tree_xml", "four.xml", tree % (4, "Front", "{ " + " ".join(map(str, 
 speos = "OPTIS - brdf surface file v9.0\n0\nmade up\n0\n\n1\t0\n%d\n1 2\n30\n450 550\n" + 2 * "50\n2 3\n\t0 180 360\n0 1 1 1\n60 1 2 1\n"
 put("speos_brdf", "brdf.brdf", speos % 1)
 put("speos_brdf", "intensity.brdf", speos % 0)
+put("speos_brdf", "turns.anisotropicbsdf", "OPTIS - Anisotropic BSDF surface file v11\n0\n\n0\n\n0 1 0\n1 0\n1\n2\n0 90\n1\n10\n1\n40\n20 0\nReflection Spectrum\n2\n400 42\n700 84\n" + 2 * "2 3\n\t0 180 360\n0 1 1 1\n60 1 2 1\n" + "End of file\n")
 put("fred_bsdf", "black.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10\t0\n0\t0\t.1\n10\t0\t.2\n")
 put("fred_bsdf", "two.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10 0\n10 0 .2\n50 20\n-30 110 -1e-3\n")
 lighttools = "# made up\nSymmetry Asymmetric\nSpectralContent %s\nScatterAzimuth 2\n90 270\nScatterRadial 2\n0 30\nDataBegin\n%sDataEnd\n"
@@ -320,7 +321,7 @@ words = {
     "alta": ['#DIM ', '#PARAM_IN ', '#PARAM_OUT ', '#VS ', '#FORMAT ', 'RUSIN_TH_TD_PD', 'RUSIN_TH_PH_TD_PD', 'SPHERICAL_TL_PL_TV_PV', 'ISOTROPIC_TV_TL_DPHI', 'ISOTROPIC_TL_TV_PROJ_DPHI', 'CARTESIAN', 'INV_STERADIAN', 'INV_STERADIAN_COSINE_FACTOR', 'RGB_COLOR', 'XYZ_COLOR', '1.5707', '6.2831', '1e308', 'nan', '#', '\\x0A'],
     "klems_xml": ['<WindowElement>', '<DataDefinition>', '</DataDefinition>', '<IncidentDataStructure>', 'Columns', 'Rows', 'TensorTree3', '<AngleBasis>', '</AngleBasis>', '<AngleBasisName>', '<AngleBasisBlock>', '</AngleBasisBlock>', '<Theta>', '</Theta>', '<nPhis>', '</nPhis>', '<WavelengthData>', '<Wavelength>', 'Visible', '<WavelengthDataBlock>', '</WavelengthDataBlock>', '<WavelengthDataDirection>', 'Reflection Front', '<ColumnAngleBasis>', '<RowAngleBasis>', '<ScatteringData>', '</ScatteringData>', '<!--', '-->', '/>', '4096', '1e308', 'nan'],
     "tensor_tree_xml": ['<WindowElement>', '<DataDefinition>', '</DataDefinition>', '<IncidentDataStructure>', 'TensorTree3', 'TensorTree4', '<WavelengthData>', '<Wavelength>', 'Visible', '<WavelengthDataBlock>', '</WavelengthDataBlock>', '<WavelengthDataDirection>', 'Reflection Front', 'Reflection Back', '<AngleBasis>', 'LBNL/Shirley-Chiu', '<ScatteringData>', '</ScatteringData>', '<!--', '-->', '/>', '{', '}', '{ 0.5 }', '{ 0 1 2 3 4 5 6 7 }', '{ {', '} }', '1e308', 'nan'],
-    "speos_brdf": ['OPTIS - brdf surface file', '\\x0A0\\x0A', '1\\x090', '90', '180', '360', '100', '1e308', 'nan', '\\x09', '\\x0A', '#', '10000'],
+    "speos_brdf": ['OPTIS - brdf surface file', 'OPTIS - Anisotropic BSDF surface file', 'End of file', '\\x0A0\\x0A', '1\\x090', '90', '180', '360', '100', '1e308', 'nan', '\\x09', '\\x0A', '#', '10000'],
     "fred_bsdf": ['type bsdf_data', 'format angles=deg bsdf=value scale=1', '90', '360', '1e308', 'nan', '\\x09', '\\x0A', '#'],
     "lighttools_bsdf": ['Symmetry', 'SpectralContent', 'Monochrome', 'XYZ', 'ScatterAzimuth', 'ScatterRadial', 'DataBegin', 'DataEnd', 'AOI', 'POI', 'Side', 'Front', 'Back', 'Wavelength', 'ScatterType', 'BRDF', 'BTDF', 'TristimulusValue', 'TrisX', 'TrisY', 'TrisZ', 'TIS', '1000000', '1e308', 'nan', '-360', '#', '\\x0A'],
     "rt300s": ['DataType:', 'BRDF(RT-300S)', 'Incidence:', 'Raw data', 'Method', 'BRDF_LD', 'Azimuth', 'Incidence', 'Receive', 'RT', '90', '-90', '1e308', 'nan', '\\x09', '\\x0D', '\\x0A', ';', '0,5'],
