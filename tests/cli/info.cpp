@@ -78,12 +78,15 @@ TEST_CASE("info knows the files of other programs by how they begin, and reconst
         "<RowAngleBasis>k</RowAngleBasis><ScatteringData>.2, .1, .1, .2</ScatteringData></WavelengthDataBlock>"
         "</WavelengthData></WindowElement>",
         "Klems matrix", 4);
-  check("tree.xml",
-        "<WindowElement><DataDefinition><IncidentDataStructure>TensorTree3</IncidentDataStructure></DataDefinition>"
-        "<WavelengthData><Wavelength>Visible</Wavelength><WavelengthDataBlock><WavelengthDataDirection>Reflection Back"
-        "</WavelengthDataDirection><AngleBasis>LBNL/Shirley-Chiu</AngleBasis><ScatteringData>{ .25 }</ScatteringData>"
-        "</WavelengthDataBlock></WavelengthData></WindowElement>",
-        "tensor tree", 256);
+  const std::string tree =
+      "<DataDefinition><IncidentDataStructure>TensorTree3</IncidentDataStructure></DataDefinition>"
+      "<WavelengthData><Wavelength>Visible</Wavelength><WavelengthDataBlock><WavelengthDataDirection>Reflection Back"
+      "</WavelengthDataDirection><AngleBasis>LBNL/Shirley-Chiu</AngleBasis><ScatteringData>{ .25 }</ScatteringData>"
+      "</WavelengthDataBlock></WavelengthData></WindowElement>";
+  check("tree.xml", "<WindowElement>" + tree, "tensor tree", 256);
+  // Much geometry may stand above the tree.
+  const std::string room = "<WindowElement><Geometry>" + std::string(70'000, ' ') + "</Geometry>" + tree;
+  CHECK(facts_of_file(given.put("room.xml", room))["samples"] == 256);
   check("paint.brdf",
         "OPTIS - brdf surface file v9.0\n0\npaint\n0\n\n1\t0\n1\n1 1\n30\n550\n50\n3 3\n\t0 180 360\n0 1 1 1\n"
         "40 2 1 2\n90 1 1 1\n",

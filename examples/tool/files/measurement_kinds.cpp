@@ -1,6 +1,7 @@
 #include "measurement_kinds.hpp"
 
 #include "file_start.hpp"
+#include <gonio/io/bytes/file.hpp>
 #include <gonio/io/measurements/alta.hpp>
 #include <gonio/io/measurements/astm_e1392.hpp>
 #include <gonio/io/measurements/bird.hpp>
@@ -16,10 +17,21 @@
 #include <gonio/io/measurements/zemax_bsdf.hpp>
 
 #include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
 
 namespace cli {
 
 namespace {
+
+/// Geometry may stand above what says that a file has a tree, which its first bytes then do not show.
+gonio::sample_set read_window_xml(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
+  const std::string_view text = gonio::io::as_text(bytes);
+  return gonio::io::looks_like_tensor_tree_xml(text) ? gonio::io::read_tensor_tree_xml(text, path.string())
+                                                     : gonio::io::read_klems_xml(text, path.string());
+}
 
 constexpr std::array<measurement_kind, 13> kinds{{
     // Before Zemax's files, which have the same first keywords.
@@ -46,7 +58,7 @@ constexpr std::array<measurement_kind, 13> kinds{{
      [](std::string_view, std::string_view start) { return gonio::io::looks_like_tensor_tree_xml(start); },
      gonio::io::read_tensor_tree_xml},
     {"Klems matrix", [](std::string_view, std::string_view start) { return gonio::io::looks_like_klems_xml(start); },
-     gonio::io::read_klems_xml},
+     read_window_xml},
     {"Speos", [](std::string_view, std::string_view start) { return gonio::io::looks_like_speos_brdf(start); },
      gonio::io::read_speos_brdf},
     {"FRED", [](std::string_view, std::string_view start) { return gonio::io::looks_like_fred_bsdf(start); },
