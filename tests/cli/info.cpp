@@ -85,6 +85,16 @@ TEST_CASE("info knows the files of other programs by how they begin, and reconst
       "</WavelengthDataBlock></WavelengthData></WindowElement>";
   check("tree.xml", "<WindowElement>" + tree, "tensor tree", 256);
   // Much geometry may stand above the tree.
+  CHECK(gonio_tool("info --side back --band visible " + given.at("tree.xml")).exit_code == 0);
+  const auto no_front = gonio_tool("info --side front " + given.at("tree.xml"));
+  CHECK(no_front.exit_code == 2);
+  CHECK(no_front.output.find("has no 'Reflection Front'") != std::string::npos);
+  for (const std::string other : {"tape.dat", "s.csv"}) {
+    if (other == "s.csv") static_cast<void>(given.put(other, "theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n"));
+    const auto refused = gonio_tool("info --band Solar " + given.at(other));
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output.find("choose from Klems matrices") != std::string::npos);
+  }
   const std::string room = "<WindowElement><Geometry>" + std::string(70'000, ' ') + "</Geometry>" + tree;
   CHECK(facts_of_file(given.put("room.xml", room))["samples"] == 256);
   check("paint.brdf",

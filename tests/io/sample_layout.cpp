@@ -89,7 +89,7 @@ TEST_CASE("a matrix may stand below a preamble and above units, and be turned") 
   CHECK(read_samples(percent + "theta_o,0,30\n40,12.5 %,25 %\n-40,1 %,2%\n", "x").size() == 4);
   CHECK(read_samples(percent + "Einfallswinkel: 30\ntheta_o;0;30\n-40;1;2\n", "x").size() == 2);
   // Directions of a matrix, whatever cells are empty.
-  CHECK_FALSE(gonio::io::has_directions_alone(down_and_across, "x"));
+  CHECK_FALSE(gonio::io::has_directions_alone(percent + "theta_o;0;30\n-40;;2\n-45;1;2\n", "x"));
 }
 
 TEST_CASE("what is no matrix, or has no sides, is refused") {
@@ -171,7 +171,8 @@ TEST_CASE("the scale of X, Y and Z is assumed and said where it is plain, else r
 TEST_CASE("X, Y and Z beside other values, in small letters or not all of them are ignored") {
   CHECK(read_samples("theta_i,theta_o,r,g,b,X,Y,Z\n30,-30,1,2,3,4,5,6\n", "x")[0].value.z() == 3.0);
   CHECK(read_samples("theta_i,theta_o,brdf,x,y,z\n30,-30,1,4,5,6\n", "x")[0].value.z() == 1.0);
-  CHECK(read_samples("x,y,theta_i,theta_o,X [%],Y [%],Z [%]\n.3,.3,30,-30,95,100,109\n", "x").size() == 1);
+  const auto beside = read_samples("x,y,theta_i,theta_o,X [%],Y [%],Z [%]\n.3,.3,30,-30,95,100,109\n", "x");
+  CHECK(gonio::luminance(beside[0].value) * std::numbers::pi == doctest::Approx(1.0).epsilon(1e-3));
   check_text_refused("theta_i,theta_o,Y,x,y\n30,-30,1,.3,.3\n", {"line 1", "column 'r' is missing"});
   check_text_refused(percent + "theta_i,theta_o,X,Y,Z,wavelength\n30,-30,1,1,1,5\n", {"X,Y,Z have no wavelength"});
   check_text_refused(percent + "theta_i,theta_o,X,Y,Z\n30,-30,1e41,1,1\n", {"line 3", "X", "range of float"});

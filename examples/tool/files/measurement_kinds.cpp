@@ -26,12 +26,14 @@ namespace cli {
 namespace {
 
 /// Geometry may stand above what says that a file has a tree, which its first bytes then do not show.
-gonio::sample_set read_window_xml(const std::filesystem::path& path) {
+gonio::sample_set read_window_block(const std::filesystem::path& path, const gonio::io::window_block& wanted) {
   const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
   const std::string_view text = gonio::io::as_text(bytes);
-  return gonio::io::looks_like_tensor_tree_xml(text) ? gonio::io::read_tensor_tree_xml(text, path.string())
-                                                     : gonio::io::read_klems_xml(text, path.string());
+  return gonio::io::looks_like_tensor_tree_xml(text) ? gonio::io::read_tensor_tree_xml(text, path.string(), wanted)
+                                                     : gonio::io::read_klems_xml(text, path.string(), wanted);
 }
+
+gonio::sample_set read_window_xml(const std::filesystem::path& path) { return read_window_block(path, {}); }
 
 constexpr std::array<measurement_kind, 13> kinds{{
     // Before Zemax's files, which have the same first keywords.
@@ -56,9 +58,9 @@ constexpr std::array<measurement_kind, 13> kinds{{
      gonio::io::read_alta},
     {"tensor tree",
      [](std::string_view, std::string_view start) { return gonio::io::looks_like_tensor_tree_xml(start); },
-     gonio::io::read_tensor_tree_xml},
+     read_window_xml, read_window_block},
     {"Klems matrix", [](std::string_view, std::string_view start) { return gonio::io::looks_like_klems_xml(start); },
-     read_window_xml},
+     read_window_xml, read_window_block},
     {"Speos", [](std::string_view, std::string_view start) { return gonio::io::looks_like_speos_brdf(start); },
      gonio::io::read_speos_brdf},
     {"FRED", [](std::string_view, std::string_view start) { return gonio::io::looks_like_fred_bsdf(start); },

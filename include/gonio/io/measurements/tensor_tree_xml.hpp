@@ -5,6 +5,7 @@
 /// Journal of Graphics Tools 2 (3), 1997, doi:10.1080/10867651.1997.10487479) makes of the disk of the directions' x
 /// and y.
 
+#include <gonio/io/measurements/klems_xml.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/table/sample_set.hpp>
 
@@ -18,13 +19,13 @@ namespace gonio::io {
 [[nodiscard]] bool looks_like_tensor_tree_xml(std::string_view text);
 
 /// Samples from the text of such a file; `name` is what errors call it: one value, sr^-1 without the cosine, for the
-/// centre of each cell; cells that are wider than an eighth of the cube are divided. What is read is `Reflection Front`
-/// of the wavelength `Visible`, or `Reflection Back` where there is no front. Of trees of rank 3 the light is at
+/// centre of each cell; cells that are wider than an eighth of the cube are divided. Of trees of rank 3 the light is at
 /// azimuth 180. Throws gonio::error naming the line of what is wrong, and where there is no reflection.
-[[nodiscard]] sample_set read_tensor_tree_xml(std::string_view text, const std::string& name);
+[[nodiscard]] sample_set read_tensor_tree_xml(std::string_view text, const std::string& name,
+                                              const window_block& wanted = {});
 
 /// Reads such a file.
-[[nodiscard]] sample_set read_tensor_tree_xml(const std::filesystem::path& path);
+[[nodiscard]] sample_set read_tensor_tree_xml(const std::filesystem::path& path, const window_block& wanted = {});
 
 }  // namespace gonio::io
 

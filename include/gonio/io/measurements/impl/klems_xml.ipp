@@ -92,19 +92,22 @@ inline constexpr std::size_t most_patches = 4096;
   return numbers;
 }
 
-GONIO_INLINE xml_element reflection_of(const xml_element& file, const std::string& name) {
+GONIO_INLINE xml_element reflection_of(const xml_element& file, const std::string& name, const window_block& wanted) {
+  std::vector<std::string_view> directions;
+  if (wanted.of != window_block::side::back) directions.push_back("Reflection Front");
+  if (wanted.of != window_block::side::front) directions.push_back("Reflection Back");
   std::string found;
-  for (const std::string_view wanted : {"Reflection Front", "Reflection Back"})
+  for (const std::string_view direction : directions)
     for (const xml_element& data : file.all("WavelengthData")) {
       const std::string_view wavelength = data.text("Wavelength");
       for (const xml_element& block : data.all("WavelengthDataBlock")) {
-        const std::string_view direction = block.text("WavelengthDataDirection");
-        if (direction == wanted && wavelength == "Visible") return block;
-        if (wanted == "Reflection Front" && found.size() < 200)
-          found += message_of({found.empty() ? "" : ", ", in_quotes(direction), " of ", in_quotes(wavelength)});
+        const std::string_view of_block = block.text("WavelengthDataDirection");
+        if (of_block == direction && lower_case(wavelength) == lower_case(wanted.wavelength)) return block;
+        if (direction == directions.front() && found.size() < 200)
+          found += message_of({found.empty() ? "" : ", ", in_quotes(of_block), " of ", in_quotes(wavelength)});
       }
     }
-  gonio::refuse({name, ": has no 'Reflection Front' or 'Reflection Back' of 'Visible', but ",
+  gonio::refuse({name, ": has no '", listed(directions, "' or '"), "' of ", in_quotes(wanted.wavelength), ", but ",
                  found.empty() ? "no matrix" : found});
 }
 
@@ -121,13 +124,13 @@ GONIO_INLINE bool looks_like_klems_xml(std::string_view text) {
   return text.find("<WindowElement") != std::string_view::npos;
 }
 
-GONIO_INLINE sample_set read_klems_xml(std::string_view text, const std::string& name) {
+GONIO_INLINE sample_set read_klems_xml(std::string_view text, const std::string& name, const window_block& wanted) {
   const detail::xml_element file(text, name), definition = file.first("DataDefinition");
   const std::string_view structure = definition.text("IncidentDataStructure");
   if (structure != "Columns" && structure != "Rows")
     definition.place(definition.content())
         .refuse({"<IncidentDataStructure> ", in_quotes(structure), " is not read, expected Columns or Rows"});
-  const detail::xml_element block = detail::reflection_of(file, name), data = block.first("ScatteringData");
+  const detail::xml_element block = detail::reflection_of(file, name, wanted), data = block.first("ScatteringData");
   const text_place place = block.place(block.content());
   const auto columns = detail::basis_named(definition, block.text("ColumnAngleBasis"), place);
   const auto rows = detail::basis_named(definition, block.text("RowAngleBasis"), place);
@@ -144,9 +147,9 @@ GONIO_INLINE sample_set read_klems_xml(std::string_view text, const std::string&
   return std::move(collector).samples(name);
 }
 
-GONIO_INLINE sample_set read_klems_xml(const std::filesystem::path& path) {
+GONIO_INLINE sample_set read_klems_xml(const std::filesystem::path& path, const window_block& wanted) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return read_klems_xml(as_text(bytes), path.string());
+  return read_klems_xml(as_text(bytes), path.string(), wanted);
 }
 
 }  // namespace gonio::io

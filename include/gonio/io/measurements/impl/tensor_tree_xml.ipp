@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -174,22 +175,23 @@ GONIO_INLINE bool looks_like_tensor_tree_xml(std::string_view text) {
   return looks_like_klems_xml(text) && text.find(">TensorTree") != std::string_view::npos;
 }
 
-GONIO_INLINE sample_set read_tensor_tree_xml(std::string_view text, const std::string& name) {
+GONIO_INLINE sample_set read_tensor_tree_xml(std::string_view text, const std::string& name,
+                                             const window_block& wanted) {
   const detail::xml_element file(text, name), definition = file.first("DataDefinition");
   const std::string_view structure = definition.text("IncidentDataStructure");
   if (structure != "TensorTree3" && structure != "TensorTree4")
     definition.place(definition.content())
         .refuse({"<IncidentDataStructure> ", in_quotes(structure), " is no tree, expected TensorTree3 or TensorTree4"});
-  const detail::xml_element block = detail::reflection_of(file, name), data = block.first("ScatteringData");
+  const detail::xml_element block = detail::reflection_of(file, name, wanted), data = block.first("ScatteringData");
   if (const std::string_view basis = block.text("AngleBasis"); basis != "LBNL/Shirley-Chiu")
     block.place(block.content())
         .refuse({"<AngleBasis> ", in_quotes(basis), " is not read, expected LBNL/Shirley-Chiu"});
   return detail::tensor_tree_reader(data, structure == "TensorTree3" ? 3 : 4).read().samples(name);
 }
 
-GONIO_INLINE sample_set read_tensor_tree_xml(const std::filesystem::path& path) {
+GONIO_INLINE sample_set read_tensor_tree_xml(const std::filesystem::path& path, const window_block& wanted) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return read_tensor_tree_xml(as_text(bytes), path.string());
+  return read_tensor_tree_xml(as_text(bytes), path.string(), wanted);
 }
 
 }  // namespace gonio::io
