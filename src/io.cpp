@@ -29,11 +29,14 @@
 #include <gonio/io/measurements/impl/cornell.ipp>
 #include <gonio/io/measurements/impl/fred_bsdf.ipp>
 #include <gonio/io/measurements/impl/klems_xml.ipp>
+#include <gonio/io/measurements/impl/lighttools_bsdf.ipp>
 #include <gonio/io/measurements/impl/openmaterial.ipp>
 #include <gonio/io/measurements/impl/reference_reflectance.ipp>
+#include <gonio/io/measurements/impl/rt300s.ipp>
 #include <gonio/io/measurements/impl/sample_collector.ipp>
 #include <gonio/io/measurements/impl/sample_columns.ipp>
 #include <gonio/io/measurements/impl/sample_header.ipp>
+#include <gonio/io/measurements/impl/sample_layout.ipp>
 #include <gonio/io/measurements/impl/sample_provenance.ipp>
 #include <gonio/io/measurements/impl/sample_quantity.ipp>
 #include <gonio/io/measurements/impl/sample_rows.ipp>
@@ -41,6 +44,7 @@
 #include <gonio/io/measurements/impl/scan_journal.ipp>
 #include <gonio/io/measurements/impl/speos_brdf.ipp>
 #include <gonio/io/measurements/impl/ssdd.ipp>
+#include <gonio/io/measurements/impl/tensor_tree_xml.ipp>
 #include <gonio/io/measurements/impl/zemax_bsdf.ipp>
 #include <gonio/io/setups/impl/apparatus.ipp>
 #include <gonio/io/setups/impl/camera_calibration.ipp>
@@ -56,3 +60,4 @@
 #include <gonio/io/text/impl/text.ipp>
 #include <gonio/io/text/impl/utf16.ipp>
 #include <gonio/io/text/impl/words.ipp>
+#include <gonio/io/text/impl/xml_element.ipp>

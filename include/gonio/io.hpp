@@ -33,11 +33,14 @@
 #include <gonio/io/measurements/cornell.hpp>
 #include <gonio/io/measurements/fred_bsdf.hpp>
 #include <gonio/io/measurements/klems_xml.hpp>
+#include <gonio/io/measurements/lighttools_bsdf.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/reference_reflectance.hpp>
+#include <gonio/io/measurements/rt300s.hpp>
 #include <gonio/io/measurements/sample_collector.hpp>
 #include <gonio/io/measurements/sample_columns.hpp>
 #include <gonio/io/measurements/sample_header.hpp>
+#include <gonio/io/measurements/sample_layout.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
 #include <gonio/io/measurements/sample_rows.hpp>
@@ -45,6 +48,7 @@
 #include <gonio/io/measurements/scan_journal.hpp>
 #include <gonio/io/measurements/speos_brdf.hpp>
 #include <gonio/io/measurements/ssdd.hpp>
+#include <gonio/io/measurements/tensor_tree_xml.hpp>
 #include <gonio/io/measurements/zemax_bsdf.hpp>
 #include <gonio/io/setups/apparatus.hpp>
 #include <gonio/io/setups/camera_calibration.hpp>
@@ -60,3 +64,4 @@
 #include <gonio/io/text/text.hpp>
 #include <gonio/io/text/utf16.hpp>
 #include <gonio/io/text/words.hpp>
+#include <gonio/io/text/xml_element.hpp>

@@ -78,10 +78,40 @@ TEST_CASE("info knows the files of other programs by how they begin, and reconst
         "<RowAngleBasis>k</RowAngleBasis><ScatteringData>.2, .1, .1, .2</ScatteringData></WavelengthDataBlock>"
         "</WavelengthData></WindowElement>",
         "Klems matrix", 4);
+  const std::string tree =
+      "<DataDefinition><IncidentDataStructure>TensorTree3</IncidentDataStructure></DataDefinition>"
+      "<WavelengthData><Wavelength>Visible</Wavelength><WavelengthDataBlock><WavelengthDataDirection>Reflection Back"
+      "</WavelengthDataDirection><AngleBasis>LBNL/Shirley-Chiu</AngleBasis><ScatteringData>{ .25 }</ScatteringData>"
+      "</WavelengthDataBlock></WavelengthData></WindowElement>";
+  check("tree.xml", "<WindowElement>" + tree, "tensor tree", 256);
+  // Much geometry may stand above the tree.
+  CHECK(gonio_tool("info --side back --band visible " + given.at("tree.xml")).exit_code == 0);
+  const auto no_front = gonio_tool("info --side front " + given.at("tree.xml"));
+  CHECK(no_front.exit_code == 2);
+  CHECK(no_front.output.find("has no 'Reflection Front'") != std::string::npos);
+  for (const std::string other : {"tape.dat", "s.csv"}) {
+    if (other == "s.csv") static_cast<void>(given.put(other, "theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n"));
+    const auto refused = gonio_tool("info --band Solar " + given.at(other));
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output.find("choose from Klems matrices") != std::string::npos);
+  }
+  const std::string room = "<WindowElement><Geometry>" + std::string(70'000, ' ') + "</Geometry>" + tree;
+  CHECK(facts_of_file(given.put("room.xml", room))["samples"] == 256);
   check("paint.brdf",
         "OPTIS - brdf surface file v9.0\n0\npaint\n0\n\n1\t0\n1\n1 1\n30\n550\n50\n3 3\n\t0 180 360\n0 1 1 1\n"
         "40 2 1 2\n90 1 1 1\n",
         "Speos", 3);
+  check("diffuser.bsdf",
+        "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterAzimuth 2\n90 270\nScatterRadial 2\n10 40\n"
+        "DataBegin\nAOI 30\nPOI 0\nSide Front\nWavelength 550\nScatterType BRDF\nTIS 0.5\n.1 .1\n.2 .3\nDataEnd\n",
+        "LightTools BSDF", 4);
+  check("black.jdv",
+        "DataType:\tBRDF(RT-300S)\t\t\rIncidence:\t30\t\t\rRaw data\t\t\t\r\t-30\t0\t30\r-90\t10\t11\t12\r", "RT-300S",
+        3);
+  check("black.tsv",
+        " Method\tBRDF_LD\tBRDF_LD\tBRDF_LD\n Azimuth\t-90\t-90\t0\n Incidence\t30\t30\t30\n"
+        " Receive\t-30\t0\t30\n RT\t.1\t.11\t.12\n",
+        "RT-300S", 3);
   check("black.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10\t0\n0\t0\t.1\n10\t0\t.2\n20\t90\t.1\n",
         "FRED", 3);
   check("spectra.brdf", "2\n450 650\n0.5 0 0.4 3 .1 .2\n0.1 0 0.4 2 .1 .2\n0.2 0 0.5 1 .1 .3\n",

@@ -171,8 +171,9 @@ TEST_CASE("options on samples need samples") {
   run("expand --formula red-paint -o " + table);
   for (const std::string command : {"fit ", "info ", "properties "})
     refuses(command + table + " --quantity percent",
-            {"paint.binary: --quantity, --columns and --theta-o-sign need a file of samples"});
-  refuses("design -n 1 --quantity percent -o " + out, {"--quantity, --columns and --theta-o-sign need --given"});
+            {"paint.binary: --quantity, --columns, --theta-o-sign, --side and --band need a file of samples"});
+  refuses("design -n 1 --quantity percent -o " + out,
+          {"--quantity, --columns, --theta-o-sign, --side and --band need --given"});
 }
 
 TEST_CASE("a highlight on the light's side is told of, and turned by an option in any format") {

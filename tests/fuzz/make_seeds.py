@@ -197,6 +197,10 @@ put("samples", "blanks.txt", "theta_h theta_d  phi_d brdf\n 1 2.5\t3 0.1 \n\"1\"
 put("samples", "directions.csv", "\ufefftheta_i,phi_i,theta_o,phi_o\r\n89.9999999,0,-89.9999989,0\r\n")
 put("samples", "spectra.csv", "# quantity: brdf\ntheta_i,phi_i,theta_o,phi_o,400nm,w500,600,weight\n10,20,30,40,1,.5,-.5,1\n45,0,45,180,0,1e3,2,.5\n")
 put("samples", "laser.csv", "# quantity: percent\ntheta_h;theta_d;phi_d;632,8 [nm]\n10;20;30;31,4\n")
+put("samples", "matrix.csv", "# quantity: percent\ntheta_o;0\u00b0;30\u00b0\n-45;12,5;\n45;1;2\n")
+put("samples", "corner.tsv", "Run\t7\ntheta_i \\ theta_o\t-10\ttheta_o=22.5\n30\t1 %\t2 %\n")
+put("samples", "stated.csv", "Einfallswinkel: 30\n# quantity: brdf\ntheta_o;400nm;500nm\n-45;1;2\n")
+put("samples", "tristimulus.csv", "theta_i;theta_o;X;Y;Z\n30;-30;19,56;11,87;3,97\n")
 put("cornell", "small.brdf", "# paint\n3\n400 550\n700\n0.1 0.2 0.3 0.4 1 2 3\n1.5 -6.28 0 0 0.1 0.1 0.1\n")
 zemax = "# made up\nSource Measured\nSymmetry PlaneSymmetrical\nSpectralContent %s\nScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 2\n0 40\nScatterAzimuth 2\n0 180\nScatterRadial 2\n0 30\n\n"
 blocks = "%s\nDataBegin\nTIS 0.5\n1 2\n3 4\nTIS 0.5\n5 6\n7 8.5e-1\nDataEnd\n"
@@ -211,11 +215,23 @@ put("alta", "vectors.alta", alta % (6, 1, "CARTESIAN", "INV_STERADIAN_COSINE_FAC
 klems = "<WindowElement><DataDefinition><IncidentDataStructure>%s</IncidentDataStructure><AngleBasis><AngleBasisName>k</AngleBasisName><AngleBasisBlock><Theta>40</Theta><nPhis>2</nPhis></AngleBasisBlock></AngleBasis></DataDefinition><WavelengthData><Wavelength>Visible</Wavelength><WavelengthDataBlock><WavelengthDataDirection>Reflection %s</WavelengthDataDirection><ColumnAngleBasis>k</ColumnAngleBasis><RowAngleBasis>k</RowAngleBasis><ScatteringData>\n1, 2\n3, 4</ScatteringData></WavelengthDataBlock></WavelengthData></WindowElement>\n"
 put("klems_xml", "front.xml", klems % ("Columns", "Front"))
 put("klems_xml", "back.xml", klems % ("Rows", "Back"))
+tree = "<WindowElement><DataDefinition><IncidentDataStructure>TensorTree%d</IncidentDataStructure></DataDefinition><WavelengthData><Wavelength>Visible</Wavelength><WavelengthDataBlock><WavelengthDataDirection>Reflection %s</WavelengthDataDirection><AngleBasis>LBNL/Shirley-Chiu</AngleBasis><ScatteringData>\n%s\n</ScatteringData></WavelengthDataBlock></WavelengthData></WindowElement>\n"
+put("tensor_tree_xml", "three.xml", tree % (3, "Back", "{ { 0 1 2 3, 4, 5, 6, 7 }\n" + 7 * "{ 0.5 }\n" + "}"))
+put("tensor_tree_xml", "four.xml", tree % (4, "Front", "{ " + " ".join(map(str, range(16))) + " }"))
 speos = "OPTIS - brdf surface file v9.0\n0\nmade up\n0\n\n1\t0\n%d\n1 2\n30\n450 550\n" + 2 * "50\n2 3\n\t0 180 360\n0 1 1 1\n60 1 2 1\n"
 put("speos_brdf", "brdf.brdf", speos % 1)
 put("speos_brdf", "intensity.brdf", speos % 0)
+put("speos_brdf", "turns.anisotropicbsdf", "OPTIS - Anisotropic BSDF surface file v11\n0\n\n0\n\n0 1 0\n1 0\n1\n2\n0 90\n1\n10\n1\n40\n20 0\nReflection Spectrum\n2\n400 42\n700 84\n" + 2 * "2 3\n\t0 180 360\n0 1 1 1\n60 1 2 1\n" + "End of file\n")
 put("fred_bsdf", "black.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10\t0\n0\t0\t.1\n10\t0\t.2\n")
 put("fred_bsdf", "two.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10 0\n10 0 .2\n50 20\n-30 110 -1e-3\n")
+lighttools = "# made up\nSymmetry Asymmetric\nSpectralContent %s\nScatterAzimuth 2\n90 270\nScatterRadial 2\n0 30\nDataBegin\n%sDataEnd\n"
+lit = "AOI 20\nPOI 0\nSide %s\nWavelength %s\nScatterType %s\n%sTIS 0.5\n1 2\n3 4\n"
+put("lighttools_bsdf", "spectra.bsdf", lighttools % ("Monochrome", lit % ("Front", "450", "BRDF", "") + lit % ("Front", "550", "BRDF", "") + lit % ("Back", "450", "BTDF", "")))
+put("lighttools_bsdf", "colour.txt", lighttools % ("XYZ", "".join(lit % ("Back", "0", "BRDF", f"TristimulusValue Tris{axis}\n") for axis in "XYZ")))
+jdv = "DataType:\tBRDF(RT-300S)\t \t\rSampleID:\tmade up\t \t\rIncidence:\t%d\t \t\rPolar:\t-30,30,30\t \t\r\t\t\t\rRaw data\t\t\t\r\t-30\t0\t30\r-90\t1\t2\t3\r-80\t4\t5\t-6\r\t\t\t\r"
+put("rt300s", "two.jdv", jdv % 0 + jdv % 60)
+put("rt300s", "sheet.tsv", " Method\tBRDF_LD\tBRDF_LD\n Azimuth\t-90.0\t90\n Incidence\t20\t20\n Receive\t20\t-60\n L\t\t\n RT\t0.11\t-.13\n380.0\t1\t2\n")
+put("rt300s", "sheet.csv", "Method;BRDF_LD\nAzimuth;0\nIncidence;22,5\nReceive;-60\nRT;0,5\n")
 ssdd = "VERSION 0.3\nSOFTWARE made up\n\nDATA_TYPE brdf\nCOLOR_MODEL %s\nPARAM_TYPE %s_coordinate_system\nPARAM0_LIST 0 40\nPARAM2_LIST 0 30\nPARAM3_LIST 0 180 360\nDATA %s\n"
 for kind in ("spherical", "specular", "half_difference"):
     put("ssdd", kind + ".ssdd", ssdd % ("monochrome", kind, "ascii") + "# numbers\n" + "1\n" * 12 + "DATA_TYPE specular_reflectance\nCOLOR_MODEL monochrome\nPARAM0_LIST 0\nDATA ascii\n.5\n")
@@ -304,8 +320,11 @@ words = {
     "astm_e1392": ['NUM_POINTS', 'VARS ', 'theta_i,phi_i,theta_s,phi_s,', 'R,G,B', 'X,Y,Z', '400nm', '700nm', 'BRDF', '1.5707', '6.2831', '1e308', 'nan', '#', ',', '\\x0A'],
     "alta": ['#DIM ', '#PARAM_IN ', '#PARAM_OUT ', '#VS ', '#FORMAT ', 'RUSIN_TH_TD_PD', 'RUSIN_TH_PH_TD_PD', 'SPHERICAL_TL_PL_TV_PV', 'ISOTROPIC_TV_TL_DPHI', 'ISOTROPIC_TL_TV_PROJ_DPHI', 'CARTESIAN', 'INV_STERADIAN', 'INV_STERADIAN_COSINE_FACTOR', 'RGB_COLOR', 'XYZ_COLOR', '1.5707', '6.2831', '1e308', 'nan', '#', '\\x0A'],
     "klems_xml": ['<WindowElement>', '<DataDefinition>', '</DataDefinition>', '<IncidentDataStructure>', 'Columns', 'Rows', 'TensorTree3', '<AngleBasis>', '</AngleBasis>', '<AngleBasisName>', '<AngleBasisBlock>', '</AngleBasisBlock>', '<Theta>', '</Theta>', '<nPhis>', '</nPhis>', '<WavelengthData>', '<Wavelength>', 'Visible', '<WavelengthDataBlock>', '</WavelengthDataBlock>', '<WavelengthDataDirection>', 'Reflection Front', '<ColumnAngleBasis>', '<RowAngleBasis>', '<ScatteringData>', '</ScatteringData>', '<!--', '-->', '/>', '4096', '1e308', 'nan'],
-    "speos_brdf": ['OPTIS - brdf surface file', '\\x0A0\\x0A', '1\\x090', '90', '180', '360', '100', '1e308', 'nan', '\\x09', '\\x0A', '#', '10000'],
+    "tensor_tree_xml": ['<WindowElement>', '<DataDefinition>', '</DataDefinition>', '<IncidentDataStructure>', 'TensorTree3', 'TensorTree4', '<WavelengthData>', '<Wavelength>', 'Visible', '<WavelengthDataBlock>', '</WavelengthDataBlock>', '<WavelengthDataDirection>', 'Reflection Front', 'Reflection Back', '<AngleBasis>', 'LBNL/Shirley-Chiu', '<ScatteringData>', '</ScatteringData>', '<!--', '-->', '/>', '{', '}', '{ 0.5 }', '{ 0 1 2 3 4 5 6 7 }', '{ {', '} }', '1e308', 'nan'],
+    "speos_brdf": ['OPTIS - brdf surface file', 'OPTIS - Anisotropic BSDF surface file', 'End of file', '\\x0A0\\x0A', '1\\x090', '90', '180', '360', '100', '1e308', 'nan', '\\x09', '\\x0A', '#', '10000'],
     "fred_bsdf": ['type bsdf_data', 'format angles=deg bsdf=value scale=1', '90', '360', '1e308', 'nan', '\\x09', '\\x0A', '#'],
+    "lighttools_bsdf": ['Symmetry', 'SpectralContent', 'Monochrome', 'XYZ', 'ScatterAzimuth', 'ScatterRadial', 'DataBegin', 'DataEnd', 'AOI', 'POI', 'Side', 'Front', 'Back', 'Wavelength', 'ScatterType', 'BRDF', 'BTDF', 'TristimulusValue', 'TrisX', 'TrisY', 'TrisZ', 'TIS', '1000000', '1e308', 'nan', '-360', '#', '\\x0A'],
+    "rt300s": ['DataType:', 'BRDF(RT-300S)', 'Incidence:', 'Raw data', 'Method', 'BRDF_LD', 'Azimuth', 'Incidence', 'Receive', 'RT', '90', '-90', '1e308', 'nan', '\\x09', '\\x0D', '\\x0A', ';', '0,5'],
     "ssdd": ['VERSION 0.3', 'DATA_TYPE', 'brdf', 'btdf', 'specular_reflectance', 'COLOR_MODEL', 'monochrome', 'rgb', 'xyz', 'spectrum', 'WAVELENGTH_LIST', 'PARAM_TYPE', 'spherical_coordinate_system', 'specular_coordinate_system', 'half_difference_coordinate_system', 'REDUCTION_TYPE', 'PARAM0_LIST', 'PARAM1_LIST', 'PARAM2_LIST', 'PARAM3_LIST', 'PARAM4_LIST', 'DATA', 'ascii', 'binary', '1e308', '360', 'nan', '# ', '\\x0A', '\\x00\\x00\\x80\\x7F'],
     "bird": ['"metadata"', '"data"', '"theta_i"', '"phi_i"', '"theta_r"', '"phi_r"', '"BRDF"', '"uBRDF"', '"wavelength_i"', '"wavelength_r"', '"polarization_i"', '"polarization_r"', '"adhoc_variables"', '"unit"', '"values"', '"uncertainty"', '"value"', '"deg"', '"rad"', '"sr^-1"', '"%"', '"nm"', '"s"', '"p"', '"u"', '[1,-1,0,0]', '{', '}', '[', ']', ':', ',', '1e308', 'null', '\\\\u001b', '\\\\ud83d'],
     "mbsdf": ['NVIDIA ARC MBSDF V1\\x0A', 'MBSDF_DATA=\\x0A', 'MBSDF_DATA_REFLECTION=\\x0A', 'MBSDF_DATA_TRANSMISSION=\\x0A', '="', '"\\x0A', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x00\\x80\\x7F'],

@@ -82,6 +82,22 @@ TEST_CASE("Klems: the front of the visible light is read, or the back") {
   check_klems_refused(klems("Columns", ""), {"no matrix"});
 }
 
+TEST_CASE("Klems: the block that is asked for is read") {
+  using gonio::io::window_block;
+  const std::string back = block("Reflection Back", "7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7");
+  const std::string both = klems("Columns", front + back);
+  const auto read = [](const std::string& text, const window_block& wanted) {
+    return read_klems_xml(text, "x", wanted)[0].value.x();
+  };
+  CHECK(read(both, {}) == 0.0);
+  CHECK(read(both, {.of = window_block::side::back}) == 7.0);
+  CHECK(read(klems("Columns", back, "Solar"), {.wavelength = "solar"}) == 7.0);
+  check_refused([&] { return read(klems("Columns", back), {.of = window_block::side::front}); },
+                {"has no 'Reflection Front' of 'Visible', but 'Reflection Back' of 'Visible'"});
+  check_refused([&] { return read(both, {.of = window_block::side::back, .wavelength = "Solar"}); },
+                {"has no 'Reflection Back' of 'Solar'", "'Reflection Front' of 'Visible'"});
+}
+
 TEST_CASE("Klems: such a file is told by its root element") {
   CHECK(gonio::io::looks_like_klems_xml(klems("Columns", front)));
   CHECK_FALSE(gonio::io::looks_like_klems_xml("<opencv_storage>"));

@@ -31,6 +31,21 @@ std::string flat(const std::string& value, const std::string& azimuths, int coun
 
 const std::string small = rows + "1\n1 1\n30\n550\n50\n" + flat("7", "0 90 180 270 360", 5);
 
+const std::string all_azimuths = "0 90 180 270 360";
+
+/// Anisotropy angles 0 and 30, of 10 and 30 degrees of incidence, and of 40.
+const std::string anisotropic =
+    "OPTIS - Anisotropic BSDF surface file v11\n0\n\n0\n\n0\t1\t0\n1\t0\n1\n2\n0\t30\n2\n10\t30\n1\n40\n15\t0\n\n"
+    "2\n400\t42\n700\t84\n" +
+    flat("7", all_azimuths, 5) + flat("14", all_azimuths, 5) + flat("3.5", all_azimuths, 5);
+
+/// Each degree of a turn.
+std::string fine_azimuths() {
+  std::string text;
+  for (int phi = 0; phi <= 360; ++phi) text += std::to_string(phi) + " ";
+  return text;
+}
+
 void check_speos_refused(const std::string& text, std::initializer_list<std::string> words) {
   CAPTURE(text);
   check_refused([&] { return read_speos_brdf(text, "paint.brdf"); }, {"paint.brdf"});
@@ -80,9 +95,66 @@ TEST_CASE("Speos: azimuth 0 is the mirror direction's side, wavelengths are spec
   CHECK((wi + wo).normalized().z() == doctest::Approx(1.0));
 }
 
+TEST_CASE("Speos: one spectrum scales all tables of an anisotropic file") {
+  const double white = 1.0 / std::numbers::pi;
+  const auto read = read_speos_brdf(anisotropic, "x");
+  CHECK(read.channels() == gonio::channels({400.0, 700.0}));
+  REQUIRE(read.size() == 3 * (1 + 8 * 4));
+  // A table of twice the numbers reflects twice as much; the spectrum is that of 15 degrees, between tables of 7
+  // and 14.
+  const double scale = white / 8.75;
+  CHECK(read.values(0)[0] == doctest::Approx(0.42 * 7.0 * scale).epsilon(1e-3));
+  CHECK(read.values(0)[1] == doctest::Approx(0.84 * 7.0 * scale).epsilon(1e-3));
+  CHECK(read.values(33)[0] == doctest::Approx(0.42 * 14.0 * scale).epsilon(1e-3));
+  CHECK(read.values(66)[1] == doctest::Approx(0.84 * 3.5 * scale).epsilon(1e-3));
+  const auto samples = read.in_three_channels();
+  const auto azimuths = [&](int i) {
+    const auto& [wi, wo] = samples[i].directions.pair();
+    return std::pair(degrees(gonio::azimuth(wi)), degrees(gonio::azimuth(wo)));
+  };
+  CHECK(azimuths(1).first == doctest::Approx(180.0));
+  CHECK(azimuths(2).second == doctest::Approx(90.0));
+  CHECK(azimuths(67).first == doctest::Approx(150.0));  // less the anisotropy angle of 30 degrees
+  CHECK(azimuths(67).second == doctest::Approx(-30.0));
+  CHECK(degrees(gonio::polar_angle(samples[33].directions.pair().wi)) == doctest::Approx(30.0));
+  // Below and beyond all angles of incidence the nearest counts; titles and the last line may be there.
+  CHECK(read_speos_brdf(with(anisotropic, "\n15\t0\n\n", "\n5 0\nReflection Spectrum\n") + "End of file\n", "x")
+            .values(0)[0] == doctest::Approx(0.42 * white).epsilon(1e-3));
+  CHECK(read_speos_brdf(with(anisotropic, "\n15\t0\n", "\n80 0\n"), "x").values(33)[0] ==
+        doctest::Approx(0.42 * white).epsilon(1e-3));
+  // Intensities have the cosine in them.
+  const auto flat_intensities = read_speos_brdf(with(anisotropic, "\n1\t0\n1\n", "\n1\t0\n0\n"), "x");
+  CHECK(flat_intensities.values(1)[0] / flat_intensities.values(29)[0] ==
+        doctest::Approx(std::cos(gonio::radians(80.0)) / std::cos(gonio::radians(10.0))));
+}
+
+TEST_CASE("Speos: what is no anisotropic file is refused") {
+  check_speos_refused(with(anisotropic, "0\t1\t0", "0\tup\t0"), {"line 6", "the anisotropy vector", "'up'"});
+  check_speos_refused(with(anisotropic, "\n1\t0\n1\n", "\n1\t1\n1\n"), {"line 7", "transmission"});
+  check_speos_refused(with(anisotropic, "\n2\n0\t30\n", "\n2e9\n0\t30\n"), {"line 9", "anisotropy angles", "2e+09"});
+  check_speos_refused(with(anisotropic, "\n0\t30\n", "\n0\t0\n"),
+                      {"line 10", "an anisotropy angle: 0 stands behind 0"});
+  check_speos_refused(with(anisotropic, "\n10\t30\n", "\n10\t95\n"), {"line 12", "an angle of incidence: 95"});
+  check_speos_refused(with(anisotropic, "\n15\t0\n", "\n20\t10\n"), {"line 15", "angle 10 is none of those"});
+  check_speos_refused(with(anisotropic, "\n15\t0\n", "\n120\t0\n"), {"line 15", "spectrum's angle of incidence: 120"});
+  check_speos_refused(with(anisotropic, "\n700\t84\n", "\n400\t84\n"), {"line 19", "a wavelength: 400"});
+  check_speos_refused(with(anisotropic, "\n700\t84\n", "\n700\t184\n"), {"line 19", "the reflectance", "184"});
+  check_speos_refused(with(anisotropic, "\t7\t7", "\t7\tx"), {"line 22", "a value", "'x'"});
+  check_speos_refused(anisotropic + "1\n", {"goes on behind its last table"});
+  check_speos_refused(anisotropic.substr(0, anisotropic.size() - 5), {"ends before a value"});
+  check_speos_refused(with(anisotropic, "\n2\n400", "\n20000\n400"), {"line 17", "the number of wavelengths: 20000"});
+  // Few bytes of many wavelengths, and of many values, would be too many numbers.
+  std::string wide = "\n5000\n";
+  for (int i = 1; i <= 5000; ++i) wide += std::to_string(i) + " 1\n";
+  check_speos_refused(with(with(anisotropic, "\n2\n400\t42\n700\t84\n", wide), flat("7", all_azimuths, 5),
+                           flat("7", fine_azimuths(), 361)),
+                      {"has 3710 values and a spectrum of 5000 wavelengths", "too many"});
+}
+
 TEST_CASE("Speos: such a file is told by its header") {
   CHECK(gonio::io::looks_like_speos_brdf(small));
-  CHECK_FALSE(gonio::io::looks_like_speos_brdf("OPTIS - Anisotropic BSDF surface file v9.0\n"));
+  CHECK(gonio::io::looks_like_speos_brdf(anisotropic));
+  CHECK_FALSE(gonio::io::looks_like_speos_brdf("OPTIS - Polarizer surface file v9.0\n"));
 }
 
 TEST_CASE("Speos: what is no such file is refused") {
@@ -114,8 +186,8 @@ TEST_CASE("Speos: what is no such file is refused") {
 TEST_CASE("Speos: any text is read or refused") {
   CHECK(rc::check([] {
     const auto text = *rc::gen::container<std::string>(rc::gen::elementOf(std::string("0123456789.-e \n#")));
-    std::string all = small;
-    all.resize(*rc::gen::inRange<std::size_t>(rows.size(), small.size()));
+    std::string all = *rc::gen::element(small, anisotropic);
+    all.resize(*rc::gen::inRange<std::size_t>(rows.size(), all.size()));
     try {
       for (const gonio::sample& s : read_speos_brdf(all + text, "x").in_three_channels())
         RC_ASSERT(s.value.isFinite().all());

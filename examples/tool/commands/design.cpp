@@ -239,7 +239,7 @@ void run(design_command command, const team& processes) {
     if (processes.writes()) run_given(command);
     return;
   }
-  if (!command.reading.empty()) gonio::refuse("--quantity, --columns and --theta-o-sign need --given");
+  if (!command.reading.empty()) gonio::refuse("--quantity, --columns, --theta-o-sign, --side and --band need --given");
   if (command.until) gonio::refuse("--until needs --given");
   if (command.noise && command.design.criterion == "condition")
     gonio::refuse("--noise needs --criterion expected-error or perceived: a condition number does not depend on noise");

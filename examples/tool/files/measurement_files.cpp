@@ -130,6 +130,13 @@ void add_measurement_options(command& to, measurement_options& options) {
   to.add_option("--rotation", options.rotation,
                 "Degrees: take the samples whose light has this azimuth, one rotation of an anisotropic sample")
       .check(check::range(0.0, 360.0));
+  to.add_option("--side", options.side,
+                "Whose reflection is read of a Klems matrix or a tensor tree: front or back; the back by itself where "
+                "there is no front")
+      .check(check::one_of(std::vector<std::string>{"front", "back"}));
+  to.add_option("--band", options.band,
+                "The wavelengths that are read of a Klems matrix or a tensor tree, as the file calls them: Visible, "
+                "Solar");
 }
 
 void add_aperture_options(command& to, aperture_option& given) {
@@ -151,15 +158,38 @@ bool holds_measurements(const std::filesystem::path& path) {
 
 void require_unused(const measurement_options& options, const std::filesystem::path& path) {
   if (!options.empty())
-    gonio::refuse({path.native(), ": --quantity, --columns and --theta-o-sign need a file of samples"});
+    gonio::refuse({path.native(), ": --quantity, --columns, --theta-o-sign, --side and --band need a file of samples"});
 }
+
+namespace {
+
+void require_no_block(const measurement_options& options, const std::filesystem::path& path, std::string_view kind) {
+  if (!options.side.empty() || !options.band.empty())
+    gonio::refuse(
+        {path.native(), ": is ", kind, ", and --side and --band choose from Klems matrices and tensor trees"});
+}
+
+gonio::sample_set read_kind(const measurement_kind& kind, const std::filesystem::path& path,
+                            const measurement_options& options) {
+  if (kind.read_block == nullptr) {
+    require_no_block(options, path, kind.name);
+    return kind.read(path);
+  }
+  using side = gonio::io::window_block::side;
+  gonio::io::window_block wanted;
+  if (!options.side.empty()) wanted.of = options.side == "back" ? side::back : side::front;
+  if (!options.band.empty()) wanted.wavelength = options.band;
+  return kind.read_block(path, wanted);
+}
+
+}  // namespace
 
 gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, const measurement_options& options) {
   gonio::io::sample_file file;
   if (const measurement_kind* kind = measurement_kind_of(path)) {
     if (!options.columns.empty())
       gonio::refuse({path.native(), ": is no .csv file, whose columns --columns could name, but ", kind->name});
-    file.samples = kind->read(path);
+    file.samples = read_kind(*kind, path, options);
     if (!options.quantity.empty()) {
       file.quantity = gonio::io::quantity_named(options.quantity);
       file.samples = of_quantity(file.samples, *file.quantity);
@@ -167,6 +197,7 @@ gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, 
     file.sign = options.sign;
     if (file.sign == gonio::io::theta_o_sign::mirror) file.samples = gonio::with_viewers_turned(file.samples);
   } else {
+    require_no_block(options, path, "samples as CSV");
     file = gonio::io::read_sample_file(path, reading_of(options));
   }
   if (options.light) {

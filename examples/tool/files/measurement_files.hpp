@@ -29,13 +29,17 @@ struct measurement_options {
   std::optional<gonio::io::theta_o_sign> sign = {};
   std::optional<gonio::illuminant> light = {};  ///< under which wavelengths are seen; none: D65
   std::optional<double> rotation = {};          ///< degrees: of the sample, whose other rotations are left out
+  std::string side, band;                       ///< of files with several blocks; empty if not chosen
   bool takes_anisotropic = false;               ///< whether or not rotations differ
   aperture_option aperture = {};                ///< of all samples of a file that has none
 
-  [[nodiscard]] bool empty() const noexcept { return quantity.empty() && columns.empty() && !sign; }
+  [[nodiscard]] bool empty() const noexcept {
+    return quantity.empty() && columns.empty() && !sign && side.empty() && band.empty();
+  }
 };
 
-/// Adds `--quantity`, `--columns`, `--theta-o-sign` and `--rotation`, for every subcommand that reads measurements.
+/// Adds `--quantity`, `--columns`, `--theta-o-sign`, `--rotation`, `--side` and `--band`, for every subcommand that
+/// reads measurements.
 void add_measurement_options(command& to, measurement_options& options);
 
 /// Adds `--source-half-angle` and `--receiver-half-angle`, in degrees.

@@ -1,6 +1,7 @@
 #pragma once
 /// The kinds of files that hold samples, and what each is recognised by.
 
+#include <gonio/io/measurements/klems_xml.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <filesystem>
@@ -11,9 +12,11 @@ namespace cli {
 /// A kind of file of samples other than CSV.
 struct measurement_kind {
   std::string_view name;
-  /// By the name's extension, in lower case, and the first 4096 bytes.
+  /// By the name's extension, in lower case, and the first 65,536 bytes.
   bool (*recognises)(std::string_view extension, std::string_view start);
   gonio::sample_set (*read)(const std::filesystem::path& path);
+  /// Of files that have several blocks, each of a side and a band of wavelengths.
+  gonio::sample_set (*read_block)(const std::filesystem::path& path, const gonio::io::window_block& wanted) = nullptr;
 };
 
 /// Of which kind a file is; null where none recognises it: samples as CSV, or something else. Throws gonio::error if

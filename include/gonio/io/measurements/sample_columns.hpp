@@ -13,8 +13,8 @@
 
 namespace gonio::io::detail {
 
-// The columns, grouped; the numbers below index this list. The last holds text.
-inline constexpr std::array<std::string_view, 25> sample_columns{"theta_h",
+// The columns, grouped; the numbers below index this list. `quantity` holds text.
+inline constexpr std::array<std::string_view, 28> sample_columns{"theta_h",
                                                                  "theta_d",
                                                                  "phi_d",
                                                                  "theta_i",
@@ -38,7 +38,10 @@ inline constexpr std::array<std::string_view, 25> sample_columns{"theta_h",
                                                                  "wavelength",
                                                                  "source_half_angle",
                                                                  "receiver_half_angle",
-                                                                 "quantity"};
+                                                                 "quantity",
+                                                                 "X",
+                                                                 "Y",
+                                                                 "Z"};
 
 struct column_group {
   std::size_t first = 0;
@@ -55,6 +58,12 @@ inline constexpr column_group channel_weight_group{17, 3};
 inline constexpr column_group grey_group{20, 1};
 inline constexpr std::size_t wavelength_column = 21, quantity_column = 24;
 inline constexpr column_group half_angle_group{22, 2};
+inline constexpr column_group tristimulus_group{25, 3};
+
+/// Does the column hold an angle in degrees?
+[[nodiscard]] constexpr bool is_angle(std::size_t column) noexcept {
+  return column < vector_group.first || half_angle_group.has(column);
+}
 
 /// A name in the header line as it is written, and without the unit behind it: "Theta In [deg]" is theta_i, degrees.
 struct written_column {
@@ -84,6 +93,9 @@ struct known_name {
 
 /// Is it a line of units, as some programs write below the header line: no number, and a unit at least?
 [[nodiscard]] bool are_units(std::span<const std::string_view> fields);
+
+/// An angle without a degree sign, or the word, behind it.
+[[nodiscard]] std::string_view without_degree_sign(std::string_view field);
 
 /// The unit in a field of such a line, in small letters and without brackets.
 [[nodiscard]] std::string unit_of(std::string_view field);

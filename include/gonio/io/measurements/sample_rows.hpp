@@ -1,8 +1,9 @@
 #pragma once
-/// The lines of a file of samples or directions as numbers, each where it stands. io/measurements/samples.hpp makes
-/// directions and values of them.
+/// The lines of a file of samples or directions as numbers, each where it stands, or the cells of a matrix.
+/// io/measurements/samples.hpp makes directions and values of them.
 
 #include <gonio/io/measurements/sample_header.hpp>
+#include <gonio/io/measurements/sample_layout.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
 #include <gonio/io/text/csv_reader.hpp>
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +21,7 @@ namespace gonio::io::detail {
 /// By the numbers of the columns, those of wavelengths behind the ignored ones.
 using sample_row = std::vector<double>;
 
-/// A line of numbers, in its place.
+/// A line of numbers, or a cell of a matrix and its angles, in its place.
 struct parsed_row {
   const sample_row& numbers;
   const column_group& group;  ///< how directions are given
@@ -38,13 +40,15 @@ class sample_rows {
  public:
   sample_rows(std::string_view text, const std::string& name, bool needs_value, const sample_reading& reading);
 
-  /// Turns to the next line of numbers. At the end of the file it is false, or an error if there was none. Where values
-  /// are needed, lines that have none ("n/a", "OVER") are left out.
+  /// Turns to the next line of numbers, or cell of a matrix. At the end of the file it is false, or an error if there
+  /// was none. Where values are needed, lines that have none ("n/a", "OVER") are left out, and such cells always.
   [[nodiscard]] bool next();
 
   /// How many lines had no value, and what the first of them had: "no value (line 92: 'OVER')".
   [[nodiscard]] std::size_t rows_without_value() const noexcept { return missing_; }
   [[nodiscard]] const std::string& first_without_value() const noexcept { return first_missing_; }
+  /// "row", or "cells" of a matrix.
+  [[nodiscard]] std::string_view rows_are_called(std::size_t count) const noexcept;
   /// Refuses a file more than half of whose lines have no value.
   void require_values() const;
 
@@ -64,7 +68,12 @@ class sample_rows {
 
  private:
   void read_comment(std::string_view comment);
+  [[nodiscard]] column_finder columns_named() const;
+  void find_header();
   void read_header();
+  void read_stated_angle(std::string_view line);
+  [[nodiscard]] bool next_row();
+  [[nodiscard]] bool is_of_row(std::size_t field) const noexcept;
   void read_fields();
   [[nodiscard]] bool has_value();
   void read_number_of(std::size_t column, std::string_view field, std::size_t& percent_signs);
@@ -78,6 +87,7 @@ class sample_rows {
   void look_at_sides();
   void finish() const;
   void note_assumptions() const;
+  void note_layout() const;
 
   csv_reader csv_;
   bool needs_value_;
@@ -88,6 +98,8 @@ class sample_rows {
   std::optional<double> wavelength_;
   std::optional<theta_o_sign> sign_;
   sample_row numbers_ = sample_row(sample_columns.size());
+  std::vector<stated_angle> stated_angles_;
+  std::size_t cell_ = 0;  ///< the field of a matrix's line that the row is
   std::size_t rows_ = 0, missing_ = 0;
   std::string first_missing_, missing_message_;
   bool has_percent_signs_ = false, has_signed_angle_ = false;

@@ -36,11 +36,11 @@ class csv_reader {
   [[nodiscard]] bool next_if(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
 
   /// Looks for the header line among the first 1,000: the first whose fields are one by `is_it`. Of a file that has
-  /// one, the lines above it are passed over, but for comments.
-  void find_header(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
+  /// one, the lines above it are passed over, but for comments. False if there is none.
+  bool find_header(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
 
-  /// How many lines above the header line were passed over.
-  [[nodiscard]] std::size_t passed_over() const noexcept { return passed_over_; }
+  /// The lines above the header line that were passed over.
+  [[nodiscard]] const std::vector<std::string_view>& passed_over() const noexcept { return passed_over_; }
 
   /// Of the line, trimmed and without quotes.
   [[nodiscard]] const std::vector<std::string_view>& fields() const noexcept { return fields_; }
@@ -70,7 +70,7 @@ class csv_reader {
   char separator_ = '\0';        ///< that the first line names
   std::size_t columns_ = 0;      ///< of the header line; 0 above it
   std::size_t header_line_ = 0;  ///< 0 if it is the first that is no comment
-  std::size_t passed_over_ = 0;
+  std::vector<std::string_view> passed_over_;
 };
 
 }  // namespace gonio::io

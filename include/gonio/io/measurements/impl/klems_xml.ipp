@@ -8,12 +8,14 @@
 #include <gonio/io/measurements/klems_xml.hpp>
 #include <gonio/io/measurements/sample_collector.hpp>
 #include <gonio/io/text/text.hpp>
+#include <gonio/io/text/xml_element.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -21,82 +23,6 @@
 #include <vector>
 
 namespace gonio::io::detail {
-
-/// What stands in an element of XML, and where. Elements of these files have no others of the same name in them, but
-/// the matrices' bases, which are read through their own elements.
-class xml_element {
- public:
-  /// Of the whole file.
-  xml_element(std::string_view file, const std::string& name) : file_(file), content_(file), name_(name) {}
-
-  /// The elements of this name in it, in their order.
-  [[nodiscard]] std::vector<xml_element> all(std::string_view name) const;
-  /// The first of these. Refused if there is none.
-  [[nodiscard]] xml_element first(std::string_view name) const;
-  /// The trimmed text of the first of these; empty if there is none.
-  [[nodiscard]] std::string_view text(std::string_view name) const;
-  /// What is between its tags.
-  [[nodiscard]] std::string_view content() const noexcept { return content_; }
-  /// Where a part of the file is.
-  [[nodiscard]] text_place place(std::string_view part) const {
-    return {name_, 1 + static_cast<std::size_t>(std::count(file_.data(), part.data(), '\n'))};
-  }
-
- private:
-  xml_element(const xml_element& in, std::string_view content) : file_(in.file_), content_(content), name_(in.name_) {}
-  [[nodiscard]] std::string_view next(std::string_view& rest, std::string_view name) const;
-
-  std::string_view file_, content_;
-  std::string name_;
-};
-
-/// Takes the next element off the front of a text. A null view at the end.
-GONIO_INLINE std::string_view xml_element::next(std::string_view& rest, std::string_view name) const {
-  constexpr std::string_view ends_of_name = " \t\r\n/>";
-  const std::string close = message_of({"</", name, ">"});
-  for (std::size_t open = rest.find('<'); open != std::string_view::npos; open = rest.find('<')) {
-    rest.remove_prefix(open);
-    if (rest.starts_with("<!--")) {
-      rest.remove_prefix(std::min(rest.find("-->"), rest.size()));
-      continue;
-    }
-    rest.remove_prefix(1);
-    const std::string_view after = rest.substr(std::min(name.size(), rest.size()));
-    if (!rest.starts_with(name) || after.empty() || ends_of_name.find(after.front()) == std::string_view::npos)
-      continue;
-    const std::size_t tag = rest.find('>');
-    if (tag == std::string_view::npos) place(rest).refuse({"the tag <", name, "> is not closed"});
-    if (rest[tag - 1] == '/') return rest.substr(tag, 0);
-    const std::string_view content = rest.substr(tag + 1);
-    const std::size_t end = content.find(close);
-    if (end == std::string_view::npos) place(rest).refuse({"the element <", name, "> does not end, expected ", close});
-    rest = content.substr(end);
-    return content.substr(0, end);
-  }
-  return {};
-}
-
-GONIO_INLINE std::vector<xml_element> xml_element::all(std::string_view name) const {
-  std::vector<xml_element> found;
-  std::string_view rest = content_;
-  for (std::string_view each = next(rest, name); each.data() != nullptr; each = next(rest, name))
-    found.push_back(xml_element(*this, each));
-  return found;
-}
-
-GONIO_INLINE xml_element xml_element::first(std::string_view name) const {
-  std::string_view rest = content_;
-  const std::string_view found = next(rest, name);
-  if (found.data() == nullptr) place(content_).refuse({"there is no element <", name, "> here"});
-  return {*this, found};
-}
-
-GONIO_INLINE std::string_view xml_element::text(std::string_view name) const {
-  std::string_view rest = content_;
-  std::string_view found = next(rest, name);
-  while (!found.empty() && found.front() == '\n') found.remove_prefix(1);
-  return trimmed(found.substr(0, found.find('\n')));
-}
 
 // ---- bases ---------------------------------------------------------------------------------------------------------
 
@@ -156,7 +82,7 @@ inline constexpr std::size_t most_patches = 4096;
       data.place(word).refuse({"<ScatteringData>: ", in_quotes(word), wrong});
     if (numbers.size() == count)
       data.place(word).refuse({"<ScatteringData> goes on behind ", count, " numbers, which the patches ask for"});
-    require_float_range(number, data.place(word));
+    if (std::abs(number) > double{std::numeric_limits<float>::max()}) require_float_range(number, data.place(word));
     numbers.push_back(number);
     rest.remove_prefix(word.size());
   }
@@ -166,20 +92,22 @@ inline constexpr std::size_t most_patches = 4096;
   return numbers;
 }
 
-/// The matrix of reflection: of the front, or of the back.
-[[nodiscard]] GONIO_INLINE xml_element reflection_of(const xml_element& file, const std::string& name) {
+GONIO_INLINE xml_element reflection_of(const xml_element& file, const std::string& name, const window_block& wanted) {
+  std::vector<std::string_view> directions;
+  if (wanted.of != window_block::side::back) directions.push_back("Reflection Front");
+  if (wanted.of != window_block::side::front) directions.push_back("Reflection Back");
   std::string found;
-  for (const std::string_view wanted : {"Reflection Front", "Reflection Back"})
+  for (const std::string_view direction : directions)
     for (const xml_element& data : file.all("WavelengthData")) {
       const std::string_view wavelength = data.text("Wavelength");
       for (const xml_element& block : data.all("WavelengthDataBlock")) {
-        const std::string_view direction = block.text("WavelengthDataDirection");
-        if (direction == wanted && wavelength == "Visible") return block;
-        if (wanted == "Reflection Front" && found.size() < 200)
-          found += message_of({found.empty() ? "" : ", ", in_quotes(direction), " of ", in_quotes(wavelength)});
+        const std::string_view of_block = block.text("WavelengthDataDirection");
+        if (of_block == direction && lower_case(wavelength) == lower_case(wanted.wavelength)) return block;
+        if (direction == directions.front() && found.size() < 200)
+          found += message_of({found.empty() ? "" : ", ", in_quotes(of_block), " of ", in_quotes(wavelength)});
       }
     }
-  gonio::refuse({name, ": has no 'Reflection Front' or 'Reflection Back' of 'Visible', but ",
+  gonio::refuse({name, ": has no '", listed(directions, "' or '"), "' of ", in_quotes(wanted.wavelength), ", but ",
                  found.empty() ? "no matrix" : found});
 }
 
@@ -196,13 +124,13 @@ GONIO_INLINE bool looks_like_klems_xml(std::string_view text) {
   return text.find("<WindowElement") != std::string_view::npos;
 }
 
-GONIO_INLINE sample_set read_klems_xml(std::string_view text, const std::string& name) {
+GONIO_INLINE sample_set read_klems_xml(std::string_view text, const std::string& name, const window_block& wanted) {
   const detail::xml_element file(text, name), definition = file.first("DataDefinition");
   const std::string_view structure = definition.text("IncidentDataStructure");
   if (structure != "Columns" && structure != "Rows")
     definition.place(definition.content())
         .refuse({"<IncidentDataStructure> ", in_quotes(structure), " is not read, expected Columns or Rows"});
-  const detail::xml_element block = detail::reflection_of(file, name), data = block.first("ScatteringData");
+  const detail::xml_element block = detail::reflection_of(file, name, wanted), data = block.first("ScatteringData");
   const text_place place = block.place(block.content());
   const auto columns = detail::basis_named(definition, block.text("ColumnAngleBasis"), place);
   const auto rows = detail::basis_named(definition, block.text("RowAngleBasis"), place);
@@ -219,9 +147,9 @@ GONIO_INLINE sample_set read_klems_xml(std::string_view text, const std::string&
   return std::move(collector).samples(name);
 }
 
-GONIO_INLINE sample_set read_klems_xml(const std::filesystem::path& path) {
+GONIO_INLINE sample_set read_klems_xml(const std::filesystem::path& path, const window_block& wanted) {
   const std::vector<std::byte> bytes = read_bytes(path);
-  return read_klems_xml(as_text(bytes), path.string());
+  return read_klems_xml(as_text(bytes), path.string(), wanted);
 }
 
 }  // namespace gonio::io

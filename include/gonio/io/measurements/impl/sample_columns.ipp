@@ -68,7 +68,10 @@ inline constexpr std::array known_names{
     known_name{"percent", 20, sample_quantity::percent}, known_name{"prozent", 20, sample_quantity::percent},
     known_name{"wavelength", 21}, known_name{"lambda", 21}, known_name{"wellenlange", 21},
     known_name{"wellenlaenge", 21}, known_name{"longueurdonde", 21}, known_name{"sourcehalfangle", 22},
-    known_name{"receiverhalfangle", 23}, known_name{"quantity", quantity_column}};
+    known_name{"receiverhalfangle", 23}, known_name{"quantity", quantity_column},
+    // CIE tristimulus values
+    known_name{"x", 25}, known_name{"y", 26}, known_name{"z", 27}, known_name{"ciex", 25}, known_name{"ciey", 26},
+    known_name{"ciez", 27}};
 
 struct letter {
   std::string_view written, plain;
@@ -147,9 +150,8 @@ static_assert(latin_letters.size() == 64);
 
 [[gnu::cold]] GONIO_INLINE bool fits(column_unit unit, std::size_t column) {
   if (unit == column_unit::none) return true;
-  if (column < vector_group.first || half_angle_group.has(column))
-    return unit == column_unit::degrees || unit == column_unit::radians;
-  if (colour_group.has(column) || grey_group.has(column))
+  if (is_angle(column)) return unit == column_unit::degrees || unit == column_unit::radians;
+  if (colour_group.has(column) || grey_group.has(column) || tristimulus_group.has(column))
     return unit == column_unit::percent || unit == column_unit::per_steradian;
   return column == wavelength_column && unit == column_unit::nanometres;
 }
@@ -179,6 +181,12 @@ static_assert(latin_letters.size() == 64);
   }
   std::string lower = lower_case(trimmed(name));
   return {std::move(text), std::move(lower), std::move(unit)};
+}
+
+[[gnu::cold]] GONIO_INLINE std::string_view without_degree_sign(std::string_view field) {
+  for (const std::string_view sign : {"\xC2\xB0", "\xC2\xBA", "\xB0", "\xBA", "deg"})
+    if (field.ends_with(sign)) return trimmed(field.substr(0, field.size() - sign.size()));
+  return field;
 }
 
 [[gnu::cold]] GONIO_INLINE std::string unit_of(std::string_view field) {

@@ -6,6 +6,7 @@
 #include <gonio/core/spelling.hpp>
 #include <gonio/io/measurements/sample_columns.hpp>
 #include <gonio/io/measurements/sample_header.hpp>
+#include <gonio/io/measurements/sample_layout.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
 #include <gonio/io/text/csv_dialect.hpp>
 #include <gonio/io/text/csv_reader.hpp>
@@ -68,22 +69,35 @@ inline constexpr std::size_t longest_name = 40;
 
 // ---- the header line -----------------------------------------------------------------------------------------------
 
+[[gnu::cold]] GONIO_INLINE std::size_t find_column(std::string_view name, const sample_reading& reading) {
+  const written_column column = written(name);
+  if (const column_name* renamed = find_renamed(column, reading.columns)) return column_named(renamed->column);
+  const known_name* known = find_known(column.name);
+  return known != nullptr ? known->column : sample_header::ignored;
+}
+
 [[gnu::cold]] GONIO_INLINE bool name_directions(std::span<const std::string_view> fields,
                                                 const sample_reading& reading) {
   std::size_t count = 0;
-  for (const std::string_view field : fields) {
-    const written_column name = written(field);
-    const column_name* renamed = find_renamed(name, reading.columns);
-    const known_name* known = find_known(name.name);
-    const std::size_t column = renamed != nullptr ? column_named(renamed->column)
-                               : known != nullptr ? known->column
-                                                  : sample_header::ignored;
-    if (column < colour_group.first) ++count;
-  }
+  for (const std::string_view field : fields)
+    if (find_column(field, reading) < colour_group.first) ++count;
   return count >= 2;
 }
 
-[[gnu::cold]] GONIO_INLINE void sample_header::read(csv_reader& file, const sample_reading& reading, bool needs_value) {
+[[gnu::cold]] GONIO_INLINE bool name_angle_and_values(std::span<const std::string_view> fields,
+                                                      const sample_reading& reading) {
+  bool has_angle = false, has_value = false;
+  for (const std::string_view field : fields) {
+    const std::size_t column = find_column(field, reading);
+    has_angle |= angle_group.has(column);
+    has_value |= grey_group.has(column) || colour_group.has(column) || tristimulus_group.has(column) ||
+                 wavelength_named(written(field)) != 0.0;
+  }
+  return has_angle && has_value;
+}
+
+[[gnu::cold]] GONIO_INLINE void sample_header::read(csv_reader& file, const sample_reading& reading, bool needs_value,
+                                                    std::span<const stated_angle> stated) {
   dialect_ = file.dialect();
   const text_place place = file.place();
   double number = 0.0;
@@ -99,14 +113,45 @@ inline constexpr std::size_t longest_name = 40;
                     " could be, expected theta_i, value or another one of theirs"});
   std::vector<written_column> names;
   for (const std::string_view field : file.fields()) names.push_back(written(field));
+  matrix_ = matrix_of(file.fields(), [&](std::string_view name) { return find_column(name, reading); });
   if (file.next_if(are_units))
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i].unit.empty()) names[i].unit = unit_of(file.fields()[i]);
+  if (matrix_) return read_matrix(names, place);
   for (const written_column& each : names) add(each, reading, place);
+  ignore_tristimulus(names);
   require_named(reading, place);
+  find_stated(stated);
   find_directions(place);
   find_values(needs_value, place);
   find_weights(place);
+}
+
+/// The angle down, then values.
+[[gnu::cold]] GONIO_INLINE void sample_header::read_matrix(const std::vector<written_column>& names,
+                                                           const text_place& place) {
+  columns_.assign(names.size(), grey_group.first);
+  columns_.front() = matrix_->down;
+  directions_ = angle_group;
+  values_ = grey_group;
+  is_in_plane_ = true;
+  for (std::size_t i = 1; i < names.size(); ++i)
+    if (unit_named(names[i].unit) == column_unit::percent)
+      return quantity_.state_percent_signs("the line of units", place);
+}
+
+/// Angles that have no column. Azimuths count beside the column of the other one: a file without both is in one plane.
+[[gnu::cold]] GONIO_INLINE void sample_header::find_stated(std::span<const stated_angle> stated) {
+  if (!has_any(angle_group)) return;
+  const auto take = [&](std::size_t column) {
+    const auto found = std::ranges::find(stated, column, &stated_angle::column);
+    if (!has(column) && found != stated.end()) stated_.push_back(*found);
+  };
+  const std::size_t theta_i = angle_group.first, phi_i = theta_i + 1, theta_o = theta_i + 2, phi_o = theta_i + 3;
+  for (const std::size_t polar : {theta_i, theta_o}) take(polar);
+  if (!relative_azimuth_.empty()) return;
+  if (has(phi_o)) take(phi_i);
+  if (has(phi_i)) take(phi_o);
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_header::add(const written_column& written, const sample_reading& reading,
@@ -134,6 +179,9 @@ inline constexpr std::size_t longest_name = 40;
   const column_unit unit = unit_named(written.unit);
   if (!fits(unit, column)) return false;
   if (known.is_relative && has(column)) return false;  // phi_o says it
+  // In small letters these are chromaticities, or places.
+  if (tristimulus_group.has(column) && (has(column) || written.text.front() < 'A' || written.text.front() > 'Z'))
+    return false;
   const std::string text = in_quotes(written.text);
   const std::string_view name = sample_columns[column];
   const bool is_synonym = written.text != name;
@@ -191,7 +239,7 @@ inline constexpr std::size_t longest_name = 40;
                   "them"});
   if (!is_in_plane_ && relative_azimuth_.empty()) return require(directions_, place);
   for (const std::size_t polar : {std::size_t{3}, std::size_t{5}})
-    if (!has(polar)) refuse_missing(polar, place);
+    if (!knows(polar)) refuse_missing(polar, place);
   if (!is_in_plane_) return;
   // An azimuth that is misspelt is not one that is absent.
   for (const written_column& each : extra_)
@@ -203,21 +251,35 @@ inline constexpr std::size_t longest_name = 40;
 
 [[gnu::cold]] GONIO_INLINE void sample_header::find_values(bool needs_value, const text_place& place) {
   take_r_for_value(place);
+  const bool is_tristimulus = has_any(tristimulus_group);
   const bool is_grey = has_any(grey_group), is_colour = has_any(colour_group), is_spectral = !wavelengths_.empty();
   if (int{is_grey} + int{is_colour} + int{is_spectral} > 1)
     place.refuse({"reflectance is given in two ways, expected r,g,b or value",
                   is_spectral ? " or columns of wavelengths, as " : "", is_spectral ? name_of(ignored + 1) : ""});
   if (is_grey) values_ = grey_group;
   if (is_spectral) values_ = {ignored + 1, wavelengths_.size()};
-  if (!is_grey && !is_spectral && (is_colour || needs_value)) {
+  if (is_tristimulus) values_ = tristimulus_group;
+  if (!is_grey && !is_spectral && !is_tristimulus && (is_colour || needs_value)) {
     require(colour_group, place);
     values_ = colour_group;
   }
   has_wavelength_ = has(wavelength_column);
-  if (has_wavelength_ && values_.first == colour_group.first && values_.count > 0)
-    place.refuse("r,g,b have no wavelength, expected value");
+  if (has_wavelength_ && values_.count == 3 && !is_spectral)
+    place.refuse({is_tristimulus ? "X,Y,Z" : "r,g,b", " have no wavelength, expected value"});
   if (has_wavelength_ && is_spectral)
     place.refuse({"the column wavelength stands beside ", name_of(ignored + 1), ", expected one of them"});
+}
+
+/// X, Y and Z are tristimulus values where all three are there, and no other values.
+[[gnu::cold]] GONIO_INLINE void sample_header::ignore_tristimulus(const std::vector<written_column>& names) {
+  bool are_values = !has_any(grey_group) && !has_any(colour_group) && wavelengths_.empty();
+  for (std::size_t k = 0; k < tristimulus_group.count; ++k) are_values &= has(tristimulus_group.first + k);
+  if (are_values) return;
+  extra_.clear();
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (tristimulus_group.has(columns_[i])) columns_[i] = ignored;
+    if (columns_[i] == ignored) extra_.push_back(names[i]);
+  }
 }
 
 /// A column R without G and B is no red: with percent signs it is a reflectance factor.
@@ -249,7 +311,12 @@ inline constexpr std::size_t longest_name = 40;
 
 [[gnu::cold]] GONIO_INLINE void sample_header::require(const column_group& group, const text_place& place) const {
   for (std::size_t column = group.first; column < group.first + group.count; ++column)
-    if (!has(column)) refuse_missing(column, place);
+    if (!knows(column)) refuse_missing(column, place);
+}
+
+/// Has it a column, or is it stated for all samples?
+[[gnu::cold]] GONIO_INLINE bool sample_header::knows(std::size_t column) const {
+  return has(column) || std::ranges::find(stated_, column, &stated_angle::column) != stated_.end();
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_header::refuse_missing(std::size_t column, const text_place& place) const {

@@ -6,6 +6,7 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/io/measurements/sample_header.hpp>
+#include <gonio/io/measurements/sample_layout.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
 #include <gonio/io/measurements/sample_rows.hpp>
@@ -17,6 +18,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,15 +33,9 @@ namespace gonio::io::detail {
 }
 
 GONIO_INLINE bool sample_rows::next() {
-  const auto comment = [this](std::string_view text) { read_comment(text); };
-  if (header_.columns().empty()) {
-    csv_.find_header([this](const auto& fields) { return name_directions(fields, reading_); });
-    if (!csv_.next(comment))
-      gonio::refuse({csv_.place().name, ": is empty, expected a header line that names the columns"});
-    read_header();
-  }
-  while (csv_.next(comment)) {
-    if (needs_value_ && !has_value()) continue;
+  if (header_.columns().empty()) read_header();
+  while (next_row()) {
+    if ((needs_value_ || header_.matrix()) && !has_value()) continue;
     read_fields();
     ++rows_;
     return true;
@@ -48,9 +44,25 @@ GONIO_INLINE bool sample_rows::next() {
   return false;
 }
 
+/// Turns to the next line, or to the next cell of a matrix's line.
+GONIO_INLINE bool sample_rows::next_row() {
+  if (header_.matrix() && cell_ + 1 < header_.columns().size()) {
+    ++cell_;
+    return true;
+  }
+  cell_ = 1;
+  return csv_.next([this](std::string_view text) { read_comment(text); });
+}
+
+/// Is a field of the line one of the row's? Of a matrix these are the first and one other.
+GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
+  return !header_.matrix() || field == 0 || field == cell_;
+}
+
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_comment(std::string_view comment) {
   const comment_entry entry = entry_of(comment);
   keep(provenance_, entry);
+  if (header_.columns().empty()) read_stated_angle(comment);
   if (entry.key == "theta-o-sign") return read_sign(entry.value);
   if (entry.key == "source-half-angle") return read_half_angle(half_angle_group.first, entry);
   if (entry.key == "receiver-half-angle") return read_half_angle(half_angle_group.first + 1, entry);
@@ -79,8 +91,28 @@ GONIO_INLINE bool sample_rows::next() {
     csv_.place().refuse({entry.key, ": ", in_quotes(entry.value), wrong, ", expected degrees"});
 }
 
+[[gnu::cold]] GONIO_INLINE void sample_rows::read_stated_angle(std::string_view line) {
+  if (const auto found = stated_angle_of(line, columns_named())) stated_angles_.push_back(*found);
+}
+
+[[gnu::cold]] GONIO_INLINE column_finder sample_rows::columns_named() const {
+  return [this](std::string_view name) { return find_column(name, reading_); };
+}
+
+/// Among the lines of a preamble.
+[[gnu::cold]] GONIO_INLINE void sample_rows::find_header() {
+  if (csv_.find_header([this](const auto& fields) { return name_directions(fields, reading_); })) return;
+  if (csv_.find_header([this](const auto& fields) { return name_angle_and_values(fields, reading_); })) return;
+  csv_.find_header([this](const auto& fields) { return matrix_of(fields, columns_named()).has_value(); });
+}
+
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_header() {
-  header_.read(csv_, reading_, needs_value_);
+  find_header();
+  if (!csv_.next([this](std::string_view text) { read_comment(text); }))
+    gonio::refuse({csv_.place().name, ": is empty, expected a header line that names the columns"});
+  for (const std::string_view line : csv_.passed_over()) read_stated_angle(line);
+  header_.read(csv_, reading_, needs_value_, stated_angles_);
+  cell_ = header_.columns().size();
   quantity_.state(header_.quantity(), csv_.place());
   numbers_.resize(sample_columns.size() + 1 + header_.wavelengths().size());
   if (header_.wavelengths().size() == 1) wavelength_ = header_.wavelengths().front();
@@ -92,11 +124,14 @@ GONIO_INLINE void sample_rows::read_fields() {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::size_t column = columns[i];
     const std::string_view field = csv_.fields()[i];
-    if (column < quantity_column || column > sample_header::ignored)
-      read_number_of(column, field, percent_signs);
-    else if (column == quantity_column)
+    if (column == sample_header::ignored || !is_of_row(i)) continue;
+    if (column == quantity_column)
       read_quantity(field);
+    else
+      read_number_of(column, field, percent_signs);
   }
+  if (const auto& matrix = header_.matrix()) numbers_[matrix->across] = matrix->angles[cell_ - 1];
+  for (const stated_angle& stated : header_.stated()) numbers_[stated.column] = stated.degrees;
   for (const std::size_t column : header_.columns_in_radians()) numbers_[column] = degrees(numbers_[column]);
   check_percent_signs(percent_signs);
   check_weights();
@@ -120,7 +155,7 @@ GONIO_INLINE bool sample_rows::has_value() {
   const std::vector<std::size_t>& columns = header_.columns();
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::string_view field = csv_.fields()[i];
-    if (!field.empty() && field.back() >= '0' && field.back() <= '9') continue;
+    if (!is_of_row(i) || (!field.empty() && field.back() >= '0' && field.back() <= '9')) continue;
     if (columns[i] == quantity_column || columns[i] == sample_header::ignored || !is_no_value(field)) continue;
     if (++missing_ > 1) return false;
     double number = 0.0;
@@ -133,19 +168,17 @@ GONIO_INLINE bool sample_rows::has_value() {
   return true;
 }
 
+GONIO_INLINE std::string_view sample_rows::rows_are_called(std::size_t count) const noexcept {
+  if (header_.matrix()) return count == 1 ? "cell" : "cells";
+  return count == 1 ? "row" : "rows";
+}
+
 GONIO_INLINE void sample_rows::require_values() const {
   const std::size_t all = missing_ + rows_;
   if (2 * missing_ > all)
-    gonio::refuse({csv_.place().name, ", ", missing_message_, "; ", missing_, " of ", all,
-                   all == 1 ? " row has" : " rows have", " no value, expected at most half; the file looks ",
+    gonio::refuse({csv_.place().name, ", ", missing_message_, "; ", missing_, " of ", all, " ", rows_are_called(all),
+                   all == 1 ? " has" : " have", " no value, expected at most half; the file looks ",
                    description(csv_.dialect())});
-}
-
-/// Angles may have a degree sign, or the word.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string_view without_degree_sign(std::string_view field) {
-  for (const std::string_view sign : {"\xC2\xB0", "\xC2\xBA", "\xB0", "\xBA", "deg"})
-    if (field.ends_with(sign)) return trimmed(field.substr(0, field.size() - sign.size()));
-  return field;
 }
 
 GONIO_INLINE void sample_rows::read_number_of(std::size_t column, std::string_view field, std::size_t& percent_signs) {
@@ -155,7 +188,7 @@ GONIO_INLINE void sample_rows::read_number_of(std::size_t column, std::string_vi
     wrong = csv_.read_number(trimmed(field.substr(0, field.size() - 1)), numbers_[column]);
     ++percent_signs;
   } else if (const std::string_view angle = without_degree_sign(field); angle.size() < field.size()) {
-    if (column < vector_group.first || half_angle_group.has(column)) wrong = csv_.read_number(angle, numbers_[column]);
+    if (is_angle(column)) wrong = csv_.read_number(angle, numbers_[column]);
   }
   if (wrong != nullptr) refuse_number(column, field, wrong);
 }
@@ -230,11 +263,12 @@ GONIO_INLINE void sample_rows::check_weights() const {
 /// What the file does not say, and what of it is not read.
 [[gnu::cold]] GONIO_INLINE void sample_rows::note_assumptions() const {
   const std::string& name = csv_.place().name;
-  if (const std::size_t lines = csv_.passed_over(); lines > 0)
+  if (const std::size_t lines = csv_.passed_over().size(); lines > 0)
     reading_.note(message_of({name, ": ", lines, lines == 1 ? " line" : " lines", " above the header line ",
                               lines == 1 ? "is" : "are", " not read"}));
   if (const std::string ignored = header_.note_of_ignored(); !ignored.empty())
     reading_.note(message_of({name, ": ", ignored}));
+  note_layout();
   if (assumes_side())
     reading_.note(
         message_of({name,
@@ -244,6 +278,18 @@ GONIO_INLINE void sample_rows::check_weights() const {
     reading_.note(message_of({name, ": ", in_quotes(relative),
                               " is read as phi_o - phi_i: 0 degrees on the light's side of the normal, 180 in the "
                               "mirror direction (--theta-o-sign mirror: the other way round)"}));
+}
+
+/// Angles that have no column, and what X, Y and Z are taken for.
+[[gnu::cold]] GONIO_INLINE void sample_rows::note_layout() const {
+  const std::string& name = csv_.place().name;
+  if (const auto& matrix = header_.matrix())
+    reading_.note(message_of({name, ": is read as a matrix, ", description(*matrix)}));
+  for (const stated_angle& stated : header_.stated())
+    reading_.note(message_of({name, ": ", sample_columns[stated.column], " is taken to be ", shortest(stated.degrees),
+                              " degrees, as a line above the header line says"}));
+  if (header_.values().first == tristimulus_group.first)
+    reading_.note(message_of({name, ": X, Y and Z are read as CIE tristimulus values under D65"}));
 }
 
 }  // namespace gonio::io::detail

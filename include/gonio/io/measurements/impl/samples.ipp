@@ -3,6 +3,8 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
+#include <gonio/core/rgb.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/measurements/sample_header.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
@@ -134,11 +136,15 @@ GONIO_INLINE void read_row_values(const parsed_row& row, const sample_directions
   require_quantity(row);
   const double factor = brdf_factor(row.quantity.value_or(sample_quantity::brdf), at.pair().wo);
   values.clear();
-  for (std::size_t column = row.values.first; column < row.values.first + row.values.count; ++column) {
+  for (std::size_t column = row.values.first; column < row.values.first + row.values.count; ++column)
     values.push_back(factor * row.numbers[column]);
-    if (std::abs(values.back()) > double{std::numeric_limits<float>::max()})
-      refuse_beyond_float(row, column, values.back());
+  if (row.values.first == tristimulus_group.first) {
+    const rgb colour = from_xyz({values[0], values[1], values[2]});
+    values.assign(colour.begin(), colour.end());
   }
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (!(std::abs(values[k]) <= double{std::numeric_limits<float>::max()}))
+      refuse_beyond_float(row, row.values.first + k, values[k]);
 }
 
 /// The channels of a file whose first row has been read.
@@ -165,10 +171,37 @@ GONIO_INLINE void note_left_out(const sample_rows& rows, std::size_t at_horizon,
   if (left_out == 0) return;
   std::string reasons = at_horizon > 0 ? "light or viewer is at 90 degrees" : "";
   if (rows.rows_without_value() > 0) reasons += message_of({reasons.empty() ? "" : "; ", rows.first_without_value()});
-  const std::string counts = message_of({name, ": ", left_out, " of ", left_out + kept,
-                                         left_out == 1 ? " rows is" : " rows are", " left out: ", reasons});
+  const std::string counts = message_of({name, ": ", left_out, " of ", left_out + kept, " ", rows.rows_are_called(2),
+                                         left_out == 1 ? " is" : " are", " left out: ", reasons});
   if (left_out > kept) gonio::refuse({counts, ", expected at most half"});
   if (reading.note) reading.note(counts);
+}
+
+/// The reading of a file of X, Y and Z that does not say what they are, by a first look at it: percent of a perfect
+/// diffuser's Y if half of the values Y are above 1.5, which no matt surface reaches, reflectance factors if none is
+/// above 1.
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE sample_reading with_assumed_scale(std::string_view text,
+                                                                           const std::string& name,
+                                                                           const sample_reading& reading) {
+  sample_reading with_scale = reading;
+  with_scale.note = {};
+  std::vector<double> all;
+  for (sample_rows rows(text, name, true, with_scale); rows.next();)
+    all.push_back(rows.row().numbers[tristimulus_group.first + 1]);
+  const double largest = *std::ranges::max_element(all), middle = median(all);
+  const bool are_percent = middle > 1.5;
+  if (!are_percent && largest > 1.0)
+    gonio::refuse({name, ": Y is up to ", shortest(largest), ", and ", shortest(middle),
+                   " in the median: is a perfect diffuser's Y 1 or 100? Expected --quantity reflectance-factor or "
+                   "percent, or a comment line '# quantity: percent'"});
+  if (reading.note)
+    reading.note(
+        message_of({name, ": a perfect diffuser is taken to have Y ", are_percent ? "100" : "1", ", as Y is up to ",
+                    shortest(largest), ", and ", shortest(middle), " in the median (--quantity ",
+                    are_percent ? "reflectance-factor: Y 1" : "percent: Y 100", ")"}));
+  with_scale.note = reading.note;
+  with_scale.quantity = are_percent ? sample_quantity::percent : sample_quantity::reflectance_factor;
+  return with_scale;
 }
 
 /// The names of the columns of values.
@@ -200,6 +233,8 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
       ++at_horizon;
       continue;
     }
+    if (row.values.first == detail::tristimulus_group.first && !row.quantity)
+      return read_sample_file(text, name, detail::with_assumed_scale(text, name, reading));
     if (file.samples.empty()) file.samples = sample_set(detail::channels_of(rows));
     if (row.weights.count > 1 && file.samples.channels().are_wavelengths())
       row.place.refuse("wavelengths have one weight, expected weight, not one for each channel");

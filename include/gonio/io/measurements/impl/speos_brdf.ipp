@@ -23,11 +23,19 @@
 
 namespace gonio::io::detail {
 
-inline constexpr std::string_view speos_header = "OPTIS - brdf surface file";
+inline constexpr std::string_view speos_header = "OPTIS - brdf surface file",
+                                  speos_anisotropic_header = "OPTIS - Anisotropic BSDF surface file";
 
 /// Of one wavelength: values in the order of `theta`, for each of these in that of `phi`, degrees.
 struct speos_table {
   std::vector<double> theta, phi, values;
+};
+
+/// The tables of one azimuth of the light about the file's anisotropy vector, for each of its angles of incidence.
+struct speos_turn {
+  double azimuth = 0.0;  ///< degrees
+  std::vector<double> incidences;
+  std::vector<speos_table> tables;
 };
 
 /// The rows above the numbers. Takes them off the front of the text; `place` is then the last of them.
@@ -41,7 +49,9 @@ GONIO_INLINE void read_speos_rows(std::string_view& text, text_place& place) {
     ++place.line;
     return trimmed(whole);
   };
-  if (!line().starts_with(speos_header)) place.refuse({"expected the header '", speos_header, "'"});
+  const std::string_view header = line();
+  if (!header.starts_with(speos_header) && !header.starts_with(speos_anisotropic_header))
+    place.refuse({"expected the header '", speos_header, "' or '", speos_anisotropic_header, "'"});
   if (const std::string_view mode = line(); mode != "0")
     place.refuse({"the mode is ", in_quotes(mode), ", expected 0, text: save the file as text in Speos"});
   static_cast<void>(line());  // a comment
@@ -73,9 +83,11 @@ template <class Density>
 /// Reads the numbers of such a file.
 class speos_reader {
  public:
-  speos_reader(std::string_view text, text_place& place) : words_(text, place) {}
+  speos_reader(std::string_view text, text_place& place) : words_(text, place), size_(text.size()) {}
 
   [[nodiscard]] sample_collector read();
+  /// Of the anisotropic kind.
+  [[nodiscard]] sample_collector read_anisotropic();
 
  private:
   [[nodiscard]] double count(std::string_view what, double most);
@@ -83,10 +95,20 @@ class speos_reader {
   [[nodiscard]] double ranged(std::string_view what, double lowest, double highest);
   [[nodiscard]] speos_table read_table();
   [[nodiscard]] std::vector<double> azimuth_weights(const std::vector<double>& phi) const;
-  void scale(speos_table& table, double reflectance) const;
-  void add(sample_collector& to, double incidence, const std::vector<speos_table>& spectrum) const;
+  [[nodiscard]] double integral(const speos_table& table) const;
+  [[nodiscard]] double integral_at(const speos_turn& turn, double incidence) const;
+  void scale(speos_table& table, double factor) const;
+  template <class ReadValues>
+  void add(sample_collector& to, double incidence, double turn, const speos_table& table,
+           const ReadValues& read_values) const;
+  void require_room(std::size_t wavelengths, const std::vector<speos_turn>& turns) const;
+  void read_kind();
+  [[nodiscard]] std::vector<speos_turn> read_turns();
+  void skip_title();
+  void finish();
 
   word_reader words_;
+  std::size_t size_;
   bool has_cosine_ = false;
 };
 
@@ -151,8 +173,8 @@ GONIO_INLINE std::vector<double> speos_reader::azimuth_weights(const std::vector
   return weights;
 }
 
-/// To the BRDF: the table is proportional to it, and its reflectance, percent, is known.
-GONIO_INLINE void speos_reader::scale(speos_table& table, double reflectance) const {
+/// Of the table times the cosine, over its directions: what it says of the reflectance, up to a factor.
+GONIO_INLINE double speos_reader::integral(const speos_table& table) const {
   const std::vector<double> of_phi = azimuth_weights(table.phi),
                             of_theta = node_weights(table.theta, [&](double theta) {
                               return std::sin(theta) * (has_cosine_ ? 1.0 : std::cos(theta));
@@ -162,37 +184,53 @@ GONIO_INLINE void speos_reader::scale(speos_table& table, double reflectance) co
     for (std::size_t k = 0; k < table.phi.size(); ++k)
       sum += of_theta[i] * of_phi[k] * table.values[i * table.phi.size() + k];
   if (!(sum > 0.0)) words_.place().refuse("the table above reflects no light, so that nothing can be scaled by it");
+  return sum;
+}
+
+/// To the BRDF.
+GONIO_INLINE void speos_reader::scale(speos_table& table, double factor) const {
   for (std::size_t i = 0; i < table.theta.size(); ++i)
     for (std::size_t k = 0; k < table.phi.size(); ++k) {
       double& value = table.values[i * table.phi.size() + k];
-      value *= 0.01 * reflectance / sum;
+      value *= factor;
       if (has_cosine_) value /= std::max(std::cos(radians(table.theta[i])), 1e-9);
       if (table.theta[i] < 90.0) require_float_range(value, words_.place());
     }
 }
 
-GONIO_INLINE void speos_reader::add(sample_collector& to, double incidence,
-                                    const std::vector<speos_table>& spectrum) const {
-  const speos_table& first = spectrum.front();
-  const std::vector<bool> are_new = are_new_azimuths(first.phi);
-  const direction wi = spherical_direction(radians(incidence), std::numbers::pi);
+/// `turn` is added to both azimuths; `read_values(i, values)` has the spectrum of value i.
+template <class ReadValues>
+void speos_reader::add(sample_collector& to, double incidence, double turn, const speos_table& table,
+                       const ReadValues& read_values) const {
+  const std::vector<bool> are_new = are_new_azimuths(table.phi);
+  const direction wi = spherical_direction(radians(incidence), radians(180.0 + turn));
   std::vector<double> values;
-  for (std::size_t i = 0; i < first.theta.size(); ++i)
-    for (std::size_t k = 0; k < first.phi.size(); ++k) {
-      const bool is_at_pole = first.theta[i] == 0.0;  // one direction, whatever its azimuth
-      if (first.theta[i] == 90.0 || !are_new[k] || (is_at_pole && k > 0)) continue;
+  for (std::size_t i = 0; i < table.theta.size(); ++i)
+    for (std::size_t k = 0; k < table.phi.size(); ++k) {
+      const bool is_at_pole = table.theta[i] == 0.0;  // one direction, whatever its azimuth
+      if (table.theta[i] == 90.0 || !are_new[k] || (is_at_pole && k > 0)) continue;
       values.clear();
-      for (const speos_table& each : spectrum) values.push_back(each.values[i * first.phi.size() + k]);
-      to.add({wi, spherical_direction(radians(first.theta[i]), radians(first.phi[k]))}, values);
+      read_values(i * table.phi.size() + k, values);
+      to.add({wi, spherical_direction(radians(table.theta[i]), radians(table.phi[k] + turn))}, values);
     }
 }
 
-GONIO_INLINE sample_collector speos_reader::read() {
-  constexpr double most = 10'000.0;
+/// Reflection alone, and what tables are proportional to.
+GONIO_INLINE void speos_reader::read_kind() {
   const bool reflects = words_.read_one_of({"0", "1"}) == 1, transmits = words_.read_one_of({"0", "1"}) == 1;
   if (!reflects || transmits)
     words_.place().refuse("the file has transmission, expected reflection alone, '1 0': save that part in Speos");
   has_cosine_ = words_.read_one_of({"0", "1"}) == 0;
+}
+
+GONIO_INLINE void speos_reader::finish() {
+  if (words_.peek() == "End") static_cast<void>(words_.read_rest_of_line());  // "End of file"
+  if (!words_.peek().empty()) words_.place().refuse("the file goes on behind its last table");
+}
+
+GONIO_INLINE sample_collector speos_reader::read() {
+  constexpr double most = 10'000.0;
+  read_kind();
   const double incidences = count("the number of angles of incidence", most),
                wavelengths = count("the number of wavelengths", most);
   const std::vector<double> all_incidences = ascending(incidences, "an angle of incidence", 0.0, 90.0);
@@ -202,13 +240,92 @@ GONIO_INLINE sample_collector speos_reader::read() {
     while (static_cast<double>(spectrum.size()) < wavelengths) {
       const double reflectance = ranged("the reflectance in percent", 0.0, 100.0);
       spectrum.push_back(read_table());
-      scale(spectrum.back(), reflectance);
+      scale(spectrum.back(), 0.01 * reflectance / integral(spectrum.back()));
       if (spectrum.back().theta != spectrum.front().theta || spectrum.back().phi != spectrum.front().phi)
         words_.place().refuse("the table above has other directions than the one of the first wavelength");
     }
-    add(collector, incidence, spectrum);
+    add(collector, incidence, 0.0, spectrum.front(), [&](std::size_t i, std::vector<double>& values) {
+      for (const speos_table& each : spectrum) values.push_back(each.values[i]);
+    });
   }
-  if (!words_.peek().empty()) words_.place().refuse("the file goes on behind its last table");
+  finish();
+  return collector;
+}
+
+// ---- the anisotropic kind ------------------------------------------------------------------------------------------
+
+/// The azimuths of the light, and the angles of incidence of each, without their tables.
+GONIO_INLINE std::vector<speos_turn> speos_reader::read_turns() {
+  constexpr double most = 10'000.0;
+  std::vector<speos_turn> turns;
+  const double count_of_turns = count("the number of anisotropy angles", most);
+  for (const double azimuth : ascending(count_of_turns, "an anisotropy angle", 0.0, 360.0))
+    turns.push_back({azimuth, {}, {}});
+  for (speos_turn& turn : turns) {
+    const double incidences = count("the number of angles of incidence", most);
+    turn.incidences = ascending(incidences, "an angle of incidence", 0.0, 90.0);
+  }
+  return turns;
+}
+
+/// A line that is no number.
+GONIO_INLINE void speos_reader::skip_title() {
+  double number = 0.0;
+  if (io::read_number(words_.peek(), number) != nullptr) static_cast<void>(words_.read_rest_of_line());
+}
+
+/// Linear between the tables of the angles of incidence about one; beyond them that of the nearest.
+GONIO_INLINE double speos_reader::integral_at(const speos_turn& turn, double incidence) const {
+  const std::vector<double>& all = turn.incidences;
+  const auto above = static_cast<std::size_t>(std::ranges::lower_bound(all, incidence) - all.begin());
+  if (above == 0) return integral(turn.tables.front());
+  if (above == all.size()) return integral(turn.tables.back());
+  const double share = (incidence - all[above - 1]) / (all[above] - all[above - 1]);
+  return (1.0 - share) * integral(turn.tables[above - 1]) + share * integral(turn.tables[above]);
+}
+
+/// A file has each value once, samples have it for each wavelength.
+GONIO_INLINE void speos_reader::require_room(std::size_t wavelengths, const std::vector<speos_turn>& turns) const {
+  constexpr std::size_t small = 4'000'000, of_each_byte = 64;
+  std::size_t values = 0;
+  for (const speos_turn& turn : turns)
+    for (const speos_table& table : turn.tables) values += table.values.size();
+  if (values > (small + of_each_byte * size_) / wavelengths)
+    gonio::refuse({words_.place().name, ": has ", values, " values and a spectrum of ", wavelengths,
+                   " wavelengths, which are too many for a file of this size"});
+}
+
+/// One spectrum of the reflectance, at one angle of incidence, scales all tables.
+GONIO_INLINE sample_collector speos_reader::read_anisotropic() {
+  for (int axis = 0; axis < 3; ++axis) static_cast<void>(words_.read_number("the anisotropy vector"));
+  read_kind();
+  std::vector<speos_turn> turns = read_turns();
+  const double incidence = ranged("the spectrum's angle of incidence", 0.0, 90.0),
+               azimuth = ranged("the spectrum's anisotropy angle", 0.0, 360.0);
+  const auto of_spectrum = std::ranges::find(turns, azimuth, &speos_turn::azimuth);
+  if (of_spectrum == turns.end())
+    words_.place().refuse({"the spectrum's anisotropy angle ", shortest(azimuth), " is none of those of the tables"});
+  skip_title();
+  std::vector<double> wavelengths, reflectances;
+  for (double left = count("the number of wavelengths", 10'000.0); left > 0.0; --left) {
+    const double lowest = wavelengths.empty() ? 1.0 : std::nextafter(wavelengths.back(), 2e6);
+    wavelengths.push_back(ranged("a wavelength", lowest, 1e6));
+    reflectances.push_back(ranged("the reflectance in percent", 0.0, 100.0));
+  }
+  for (speos_turn& turn : turns)
+    while (turn.tables.size() < turn.incidences.size()) turn.tables.push_back(read_table());
+  finish();
+  const double whole = integral_at(*of_spectrum, incidence);
+  require_room(wavelengths.size(), turns);
+  sample_collector collector{channels(wavelengths)};
+  for (speos_turn& turn : turns)
+    for (std::size_t i = 0; i < turn.tables.size(); ++i) {
+      speos_table& table = turn.tables[i];
+      scale(table, 0.01 / whole);
+      add(collector, turn.incidences[i], -turn.azimuth, table, [&](std::size_t at, std::vector<double>& values) {
+        for (const double reflectance : reflectances) values.push_back(reflectance * table.values[at]);
+      });
+    }
   return collector;
 }
 
@@ -217,14 +334,17 @@ GONIO_INLINE sample_collector speos_reader::read() {
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_speos_brdf(std::string_view text) {
-  return without_byte_order_mark(text).starts_with(detail::speos_header);
+  text = without_byte_order_mark(text);
+  return text.starts_with(detail::speos_header) || text.starts_with(detail::speos_anisotropic_header);
 }
 
 GONIO_INLINE sample_set read_speos_brdf(std::string_view text, const std::string& name) {
   text_place place{name, 0};
   text = without_byte_order_mark(text);
+  const bool is_anisotropic = text.starts_with(detail::speos_anisotropic_header);
   detail::read_speos_rows(text, place);
-  return detail::speos_reader(text, place).read().samples(name);
+  detail::speos_reader reader(text, place);
+  return (is_anisotropic ? reader.read_anisotropic() : reader.read()).samples(name);
 }
 
 GONIO_INLINE sample_set read_speos_brdf(const std::filesystem::path& path) {

@@ -60,7 +60,7 @@ GONIO_INLINE csv_dialect csv_reader::dialect_of_header(std::string_view line) co
   return true;
 }
 
-[[gnu::cold]] GONIO_INLINE void csv_reader::find_header(
+[[gnu::cold]] GONIO_INLINE bool csv_reader::find_header(
     const std::function<bool(const std::vector<std::string_view>&)>& is_it) {
   constexpr int most_lines = 1000;
   std::string_view left = left_, line;
@@ -71,8 +71,9 @@ GONIO_INLINE csv_dialect csv_reader::dialect_of_header(std::string_view line) co
     if (line.front() == '#' || line.starts_with("\"# ")) continue;
     if (dialect_of_header(line).split(line, fields) != nullptr || !is_it(fields)) continue;
     header_line_ = place.line;
-    return;
+    return true;
   }
+  return false;
 }
 
 GONIO_INLINE bool csv_reader::next(const std::function<void(std::string_view)>& read_comment) {
@@ -100,7 +101,7 @@ GONIO_INLINE bool csv_reader::next_line(std::string_view& line,
       continue;
     }
     if (place_.line < header_line_) {
-      ++passed_over_;
+      passed_over_.push_back(trimmed(line));
       continue;
     }
     if ((line[first] != ',' && line[first] != ';') || line.find_first_not_of(",; \t\r") != std::string_view::npos)
