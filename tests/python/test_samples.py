@@ -11,6 +11,22 @@ DIRECTIONS = np.hstack([unit(np.array([0.2, 0.5]), np.array([0.0, 1.0])), unit(n
 
 
 class SamplesTest(unittest.TestCase):
+    def test_a_block_of_a_file_with_several(self):
+        tree = (
+            "<WindowElement><DataDefinition><IncidentDataStructure>TensorTree3</IncidentDataStructure></DataDefinition>"
+            "<WavelengthData><Wavelength>Solar</Wavelength><WavelengthDataBlock><WavelengthDataDirection>Reflection Back"
+            "</WavelengthDataDirection><AngleBasis>LBNL/Shirley-Chiu</AngleBasis><ScatteringData>{ .25 }"
+            "</ScatteringData></WavelengthDataBlock></WavelengthData></WindowElement>"
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "tree.xml"
+            path.write_text(tree)
+            self.assertEqual(len(gonio.read_samples(path, side="back", band="solar")), 256)
+            with self.assertRaisesRegex(gonio.Error, "Reflection Front"):
+                gonio.read_samples(path, side="front", band="Solar")
+        with self.assertRaisesRegex(gonio.Error, "band=.*Klems"):
+            gonio.read_samples(MEASUREMENTS, band="Solar")
+
     def test_columns_are_views_of_the_same_memory(self):
         samples = gonio.read_samples(MEASUREMENTS)
         address = samples.values.__array_interface__["data"][0]

@@ -61,8 +61,8 @@ def main():
     lightings = {
         "two lights": Lighting([{"type": "directional", "direction": to, "irradiance": 1.0} for to in LIGHTS], 256,
                                gonio.render_sphere),
-        "environment": Lighting([{"type": "envmap", "bitmap": bitmap}], 8192,
-                                functools.partial(gonio.render_sphere_in, environment=environment, quality=256)),
+        "environment": Lighting([{"type": "envmap", "bitmap": bitmap}], 4096,
+                                functools.partial(gonio.render_sphere_in, environment=environment, quality=128)),
     }
     print(f"Mitsuba {mi.__version__}, {mi.variant()}.\n")
     heads = [f"{what}, {name}" for name in lightings for what in ("plug-in", "`measured`", "`measured`, another seed")]

@@ -163,8 +163,9 @@ std::string sentence_of(const gonio::sample_set& samples) {
 }
 
 gonio::sample_set read_samples(const std::filesystem::path& path, const std::optional<std::string>& quantity,
-                               const std::map<std::string, std::string>& columns) {
-  cli::measurement_options options{quantity.value_or(""), {}};
+                               const std::map<std::string, std::string>& columns, const std::string& side,
+                               const std::string& band) {
+  cli::measurement_options options{.quantity = quantity.value_or(""), .columns = {}, .side = side, .band = band};
   for (const auto& [ours, in_file] : columns) options.columns.push_back(ours + '=' + in_file);
   return cli::read_measurements(path, options);
 }
@@ -196,10 +197,13 @@ void add_samples(py::module_& m) {
            "The same by an index; of a single number samples with one row. Raises IndexError if it is not there.");
   m.def(
       "read_samples", &read_samples, py::arg("path"), py::arg("quantity") = py::none(),
-      py::arg("columns") = std::map<std::string, std::string>(), py::call_guard<py::gil_scoped_release>(),
+      py::arg("columns") = std::map<std::string, std::string>(), py::arg("side") = "", py::arg("band") = "",
+      py::call_guard<py::gil_scoped_release>(),
       "Reads samples as the tool does: CSV, or a format of instruments. quantity: what the values of a CSV file are,\n"
       "'brdf', 'brdf-cosine', 'reflectance-factor' or 'percent', if it does not say so. columns: what it calls its\n"
-      "columns, {'theta_o': 'Winkel'}.");
+      "columns, {'theta_o': 'Winkel'}. side and band: which block of a Klems matrix or a tensor tree is read, 'front' "
+      "or\n"
+      "'back', and 'Visible' or 'Solar'.");
   m.def(
       "write_samples",
       [](const std::filesystem::path& path, const gonio::sample_set& samples) {

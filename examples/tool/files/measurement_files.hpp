@@ -29,7 +29,7 @@ struct measurement_options {
   std::optional<gonio::io::theta_o_sign> sign = {};
   std::optional<gonio::illuminant> light = {};  ///< under which wavelengths are seen; none: D65
   std::optional<double> rotation = {};          ///< degrees: of the sample, whose other rotations are left out
-  std::string side, band;                       ///< of files with several blocks; empty if not chosen
+  std::string side = {}, band = {};             ///< of files with several blocks; empty if not chosen
   bool takes_anisotropic = false;               ///< whether or not rotations differ
   aperture_option aperture = {};                ///< of all samples of a file that has none
 
