@@ -26,34 +26,45 @@ class GonioPrior(GonioTable):
     def __init__(self, props):
         mi.BSDF.__init__(self, props)
         prior = gonio.read_prior(props.get("prior", None))
+        self.use(prior, prior.components[:, : int(props.get("components", len(prior)))], props)
+        self.weights = dr.zeros(mi.Float, 3 * len(self.functions))
+        self.parameters_changed()
+
+    def use(self, prior, functions, props):
+        """Takes functions over the prior's cells, one in each column."""
         numbers = prior.cells.numbers().ravel()  # of the cell that each of the grid reads
         self.extents, self.first_value = prior.cells.shape, FIRST_VALUE[prior.cells.anchor]
-        count = min(int(props.get("components", len(prior))), len(prior))
-        self.functions = [mi.Float(column) for column in np.ascontiguousarray(prior.components[numbers, :count].T)]
+        self.functions = [mi.Float(column) for column in np.ascontiguousarray(functions[numbers].T)]
         self.mean = mi.Float(prior.mean[numbers])
         self.log_reference = mi.Float(np.log(np.maximum(prior.reference[numbers], 1e-8)))
         self.alpha = float(props.get("alpha", 0.2))
         self.m_flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide
         self.m_components = [self.m_flags]
-        self.weights = dr.zeros(mi.Float, 3 * count)
-        self.parameters_changed()
 
     def parameters_changed(self, keys=None):
         """Expands the weights to the mapped values of all cells, one array for each channel."""
         self.mapped = []
         for channel in range(3):
             values = mi.Float(self.mean)
-            for k, component in enumerate(self.functions):
-                values = dr.fma(component, dr.gather(mi.Float, self.weights, 3 * k + channel), values)
+            for k, function in enumerate(self.functions):
+                values = dr.fma(function, dr.gather(mi.Float, self.weights, 3 * k + channel), values)
             self.mapped.append(values)
 
-    def reflectance(self, wi, wo, active):
-        mapped, log_reference = mi.Color3f(0), mi.Float(0)
-        for weight, index in self.corners(wi, wo):
-            mapped += weight * mi.Color3f(*(dr.gather(mi.Float, values, index, active) for values in self.mapped))
-            log_reference += weight * dr.gather(mi.Float, self.log_reference, index, active)
+    @staticmethod
+    def blended(values, corners, active):
+        """Values of cells between the eight around a pair of directions."""
+        return sum(weight * dr.gather(mi.Float, values, index, active) for weight, index in corners)
+
+    @staticmethod
+    def unmapped(mapped, log_reference, wi, wo):
+        """Reflectance of mapped values: Nielsen et al. 2015, Eq. 2 and 3."""
         cosines = dr.maximum(mi.Frame3f.cos_theta(wi) * mi.Frame3f.cos_theta(wo), EPSILON)
         return dr.maximum((dr.exp(mapped) * (dr.exp(log_reference) * cosines + EPSILON) - EPSILON) / cosines, 0)
+
+    def reflectance(self, si, wi, wo, active):
+        corners = list(self.corners(wi, wo))
+        mapped = mi.Color3f(*(self.blended(values, corners, active) for values in self.mapped))
+        return self.unmapped(mapped, self.blended(self.log_reference, corners, active), wi, wo)
 
     def traverse(self, callback):
         callback.put("weights", self.weights, mi.ParamFlags.Differentiable)

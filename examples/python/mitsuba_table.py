@@ -84,7 +84,7 @@ class GonioTable(mi.BSDF):
             phi_d = dr.select(phi_d < 0, phi_d + columns, dr.select(phi_d >= columns, phi_d - columns, phi_d))
             yield weight, mi.UInt32((theta_h * rows + theta_d) * columns + phi_d)
 
-    def reflectance(self, wi, wo, active):
+    def reflectance(self, si, wi, wo, active):
         total = mi.Color3f(0)
         for weight, index in self.corners(wi, wo):
             total += weight * dr.gather(mi.Color3f, self.values, index, active)
@@ -101,7 +101,7 @@ class GonioTable(mi.BSDF):
 
     def eval(self, ctx, si, wo, active=True):
         active = self.lit(ctx, si, wo, mi.Bool(active))
-        return dr.select(active, self.reflectance(si.wi, wo, active) * mi.Frame3f.cos_theta(wo), 0)
+        return dr.select(active, self.reflectance(si, si.wi, wo, active) * mi.Frame3f.cos_theta(wo), 0)
 
     def pdf(self, ctx, si, wo, active=True):
         active = self.lit(ctx, si, wo, mi.Bool(active))

@@ -10,7 +10,8 @@ import unittest
 import numpy as np
 
 import gonio
-from surroundings import MEASUREMENTS, SOURCE, random_pairs, table_of_formula, unit
+from surroundings import MEASUREMENTS, SOURCE, TOOL, random_pairs, table_of_formula, unit
+from test_maps import BESIDE, write_map
 
 try:
     import drjit as dr
@@ -19,6 +20,7 @@ try:
     mi.set_variant("llvm_ad_rgb")
     dr.eval(mi.Float(1) + 1)  # fails without LLVM
     sys.path.insert(0, str(SOURCE / "examples" / "python"))
+    import mitsuba_map  # noqa: F401
     import mitsuba_prior  # noqa: F401
     import mitsuba_table  # noqa: F401
     from mitsuba.chi2 import BSDFAdapter, ChiSquareTest, SphericalDomain
@@ -98,6 +100,31 @@ class PriorTest(unittest.TestCase):
         expected = np.einsum("nck,n,c->kc", fit.gradient(wi, wo), wo[:, 2], [1, 0, 2])
         scale = np.abs(expected).max()
         np.testing.assert_allclose(np.array(dr.grad(weights)).reshape(-1, 3), expected, atol=1e-3 * scale)
+
+
+@unittest.skipUnless(TOOL, "the tool is not beside the module")
+class MapTest(unittest.TestCase):
+    def test_a_rectangle_has_the_colours_of_its_texels(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path, _ = write_map(pathlib.Path(folder))
+            table = gonio.read_map(path)
+            rows, columns = table.shape
+            look = mi.ScalarTransform4f().look_at(origin=[0, 0, 4], target=[0, 0, 0], up=[0, 1, 0])
+            scene = mi.load_dict({
+                "type": "scene",
+                "integrator": {"type": "direct"},
+                "light": {"type": "directional", "direction": [-0.6, 0, -0.8], "irradiance": 1.0},
+                "sample": {"type": "rectangle", "to_world": mi.ScalarTransform4f().scale([1, rows / columns, 1]),
+                           "bsdf": {"type": "gonio_map", "filename": str(path)}},
+                "sensor": {"type": "orthographic", "to_world": look,
+                           "film": {"type": "hdrfilm", "width": columns, "height": rows, "rfilter": {"type": "box"}}},
+            })
+            image = np.array(mi.render(scene, spp=16))
+        for row in range(rows):
+            for column in range(columns):
+                inside = (row, column) != BESIDE
+                expected = 0.8 * table.brdf(row, column)([0.6, 0, 0.8], [0, 0, 1]) if inside else np.zeros(3)
+                np.testing.assert_allclose(image[row, column], expected, rtol=1e-3, atol=1e-6)
 
 
 if __name__ == "__main__":

@@ -4,13 +4,15 @@ import importlib.util
 import pathlib
 import sys
 import tempfile
+import types
 import unittest
 from unittest import mock
 
 import numpy as np
 
 import gonio
-from surroundings import MEASUREMENTS, SOURCE, random_pairs, table_of_formula
+from surroundings import MEASUREMENTS, SOURCE, TOOL, random_pairs, table_of_formula
+from test_maps import BESIDE, write_map
 
 STUBS = pathlib.Path(__file__).with_name("stubs")
 
@@ -31,6 +33,8 @@ class LookUpTest(unittest.TestCase):
             cls.plug_in = module_from(SOURCE / "examples" / "python" / "mitsuba_table.py", "mitsuba_table_on_numpy")
             with mock.patch.dict(sys.modules, {"mitsuba_table": cls.plug_in}):
                 cls.of_prior = module_from(SOURCE / "examples" / "python" / "mitsuba_prior.py", "mitsuba_prior_on_numpy")
+            with mock.patch.dict(sys.modules, {"mitsuba_prior": cls.of_prior}):
+                cls.of_map = module_from(SOURCE / "examples" / "python" / "mitsuba_map.py", "mitsuba_map_on_numpy")
 
     def check_agreement(self, table):
         with tempfile.TemporaryDirectory() as folder:
@@ -38,7 +42,7 @@ class LookUpTest(unittest.TestCase):
             gonio.write_merl(file, table)
             bsdf = self.plug_in.GonioTable({"filename": file})
         wi, wo = random_pairs(20000, smallest_cosine=1e-3)
-        value = bsdf.reflectance(self.mi.Vector3f(wi.T), self.mi.Vector3f(wo.T), True).T
+        value = bsdf.reflectance(None, self.mi.Vector3f(wi.T), self.mi.Vector3f(wo.T), True).T
         np.testing.assert_allclose(value, np.maximum(table(wi, wo), 0), rtol=1e-6, atol=1e-9)
 
     def test_values_are_those_of_the_table(self):
@@ -58,8 +62,24 @@ class LookUpTest(unittest.TestCase):
         bsdf.weights = fit.weights[: len(bsdf.functions)].ravel()
         bsdf.parameters_changed()
         wi, wo = random_pairs(20000, smallest_cosine=1e-3)
-        value = bsdf.reflectance(self.mi.Vector3f(wi.T), self.mi.Vector3f(wo.T), True).T
+        value = bsdf.reflectance(None, self.mi.Vector3f(wi.T), self.mi.Vector3f(wo.T), True).T
         np.testing.assert_allclose(value, fit(wi, wo), rtol=1e-5, atol=1e-7)
+
+    @unittest.skipUnless(TOOL, "the tool is not beside the module")
+    def test_texels_of_a_map(self):
+        wi, wo = random_pairs(2000, smallest_cosine=1e-3)
+        with tempfile.TemporaryDirectory() as folder:
+            path, _ = write_map(pathlib.Path(folder))
+            table, bsdf = gonio.read_map(path), self.of_map.GonioMap({"filename": str(path)})
+        rows, columns = table.shape
+        for row, column in ((0, 0), (0, 5), (3, 1), BESIDE):
+            # Inside of the texel; the first row is at the top.
+            uv = self.mi.Vector3f(np.tile([[(column + 0.9) / columns], [1 - (row + 0.1) / rows], [0]], len(wi)))
+            si = types.SimpleNamespace(uv=uv)
+            value = bsdf.reflectance(si, self.mi.Vector3f(wi.T), self.mi.Vector3f(wo.T), True).T
+            expected = 0 * wi if (row, column) == BESIDE else table.brdf(row, column)(wi, wo)
+            with self.subTest(row=row, column=column):
+                np.testing.assert_allclose(value, expected, rtol=1e-5, atol=1e-7)
 
     def test_negative_values_are_black(self):
         table = gonio.Table(np.full((9, 9, 18, 3), -0.5))

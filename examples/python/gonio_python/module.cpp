@@ -58,4 +58,5 @@ PYBIND11_MODULE(_gonio, m) {
   python::add_design(m);
   python::add_models(m);
   python::add_rendering(m);
+  python::add_maps(m);
 }

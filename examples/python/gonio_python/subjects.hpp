@@ -21,6 +21,7 @@ void add_reconstruct(pybind11::module_& m);
 void add_design(pybind11::module_& m);
 void add_models(pybind11::module_& m);
 void add_rendering(pybind11::module_& m);
+void add_maps(pybind11::module_& m);
 
 /// The prior that ships with the package, unless another is given.
 [[nodiscard]] std::filesystem::path prior_file(const std::optional<std::filesystem::path>& given);
