@@ -96,7 +96,7 @@ void run_given(const design_command& command) {
   const auto paint = estimator.fit(samples);
   const double known_to = paint.certainty().known_to;
   const bool is_enough = command.until && known_to <= *command.until;
-  const std::string known = std::to_string(samples.size()) + " samples: half of all directions are known to " +
+  const std::string known = counted(std::ssize(samples), "sample") + ": half of all directions are known to " +
                             fixed(100.0 * known_to, 0) + " %";
   json again = json::array();
   for (const Eigen::Index i : paint.rejected()) again.push_back(i + 1);

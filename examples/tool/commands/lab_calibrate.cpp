@@ -116,8 +116,8 @@ void run(const calibrate_command& options) {
   }
   gonio::io::write_samples(options.output, samples);
   if (!options.response.empty()) write_responses(options.response, known);
-  std::cout << samples.size() << " samples, each known to " << fixed(100.0 * gonio::upper_median(deviations), 2)
-            << " % (median)\n";
+  std::cout << counted(std::ssize(samples), "sample") << ", each known to "
+            << fixed(100.0 * gonio::upper_median(deviations), 2) << " % (median)\n";
   if (material.subject && reference.subject)
     std::cout << "of '" << material.subject->sample << "' beside '" << reference.subject->sample << "'\n";
 }

@@ -92,7 +92,7 @@ std::vector<gonio::sample_set> joined(const std::vector<taken_image>& images, sa
 std::string counts_of(const std::vector<taken_image>& images, const std::vector<gonio::sample_set>& samples) {
   std::string lines;
   for (Eigen::Index i = 0; i < std::ssize(images); ++i)
-    lines += images[i].file + ": " + std::to_string(samples[i].size()) + " samples\n";
+    lines += images[i].file + ": " + counted(std::ssize(samples[i]), "sample") + '\n';
   return lines;
 }
 

@@ -10,6 +10,7 @@
 #include "tool/options/reconstruct_choice.hpp"
 #include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
 #include "tool/pages/images.hpp"
 #include "tool/pages/report_data.hpp"
 #include "tool/pages/report_page.hpp"
@@ -55,8 +56,8 @@ void print(const reconstruction& result, const gonio::io::sample_file& measured,
     std::cout << all.dump(2) << '\n';
     return;
   }
-  std::cout << measured.samples.size() << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence
-            << '\n';
+  std::cout << counted(std::ssize(measured.samples), "sample") << (result.sentence.empty() ? "" : ", ")
+            << result.sentence << '\n';
 }
 
 void write_sphere(const reconstruct_options& options, const gonio::brdf_table& table, const image_options& how) {
@@ -91,6 +92,14 @@ gonio::io::sample_file read_fitted(reconstruct_options& options) {
   return measured;
 }
 
+bool writes_nothing(const reconstruct_options& options) {
+  const auto files = {
+      &options.output,           &options.image,    &options.uncertainty, &options.uncertainty_image, &options.history,
+      &options.iteration_figure, &options.residuals};
+  return std::ranges::all_of(files, [](const auto* file) { return file->empty(); }) && !options.report.is_given() &&
+         !options.print_json;
+}
+
 void reconstruct_and_write(reconstruct_options options, const image_options& how) {
   gonio::io::sample_file measured = read_fitted(options);
   const reconstruction result = reconstruct(options, measured.samples);
@@ -107,6 +116,7 @@ void reconstruct_and_write(reconstruct_options options, const image_options& how
     write_history(options.iteration_figure / "history.csv", result.history);
   }
   if (options.report.is_given()) write_report_page(options.report, report_data({options, measured, result, nullptr}));
+  if (writes_nothing(options)) warn("no file is written: -o names one for the table");
   print(result, measured, options.print_json);
 }
 

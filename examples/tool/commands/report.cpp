@@ -5,6 +5,7 @@
 #include "tool/options/reconstruct_choice.hpp"
 #include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
+#include "tool/pages/fixed.hpp"
 #include "tool/pages/report_data.hpp"
 #include "tool/pages/report_page.hpp"
 #include "tool/pages/warning.hpp"
@@ -35,7 +36,7 @@ void write_report(const report_options& options) {
   if (!options.title.empty()) data["name"] = options.title;
   write_report_page(options.page, data);
   for (const std::string& sentence : found.warnings) warn(sentence);
-  std::cout << measured.samples.size() << " samples, " << found.sentence << '\n';
+  std::cout << counted(std::ssize(measured.samples), "sample") << ", " << found.sentence << '\n';
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ void run(const sphere_command& options) {
                                         each.setup.options);
     });
     samples.insert(samples.end(), found.samples.begin(), found.samples.end());
-    lines += each.file + ": " + std::to_string(found.samples.size()) + " samples of " + std::to_string(found.pixels) +
+    lines += each.file + ": " + counted(std::ssize(found.samples), "sample") + " of " + std::to_string(found.pixels) +
              " pixels" + noise_of(found) + surfaces[i].second + '\n';
   }
   gonio::io::write_samples(options.output, samples);

@@ -48,8 +48,7 @@ void describe(const Run& run, bool converged, bool automatic, reconstruction& re
                     {"error", last.error},
                     {"change", last.change},
                     {"down_weighted", last.down_weighted}};
-  result.sentence = std::to_string(rounds) + (rounds == 1 ? " round" : " rounds") +
-                    ", relative error before the last " + fixed(last.error, 3) + ", " +
+  result.sentence = counted(rounds, "round") + ", relative error before the last " + fixed(last.error, 3) + ", " +
                     fixed(100.0 * last.down_weighted, 1) + " % down-weighted";
   if (!automatic) return;
   // Few samples do not support any share.

@@ -16,4 +16,8 @@ std::string fixed(const json& value, int digits) { return fixed(value.number(), 
 
 std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
 
+std::string counted(std::ptrdiff_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
 }  // namespace cli

@@ -1,6 +1,7 @@
 #pragma once
 /// Numbers as people read them.
 
+#include <cstddef>
 #include <string>
 
 namespace cli {
@@ -13,5 +14,8 @@ class json;
 
 /// A reflectance in sr^-1 for people, in three or four digits: more are not known.
 [[nodiscard]] std::string reflectance(double value);
+
+/// "1 sample", "20 samples".
+[[nodiscard]] std::string counted(std::ptrdiff_t count, const std::string& thing);
 
 }  // namespace cli
