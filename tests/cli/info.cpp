@@ -135,8 +135,8 @@ TEST_CASE("info says ranges of angles, repeats, weights, and what is suspicious"
   CHECK(facts["weights"][1] == 2.0);
   const std::string suspicions = facts["suspicious"].dump();
   CHECK(suspicions.find("plane of incidence") != std::string::npos);
-  CHECK(suspicions.find("1 of 4 samples have a negative value") != std::string::npos);
-  CHECK(suspicions.find("1 samples are beyond 85 degrees") != std::string::npos);
+  CHECK(suspicions.find("1 of 4 samples has a negative value") != std::string::npos);
+  CHECK(suspicions.find("1 sample is beyond 85 degrees") != std::string::npos);
   CHECK(facts_of_file(GONIO_SOURCE_DIR "/examples/data/measurements.csv")["suspicious"].empty());
 }
 

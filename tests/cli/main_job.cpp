@@ -74,6 +74,13 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
         std::string::npos);
 }
 
+TEST_CASE("reconstruct says where no file is written") {
+  const std::string nothing = "no file is written";
+  CHECK(gonio_tool("reconstruct " + at("samples.csv")).output.find(nothing) != std::string::npos);
+  for (const std::string& file : {"-o " + at("once.binary"), "--image " + at("once.png"), std::string("--json")})
+    CHECK(gonio_tool("reconstruct " + at("samples.csv") + " " + file).output.find(nothing) == std::string::npos);
+}
+
 TEST_CASE("the same seed gives the same file, another seed another") {
   const std::string measure = "sample " + at("truth.binary") + " --count 50 --outliers 0.2 --noise 0.02 --seed ";
   run(measure + "1 -o " + at("a.csv"));

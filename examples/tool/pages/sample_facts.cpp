@@ -1,5 +1,6 @@
 #include "sample_facts.hpp"
 
+#include "fixed.hpp"
 #include "measures_as_json.hpp"
 #include "sample_warnings.hpp"
 #include <gonio/core/direction.hpp>
@@ -56,14 +57,14 @@ std::vector<std::string> suspicions_of(const gonio::sample_set& samples, Eigen::
   std::vector<std::string> sentences = warnings_of(samples, usual_noise);
   if (10 * negative > std::ssize(samples))
     sentences.push_back(std::to_string(negative) + " of " + std::to_string(samples.size()) +
-                        " samples have a negative value");
+                        (negative == 1 ? " samples has a negative value" : " samples have a negative value"));
   const auto grazes = [](const gonio::sample& s) {
     const auto& [wi, wo] = s.directions.pair();
     return std::min(wi.z(), wo.z()) < std::cos(gonio::radians(85.0));
   };
   if (const auto grazing = std::ranges::count_if(samples, grazes); grazing > 0)
-    sentences.push_back(std::to_string(grazing) +
-                        " samples are beyond 85 degrees, where instruments seldom reach: is anything measured there?");
+    sentences.push_back(counted(grazing, "sample") + (grazing == 1 ? " is" : " are") +
+                        " beyond 85 degrees, where instruments seldom reach: is anything measured there?");
   return sentences;
 }
 
