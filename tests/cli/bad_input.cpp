@@ -74,6 +74,10 @@ TEST_CASE("bad samples") {
   refuses(reconstruct + " --solver nnls", {"nnls", "signs", "--method linear"});
   refuses(reconstruct + " --metric log", {"log", "--method linear"});
   refuses(reconstruct + " --exclude chrome", {"--method linear"});
+  for (const char* method : {"rbf", "pull-push", "scattered", "soft-specular"})
+    for (const char* option : {"--networks", "--merl", "--rgl", "--exclude"})
+      refuses("reconstruct " + path.string() + " --method " + method + ' ' + option + " elsewhere",
+              {option, "needs --method pca or linear or correction"});
   const std::string linear = reconstruct + " --method linear";
   refuses(linear + " --exclude no-such-stone", {"no-such-stone"});
   refuses(linear + " --metric cosine", {"cosine"});

@@ -206,6 +206,18 @@ class ReconstructTest(unittest.TestCase):
                 printed.pop("samples")
                 self.assertEqual(ours.details, printed)
 
+    def test_materials_of_the_rgl_database(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("red-paint", "blue-rubber"):
+                gonio.write_rgl(pathlib.Path(folder) / f"{name}.bsdf", gonio.formula_material(name))
+            found = gonio.reconstruct(gonio.read_samples(MEASUREMENTS), "linear", rgl=[folder])
+            directions = gonio.Table(np.zeros((12, 12, 24, 3))).directions()
+            wi, wo = directions[:, :3], directions[:, 3:]
+            error = np.abs(found.table(wi, wo) / gonio.formula_material("red-paint")(wi, wo) - 1)
+            self.assertLess(np.median(error), 0.05)
+            with self.assertRaisesRegex(gonio.Error, "rgl="):
+                gonio.reconstruct(gonio.read_samples(MEASUREMENTS), "rbf", rgl=[folder])
+
     def test_a_prior_that_was_read(self):
         prior, copied = gonio.read_prior(), self.samples.subset(slice(12))
         for arguments in ({}, {"eta": 3.0}, {"method": "rbf", "metric": "log-relative"},

@@ -85,7 +85,7 @@ struct reconstructed {
 
 reconstructed reconstruct_from(const gonio::sample_set& samples, const std::string& method, const given_prior& prior,
                                const std::optional<paths>& networks, const std::optional<paths>& merl,
-                               const std::optional<std::vector<std::string>>& exclude,
+                               const std::optional<paths>& rgl, const std::optional<std::vector<std::string>>& exclude,
                                const std::optional<std::string>& metric, std::optional<double> root,
                                const std::optional<std::string>& solver, const py::object& eta,
                                std::optional<double> lambda_share, std::optional<double> variance,
@@ -102,6 +102,7 @@ reconstructed reconstruct_from(const gonio::sample_set& samples, const std::stri
   take_prior(prior, options.materials, given);
   given.take("--networks", options.materials.networks, networks);
   given.take("--merl", options.materials.tables, merl);
+  given.take("--rgl", options.materials.rgl, rgl);
   given.take("--exclude", options.materials.exclude, exclude);
   given.take("--metric", options.metric, metric);
   given.take("--root", options.root, root);
@@ -163,7 +164,7 @@ void add_reconstruct(py::module_& m) {
   const auto nothing = py::none();
   m.def("reconstruct", &reconstruct_from, py::arg("samples"), py::arg("method") = cli::reconstruct_options{}.method,
         py::kw_only(), py::arg("prior") = nothing, py::arg("networks") = nothing, py::arg("merl") = nothing,
-        py::arg("exclude") = nothing, py::arg("metric") = nothing, py::arg("root") = nothing,
+        py::arg("rgl") = nothing, py::arg("exclude") = nothing, py::arg("metric") = nothing, py::arg("root") = nothing,
         py::arg("solver") = nothing, py::arg("eta") = nothing, py::arg("lambda_share") = nothing,
         py::arg("variance") = nothing, py::arg("noise") = nothing, py::arg("misplaced_degrees") = nothing,
         py::arg("discrepancy") = nothing, py::arg("reject") = true, py::arg("uncertainty") = false,

@@ -20,10 +20,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> renamed{{
                                                                                 {"fresnel", "fresnel=True"}}};
 
 /// Those that have the same name but for hyphens.
-constexpr std::array<std::string_view, 26> same{
-    "prior",  "networks",     "merl",      "exclude",    "metric",   "root",    "solver",     "eta",  "variance",
-    "noise",  "discrepancy",  "gamma",     "method",     "geometry", "search",  "iterations", "seed", "start",
-    "starts", "common-shift", "criterion", "neighbours", "quantity", "columns", "side",       "band"};
+constexpr std::array<std::string_view, 27> same{
+    "prior",  "networks",     "merl",      "exclude",    "metric",   "root",     "solver",     "eta",  "variance",
+    "noise",  "discrepancy",  "gamma",     "method",     "geometry", "search",   "iterations", "seed", "start",
+    "starts", "common-shift", "criterion", "neighbours", "rgl",      "quantity", "columns",    "side", "band"};
 
 /// Those of `same` whose value is a word.
 constexpr std::array<std::string_view, 6> chosen_by_word{"method",   "metric",    "solver",

@@ -186,6 +186,7 @@ def reconstruct(
     prior: Union[None, Prior, _Path] = None,
     networks: Optional[Sequence[_Path]] = None,
     merl: Optional[Sequence[_Path]] = None,
+    rgl: Optional[Sequence[_Path]] = None,
     exclude: Optional[Sequence[str]] = None,
     metric: Optional[str] = None,
     root: Optional[float] = None,

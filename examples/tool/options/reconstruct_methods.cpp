@@ -68,7 +68,7 @@ component_choice choose_components(const reconstruct_options& options) {
     gonio::refuse("--prior was learned under the log-relative metric: --metric " + options.metric +
                   " needs --method linear");
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
-    gonio::refuse("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
+    gonio::refuse("--networks, --merl, --rgl and --exclude need --method linear: the components of --prior are fixed");
   component_choice chosen{prior_of(options.materials), solver};
   chosen.is_penalised = penalised && options.solver.eta.empty();
   chosen.has_discrepancy = options.discrepancy != 0.0 && chosen.is_penalised && options.angular_error == 0.0;
