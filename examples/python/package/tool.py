@@ -1,0 +1,10 @@
+"""Runs the tool that the wheel brings."""
+
+import os
+import pathlib
+import sys
+
+
+def main() -> None:
+    tool = pathlib.Path(__file__).with_name("bin") / "gonio"
+    os.execv(tool, [str(tool), *sys.argv[1:]])
