@@ -43,18 +43,9 @@ def scene_of(bsdf, size):
     return mi.load_dict(scene)
 
 
-def table_of(prior, weights):
-    """The reflectance of weights over the prior's cells, as `Prior.cosine_weight` says."""
-    y = prior.components[:, : len(weights)] @ weights + prior.mean[:, None]
-    c, reference = prior.cosine_weight[:, None], prior.reference[:, None]
-    table = gonio.Table(prior.cells)
-    table.values[:] = np.maximum((np.exp(y) * (reference * c + 0.001) - 0.001) / c, 0)
-    return table
-
-
 def error_of(prior, weights, truth):
     """The mean Delta E of a sphere under an environment: other light than that of the image."""
-    return gonio.compare(table_of(prior, weights), truth)["delta_e_env"]
+    return gonio.compare(prior.brdf(weights), truth)["delta_e_env"]
 
 
 def display(image):

@@ -108,7 +108,7 @@ TEST_CASE("LightTools: what is no such file is refused") {
   check_lighttools_refused(with(good, "0 30 90", "0 30 190"), {"line 7", "ScatterRadial", "'190'"});
   check_lighttools_refused("DataBegin\n", {"line 1", "ScatterAzimuth is missing"});
   check_lighttools_refused("ScatterAzimuth 1\n0\nDataBegin\n", {"line 3", "ScatterRadial is missing"});
-  check_lighttools_refused(with(good, "AOI 20", "AOI 91"), {"line 9", "AOI: 91", "from 0 to 90"});
+  check_lighttools_refused(with(good, "AOI 20", "AOI 91"), {"line 9", "AOI: '91'", "from 0 to 90"});
   check_lighttools_refused(with(good, "POI 0", "POI 30"), {"line 10", "POI: 30", "only a plane of incidence of 0"});
   check_lighttools_refused(with(good, "POI", "PIO"), {"line 10", "'PIO' is no keyword of a block"});
   check_lighttools_refused(with(good, "Front", "Up"), {"line 11", "'Up'", "Front or Back"});

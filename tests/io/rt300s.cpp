@@ -73,13 +73,13 @@ TEST_CASE("RT-300S: what is no such file is refused") {
   check_rt300s_refused(with(exported, "BRDF", "BTDF"), {"line 1", "'BTDF(RT-300S)'"});
   check_rt300s_refused(with(exported, "Incidence:\t20", "Incidence:\tsteep"), {"line 3", "Incidence", "'steep'"});
   check_rt300s_refused(with(exported, "Incidence:\t20", "Incidence:\t91"),
-                       {"line 3", "Incidence: 91 degrees", "0 to 90"});
+                       {"line 3", "Incidence (degrees): 91", "0 to 90"});
   check_rt300s_refused(with(exported, "Incidence", "Inclination"), {"line 4", "no line Incidence"});
   check_rt300s_refused(exported + with(exported, "Incidence", "Inclination"), {"line 12", "no line Incidence"});
   check_rt300s_refused(with(exported, "Raw data", "Data"), {"line 4", "'Data'", "'Raw data'"});
   check_rt300s_refused(with(exported, "\t-20\t0\t60\r", ""), {"line 5", "'-90'", "an empty field"});
-  check_rt300s_refused(with(exported, "\t60", "\t95"), {"line 5", "the receiver's angle: 95"});
-  check_rt300s_refused(with(exported, "-90\t", "-900\t"), {"line 6", "the azimuth: -900"});
+  check_rt300s_refused(with(exported, "\t60", "\t95"), {"line 5", "the receiver's angle (degrees): 95"});
+  check_rt300s_refused(with(exported, "-90\t", "-900\t"), {"line 6", "the azimuth (degrees): -900"});
   check_rt300s_refused(with(exported, "\t12", "\tx"), {"line 6", "a value", "'x'"});
   check_rt300s_refused(with(exported, "\t12", "\tnan"), {"line 6", "not finite"});
   check_rt300s_refused(with(exported, "\t12", "\t1e42"), {"line 6", "range of float"});
@@ -88,9 +88,9 @@ TEST_CASE("RT-300S: what is no such file is refused") {
   check_rt300s_refused(with(sheet, " RT", " R"), {"has no row RT"});
   check_rt300s_refused(with(sheet, " Receive", " Receiver"), {"line 6", "stands above the rows"});
   check_rt300s_refused(with(sheet, "20\t60", "20\t"), {"line 6", "reading 2 has RT"});
-  check_rt300s_refused(with(sheet, "20\t60", "20\t160"), {"line 6", "Receive: 160 degrees"});
-  check_rt300s_refused(with(sheet, "20\t20", "20\t-20"), {"line 6", "Incidence: -20 degrees"});
-  check_rt300s_refused(with(sheet, "-90.0", "-900"), {"line 6", "Azimuth: -900 degrees"});
+  check_rt300s_refused(with(sheet, "20\t60", "20\t160"), {"line 6", "Receive (degrees): 160"});
+  check_rt300s_refused(with(sheet, "20\t20", "20\t-20"), {"line 6", "Incidence (degrees): -20"});
+  check_rt300s_refused(with(sheet, "-90.0", "-900"), {"line 6", "Azimuth (degrees): -900"});
   check_rt300s_refused(with(sheet, "0.11", "high"), {"line 6", "RT: 'high'"});
   check_rt300s_refused(with(sheet, "\t-.13", ""), {"line 6", "expected 4"});
   scratch::check_refuses_non_files([](const auto& path) { return read_rt300s(path); });

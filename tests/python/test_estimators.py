@@ -90,6 +90,18 @@ class DecompositionTest(unittest.TestCase):
         few = fit.fit(samples)
         np.testing.assert_array_equal(few.weights, fit.fit(samples.subset(range(5))).weights)
 
+    def test_a_brdf_of_weights(self):
+        fit = gonio.Decomposition(self.prior).fit(self.samples)
+        pairs = self.prior.cells.directions()[::997]
+        wi, wo = pairs[:, :3], pairs[:, 3:]
+        np.testing.assert_array_equal(self.prior.brdf(fit.weights)(wi, wo), fit(wi, wo))
+        few = np.zeros_like(fit.weights)
+        few[:5] = fit.weights[:5]
+        np.testing.assert_array_equal(self.prior.brdf(fit.weights[:5])(wi, wo), self.prior.brdf(few)(wi, wo))
+        for wrong in (np.zeros((len(self.prior) + 1, 3)), np.zeros((5, 2)), np.full((5, 3), np.nan)):
+            with self.assertRaisesRegex(gonio.Error, "weights"):
+                self.prior.brdf(wrong)
+
     def test_gradient_by_the_weights(self):
         prior, fit = self.prior, gonio.Decomposition(self.prior).fit(self.samples)
         rows = np.array([[5, 500], [20000, 50000]])

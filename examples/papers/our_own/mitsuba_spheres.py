@@ -26,6 +26,7 @@ mi.set_variant("llvm_ad_rgb")
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "python"))
 import mitsuba_table  # noqa: F401
 
+
 def rendered(bsdf, light, spp, seed):
     scene = {"type": "scene", "integrator": {"type": "direct"}, "sphere": {"type": "sphere", "bsdf": bsdf},
              "sensor": {"type": "orthographic",

@@ -197,6 +197,16 @@ void add_fit_copies(py::class_<fitted_pca>& fit) {
       });
 }
 
+/// Of the first components.
+fitted_pca brdf_of_weights(const gonio::log_relative_pca& prior, const py::object& given) {
+  const doubles weights = finite_rows(given, "weights", {3});
+  if (weights.shape(0) > prior.size())
+    gonio::refuse({"weights have the shape ", shape_of(weights), ", and the prior has ", prior.size(), " components"});
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(prior.size(), 3);
+  all.topRows(weights.shape(0)) = matrix_of<Eigen::MatrixXd>(weights);
+  return {prior, std::move(all)};
+}
+
 py::array_t<double> gradients(const fitted_pca& fit, const py::object& wi, const py::object& wo, unsigned threads) {
   const direction_pairs pairs(wi, wo);
   const Eigen::Index channels = fit.weights().cols(), size = fit.weights().size();
@@ -247,6 +257,9 @@ void add_decomposition(py::module_& m) {
   });
   add_fit_copies(fit);
   add_brdf_methods(m, fit);
+  auto prior = py::reinterpret_borrow<py::class_<gonio::log_relative_pca>>(py::type::of<gonio::log_relative_pca>());
+  prior.def("brdf", &brdf_of_weights, py::arg("weights"),
+            "The BRDF of weights of the first components, red, green and blue: shape (up to k, 3).");
 
   py::class_<configured_decomposition> type(
       m, "Decomposition",

@@ -75,7 +75,7 @@ void add_compare(command& app) {
   command.add_input("truth", options->truth, "True table (.binary or .binary.gz)").required();
   add_prior_option(command, options->prior);
   command.add_input("--environment", options->environment,
-                    "Latitude-longitude image of a natural light to judge under, too (.hdr, .npy or .exr)");
+                    "Latitude-longitude image of a natural light to judge under, too (" + radiance_formats() + ")");
   command.add_flag("--json", options->print_json, "Print the errors as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] { compare_tables(*options); });

@@ -3,6 +3,7 @@
 
 #include "lab.hpp"
 #include "lab/photographs.hpp"
+#include "tool/files/exr_files.hpp"
 #include "tool/files/frame_files.hpp"
 #include "tool/files/radiance_image.hpp"
 #include "tool/options/threads_option.hpp"
@@ -159,7 +160,9 @@ void run(merge_command options) {
 void add_lab_photograph(command& lab) {
   auto command = lab.add_subcommand("photograph", "Photograph a scene at several exposure times, and in the dark");
   const auto options = std::make_shared<photograph_command>();
-  command.add_input("scene", options->scene, "Radiance of the scene; 1 / pi is white under a lamp (.hdr, .npy or .exr)")
+  command
+      .add_input("scene", options->scene,
+                 "Radiance of the scene; 1 / pi is white under a lamp (" + radiance_formats() + ")")
       .required();
   command.add_option("--times", options->times, "Seconds of exposure")
       .check(check::range(1e-6, 1000.0))
@@ -215,11 +218,13 @@ void add_lab_merge(command& lab) {
       .capture_default_str();
   // Declare what is written.
   command.add_output("--deviation", options->deviation, {".npy", ".exr"},
-                     "Standard deviation of each value, to write (.npy or .exr)");
+                     std::string("Standard deviation of each value, to write (.npy") + (has_exr ? " or .exr)" : ")"));
   command.add_output("--mask", options->mask, {".png"},
                      "Image to write: usable black, dark blue, contradictory yellow, hot green, saturated red (.png)");
   add_threads_option(command, options->merging.threads);
-  command.add_output("-o,--output", options->output, {".hdr", ".npy", ".exr"}, "Radiance to write (.hdr, .npy or .exr)")
+  command
+      .add_output("-o,--output", options->output, {".hdr", ".npy", ".exr"},
+                  "Radiance to write (" + radiance_formats() + ")")
       .required();
   command.callback([options] { run(*options); });
 }

@@ -113,7 +113,7 @@ void add_distance_option(command& to, double& distance) {
 void add_lab_probe(command& lab) {
   auto command = lab.add_subcommand("probe", "Photograph a mirror sphere in an environment");
   const auto options = std::make_shared<probe_command>();
-  command.add_input("environment", options->input, "Light all around, latitude-longitude (.hdr, .npy or .exr)")
+  command.add_input("environment", options->input, "Light all around, latitude-longitude (" + radiance_formats() + ")")
       .required();
   add_distance_option(command, options->distance);
   command.add_option("--size", options->pixels, "Pixels of the image each way")
@@ -121,7 +121,7 @@ void add_lab_probe(command& lab) {
       .capture_default_str();
   command
       .add_output("-o,--output", options->output, {".hdr", ".npy", ".exr"},
-                  "Image to write, filled by the sphere (.hdr, .npy or .exr)")
+                  "Image to write, filled by the sphere (" + radiance_formats() + ")")
       .required();
   command.callback([options] { photograph(*options); });
 }
@@ -130,7 +130,8 @@ void add_lab_unwrap(command& lab) {
   auto command = lab.add_subcommand("unwrap", "Turn an image of a mirror sphere into the light all around");
   const auto options = std::make_shared<probe_command>();
   command
-      .add_input("image", options->input, "Square image that the sphere fills, of linear radiance (.hdr, .npy or .exr)")
+      .add_input("image", options->input,
+                 "Square image that the sphere fills, of linear radiance (" + radiance_formats() + ")")
       .required();
   add_distance_option(command, options->distance);
   command.add_option("--rows", options->unwrapping.rows, "Of the map, which is twice as wide")
@@ -138,12 +139,12 @@ void add_lab_unwrap(command& lab) {
       .capture_default_str();
   command.add_option("--reflectance", options->unwrapping.reflectance, "Of the mirror").capture_default_str();
   command.add_input("--truth", options->truth,
-                    "The environment that was photographed, to compare with (.hdr, .npy or .exr)");
+                    "The environment that was photographed, to compare with (" + radiance_formats() + ")");
   command.add_output("--image", options->image, {".png"}, "The image beside the map, to look at (.png)");
   add_threads_option(command, options->threads);
   command
       .add_output("-o,--output", options->output, {".hdr", ".npy", ".exr"},
-                  "Map to write, latitude-longitude (.hdr, .npy or .exr)")
+                  "Map to write, latitude-longitude (" + radiance_formats() + ")")
       .required();
   command.callback([options] { unwrap(*options); });
 }

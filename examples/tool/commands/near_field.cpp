@@ -3,6 +3,7 @@
 
 #include "commands.hpp"
 #include "tool/files/photograph_files.hpp"
+#include "tool/files/radiance_image.hpp"
 #include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
@@ -203,8 +204,9 @@ void add_near_field(command& app) {
   auto command = app.add_subcommand("near-field", "Turn images of a flat sample into samples for gonio reconstruct");
   const auto options = std::make_shared<near_field_command>();
   add_photograph_options(command, options->files, "images",
-                         "Images of linear radiance (.hdr, .npy or .exr), each followed by its set-up "
-                         "(docs/reference/formats.md): camera, light and region of interest");
+                         "Images of linear radiance (" + radiance_formats() +
+                             "), each followed by its set-up "
+                             "(docs/reference/formats.md): camera, light and region of interest");
   command.add_option("--clusters", options->clusters,
                      "Several materials: how many, or auto; told apart by colour in the last image, which should "
                      "show no highlight. Each gets a file of its own, OUTPUT-1.csv and so on, the largest first");

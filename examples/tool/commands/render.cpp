@@ -173,12 +173,14 @@ void add_render(command& app) {
   add_prior_option(command, options->prior);
   command
       .add_output("-o,--output", options->output, {".png", ".exr"},
-                  "Image to write: .png, or .exr for the values themselves, of slices pi times the BRDF")
+                  std::string("Image to write: .png") +
+                      (has_exr ? ", or .exr for the values themselves, of slices pi times the BRDF" : ""))
       .required();
   auto slices = command.add_flag("--slices", options->slices,
                                  "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
-  auto environment = command.add_input("--environment", options->environment,
-                                       "Light from all around: a latitude-longitude image (.hdr, .npy or .exr)");
+  auto environment =
+      command.add_input("--environment", options->environment,
+                        "Light from all around: a latitude-longitude image (" + radiance_formats() + ")");
   environment.excludes(slices);
   add_light_option(command, options->lights).excludes(environment).excludes(slices);
   command

@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "tool/files/photograph_files.hpp"
+#include "tool/files/radiance_image.hpp"
 #include "tool/pages/fixed.hpp"
 #include <gonio/capture/known_surface.hpp>
 #include <gonio/capture/sphere_outline.hpp>
@@ -137,12 +138,13 @@ void run(const sphere_command& options) {
 void add_sphere(command& app) {
   auto command = app.add_subcommand("sphere", "Turn photographs of a sphere into samples for gonio reconstruct");
   const auto options = std::make_shared<sphere_command>();
-  add_photograph_options(
-      command, options->files, "photographs",
-      "Images of linear radiance (.hdr, .npy or .exr), each followed by its set-up (docs/reference/formats.md): "
-      "camera, "
-      "light and sphere, which is found by its outline (in the white image, if it shows a sphere) unless the set-up "
-      "says where it is");
+  add_photograph_options(command, options->files, "photographs",
+                         "Images of linear radiance (" + radiance_formats() +
+                             "), each followed by its set-up (docs/reference/formats.md): "
+                             "camera, "
+                             "light and sphere, which is found by its outline (in the white image, if it shows a "
+                             "sphere) unless the set-up "
+                             "says where it is");
   command.add_flag("--fixed", options->fixed,
                    "Camera and sphere are the same in all photographs: the sphere is found in the one that shows the "
                    "most of its outline");

@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "tool/files/image_stack.hpp"
+#include "tool/files/radiance_image.hpp"
 #include "tool/files/texel_arrays.hpp"
 #include "tool/options/shipped_data.hpp"
 #include "tool/options/team.hpp"
@@ -185,8 +186,9 @@ void add_svbrdf(command& app, const team& processes) {
   const auto options = std::make_shared<svbrdf_command>();
   command
       .add_input("images", options->images,
-                 "List of images (.json): for each a file (.npy, .exr or .hdr) and its directions, and what their "
-                 "numbers are (docs/reference/formats.md)")
+                 "List of images (.json): for each a file (" + radiance_formats() +
+                     ") and its directions, and what their "
+                     "numbers are (docs/reference/formats.md)")
       .required();
   add_prior_option(command, options->prior);
   auto noise = command

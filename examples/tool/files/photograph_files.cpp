@@ -1,13 +1,16 @@
 #include "photograph_files.hpp"
 
+#include "radiance_image.hpp"
+
 namespace cli {
 
 void add_photograph_options(command& to, photograph_files& files, const std::string& name,
                             const std::string& described) {
   to.add_input(name, files.photographs, described).type_name("IMAGE SETUP").required();
   to.add_input("--white", files.white,
-               "A white image (.hdr, .npy or .exr) for each photograph: a white reference under the same light, by the "
-               "same camera, so that vignetting and the lamp's falloff cancel");
+               "A white image (" + radiance_formats() +
+                   ") for each photograph: a white reference under the same light, by the "
+                   "same camera, so that vignetting and the lamp's falloff cancel");
   to.add_input("--calibration", files.calibration,
                "Camera and lens distortion as OpenCV writes them (.yml or .xml), instead of those in the set-ups");
 }

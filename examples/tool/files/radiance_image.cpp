@@ -8,13 +8,15 @@
 
 namespace cli {
 
+std::string radiance_formats() { return has_exr ? ".hdr, .npy or .exr" : ".hdr or .npy"; }
+
 std::string radiance_format(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == ".npy" || extension == ".exr" || extension == ".hdr") return extension;
   const std::string start = file_start(path);
   if (start.empty() || start.starts_with("#?")) return ".hdr";  // whose reader says why there is nothing to read
-  gonio::refuse(
-      {path.string(), ": is no image of linear light, .hdr, .npy or .exr (gonio lab merge makes one of photographs)"});
+  gonio::refuse({path.string(), ": is no image of linear light, ", radiance_formats(),
+                 " (gonio lab merge makes one of photographs)"});
 }
 
 gonio::image read_radiance(const std::filesystem::path& path) {

@@ -8,6 +8,9 @@
 
 namespace cli {
 
+/// What a help calls such files: ".hdr, .npy or .exr", where this build has OpenEXR.
+[[nodiscard]] std::string radiance_formats();
+
 /// How a file is to be read: as ".npy", ".exr" or ".hdr", which is what begins as Radiance's files do, whatever its
 /// name. Throws gonio::error naming the file if it is none of them, as photographs that a camera wrote.
 [[nodiscard]] std::string radiance_format(const std::filesystem::path& path);

@@ -11,7 +11,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <csignal>
 #include <exception>
@@ -213,42 +212,31 @@ declared_files::paths paths_in(const std::vector<std::filesystem::path>& values)
 
 std::vector<std::string> strings(std::initializer_list<const char*> words) { return {words.begin(), words.end()}; }
 
-/// A build without OpenEXR offers no .exr: neither among an output's extensions nor in a sentence.
+/// A build without OpenEXR offers no .exr.
 std::vector<std::string> offered(std::initializer_list<const char*> extensions) {
   std::vector<std::string> all = strings(extensions);
   if (!has_exr) std::erase(all, ".exr");
   return all;
 }
-std::string offered(std::string sentence) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> ends{
-      {{", .npy or .exr", " or .npy"},
-       {".npy or .exr", ".npy"},
-       {".npy, .exr or .hdr", ".npy or .hdr"},
-       {", or .exr for the values themselves, of slices pi times the BRDF", ""}}};
-  for (const auto& [with, without] : ends)
-    if (const auto at = sentence.find(with); !has_exr && at != sentence.npos)
-      sentence.replace(at, with.size(), without);
-  return sentence;
-}
 
 }  // namespace
 
 option command::add_input(const std::string& names, std::filesystem::path& value, const std::string& description) {
-  auto* added = known_->add_option(names, value, offered(description));
+  auto* added = known_->add_option(names, value, description);
   files_->add_input(added->get_name(), paths_in(value));
   return option(*added);
 }
 
 option command::add_input(const std::string& names, std::vector<std::filesystem::path>& values,
                           const std::string& description) {
-  auto* added = known_->add_option(names, values, offered(description));
+  auto* added = known_->add_option(names, values, description);
   files_->add_input(added->get_name(), paths_in(values));
   return option(*added);
 }
 
 option command::add_input(const std::string& names, std::vector<std::pair<std::string, std::string>>& values,
                           const std::string& description) {
-  auto* added = known_->add_option(names, values, offered(description));
+  auto* added = known_->add_option(names, values, description);
   files_->add_input(added->get_name(), [&values] {
     std::vector<std::filesystem::path> all;
     for (const auto& [first, second] : values) all.insert(all.end(), {first, second});
@@ -273,7 +261,7 @@ option command::add_input_folders(const std::string& names, std::vector<std::fil
 
 option command::add_output(const std::string& names, std::filesystem::path& value,
                            std::initializer_list<const char*> extensions, const std::string& description) {
-  auto* added = known_->add_option(names, value, offered(description));
+  auto* added = known_->add_option(names, value, description);
   files_->add_output(added->get_name(), paths_in(value), offered(extensions));
   return option(*added);
 }

@@ -26,6 +26,9 @@ namespace detail {
 /// The block of reflection. Throws gonio::error naming the file and the blocks that it has if it is not there.
 [[nodiscard]] xml_element reflection_of(const xml_element& file, const std::string& name, const window_block& wanted);
 
+/// The number that a word of <ScatteringData> is, sr^-1.
+[[nodiscard]] double scattering_value(const xml_element& data, std::string_view word);
+
 }  // namespace detail
 
 /// Does the text have the root element of such a file, WindowElement?

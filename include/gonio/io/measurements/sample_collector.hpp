@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,10 @@ namespace gonio::io::detail {
 
 /// Refuses a reflectance that no float holds.
 void require_float_range(double reflectance, const text_place& place);
+
+/// The number, which is refused by its name unless it is from `lowest` to `highest`.
+[[nodiscard]] double require_between(double number, std::string_view name, double lowest, double highest,
+                                     const text_place& place);
 
 /// Is the direction above the horizon by more than the rounding of angles? Tables go to 90 degrees, where nothing can
 /// be measured, and those about the specular direction go on below.

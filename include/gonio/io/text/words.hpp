@@ -30,6 +30,8 @@ class word_reader {
 
   /// A finite number.
   [[nodiscard]] double read_number(std::string_view what);
+  /// One from `lowest` to `highest`.
+  [[nodiscard]] double read_number(std::string_view what, double lowest, double highest);
 
   /// A count, at least 1, and as many numbers from `lowest` to `highest`. Memory is asked for as they come.
   [[nodiscard]] std::vector<double> read_list(std::string_view what, double lowest, double highest);
@@ -49,7 +51,6 @@ class word_reader {
   [[nodiscard]] bool is_at_end_of_line() const noexcept {
     return line_.empty() || line_ == "#" || line_.starts_with("# ");
   }
-  [[nodiscard]] double ranged(std::string_view word, std::string_view what, double lowest, double highest) const;
 
   std::string_view text_, line_;
   text_place& place_;

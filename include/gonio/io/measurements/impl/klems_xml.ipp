@@ -37,10 +37,9 @@ inline constexpr std::size_t most_patches = 4096;
                                             double highest) {
   const xml_element found = in.first(name);
   const text_place place = found.place(found.content());
-  const double number = read_number(trimmed(found.content()), place, [&] { return message_of({"<", name, ">"}); });
-  if (!(number >= lowest && number <= highest))
-    place.refuse({"<", name, ">: ", shortest(number), ", expected from ", shortest(lowest), " to ", shortest(highest)});
-  return number;
+  const std::string tag = message_of({"<", name, ">"});
+  return require_between(read_number(trimmed(found.content()), place, [&] { return tag; }), tag, lowest, highest,
+                         place);
 }
 
 [[nodiscard]] GONIO_INLINE std::vector<klems_patch> read_basis(const xml_element& basis) {
@@ -68,6 +67,15 @@ inline constexpr std::size_t most_patches = 4096;
 
 // ---- matrices ------------------------------------------------------------------------------------------------------
 
+// Where a word stands takes a while to count: only if it is refused.
+GONIO_INLINE double scattering_value(const xml_element& data, std::string_view word) {
+  double number = 0.0;
+  if (const char* wrong = read_number(word, number))
+    data.place(word).refuse({"<ScatteringData>: ", in_quotes(word), wrong});
+  if (std::abs(number) > double{std::numeric_limits<float>::max()}) require_float_range(number, data.place(word));
+  return number;
+}
+
 /// The numbers of a matrix, which commas or blanks separate. More than expected are refused before they are kept.
 [[nodiscard]] GONIO_INLINE std::vector<double> read_matrix(const xml_element& data, std::size_t count) {
   constexpr std::string_view between = ", \t\r\n";
@@ -77,12 +85,9 @@ inline constexpr std::size_t most_patches = 4096;
        begin = rest.find_first_not_of(between)) {
     rest.remove_prefix(begin);
     const std::string_view word = rest.substr(0, rest.find_first_of(between));
-    double number = 0.0;
-    if (const char* wrong = read_number(word, number); wrong != nullptr)
-      data.place(word).refuse({"<ScatteringData>: ", in_quotes(word), wrong});
+    const double number = scattering_value(data, word);
     if (numbers.size() == count)
       data.place(word).refuse({"<ScatteringData> goes on behind ", count, " numbers, which the patches ask for"});
-    if (std::abs(number) > double{std::numeric_limits<float>::max()}) require_float_range(number, data.place(word));
     numbers.push_back(number);
     rest.remove_prefix(word.size());
   }

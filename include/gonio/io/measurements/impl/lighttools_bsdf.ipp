@@ -111,21 +111,14 @@ GONIO_INLINE lighttools_block lighttools_reader::read_block() {
 }
 
 GONIO_INLINE void lighttools_reader::read_keyword(std::string_view keyword, lighttools_block& block) {
-  const auto ranged = [&](double lowest, double highest) {
-    const double number = words_.read_number(keyword);
-    if (!(number >= lowest && number <= highest))
-      words_.place().refuse(
-          {keyword, ": ", shortest(number), ", expected from ", shortest(lowest), " to ", shortest(highest)});
-    return number;
-  };
   if (keyword == "AOI")
-    block.incidence = ranged(0.0, 90.0);
+    block.incidence = words_.read_number(keyword, 0.0, 90.0);
   else if (keyword == "POI")
-    require_plane_of_incidence(ranged(-360.0, 360.0));
+    require_plane_of_incidence(words_.read_number(keyword, -360.0, 360.0));
   else if (keyword == "Side")
     block.is_front = words_.read_one_of({"Front", "Back"}) == 0;
   else if (keyword == "Wavelength")
-    block.wavelength = ranged(0.0, 1e6);
+    block.wavelength = words_.read_number(keyword, 0.0, 1e6);
   else if (keyword == "ScatterType")
     block.is_reflection = words_.read_one_of({"BRDF", "BTDF"}) == 0;
   else if (keyword == "TristimulusValue")

@@ -31,14 +31,6 @@ struct rt300s_pose {
   double azimuth = 0.0, incidence = 0.0, receiver = 0.0;
 };
 
-[[nodiscard]] GONIO_INLINE double require_angle(double angle, std::string_view what, double lowest, double highest,
-                                                const text_place& place) {
-  if (!(angle >= lowest && angle <= highest))
-    place.refuse(
-        {what, ": ", shortest(angle), " degrees, expected from ", shortest(lowest), " to ", shortest(highest)});
-  return angle;
-}
-
 /// Adds a reading; `scale` makes RT of it.
 GONIO_INLINE void add_reading(sample_collector& to, const rt300s_pose& pose, double value, double scale,
                               const text_place& place) {
@@ -86,7 +78,7 @@ GONIO_INLINE bool rt300s_reader::next() {
 GONIO_INLINE double rt300s_reader::angle(std::string_view field, std::string_view what, double lowest,
                                          double highest) const {
   const double number = read_number(field, place_, [&] { return std::string(what); });
-  return require_angle(number, what, lowest, highest, place_);
+  return require_between(number, what, lowest, highest, place_);
 }
 
 GONIO_INLINE sample_collector rt300s_reader::read() {
@@ -105,7 +97,7 @@ GONIO_INLINE void rt300s_reader::read_line() {
   } else if (!has_type_) {
     place_.refuse({in_quotes(key), ", expected DataType: ", rt300s_type});
   } else if (key == "Incidence:") {
-    incidence_ = angle(value, "Incidence", 0.0, 90.0);
+    incidence_ = angle(value, "Incidence (degrees)", 0.0, 90.0);
   } else if (key == "Raw data") {
     if (!incidence_) place_.refuse("there is no line Incidence above the table");
     is_in_table_ = true;
@@ -123,14 +115,14 @@ GONIO_INLINE void rt300s_reader::read_receivers() {
   if (!fields_.front().empty() || fields_.size() < 2)
     place_.refuse({in_quotes(fields_.front()), ", expected an empty field and the receiver's angles"});
   for (std::size_t i = 1; i < fields_.size(); ++i)
-    receivers_.push_back(angle(fields_[i], "the receiver's angle", -90.0, 90.0));
+    receivers_.push_back(angle(fields_[i], "the receiver's angle (degrees)", -90.0, 90.0));
 }
 
 GONIO_INLINE void rt300s_reader::read_row() {
   if (fields_.size() != receivers_.size() + 1)
     place_.refuse({fields_.size(), fields_.size() == 1 ? " field" : " fields", ", expected an azimuth and ",
                    receivers_.size(), receivers_.size() == 1 ? " value" : " values"});
-  rt300s_pose pose{.azimuth = angle(fields_.front(), "the azimuth", -360.0, 360.0), .incidence = *incidence_};
+  rt300s_pose pose{.azimuth = angle(fields_.front(), "the azimuth (degrees)", -360.0, 360.0), .incidence = *incidence_};
   for (std::size_t i = 0; i < receivers_.size(); ++i) {
     pose.receiver = receivers_[i];
     const double value = read_number(fields_[i + 1], place_, [] { return "a value"; });
@@ -177,9 +169,9 @@ GONIO_INLINE void rt300s_reader::read_row() {
     if (!readings[i]) continue;
     if (!azimuths[i] || !incidences[i] || !receivers[i])
       place.refuse({"reading ", i + 1, " has RT, but not all three angles"});
-    const rt300s_pose pose{require_angle(*azimuths[i], "Azimuth", -360.0, 360.0, place),
-                           require_angle(*incidences[i], "Incidence", 0.0, 90.0, place),
-                           require_angle(*receivers[i], "Receive", -90.0, 90.0, place)};
+    const rt300s_pose pose{require_between(*azimuths[i], "Azimuth (degrees)", -360.0, 360.0, place),
+                           require_between(*incidences[i], "Incidence (degrees)", 0.0, 90.0, place),
+                           require_between(*receivers[i], "Receive (degrees)", -90.0, 90.0, place)};
     add_reading(collector, pose, *readings[i], 1.0, place);
   }
   return collector;

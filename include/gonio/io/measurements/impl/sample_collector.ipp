@@ -15,6 +15,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,13 @@ namespace gonio::io::detail {
 GONIO_INLINE void require_float_range(double reflectance, const text_place& place) {
   if (std::abs(reflectance) > double{std::numeric_limits<float>::max()})
     place.refuse({shortest(reflectance), " sr^-1 is beyond the range of float"});
+}
+
+GONIO_INLINE double require_between(double number, std::string_view name, double lowest, double highest,
+                                    const text_place& place) {
+  if (!(number >= lowest && number <= highest))
+    place.refuse({name, ": ", shortest(number), ", expected from ", shortest(lowest), " to ", shortest(highest)});
+  return number;
 }
 
 GONIO_INLINE double receiver_half_angle(double solid_angle, const json_reader& read) {

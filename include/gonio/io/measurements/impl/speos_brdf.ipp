@@ -92,7 +92,6 @@ class speos_reader {
  private:
   [[nodiscard]] double count(std::string_view what, double most);
   [[nodiscard]] std::vector<double> ascending(double count, std::string_view what, double lowest, double highest);
-  [[nodiscard]] double ranged(std::string_view what, double lowest, double highest);
   [[nodiscard]] speos_table read_table();
   [[nodiscard]] std::vector<double> azimuth_weights(const std::vector<double>& phi) const;
   [[nodiscard]] double integral(const speos_table& table) const;
@@ -112,16 +111,8 @@ class speos_reader {
   bool has_cosine_ = false;
 };
 
-GONIO_INLINE double speos_reader::ranged(std::string_view what, double lowest, double highest) {
-  const double number = words_.read_number(what);
-  if (!(number >= lowest && number <= highest))
-    words_.place().refuse(
-        {what, ": ", shortest(number), ", expected from ", shortest(lowest), " to ", shortest(highest)});
-  return number;
-}
-
 GONIO_INLINE double speos_reader::count(std::string_view what, double most) {
-  const double number = ranged(what, 1.0, most);
+  const double number = words_.read_number(what, 1.0, most);
   if (number != std::floor(number)) words_.place().refuse({what, ": ", shortest(number), " is no count"});
   return number;
 }
@@ -130,7 +121,7 @@ GONIO_INLINE std::vector<double> speos_reader::ascending(double count, std::stri
                                                          double highest) {
   std::vector<double> numbers;
   while (static_cast<double>(numbers.size()) < count) {
-    const double number = ranged(what, lowest, highest);
+    const double number = words_.read_number(what, lowest, highest);
     if (!numbers.empty() && !(number > numbers.back()))
       words_.place().refuse({what, ": ", shortest(number), " stands behind ", shortest(numbers.back()),
                              ", expected numbers that ascend"});
@@ -146,7 +137,7 @@ GONIO_INLINE speos_table speos_reader::read_table() {
   speos_table table;
   table.phi = ascending(phis, "phi", 0.0, 360.0);
   for (double i = 0.0; i < thetas; ++i) {
-    table.theta.push_back(ranged("theta", table.theta.empty() ? 0.0 : table.theta.back(), 90.0));
+    table.theta.push_back(words_.read_number("theta", table.theta.empty() ? 0.0 : table.theta.back(), 90.0));
     for (double k = 0.0; k < phis; ++k) table.values.push_back(words_.read_number("a value"));
   }
   return table;
@@ -238,7 +229,7 @@ GONIO_INLINE sample_collector speos_reader::read() {
   for (const double incidence : all_incidences) {
     std::vector<speos_table> spectrum;
     while (static_cast<double>(spectrum.size()) < wavelengths) {
-      const double reflectance = ranged("the reflectance in percent", 0.0, 100.0);
+      const double reflectance = words_.read_number("the reflectance in percent", 0.0, 100.0);
       spectrum.push_back(read_table());
       scale(spectrum.back(), 0.01 * reflectance / integral(spectrum.back()));
       if (spectrum.back().theta != spectrum.front().theta || spectrum.back().phi != spectrum.front().phi)
@@ -300,8 +291,8 @@ GONIO_INLINE sample_collector speos_reader::read_anisotropic() {
   for (int axis = 0; axis < 3; ++axis) static_cast<void>(words_.read_number("the anisotropy vector"));
   read_kind();
   std::vector<speos_turn> turns = read_turns();
-  const double incidence = ranged("the spectrum's angle of incidence", 0.0, 90.0),
-               azimuth = ranged("the spectrum's anisotropy angle", 0.0, 360.0);
+  const double incidence = words_.read_number("the spectrum's angle of incidence", 0.0, 90.0),
+               azimuth = words_.read_number("the spectrum's anisotropy angle", 0.0, 360.0);
   const auto of_spectrum = std::ranges::find(turns, azimuth, &speos_turn::azimuth);
   if (of_spectrum == turns.end())
     words_.place().refuse({"the spectrum's anisotropy angle ", shortest(azimuth), " is none of those of the tables"});
@@ -309,8 +300,8 @@ GONIO_INLINE sample_collector speos_reader::read_anisotropic() {
   std::vector<double> wavelengths, reflectances;
   for (double left = count("the number of wavelengths", 10'000.0); left > 0.0; --left) {
     const double lowest = wavelengths.empty() ? 1.0 : std::nextafter(wavelengths.back(), 2e6);
-    wavelengths.push_back(ranged("a wavelength", lowest, 1e6));
-    reflectances.push_back(ranged("the reflectance in percent", 0.0, 100.0));
+    wavelengths.push_back(words_.read_number("a wavelength", lowest, 1e6));
+    reflectances.push_back(words_.read_number("the reflectance in percent", 0.0, 100.0));
   }
   for (speos_turn& turn : turns)
     while (turn.tables.size() < turn.incidences.size()) turn.tables.push_back(read_table());

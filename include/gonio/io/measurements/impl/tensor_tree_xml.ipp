@@ -18,7 +18,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -111,10 +110,7 @@ GONIO_INLINE void tensor_tree_reader::read_grid(const tree_cell& cell) {
   std::vector<double> values;
   while (!read_if('}')) {
     const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t\r\n,{}"));
-    double number = 0.0;
-    if (const char* wrong = read_number(word, number)) refuse({"<ScatteringData>: ", in_quotes(word), wrong});
-    if (std::abs(number) > double{std::numeric_limits<float>::max()}) require_float_range(number, data_.place(rest_));
-    values.push_back(number);
+    values.push_back(scattering_value(data_, word));
     rest_.remove_prefix(word.size());
   }
   std::size_t along_axis = 1;

@@ -47,8 +47,8 @@ GONIO_INLINE double word_reader::read_number(std::string_view what) {
   return io::read_number(word, place_, [&] { return std::string(what); });
 }
 
-GONIO_INLINE double word_reader::ranged(std::string_view word, std::string_view what, double lowest,
-                                        double highest) const {
+GONIO_INLINE double word_reader::read_number(std::string_view what, double lowest, double highest) {
+  const std::string_view word = read(what);
   const double number = io::read_number(word, place_, [&] { return std::string(what); });
   if (!(number >= lowest && number <= highest))
     place_.refuse({what, ": ", in_quotes(word), ", expected from ", shortest(lowest), " to ", shortest(highest)});
@@ -60,14 +60,14 @@ GONIO_INLINE std::vector<double> word_reader::read_list(std::string_view what, d
   if (!(count >= 1.0 && count <= 1e6 && count == static_cast<double>(static_cast<std::size_t>(count))))
     place_.refuse({what, ": ", shortest(count), " is no count from 1 to 1000000"});
   std::vector<double> numbers;
-  while (static_cast<double>(numbers.size()) < count) numbers.push_back(ranged(read(what), what, lowest, highest));
+  while (static_cast<double>(numbers.size()) < count) numbers.push_back(read_number(what, lowest, highest));
   return numbers;
 }
 
 GONIO_INLINE std::vector<double> word_reader::read_line(std::string_view what, double lowest, double highest) {
   std::vector<double> numbers;
   do {
-    numbers.push_back(ranged(read(what), what, lowest, highest));
+    numbers.push_back(read_number(what, lowest, highest));
   } while (!is_at_end_of_line());
   return numbers;
 }
