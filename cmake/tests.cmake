@@ -27,7 +27,8 @@ target_precompile_headers(test_main PRIVATE
   <doctest/doctest.h> <Eigen/Core> <Eigen/Cholesky> <string> <vector>)
 
 set(GONIO_TESTS_APART io model render cli papers long crafted crafted_shapes shape_commands)
-# gonio_add_tests(MODULE LABEL TIMEOUT SOURCE...): the program test_MODULE. Where first_cases is set it runs as two tests.
+# gonio_add_tests(MODULE LABEL TIMEOUT SOURCE...): the program test_MODULE. If first_cases is set it runs as two tests,
+# with the filter in `cases`.
 function(gonio_add_tests module label timeout)
   set(sources ${ARGN})
   foreach(file IN LISTS sources)
@@ -50,8 +51,8 @@ function(gonio_add_tests module label timeout)
   set(tests ${module})
   if(first_cases) # and the others, beside one another
     math(EXPR next "${first_cases} + 1")
-    add_test(NAME ${module} COMMAND test_${module} --last=${first_cases})
-    add_test(NAME ${module}_more COMMAND test_${module} --first=${next})
+    add_test(NAME ${module} COMMAND test_${module} ${cases} --last=${first_cases})
+    add_test(NAME ${module}_more COMMAND test_${module} ${cases} --first=${next})
     list(APPEND tests ${module}_more)
   else()
     add_test(NAME ${module} COMMAND test_${module})

@@ -81,7 +81,7 @@ TEST_CASE("svbrdf: an unfinished map is gone on with, unless it is of other imag
   CHECK(scratch::fs::file_size(part) > whole.size() / 2);
 }
 
-TEST_CASE("svbrdf: killed at random moments, the command given again ends with the same bytes") {
+TEST_CASE("killed: gonio svbrdf, given again, ends with the same bytes") {
   const images_folder given;
   run(given.command("map.gsv"));
   std::mt19937 generator(8);
