@@ -11,6 +11,7 @@
 #include <gonio/model/adaptive_brdf.hpp>
 #include <gonio/model/analytic_brdf.hpp>
 #include <gonio/model/formula_materials.hpp>
+#include <gonio/model/instrument_readings.hpp>
 #include <gonio/render/environment_sampler.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
@@ -82,13 +83,28 @@ py::object compare_brdfs(const py::object& estimate, const py::object& truth,
   const gonio::valid_cells cells = common_cells(estimate, truth);
   const gonio::brdf_table found = tabulated(estimate, "estimate", cells), expected = tabulated(truth, "truth", cells);
   gonio::comparison errors;
+  gonio::model::instrument_readings of_estimate, of_truth;
   {
     const py::gil_scoped_release released;
     const gonio::log_relative metric = prior ? prior->metric() : gonio::io::read_prior(shipped).metric();
     const gonio::appearance_metric appearance(cells, 36, gonio::thread_count{threads});
     errors = gonio::compare(found, expected, metric, appearance, gonio::thread_count{threads});
+    of_estimate = gonio::model::read_instruments(found);
+    of_truth = gonio::model::read_instruments(expected);
   }
-  return to_python(cli::to_json(errors));
+  cli::json all = cli::to_json(errors);
+  all["readings"] = {{"estimate", cli::to_json(of_estimate)}, {"truth", cli::to_json(of_truth)}};
+  return to_python(all);
+}
+
+py::object instrument_readings(const py::object& brdf) {
+  const gonio::brdf_table table = tabulated(brdf, "brdf", gonio::valid_cells());
+  gonio::model::instrument_readings readings;
+  {
+    const py::gil_scoped_release released;
+    readings = gonio::model::read_instruments(table);
+  }
+  return to_python(cli::to_json(readings));
 }
 
 /// As the tool exposes it.
@@ -141,6 +157,11 @@ void add_rendering(py::module_& m) {
       "How an estimate differs from the truth, both BRDFs of any kind: what `gonio compare --json` prints. They are\n"
       "compared over the cells of the truth if it is a Table, else of the estimate, else of a MERL file. prior: whose\n"
       "metric maps reflectance; without one that of the prior that ships with the package.");
+  m.def(
+      "instrument_readings", &instrument_readings, py::arg("brdf"),
+      "What instruments would read on a BRDF, as a dictionary: gloss at 20, 60 and 85 degrees (ISO 2813) and haze at\n"
+      "20 (ISO 13803) in gloss units, the haze index (ASTM D4039), the reflectance of light at 8 degrees with and\n"
+      "without the specular part, the total integrated scatter, and L*, a*, b* (D65) at aspecular angles.");
 }
 
 }  // namespace python

@@ -10,6 +10,7 @@
 #include <gonio/core/printable.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/rgl.hpp>
+#include <gonio/model/instrument_readings.hpp>
 #include <gonio/model/measured_properties.hpp>
 #include <gonio/model/physical_properties.hpp>
 
@@ -81,6 +82,7 @@ json properties_of_merl(const std::filesystem::path& path) {
   const gonio::brdf_table table = gonio::io::read_merl_any(path);
   json all{{"kind", "MERL table"}, {"energy", energy_of(table)}};
   all.update(properties_of(table));
+  all["readings"] = cli::to_json(gonio::model::read_instruments(table));
   all["reciprocity"] = {{"kept_by", "the format"}};
   all["isotropy"] = {{"kept_by", "the format"}};
   return all;
@@ -101,6 +103,7 @@ json properties_of_rgl(const std::filesystem::path& path, gonio::thread_count th
   const light_and_viewer_swapped as_measured{material};
   json all{{"kind", "RGL material"}, {"energy", energy_of(as_measured)}};
   all.update(properties_of(gonio::tabulate(material, gonio::valid_cells(), threads)));
+  all["readings"] = cli::to_json(gonio::model::read_instruments(as_measured));
   all["reciprocity"] = to_json(gonio::model::worst_asymmetry(as_measured));
   all["isotropy"] = {{"kept_by", "the format"}};
   return all;
@@ -181,6 +184,25 @@ std::string tails_sentence(const json& tails) {
          fixed(tails["theta_h"], 1) + ", theta_d " + fixed(tails["theta_d"], 1);
 }
 
+void print_readings(const json& readings) {
+  const auto row = [](const char* instrument, const std::string& reading) {
+    std::cout << "| " << instrument << " | " << reading << " |\n";
+  };
+  const json& gloss = readings["gloss"];
+  std::cout << "\n| instrument | reading |\n|---|---|\n";
+  row("gloss at 20, 60, 85 degrees (ISO 2813)",
+      fixed(gloss["20"], 1) + ", " + fixed(gloss["60"], 1) + ", " + fixed(gloss["85"], 1));
+  row("haze at 20 degrees (ISO 13803)", fixed(readings["haze_20"], 1));
+  row("haze index (ASTM D4039)", fixed(readings["haze_index"], 1));
+  row("reflectance at 8 degrees, specular included", percent(readings["luminous_reflectance_8"]));
+  row("the same, specular excluded (4 degrees)", percent(readings["luminous_reflectance_8_specular_excluded"]));
+  row("total integrated scatter (outside 2.5 degrees)", percent(readings["total_integrated_scatter"]));
+  std::cout << "\n| degrees from the mirror direction, light at 45 | L* | a* | b* |\n|---|---|---|---|\n";
+  for (const json& each : readings["colours"].elements())
+    std::cout << "| " << fixed(each["aspecular"], 0) << " | " << fixed(each["L"], 1) << " | " << fixed(each["a"], 1)
+              << " | " << fixed(each["b"], 1) << " |\n";
+}
+
 /// As Markdown, as `gonio plan` does.
 void print(const std::filesystem::path& file, const json& all) {
   const auto row = [](const char* what, const std::string& sentence) {
@@ -196,6 +218,7 @@ void print(const std::filesystem::path& file, const json& all) {
   row("isotropy", symmetry_sentence(all["isotropy"], "turned about the normal"));
   if (of_samples) return row("repeats", symmetry_sentence(all["repeats"], "of the same directions"));
   row("tails", tails_sentence(all["tails"]));
+  print_readings(all["readings"]);
   std::cout << "\n| theta_i | albedo, red | green | blue |\n|---|---|---|---|\n";
   for (const json& at : all["energy"]["by_angle"].elements()) {
     std::cout << "| " << fixed(at["theta_i"], 0);
@@ -208,7 +231,9 @@ void print(const std::filesystem::path& file, const json& all) {
 
 void add_properties(command& app) {
   auto command = app.add_subcommand(
-      "properties", "Measure whether a table or samples keep what a physical BRDF keeps (docs/learn/properties.md)");
+      "properties",
+      "Say whether a table or samples are physical, and what a gloss meter, an integrating sphere and a multi-angle "
+      "instrument read on a table (docs/learn/properties.md)");
   const auto options = std::make_shared<properties_options>();
   command
       .add_input("file", options->file,

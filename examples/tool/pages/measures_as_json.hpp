@@ -6,7 +6,10 @@
 
 namespace gonio {
 struct comparison;
+namespace model {
+struct instrument_readings;
 }
+}  // namespace gonio
 
 namespace cli {
 
@@ -15,5 +18,8 @@ namespace cli {
 
 /// The keys that `gonio compare --json` documents.
 [[nodiscard]] json to_json(const gonio::comparison& errors);
+
+/// The readings of gloss meters, integrating spheres and multi-angle instruments, with their geometries in the keys.
+[[nodiscard]] json to_json(const gonio::model::instrument_readings& readings);
 
 }  // namespace cli

@@ -43,15 +43,19 @@ namespace detail {
 
 }  // namespace detail
 
-/// CIELAB 1976 (L*, a*, b*) of a linear Rec. 709 colour under D65. The colour is clipped to [0, 1]
-/// first, as a display would.
-[[nodiscard]] inline rgb to_lab(const rgb& colour) noexcept {
-  // A channel that is not a number stays so.
-  const auto clipped = [](double channel) { return channel < 0.0 ? 0.0 : channel > 1.0 ? 1.0 : channel; };
-  const rgb xyz = to_xyz({clipped(colour.x()), clipped(colour.y()), clipped(colour.z())});
+/// CIELAB 1976 (L*, a*, b*) of a linear Rec. 709 colour under D65. A highlight has L* above 100.
+[[nodiscard]] inline rgb to_unclipped_lab(const rgb& colour) noexcept {
+  const rgb xyz = to_xyz(colour);
   const double x = detail::lab_curve(xyz.x() / 0.95047), y = detail::lab_curve(xyz.y()),
                z = detail::lab_curve(xyz.z() / 1.08883);
   return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
+}
+
+/// The same of the colour clipped to [0, 1], as a display shows it.
+[[nodiscard]] inline rgb to_lab(const rgb& colour) noexcept {
+  // A channel that is not a number stays so.
+  const auto clipped = [](double channel) { return channel < 0.0 ? 0.0 : channel > 1.0 ? 1.0 : channel; };
+  return to_unclipped_lab({clipped(colour.x()), clipped(colour.y()), clipped(colour.z())});
 }
 
 /// CIE 1976 colour difference Delta E*ab of two linear colours.
