@@ -6,6 +6,7 @@
 /// learned from the reference, as `sample_process` learns its scale.
 /// How often it is wrong on measured materials: docs/results/conformity.md.
 
+#include <gonio/core/rgb.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/reconstruction.hpp>
 
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,8 +32,14 @@ struct measurement_noise {
 
 struct conformity_options {
   measurement_noise part = {}, reference = {};
-  /// A part conforms if none of its values is off by more than this, relative to it.
-  double tolerance = 0.0;
+  /// A part conforms if none of its values is off by more than this, relative to it: one number, or one a channel.
+  std::vector<double> tolerance = {0.0};
+  /// The same near the mirror direction, where the half vector is within 5 degrees of the normal, if that differs.
+  std::optional<double> peak_tolerance = {};
+  /// If above 0, a part of three colours conforms if no direction's colour is off by more than this CIELAB 1976
+  /// difference, linearised. Colours are those of reflectance factors under D65. Then the verdict rests on
+  /// `worst_p_value` alone, and no other tolerance may be given.
+  double delta_e = 0.0;
   /// Half and difference angles that differ by no more than this are one direction, radians.
   double same_direction = 0.01 * std::numbers::pi / 180.0;
 };
@@ -45,6 +53,7 @@ struct compared_direction {
   Eigen::ArrayXd expected;        ///< of the reference, sr^-1
   Eigen::ArrayXd difference;      ///< of the mapped values: relative where the metric is a logarithm
   Eigen::ArrayXd deviation;       ///< the standard deviation of `difference` if part and reference are alike
+  double delta_e = 0.0;           ///< of the colours, CIELAB 1976 under D65; 0 unless there are three
   double p_value = 1.0;           ///< of this direction alone
   double adjusted_p_value = 1.0;  ///< the same by Holm (1979), for all directions at once
 };
@@ -53,7 +62,8 @@ struct compared_direction {
 /// `total` are of the directions that both have, or of all if there is none: where the reference predicts it is less
 /// sure.
 struct conformity {
-  double p_value = 1.0;        ///< as a whole: three times the least of the next three (Bonferroni), at most 1
+  double p_value = 1.0;        ///< as a whole: three times the least of the next three (Bonferroni), at most 1; with
+                               ///< `conformity_options::delta_e` the last of them
   double shift_p_value = 1.0;  ///< of one shift of each channel, the same in all directions, a degree of freedom each
   double total_p_value = 1.0;  ///< of all differences, a degree of freedom for each channel of each direction
   double worst_p_value = 1.0;  ///< of the worst direction, times their number
@@ -78,11 +88,12 @@ namespace detail {
 struct conformity_samples {
   Eigen::Index parts = 0;
   std::vector<half_difference> angles;
-  Eigen::MatrixXd mapped;      ///< less the prior's mean, N x channels
-  Eigen::MatrixXd covariance;  ///< of the mapped reflectance by the model, for one channel, N x N
-  double independent = 0.0;    ///< of its diagonal: what is independent in each direction
-  Eigen::MatrixXd noise;       ///< variances of the measurements, N x channels
-  Eigen::MatrixXd tolerance;   ///< of the part's mapped values, parts x channels
+  Eigen::MatrixXd mapped;                      ///< less the prior's mean, N x channels
+  Eigen::MatrixXd covariance;                  ///< of the mapped reflectance by the model, for one channel, N x N
+  double independent = 0.0;                    ///< of its diagonal: what is independent in each direction
+  Eigen::MatrixXd noise;                       ///< variances of the measurements, N x channels
+  Eigen::MatrixXd tolerance;                   ///< of the part's mapped values, parts x channels
+  std::vector<Eigen::Matrix3d> lab_by_mapped;  ///< by which CIELAB changes with them, of each part; or empty
 };
 
 /// Without `value` and `expected` of the directions.
@@ -93,7 +104,18 @@ struct conformity_samples {
 [[nodiscard]] double least_within(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& residuals,
                                   const Eigen::VectorXd& tolerance);
 
-void require_possible(const conformity_options& options);
+/// The least (r - x)' M (r - x) of all x with |J x| <= length, M positive definite, J regular: a Lagrange multiplier
+/// found by bisection.
+[[nodiscard]] double least_within(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& residuals,
+                                  const Eigen::Matrix3d& jacobian, double length);
+
+void require_possible(const conformity_options& options, Eigen::Index channels);
+
+/// The tolerance of a channel at a location, relative to a value.
+[[nodiscard]] double tolerance_of(const conformity_options& options, Eigen::Index channel, const location& at);
+
+/// CIELAB 1976 under D65 of two colours, sr^-1.
+[[nodiscard]] double delta_e_of(const rgb& one, const rgb& other);
 
 /// Of all channels; of one if the channels are the same, as those of one reading are that stands for three.
 [[nodiscard]] located_samples both_of(const located_samples& part, const located_samples& reference);
@@ -119,6 +141,23 @@ template <error_metric Metric>
 [[nodiscard]] double mapped_deviation(const Metric& metric, double value, const location& at,
                                       const measurement_noise& noise) {
   return std::max(mapped_noise_of(metric, value, at, noise), 0.5 * noise.relative);
+}
+
+/// By how much CIELAB under D65 changes with the mapped values of a colour in sr^-1.
+template <error_metric Metric>
+[[nodiscard]] Eigen::Matrix3d lab_by_mapped(const Metric& metric, const rgb& colour, const location& at) {
+  constexpr double step = 1e-3;
+  Eigen::Matrix3d slopes;
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const double mapped = metric.forward(std::max(colour[c], 0.0), at);
+    rgb more = colour, less = colour;
+    more[c] = metric.inverse(mapped + step, at);
+    less[c] = metric.inverse(mapped - step, at);
+    slopes.col(c) =
+        ((to_unclipped_lab(std::numbers::pi * more) - to_unclipped_lab(std::numbers::pi * less)) / (2.0 * step))
+            .matrix();
+  }
+  return slopes;
 }
 
 }  // namespace detail
@@ -147,11 +186,13 @@ template <error_metric Metric>
 template <error_metric Metric>
 [[nodiscard]] conformity check_conformity(const reconstruction<Metric>& estimator, const located_samples& part,
                                           const located_samples& reference, const conformity_options& options) {
-  detail::require_possible(options);
+  detail::require_possible(options, part.values.cols());
   const auto& metric = estimator.prior().metric();
 
   // Put the two together. The weights of samples divide the variances of their noise.
   const located_samples both = detail::both_of(part, reference);
+  if (options.delta_e > 0.0 && both.values.cols() != 3)
+    refuse("a tolerance of Delta E needs red, green and blue, which part and reference have not");
   discrepancy_model model = estimator.model();
   model.noise = 0.0;
   model.grazing_variance = 0.0;  // one variance of all errors, as p-values were calibrated with
@@ -162,7 +203,8 @@ template <error_metric Metric>
                                      .covariance = process.covariance(),
                                      .independent = model.error_variance,
                                      .noise = Eigen::MatrixXd(both.size(), both.values.cols()),
-                                     .tolerance = Eigen::MatrixXd(part.size(), both.values.cols())};
+                                     .tolerance = Eigen::MatrixXd(part.size(), both.values.cols()),
+                                     .lab_by_mapped = {}};
   for (Eigen::Index i = 0; i < both.size(); ++i) {
     const location& at = both.locations[i];
     const bool is_part = i < part.size();
@@ -171,8 +213,10 @@ template <error_metric Metric>
       const double deviation =
           detail::mapped_deviation(metric, both.values(i, c), at, is_part ? options.part : options.reference);
       samples.noise(i, c) = deviation * deviation / weight;
-      if (is_part) samples.tolerance(i, c) = std::log1p(options.tolerance);
+      if (is_part) samples.tolerance(i, c) = std::log1p(detail::tolerance_of(options, c, at));
     }
+    if (is_part && options.delta_e > 0.0 && both.values.cols() == 3)
+      samples.lab_by_mapped.push_back(detail::lab_by_mapped(metric, both.values.row(i).transpose().array(), at));
   }
   conformity found = detail::compare_samples(std::move(samples), options);
 
@@ -183,6 +227,7 @@ template <error_metric Metric>
     each.expected = each.value;
     for (Eigen::Index c = 0; c < each.value.size(); ++c)
       each.expected[c] = reflectance_of(metric, metric.forward(each.value[c], at) - each.difference[c], at);
+    if (each.value.size() == 3) each.delta_e = detail::delta_e_of(each.value, each.expected);
   }
   return found;
 }

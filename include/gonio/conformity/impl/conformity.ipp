@@ -10,13 +10,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 namespace gonio::detail {
 
-GONIO_INLINE void require_possible(const conformity_options& options) {
+GONIO_INLINE void require_possible(const conformity_options& options, Eigen::Index channels) {
   for (const measurement_noise& noise : {options.part, options.reference})
     if (!(noise.relative >= 0.0 && noise.relative <= 0.3) || !(noise.dark >= 0.0 && std::isfinite(noise.dark)))
       refuse({"noise must be from 0 to 0.3 relative to a value, and finite and not negative beside it, not ",
@@ -25,10 +27,29 @@ GONIO_INLINE void require_possible(const conformity_options& options) {
     refuse("a part is compared by the noise of its measurement, which must be above 0");
   if (!(options.part.degrees_of_freedom > 0.0) || !(options.reference.degrees_of_freedom > 0.0))
     refuse("noise that is estimated needs degrees of freedom above 0");
-  if (!(options.tolerance >= 0.0 && std::isfinite(options.tolerance)))
-    refuse({"a tolerance must be finite and not negative, not ", options.tolerance});
+  if (options.tolerance.size() != 1 && std::ssize(options.tolerance) != channels)
+    refuse({"tolerances are one, or one for each of ", channels, " channels, not ", options.tolerance.size()});
+  std::vector<double> tolerances = options.tolerance;
+  tolerances.push_back(options.peak_tolerance.value_or(0.0));
+  tolerances.push_back(options.delta_e);
+  for (const double tolerance : tolerances)
+    if (!(tolerance >= 0.0 && std::isfinite(tolerance)))
+      refuse({"a tolerance must be finite and not negative, not ", tolerance});
+  if (options.delta_e > 0.0 && (options.peak_tolerance || std::ranges::max(options.tolerance) > 0.0))
+    refuse("a tolerance of Delta E stands alone, without one relative to values");
   if (!(options.same_direction >= 0.0 && options.same_direction <= 0.1))
     refuse({"directions are the same within 0 to 0.1 radians, not ", options.same_direction});
+}
+
+GONIO_INLINE double tolerance_of(const conformity_options& options, Eigen::Index channel, const location& at) {
+  constexpr double peak = radians(5.0);
+  if (options.peak_tolerance && at.angles.theta_h < peak) return *options.peak_tolerance;
+  return options.tolerance.size() == 1 ? options.tolerance.front() : options.tolerance[channel];
+}
+
+GONIO_INLINE double delta_e_of(const rgb& one, const rgb& other) {
+  return std::sqrt(
+      (to_unclipped_lab(std::numbers::pi * one) - to_unclipped_lab(std::numbers::pi * other)).square().sum());
 }
 
 GONIO_INLINE Eigen::Index distinct_channels(const Eigen::MatrixXd& values) {
@@ -139,6 +160,17 @@ struct difference_operator {
   return all;
 }
 
+/// By its adjugate. Eigen's own is in its LU module, which costs every reader of this header.
+[[nodiscard]] inline Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& m) {
+  Eigen::Matrix3d inverse;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      const Eigen::Index a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+      inverse(i, j) = m(a, c) * m(b, d) - m(a, d) * m(b, c);
+    }
+  return inverse / m.row(0).dot(inverse.col(0));
+}
+
 GONIO_INLINE double least_within(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& residuals,
                                  const Eigen::VectorXd& tolerance) {
   Eigen::VectorXd gradient = product(matrix, residuals), left = residuals;
@@ -158,6 +190,25 @@ GONIO_INLINE double least_within(const Eigen::MatrixXd& matrix, const Eigen::Vec
     }
   }
   return std::max(left.dot(gradient), 0.0);
+}
+
+GONIO_INLINE double least_within(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& residuals,
+                                 const Eigen::Matrix3d& jacobian, double length) {
+  // In u = J x: (s - u)' A (s - u) with |u| <= length, so that (A + m I) u = A s.
+  const Eigen::Matrix3d inverse = inverse_of(jacobian);
+  const Eigen::Matrix3d a = inverse.transpose() * matrix * inverse;
+  const Eigen::Vector3d s = jacobian * residuals, as = a * s;
+  if (s.norm() <= length) return 0.0;
+  const auto at = [&](double multiplier) -> Eigen::Vector3d {
+    return inverse_of(a + multiplier * Eigen::Matrix3d::Identity()) * as;
+  };
+  double low = 0.0, high = as.norm() / length;  // |u| <= |A s| / m
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (at(middle).norm() > length ? low : high) = middle;
+  }
+  const Eigen::Vector3d left = s - at(high);
+  return left.dot(a * left);
 }
 
 /// Holm's step-down adjustment: S. Holm, "A simple sequentially rejective multiple test procedure", Scandinavian
@@ -231,19 +282,22 @@ inline void test_together(const stacked_differences& all, const freedoms& known,
                                 static_cast<double>(all.channels), known.shift);
 }
 
-/// Each direction alone, and the worst of them.
+/// Each direction alone, and the worst of them. `lab_by_mapped` of all directions, or of none.
 inline void test_apart(const stacked_differences& all, const std::vector<Eigen::Index>& shared, const freedoms& known,
-                       conformity& found) {
+                       const std::vector<Eigen::Matrix3d>& lab_by_mapped, double delta_e, conformity& found) {
   for (Eigen::Index i = 0; i < std::ssize(shared); ++i) {
     const auto [channels, residuals, covariance, tolerance] = all.subset({i});
+    const Eigen::MatrixXd precision = precision_of(covariance);
     compared_direction each{.number = i,
                             .measured = shared[i],
                             .value = {},
                             .expected = {},
                             .difference = residuals.array(),
                             .deviation = covariance.diagonal().array().sqrt()};
-    each.p_value = tail_of(least_within(precision_of(covariance), residuals, tolerance), static_cast<double>(channels),
-                           shared[i] > 0 ? known.measured : known.direction);
+    const double squares = lab_by_mapped.empty() ? least_within(precision, residuals, tolerance)
+                                                 : least_within(Eigen::Matrix3d(precision), Eigen::Vector3d(residuals),
+                                                                lab_by_mapped[static_cast<std::size_t>(i)], delta_e);
+    each.p_value = tail_of(squares, static_cast<double>(channels), shared[i] > 0 ? known.measured : known.direction);
     found.directions.push_back(each);
   }
   adjust(found.directions);
@@ -279,9 +333,10 @@ GONIO_INLINE conformity compare_samples(conformity_samples samples, const confor
   const freedoms known(noise, all - n, predicts);
   conformity found;
   test_together(stacked.subset(together), known, found);
-  test_apart(stacked, by.shared, known, found);
+  test_apart(stacked, by.shared, known, samples.lab_by_mapped, options.delta_e, found);
   const double least = std::min({found.shift_p_value, found.total_p_value, found.worst_p_value});
-  found.p_value = n == 1 ? found.worst_p_value : std::min(3.0 * least, 1.0);
+  const bool worst_decides = n == 1 || !samples.lab_by_mapped.empty();
+  found.p_value = worst_decides ? found.worst_p_value : std::min(3.0 * least, 1.0);
   return found;
 }
 

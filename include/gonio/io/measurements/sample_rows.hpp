@@ -6,6 +6,7 @@
 #include <gonio/io/measurements/sample_layout.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
+#include <gonio/io/text/csv_dialect.hpp>
 #include <gonio/io/text/csv_reader.hpp>
 #include <gonio/io/text/text.hpp>
 
@@ -57,6 +58,8 @@ class sample_rows {
             header_};
   }
   [[nodiscard]] const sample_header& header() const noexcept { return header_; }
+  /// For people: separators and decimal marks.
+  [[nodiscard]] std::string dialect() const { return description(csv_.dialect()); }
   [[nodiscard]] std::optional<sample_quantity> quantity() const noexcept { return quantity_.quantity(); }
   [[nodiscard]] std::optional<double> wavelength() const noexcept { return wavelength_; }
   [[nodiscard]] const sample_provenance& provenance() const noexcept { return provenance_; }

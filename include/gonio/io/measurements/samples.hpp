@@ -15,6 +15,7 @@
 #include <gonio/io/measurements/sample_quantity.hpp>
 #include <gonio/table/sample_set.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -24,12 +25,21 @@
 
 namespace gonio::io {
 
+/// How a text of samples was read.
+struct sample_text {
+  std::string dialect = {};             ///< "semicolon-separated with decimal commas"
+  std::vector<std::size_t> lines = {};  ///< the line of each sample, from 1
+  std::size_t rows_left_out = 0;        ///< rows, or cells of a matrix, without a value or at 90 degrees
+  bool assumes_side = false;  ///< nothing says on which side of the normal theta_o is positive: the light's was taken
+};
+
 /// Samples, and what their file says of them.
 struct sample_file {
   sample_set samples = {};                       ///< sr^-1, whatever quantity the file has
   std::optional<sample_quantity> quantity = {};  ///< as stated in the file or by its reader; r,g,b need none
   std::optional<theta_o_sign> sign = {};         ///< as stated in the file or by its reader
   sample_provenance provenance = {};
+  sample_text text = {};  ///< empty of a file in another format
 };
 
 /// Samples from the text of a CSV file; `name` is what errors call it.

@@ -241,6 +241,7 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
     const sample_directions at = detail::row_directions(row);
     detail::read_row_values(row, at, values);
     file.samples.add(at, values, detail::row_weight(row), detail::row_aperture(row));
+    file.text.lines.push_back(row.place.line);
   }
   if (file.samples.empty()) gonio::refuse({name, ": has no sample above the horizon, expected at least one"});
   detail::note_left_out(rows, at_horizon, static_cast<std::size_t>(file.samples.size()), reading, name);
@@ -249,6 +250,9 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
   file.quantity = rows.quantity();
   file.sign = rows.sign();
   file.provenance = rows.provenance();
+  file.text.dialect = rows.dialect();
+  file.text.rows_left_out = at_horizon + rows.rows_without_value();
+  file.text.assumes_side = rows.assumes_side();
   return file;
 }
 
