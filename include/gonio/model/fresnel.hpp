@@ -23,8 +23,8 @@ template <class Real>
 }
 
 /// Reflectance of a dielectric with relative refractive index n >= 1, for unpolarised light from outside. R. L. Cook
-/// and K. E. Torrance, "A
-/// Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293), section 4.
+/// and K. E. Torrance, "A Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293),
+/// section 4.
 template <class Real>
 [[nodiscard]] Real fresnel_dielectric(double cosine, const Real& index) {
   using std::sqrt;
@@ -36,8 +36,7 @@ template <class Real>
 }
 
 /// Reflectance of a conductor with complex index n + ik, for unpolarised light from vacuum. M. Born and E. Wolf,
-/// "Principles of Optics",
-/// section 14.2, written without complex numbers.
+/// "Principles of Optics", section 14.2, written without complex numbers.
 template <class Real>
 [[nodiscard]] Real fresnel_conductor(double cosine, const Real& index, const Real& extinction) {
   using std::sqrt;

@@ -79,7 +79,7 @@ class network_brdf {
 
 static_assert(brdf<network_brdf>);
 
-/// Networks and the names of their materials, equally many.
+/// Networks and the names of their materials, one for each network.
 struct named_networks {
   std::vector<std::string> names;
   std::vector<network_brdf> networks;

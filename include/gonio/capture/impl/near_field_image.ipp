@@ -111,7 +111,7 @@ GONIO_INLINE aperture block_aperture(const near_field_setup& setup, double row, 
   const auto left = half_vector_at(0.0, -1.0), right = half_vector_at(0.0, 1.0), top = half_vector_at(-1.0, 0.0),
              bottom = half_vector_at(1.0, 0.0);
   const auto middle = setup.camera.ray_through(column, row).at_ground();
-  if (!left || !right || !top || !bottom || !middle) return {};  // the block reaches beyond the horizon
+  if (!left || !right || !top || !bottom || !middle) return {};  // the block crosses the horizon
   return pixel_aperture(light_at(setup.light, *middle), *right - *left, *bottom - *top);
 }
 

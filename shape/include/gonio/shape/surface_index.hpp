@@ -26,9 +26,9 @@ struct surface_point {
 
 /// A surface with a search structure for queries. Copies are cheap and share it. All queries may run concurrently.
 ///
-/// The triangles are in our own tree of boxes. A tree of their centroids (nanoflann) must search as far beyond the best
-/// triangle as the largest one extends, and does not support lines. Measured, it was as fast for points near an even
-/// mesh, and eight times slower if some triangles are eight times as long.
+/// The triangles are in our own tree of boxes. A tree of their centroids (nanoflann) must search farther than the best
+/// triangle by the size of the largest one, and does not support lines. Measured, it was as fast for points near an
+/// even mesh, and eight times slower if some triangles are eight times as long.
 class surface_index {
  public:
   /// O(n log n) for n triangles. Throws gonio::error as `mesh_topology` does.
@@ -53,7 +53,7 @@ class surface_index {
   [[nodiscard]] Eigen::Vector3d pseudonormal(const surface_point& place) const;
 
   /// Returns the distance to the surface, positive outside. The sign is that of Baerentzen and Aanaes, who prove it for
-  /// closed surfaces; with interpolated vertex normals it is wrong near sharp edges. Beyond a border it refers to the
+  /// closed surfaces; with interpolated vertex normals it is wrong near sharp edges. Outside a border it refers to the
   /// continued surface. Throws gonio::error if the point is not finite.
   [[nodiscard]] double signed_distance(const Eigen::Vector3d& point) const;
 

@@ -64,7 +64,7 @@ GONIO_INLINE std::vector<Eigen::Index> nearest_along_surface(const triangle_mesh
                                                              Eigen::Index count) {
   std::vector<std::pair<double, Eigen::Index>> found;
   detail::walk_edges(mesh, topology, source, [&](Eigen::Index vertex, double distance) {
-    // Include all vertices as far as the last one: they may have lower numbers.
+    // Include all vertices at the same distance as the last one: they may have lower numbers.
     if (std::ssize(found) >= count && (count == 0 || distance > found[count - 1].first)) return false;
     if (is_candidate(vertex)) found.emplace_back(distance, vertex);
     return true;
