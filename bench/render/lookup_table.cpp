@@ -192,8 +192,7 @@ void many_at_once_near(benchmark::State& state) {
   evaluate_all<gonio::render::lookup_table<Stored, Interpolation>, Real>(state, table);
 }
 
-/// The memory that a look-up reads for a pair, from memory of the table's size: a cell's numbers, or four rows with
-/// those of two neighbours.
+/// Reads as a look-up does for a pair, in memory of the table's size: one cell, or four rows of two neighbours.
 template <class Stored, interpolation Interpolation>
 class reading {
  public:

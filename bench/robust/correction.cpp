@@ -40,8 +40,7 @@ gonio::located_samples samples(std::int64_t step) {
                                                                   {.outlier_ratio = 0.2}, 1));
 }
 
-/// Returns the number of samples and channels that count in a run's next round. Outliers' weights may be too small to
-/// matter.
+/// Returns the number of samples and channels that count in a run's next round. Outliers' weights may be negligible.
 template <class Run>
 double counted(const Run& run) {
   const gonio::channel_values weights = run.inlier_weights(), sized = weights * run.sigma().abs().max(1.0f);
@@ -66,8 +65,7 @@ void one_round(benchmark::State& state, const Weighting& weighting) {
   run.step();
   const double samples_that_count = counted(run);
   for (auto _ : state) benchmark::DoNotOptimize(run.step());
-  // A round without normal equations reads the rows twice: for the right-hand sides, and for the correction at the
-  // samples.
+  // A round without normal equations reads the rows twice: for the right-hand sides, and for the correction there.
   constexpr bool assembles = !std::same_as<Weighting, gonio::trust_all>;
   if (assembles) count_operations(state, operations(samples_that_count));
   if (!assembles) count_bytes(state, 2.0 * 12.0 * static_cast<double>(measured.size() * corrections().size()));

@@ -39,8 +39,7 @@ class ranks_team : public team {
                         const std::function<void(Eigen::Index, part)>& take) const override;
 
  private:
-  /// Returns the number of equal subtrees of the groups, so that as many ranks as possible own one each: a power of
-  /// two.
+  /// Returns the number of equal subtrees of the groups, a power of two: as many ranks as possible own one each.
   [[nodiscard]] Eigen::Index subtrees() const;
   [[nodiscard]] gonio::block groups_of(int rank) const;
   /// Returns the numbers of a rank's groups, from numbers for each of some rows.

@@ -1,6 +1,5 @@
 /// gonio shape grow: grows a model of synthetic ear canals from a few annotated ones with scans of others, some of them
-/// defective. Prints how many it accepts and the errors of their vertices. After section 2 of "Anatomically correct
-/// surface recovery".
+/// defective. Prints how many it accepts and their errors. After section 2 of "Anatomically correct surface recovery".
 
 #include "shape.hpp"
 #include "synthetic/ear_canal_scans.hpp"

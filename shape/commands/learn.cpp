@@ -1,5 +1,4 @@
-/// gonio shape learn: learns an active shape model from corresponded meshes, and from scans that it registers by
-/// itself.
+/// gonio shape learn: learns an active shape model from corresponded meshes and from scans, which it registers.
 
 #include "shape.hpp"
 #include "tool/options/threads_option.hpp"

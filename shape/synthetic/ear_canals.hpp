@@ -280,8 +280,7 @@ class ear_canal {
     return {(1.0 - share) * low.centre + share * high.centre, Eigen::Quaterniond(frame.normalized())};
   }
 
-  /// Returns the distance from the centre line to the wall, before the cap narrows it. `fading` removes the bumps
-  /// towards the tip.
+  /// Returns the distance from the centre line to the wall without the cap. `fading` removes the bumps towards the tip.
   [[nodiscard]] double radius_at(double u, double v, double fading) const {
     std::array<double, 6> c{1.0, std::cos(v)}, s{0.0, std::sin(v)};
     for (std::size_t m = 2; m < c.size(); ++m) {
@@ -360,8 +359,7 @@ class ear_canal_family {
     }
   }
 
-  /// Returns the individual with zero latent numbers. It is not the mean of the points, which are not linear in the
-  /// latent numbers.
+  /// Returns the individual with zero latent numbers. It is not the mean: points are not linear in these.
   [[nodiscard]] static ear_canal mean() { return ear_canal(std::vector<double>(ear_canal::latent_count, 0.0)); }
 
  private:

@@ -145,8 +145,7 @@ TEST_CASE("what leaves an alignment undetermined is refused") {
   refused(broken, onto, {}, "finite");
   refused(from, broken, {}, "finite");
   refused(1e200 * from, 1e200 * onto, {}, "too far apart");
-  // Points on a line far from the origin, one repeated point, and a mirrored cube, which three rotations fit equally
-  // well.
+  // Points on a line far from the origin, one repeated point, and a mirrored cube, which three rotations fit equally.
   point_columns line = Eigen::Vector3d(1.0, 2.0, -3.0) * Eigen::RowVectorXd::LinSpaced(5, -1.0, 1.0);
   line.colwise() += Eigen::Vector3d(1000.0, -300.0, 77.0);
   refused(line, line, {}, "on a line");

@@ -32,8 +32,7 @@ inline gonio::shape::triangle_mesh mesh_of(const std::vector<Eigen::Vector3d>& v
   return mesh;
 }
 
-/// Returns the corners (0, 0, 0), (1, 0, 0), (0, 1, 0) and (0, 0, 1), and the triangle opposite to each, facing
-/// outwards.
+/// Returns the corners (0, 0, 0), (1, 0, 0), (0, 1, 0) and (0, 0, 1), and the outward triangle opposite to each.
 inline gonio::shape::triangle_mesh tetrahedron() {
   return mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}});
 }

@@ -53,8 +53,7 @@ struct measured_reflectance {
 
   [[nodiscard]] bool is_usable() const noexcept { return doubt.empty(); }
 
-  /// Returns the relative deviation of the sum of the channels. A channel in which the material is black may be
-  /// uncertain.
+  /// Returns the relative deviation of the sum of the channels. A channel may be uncertain if it is black.
   [[nodiscard]] double relative_deviation() const noexcept;
 
   /// Returns the weight of each channel, from the effect of its deviation on the logarithm that estimators compare.

@@ -50,8 +50,7 @@ class camera_response {
     return (values_[left + 1] - values_[left]) / (std::log1p(1.0 / static_cast<double>(left + 1)) * count);
   }
 
-  /// Returns the unrounded count of an exposure, at most the largest count. If several counts match, returns the
-  /// smallest.
+  /// Returns the unrounded count of an exposure, at most the largest count. If several match, returns the smallest.
   [[nodiscard]] double count(double exposure) const noexcept;
 
   /// Returns the knot to the left of a count, from 0, and the fraction of the way to the next knot in the logarithm of

@@ -23,8 +23,7 @@ struct colour_clusters {
   std::vector<Eigen::Index> sizes;  ///< number of pixels of each cluster
   /// Separation of the clusters (see `mean_silhouette`), measured on 2,000 of the pixels; 0 for one cluster.
   double silhouette = 0.0;
-  /// Separation of 1, 2, ... clusters of these 2,000 pixels, from which their number was chosen, before refinement on
-  /// all.
+  /// Separation of 1, 2, ... clusters of these 2,000 pixels before refinement on all. Their number was chosen by it.
   std::vector<double> silhouettes;
 
   [[nodiscard]] Eigen::Index count() const noexcept { return sizes.size(); }

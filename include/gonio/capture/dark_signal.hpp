@@ -26,8 +26,7 @@ void require_alike(std::span<const exposed_frame> frames, const char* what);
 
 }  // namespace detail
 
-/// The dark counts of all pixels and channels, and their uncertainty. Without frames it is a given level, the same
-/// everywhere, without error.
+/// The dark counts of all pixels and channels, and their uncertainty. Without frames, one given level without error.
 class dark_signal {
  public:
   dark_signal() = default;

@@ -38,8 +38,7 @@ struct pixel_window {
 struct near_field_setup {
   lens_camera camera;
   surface_light light;
-  /// The region of interest: the pixels that see the disc, or those in the window. If both are given, a pixel must be
-  /// in both.
+  /// The region of interest: the pixels that see the disc, or those in the window, or in both if both are given.
   std::optional<sample_disc> disc = {};
   std::optional<pixel_window> window = {};
   /// Whether to use each pixel, row by row, for example a cluster of one material; empty: all pixels.

@@ -16,16 +16,14 @@ namespace gonio::capture {
 
 /// The reflectance factor of a white reference for each pair of directions and each channel.
 ///
-/// `reference_reflectance(0.99)` is the same everywhere. A number converts implicitly: `.reflectance = 0.99` in a
-/// calibration.
+/// `reference_reflectance(0.99)` is the same everywhere. Numbers convert implicitly: `.reflectance = 0.99`.
 class reference_reflectance {
  public:
   /// The same for all directions and channels. Throws gonio::error unless it is above 0 and at most 1.
   reference_reflectance(double everywhere = 0.99);  // NOLINT: a number is a reflectance
 
   /// A table over the polar angles of light and viewer, in radians. Without viewer angles, it is the same for all
-  /// viewers. `factors` lists the viewers of the first light, then those of the next. It is interpolated linearly in
-  /// each angle.
+  /// viewers. `factors` lists the viewers of the first light, then those of the next. Interpolation is bilinear.
   ///
   /// Throws gonio::error if there is no light angle, if angles do not ascend from 0 to at most a right angle, if there
   /// is not one factor for each pair of angles, or if a channel is not above 0 and at most `largest_possible`.

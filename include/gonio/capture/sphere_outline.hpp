@@ -28,8 +28,7 @@ struct outline_options {
   double inlier_distance = 0.75;  ///< largest distance of an inlier from the outline, pixels
   Eigen::Index trials = 1000;     ///< number of random triples of edge points
   std::uint64_t seed = 1;         ///< chooses the triples
-  /// If given, the final fit uses only edge points that it lights well, because the outline fades near the sphere's
-  /// shadow.
+  /// If given, the final fit uses only edge points that it lights well, because the outline fades near shadows.
   std::optional<surface_light> light = {};
 };
 

@@ -13,8 +13,7 @@ namespace gonio::design {
 /// are not allowed.
 ///
 /// An objective may offer `best_beside(candidates)`: the best candidate to add that is not in the set; if several are
-/// equally good, the one with the lowest number. The searches then call it, and an implementation may distribute the
-/// work.
+/// equally good, the one with the lowest number. The searches then call it, so it can distribute the work.
 template <class Objective>
 concept sweeping_objective = plan_objective<Objective> &&
     requires(const Objective& objective, std::span<const Eigen::Index> candidates) {
@@ -50,8 +49,7 @@ template <sweeping_objective Objective>
 }
 
 /// Replaces one candidate after another by the best of all, until no replacement improves the plan: n sweeps over all
-/// candidates per round. Compares values in double. Ignores relative improvements below 1e-6, which float cannot
-/// resolve.
+/// candidates per round. Compares in double. Ignores relative improvements below 1e-6, which float cannot resolve.
 template <sweeping_objective Objective>
 [[nodiscard]] capture_plan exchange(const Objective& objective, capture_plan plan, const progress& listener = {}) {
   plan.value = objective(plan.candidates);

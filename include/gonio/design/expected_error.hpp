@@ -12,8 +12,7 @@
 
 namespace gonio::design {
 
-/// The error sources that the expected error includes. Apart from eta, the defaults give Eq. 15 as printed, without
-/// noise.
+/// The error sources that the expected error includes. Apart from eta, the defaults give Eq. 15 as printed.
 struct expected_error_options {
   /// Tikhonov's penalty of the reconstruction (Eq. 4). The paper uses 40.
   double eta = default_eta;
@@ -194,8 +193,7 @@ class extended_error {
 };
 
 #if defined(GONIO_COMPILED)
-/// Descent uses double. Sweeps over many candidates use single precision, unless the candidates are in tiles
-/// (`error_sweep`).
+/// Descent uses double, sweeps single precision. Candidates in tiles use `error_sweep`.
 extern template class extended_error<float>;
 extern template class extended_error<double>;
 #endif

@@ -21,8 +21,7 @@ struct near_field_options {
   double field_of_view = radians(25.0);
   /// Samples along the disc's diameter as seen from above: the image's pixels, or blocks of them.
   Eigen::Index pixels = 24;
-  /// Angle between neighbouring candidates in radians: of the polar angles, and of the azimuth between light and
-  /// camera.
+  /// Step between candidates in radians: of the polar angles, and of the azimuth between light and camera.
   double step = radians(5.0);
   /// Lights and cameras at larger polar angles are not candidates.
   double largest_polar_angle = radians(85.0);

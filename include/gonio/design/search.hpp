@@ -137,8 +137,7 @@ template <plan_objective Objective>
   return value < on && (std::isinf(on) || on - value > rounding * std::abs(on));
 }
 
-/// Moves one candidate of a plan to the best of its six neighbours at a distance, if that improves the plan. Returns
-/// whether it moved.
+/// Moves one candidate to the best of its six neighbours at a distance if that is better. Returns whether it moved.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] bool move_one(const Geometry& geometry, const Objective& objective, capture_plan& plan,
                             Eigen::Index position, int distance) {

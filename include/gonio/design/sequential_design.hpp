@@ -42,8 +42,7 @@ struct candidate_posterior {
   Eigen::MatrixXd mean;        ///< candidates x 3
   Eigen::MatrixXd covariance;  ///< candidates x candidates, the same for each channel
 
-  /// Updates the covariance for a measurement at a candidate. It does not depend on the measured value.
-  /// O(candidates^2).
+  /// Updates the covariance for a measurement at a candidate, whatever its value. O(candidates^2).
   void add(Eigen::Index candidate, double error_variance);
 };
 

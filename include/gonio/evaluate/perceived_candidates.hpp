@@ -28,8 +28,7 @@ struct perceived_options {
   double variance_share = 0.5;
   Eigen::Index most_materials = 48;  ///< if the prior has more, this many are used, evenly spaced
   int sphere_size = 8;               ///< number of points across each sphere
-  /// The criterion is the power mean of the materials' Delta E with this exponent: 1 gives the mean, 8 almost the
-  /// maximum.
+  /// The criterion is the power mean of the materials' Delta E with this exponent. 1 is the mean, 8 nearly the maximum.
   double power = 1.0;
 };
 
@@ -105,8 +104,7 @@ class perceived_candidates {
   /// Returns the values for measurements at some candidates and one more: one value for each additional candidate,
   /// infinity if the apparatus cannot reach it. O(candidates n points materials).
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells) const;
-  /// Returns the same values, byte for byte, for a range of the candidates. It must begin at a multiple of
-  /// `sweep_block`.
+  /// Returns the same bytes for a range of the candidates, which must begin at a multiple of `sweep_block`.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells, block range) const;
 
   static constexpr Eigen::Index sweep_block = 64;

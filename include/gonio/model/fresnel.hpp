@@ -22,9 +22,8 @@ template <class Real>
   return ratio * ratio;
 }
 
-/// Reflectance of a dielectric with relative refractive index n >= 1, for unpolarised light from outside. R. L. Cook
-/// and K. E. Torrance, "A Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293),
-/// section 4.
+/// Reflectance of a dielectric of relative index n >= 1, for unpolarised light from outside. R. L. Cook and K. E.
+/// Torrance, "A Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293), section 4.
 template <class Real>
 [[nodiscard]] Real fresnel_dielectric(double cosine, const Real& index) {
   using std::sqrt;

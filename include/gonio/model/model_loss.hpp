@@ -120,8 +120,7 @@ class model_loss {
   /// L x 3.
   [[nodiscard]] Eigen::MatrixXd colours(const Eigen::VectorXd& x) const;
 
-  /// Returns the albedos of the lobes and their slopes by coded parameters: a column of L + P for each of
-  /// `albedo_angles`.
+  /// Returns the lobes' albedos and their slopes by coded parameters: a column of L + P for each of `albedo_angles`.
   [[nodiscard]] Eigen::MatrixXd lobe_albedos(const std::vector<lobe_kind::values>& parameters, int bins) const;
   void add_albedo_penalty(const std::vector<lobe_kind::values>& parameters, const Eigen::MatrixXd& colour,
                           double steepness, local_parabola& to) const;

@@ -68,8 +68,7 @@ template <brdf Brdf>
                                 [&](const direction& wi, const direction& wo) { return -rgb(f(wi, wo)).minCoeff(); });
 }
 
-/// Returns the largest change when both directions rotate about the normal by a third of a turn, relative to the larger
-/// value.
+/// Returns the largest change if both directions rotate about the normal by 120 degrees, relative to the larger value.
 template <brdf Brdf>
 [[nodiscard]] worst_pair worst_anisotropy(const Brdf& f, const pair_grid& grid = {}) {
   constexpr double angle = 2.0 * std::numbers::pi / 3.0;

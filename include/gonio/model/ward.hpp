@@ -78,8 +78,7 @@ struct anisotropic_ward {
 
 }  // namespace detail
 
-/// exp(-tan^2 theta_h / alpha^2) / (4 pi alpha^2 sqrt(cos theta_i cos theta_o)). Its albedo decreases at grazing
-/// angles.
+/// exp(-tan^2 theta_h / alpha^2) / (4 pi alpha^2 sqrt(cos theta_i cos theta_o)). Its albedo falls at grazing angles.
 template <class Real>
 using ward_shape = detail::isotropic_ward<detail::ward_normalisation::geometric_mean>::shape<Real>;
 /// With cos theta_i cos theta_o instead of its square root: A. Duer, "An Improved Normalization for the Ward

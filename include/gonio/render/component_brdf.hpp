@@ -163,8 +163,7 @@ template <interpolation Interpolation, stored_number Stored, std::floating_point
 template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>
 class component_brdf {
  public:
-  /// `weights` is k x 3, a column for each channel. Throws gonio::error for another size or a weight that is not
-  /// finite.
+  /// `weights` is k x 3, a column for each channel. Throws gonio::error for another size or infinite or NaN weights.
   explicit component_brdf(const shared_components<Stored>& components, const Eigen::Ref<const Eigen::MatrixXd>& weights)
       : components_(&components), weights_(weights.size(), 0.0f) {
     if (weights.rows() != components.size() || weights.cols() != 3 || !weights.allFinite())

@@ -267,8 +267,7 @@ class lookup_table {
     }
   }
 
-  /// Returns 1. For half numbers, returns the power of two that brings the largest value near the end of their range,
-  /// 65504.
+  /// Returns 1; for half numbers, the power of two that brings the largest value near the end of their range, 65504.
   [[nodiscard]] static double scale_of(const std::vector<double>& values) {
     const double largest = *std::ranges::max_element(values);
     if (!is_half || !(largest > 0.0)) return 1.0;

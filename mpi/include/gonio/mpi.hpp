@@ -1,6 +1,5 @@
 #pragma once
-/// Work on several machines: includes all of `mpi/`. It needs gonio::mpi (an MPI library); the rest of the library does
-/// not.
+/// Work on several machines: includes all of `mpi/`. The rest of the library needs no MPI library (gonio::mpi).
 
 #include <gonio/mpi/best_of_ranks.hpp>
 #include <gonio/mpi/gather_in_order.hpp>

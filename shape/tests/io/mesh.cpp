@@ -84,8 +84,7 @@ std::string ascii_ply(const std::string& vertices, const std::string& face_count
          corner_list + "end_header\n" + rows;
 }
 
-/// Returns a square of two triangles and a pentagon in binary. The last vertex coincides with the first; the sixth is
-/// unused.
+/// Returns a square of two triangles and a pentagon in binary. The last vertex repeats the first; the sixth is unused.
 std::string binary_ply(bool big_endian) {
   std::string text = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
                      "_endian 1.0\ncomment made by hand\nobj_info of no importance\nelement range_grid 2\n"

@@ -68,8 +68,7 @@ GONIO_INLINE std::optional<seen_place> place_of_pixel(const near_field_setup& se
   return seen_place{*point, -line.towards};
 }
 
-/// Returns whether a value is saturated. Refuses a value that is not finite, unless it is saturated; `what` names its
-/// image.
+/// Returns whether a value is saturated. Refuses other values that are not finite; `what` names the image.
 GONIO_INLINE bool is_saturated(const rgb& value, const near_field_setup& setup, const char* what, std::size_t row,
                                std::size_t column) {
   // Compare in float, like the image. Merged exposures may hold infinity where all were saturated.

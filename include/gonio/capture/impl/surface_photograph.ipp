@@ -53,8 +53,7 @@ GONIO_INLINE bool is_interior(const surface_image& surface, std::size_t row, std
   return true;
 }
 
-/// Returns light and viewer relative to a normal. For an isotropic material, the choice of the x tangent does not
-/// matter.
+/// Returns light and viewer relative to a normal. The choice of the x tangent is arbitrary for isotropic materials.
 GONIO_INLINE direction_pair around_normal(const Eigen::Vector3d& normal, const direction& light,
                                           const direction& viewer) {
   const Eigen::Vector3d x = normal.unitOrthogonal(), y = normal.cross(x);

@@ -60,8 +60,7 @@ class light_angles {
     }
   }
 
-  /// Binary search; the angle is in quarter turns. It is branch-free, because successive angles differ and branches
-  /// would be mispredicted.
+  /// Binary search; the angle is in quarter turns. It is branch-free, because successive angles are unpredictable.
   [[nodiscard]] between_neighbours find(double quarter_turn) const noexcept {
     const double* first = from_.data();
     for (Eigen::Index left = std::ssize(from_); left > 1;) {
@@ -84,8 +83,7 @@ struct square_point {
   double along = 0.0;   ///< along a row
 };
 
-/// Returns the polar angle of a direction in quarter turns. The direction may have any length but must not be below the
-/// horizon.
+/// Returns the polar angle of a direction in quarter turns. It may have any length but not be below the horizon.
 [[nodiscard]] inline double polar_quarter_turn(const direction& w) noexcept {
   const double across = w.x() * w.x() + w.y() * w.y(), up = w.z() * w.z();
   const double squared = std::min(across, up) / std::max(across, up);

@@ -90,8 +90,7 @@ class boxed_samples {
   }
 
  private:
-  /// Returns the key of the box at an offset from a pair's own. Polar angles are below pi/2, and boxes are counted from
-  /// 1.
+  /// Returns the key of the box at an offset from a pair's own. Polar angles are below pi/2; boxes count from 1.
   [[nodiscard]] std::uint64_t box_of(const turned_pair& pair, int further_i, int further_o) const {
     const auto along = [&](double theta, int further) {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(theta / tolerance_) + 1 + further);

@@ -34,8 +34,7 @@ struct neighbouring_cells {
   }
 };
 
-/// Returns the angle between two azimuths, from 0 to pi. If a direction is the normal, returns pi, as for the mirror
-/// direction.
+/// Returns the angle between two azimuths, from 0 to pi; pi, as for the mirror direction, if a direction is the normal.
 [[nodiscard]] inline double azimuth_between(const direction& wi, const direction& wo) noexcept {
   const double across = std::abs(wi.x() * wo.y() - wi.y() * wo.x()), along = wi.x() * wo.x() + wi.y() * wo.y();
   return across == 0.0 && along == 0.0 ? std::numbers::pi : std::atan2(across, along);

@@ -66,8 +66,7 @@ class ranks {
 
   /// Returns every rank's bytes at rank 0, in rank order; nothing elsewhere. size() - 1 messages.
   [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::span<const std::byte> bytes) const;
-  /// Returns rank 0's bytes at every rank, through a binary tree: size() - 1 messages, at most log2(size()) in
-  /// sequence.
+  /// Returns rank 0's bytes at every rank: size() - 1 messages in a binary tree, at most log2(size()) in sequence.
   [[nodiscard]] std::vector<std::byte> broadcast(std::vector<std::byte> bytes) const;
 
   /// Runs work that may throw in each rank. If it throws in any rank, it throws in all: the message of the lowest

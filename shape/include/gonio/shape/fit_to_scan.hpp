@@ -27,8 +27,7 @@ struct fit_to_scan_options {
   /// Down-weights outlying correspondences (Geman-McClure). Noise at the edges of holes then counts little, but the
   /// weights no longer reveal a scan of something else.
   bool robust = false;
-  /// Keeps the given pose and fits only the shape. `uncertainty` does not take this into account and is wider than
-  /// necessary.
+  /// Keeps the given pose and fits only the shape. `uncertainty` ignores this and is wider than necessary.
   bool holds_pose = false;
   double tolerance = 1e-3;  ///< the iteration stops at a smaller change of the shape, root mean square in mm
   int most_iterations = 100;

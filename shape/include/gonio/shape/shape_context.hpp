@@ -16,8 +16,7 @@
 
 namespace gonio::shape {
 
-/// The bins of a descriptor and its frame. The bins of a coordinate are equally wide. The defaults are the paper's, in
-/// millimetres.
+/// The bins of a descriptor, equally wide in each coordinate, and its frame. Defaults are the paper's, in millimetres.
 struct shape_context_options {
   Eigen::Index radial_bins = 8, polar_bins = 13, azimuthal_bins = 4;
   double radius = 10.0;
@@ -90,8 +89,7 @@ class point_tree {
 /// density of points for the same reason.
 ///
 /// O(vertices log vertices + points x neighbours). The bytes do not depend on the number of threads. Throws
-/// gonio::error for options out of range, for a mesh that `spread_vertices` refuses, and for a chosen vertex that does
-/// not exist.
+/// gonio::error for options out of range, a mesh that `spread_vertices` refuses, and a missing chosen vertex.
 [[nodiscard]] shape_descriptors describe(const triangle_mesh& mesh, const std::vector<Eigen::Index>& chosen,
                                          const shape_context_options& options = {}, thread_count threads = {});
 

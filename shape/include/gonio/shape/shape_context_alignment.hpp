@@ -40,8 +40,7 @@ struct matched_points {
 /// Computes the paper's least squares over the first matches, then weighted least squares over all. A weight falls with
 /// the squared distance and is zero above a limit. The limit narrows from three times the root mean square to the
 /// tolerance and stays there until the pose converges. Narrowing stops early if less than a tenth of the matches would
-/// remain. This is an M-estimate with Epanechnikov weights, approached by Blake and Zisserman's graduated
-/// non-convexity.
+/// remain. This is an M-estimate with Epanechnikov weights, by Blake and Zisserman's graduated non-convexity.
 [[nodiscard]] std::pair<similarity_transform, Eigen::Index> robust_pose(const matched_points& points,
                                                                         Eigen::Index first, double tolerance);
 

@@ -1,6 +1,5 @@
 #pragma once
-/// A basis of shapes that may also move: the shapes' functions and six functions of rigid motion, so that one fit finds
-/// shape and pose together.
+/// A basis of shapes that may also move: the shapes' functions and six of rigid motion. One fit finds shape and pose.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/shape/alignment.hpp>

@@ -16,8 +16,7 @@
 namespace gonio::shape::detail {
 
 /// Converts costs to 2^40 integer steps between the smallest and the largest, with opposite sign because dlib
-/// maximises. Pads with rows or columns of zeros to a square; an assignment there means no partner and costs the same
-/// for all.
+/// maximises. Pads with rows or columns of zeros to a square; an assignment there means no partner, at equal cost.
 [[nodiscard]] GONIO_INLINE dlib::matrix<std::int64_t> integer_gains(const Eigen::MatrixXd& costs) {
   constexpr double steps = 0x1p40;
   const auto size = static_cast<long>(std::max(costs.rows(), costs.cols()));

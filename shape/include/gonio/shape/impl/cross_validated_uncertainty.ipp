@@ -68,8 +68,7 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
   triangle_mesh noisy = others.mesh(shape);
   const point_columns normals = vertex_normals(noisy);
   std::mt19937_64 generator(seed);
-  // Only the variance matters. A uniform number is used, because the standard's normal numbers differ between
-  // libraries.
+  // Only the variance matters. The standard's normal numbers differ between libraries, uniform ones do not.
   for (Eigen::Index v = 0; v < normals.cols(); ++v) {
     const double centred = uniform_number(generator) - 0.5;
     noisy.vertices.col(v) += noise * std::sqrt(12.0) * centred * normals.col(v);

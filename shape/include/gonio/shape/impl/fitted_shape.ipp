@@ -36,8 +36,7 @@ GONIO_INLINE std::vector<bool> marks_of(const vertex_observations& known, Eigen:
 
 namespace gonio::shape::detail {
 
-/// Appends locations for x, y and z of a vertex, as an estimator reads them: one along each column of `axes`, which are
-/// unit vectors.
+/// Appends locations for x, y and z of a vertex, as an estimator reads them: one along each unit column of `axes`.
 GONIO_INLINE void locate_along(const Eigen::Matrix3d& axes, Eigen::Index vertex, std::vector<location>& at) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     location along;

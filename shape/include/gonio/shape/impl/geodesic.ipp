@@ -15,8 +15,7 @@
 
 namespace gonio::shape::detail {
 
-/// Calls `arrive(vertex, distance)` once for each vertex reachable from the source, in ascending distance, until it
-/// returns false.
+/// Calls `arrive(vertex, distance)` for each vertex reachable from the source, nearest first, until it returns false.
 GONIO_INLINE void walk_edges(const triangle_mesh& mesh, const mesh_topology& topology, Eigen::Index source,
                              const std::function<bool(Eigen::Index vertex, double distance)>& arrive) {
   if (mesh.vertices.cols() != topology.vertices())

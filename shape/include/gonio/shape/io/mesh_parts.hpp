@@ -19,8 +19,7 @@ struct mesh_parts {
   [[nodiscard]] std::size_t vertices() const noexcept { return coordinates.size() / 3; }
 };
 
-/// Splits a polygon into a fan about its first vertex. It ignores positions, so shapes in correspondence are split
-/// alike.
+/// Splits a polygon into a fan about its first vertex. Ignores positions, so corresponded shapes are split alike.
 class polygon_fan {
  public:
   explicit polygon_fan(std::vector<int>& corners) noexcept : corners_(corners) {}
