@@ -1,5 +1,5 @@
 #pragma once
-/// What Python's BRDFs have in common, whatever they are.
+/// The common methods of Python's BRDFs.
 
 #include "arrays.hpp"
 #include "subjects.hpp"
@@ -18,8 +18,7 @@
 
 namespace python {
 
-/// A table over some cells, by default those of a MERL file: of a fit by the way that it knows, of anything else value
-/// by value.
+/// Returns a table over some cells, by default those of a MERL file: by the BRDF's own `tabulate`, else value by value.
 template <gonio::brdf Brdf>
 [[nodiscard]] gonio::brdf_table table_of(const Brdf& f, gonio::thread_count threads,
                                          const gonio::valid_cells& cells = gonio::valid_cells()) {
@@ -35,7 +34,7 @@ template <gonio::brdf Brdf>
     return gonio::tabulate(f, cells, threads);
 }
 
-/// Any BRDF behind a function pointer, for what need not be compiled for each.
+/// Any BRDF behind a function pointer, for code that is compiled once for all BRDFs.
 struct brdf_by_pointer {
   const void* f;
   gonio::rgb (*value)(const void*, const gonio::direction&, const gonio::direction&) noexcept;
@@ -52,11 +51,11 @@ template <gonio::brdf Brdf>
           }};
 }
 
-/// A material of the RGL database; its own tables if it is one.
+/// Writes a material of the RGL database, with its own tables if it has some.
 void write_rgl(const std::filesystem::path& path, const gonio::model::adaptive_brdf& f);
 void write_rgl(const std::filesystem::path& path, const brdf_by_pointer& f);
 
-/// Adds files that renderers read to the module.
+/// Adds the functions that write files for renderers to the module.
 template <gonio::brdf Brdf>
 void add_brdf_files(py::module_& m) {
   m.def(
@@ -83,7 +82,7 @@ void add_brdf_files(py::module_& m) {
       "new one is complete.");
 }
 
-/// Wherever a table is taken, so is a BRDF of this class: over the cells of a MERL file.
+/// Makes every function that takes a table accept a BRDF of this class, tabulated over the cells of a MERL file.
 template <gonio::brdf Brdf>
 void add_conversion_to_table() {
   auto table = py::reinterpret_borrow<py::class_<gonio::brdf_table>>(py::type::of<gonio::brdf_table>());
@@ -98,7 +97,7 @@ void add_conversion_to_table() {
   if constexpr (!std::same_as<Brdf, gonio::brdf_table>) py::implicitly_convertible<Brdf, gonio::brdf_table>();
 }
 
-/// Values in sr^-1 of many pairs.
+/// Returns values in sr^-1 for many pairs.
 template <gonio::brdf Brdf>
 [[nodiscard]] py::array_t<double> evaluate(const Brdf& f, const py::object& wi, const py::object& wo,
                                            unsigned threads) {
@@ -116,7 +115,7 @@ template <gonio::brdf Brdf>
   return values;
 }
 
-/// Adds what every BRDF has to a class, and files of its objects to the module.
+/// Adds the methods of every BRDF to a class, and functions for files of its objects to the module.
 template <gonio::brdf Brdf, class... Extra>
 void add_brdf_methods(py::module_& m, py::class_<Brdf, Extra...>& type) {
   type.def("__call__", &evaluate<Brdf>, py::arg("wi"), py::arg("wo"), py::arg("threads") = 0,

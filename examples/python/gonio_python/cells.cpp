@@ -1,4 +1,4 @@
-/// The cells of tables and priors.
+/// Cells of tables and priors.
 
 #include "cells.hpp"
 
@@ -21,7 +21,7 @@ py::tuple shape_of_grid(const gonio::valid_cells& cells) {
   return py::make_tuple(theta_h, theta_d, phi_d);
 }
 
-/// For each cell of the grid the number of the one that a look-up reads there.
+/// Returns for each cell of the grid the index of the cell that a look-up reads there.
 py::array_t<std::int32_t> numbers_of(const gonio::valid_cells& cells) {
   const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
   py::array_t<std::int32_t> numbers(extents{theta_h, theta_d, phi_d});

@@ -1,4 +1,4 @@
-/// Where to measure.
+/// Design of measurements.
 
 #include "arrays.hpp"
 #include "copies.hpp"
@@ -25,7 +25,7 @@ namespace python {
 
 namespace {
 
-/// Directions to measure, and what they are worth.
+/// Directions to measure, and their quality.
 struct found_design {
   std::vector<gonio::direction_pair> directions;
   double value = 0.0;
@@ -43,7 +43,7 @@ std::vector<gonio::direction_pair> pairs_of(const py::object& directions, const 
   return pairs;
 }
 
-/// The usual one, or that of a file, but for what is said beside it.
+/// Returns the usual apparatus or that of a file, with noise and angular error replaced if given.
 gonio::design::apparatus apparatus_of(const std::optional<std::filesystem::path>& constraint,
                                       const std::optional<double>& noise,
                                       const std::optional<double>& misplaced_degrees) {
@@ -80,7 +80,7 @@ found_design design_for(const gonio::log_relative_pca& prior, Eigen::Index count
   return {found.poses, found.value, cli::quality_of(prior, options, found)};
 }
 
-/// Of points that someone else chose.
+/// Returns the quality of given directions.
 found_design quality_for(const gonio::log_relative_pca& prior, const py::object& directions, double eta, double noise,
                          bool in_sample) {
   cli::design_options options;

@@ -1,4 +1,4 @@
-/// Priors, and estimators as the library has them: one fit, and how sure it is.
+/// Priors and the library's estimators: a fit, and its uncertainty.
 
 #include "brdf_methods.hpp"
 #include "cells.hpp"
@@ -28,8 +28,8 @@ namespace {
 using fitted_pca = gonio::fitted_brdf<gonio::log_relative_pca>;
 using estimator_type = gonio::reconstruction<gonio::log_relative>;
 
-/// What makes an estimator. It is pickled by these, and its results by these and their samples, of which the same fit
-/// is made again.
+/// The arguments of an estimator. An estimator is pickled by its arguments; its result by these and its samples, which
+/// are then fitted again.
 struct estimator_arguments {
   gonio::log_relative_pca prior;
   double variance = 0.0, noise = 0.0;
@@ -46,7 +46,7 @@ struct reconstructed_brdf : estimator_type::result_type {
   gonio::sample_set samples;
 };
 
-/// A matrix of Eigen, column by column in memory.
+/// Returns a view of an Eigen matrix, which is column-major.
 template <class Matrix>
 py::array_t<typename Matrix::Scalar> matrix_view(const Matrix& matrix, const py::object& owner) {
   constexpr py::ssize_t step = sizeof(typename Matrix::Scalar);
@@ -82,7 +82,7 @@ gonio::log_relative_pca prior_of_state(const py::tuple& state) {
                                   state[9].cast<std::string>(), wavelengths});
 }
 
-/// What a cell of the prior is, for whoever evaluates one without gonio.
+/// Adds the properties needed to evaluate a prior's cell without gonio.
 void add_domain(py::class_<gonio::log_relative_pca>& prior) {
   prior.def_property_readonly("cells", &gonio::log_relative_pca::cells,
                               "Where components, mean and reference have their values.");
@@ -176,7 +176,7 @@ py::object report_of(const fitted_pca& fit) {
   return report;
 }
 
-/// The report's numbers, as `report_of` names them.
+/// Reads the report's numbers from the keys of `report_of`.
 std::optional<gonio::solve_report> report_of_state(const py::handle& state) {
   if (state.is_none()) return std::nullopt;
   const auto channels = [&](const char* name) -> Eigen::VectorXd {
@@ -197,7 +197,7 @@ void add_fit_copies(py::class_<fitted_pca>& fit) {
       });
 }
 
-/// Of the first components.
+/// Returns the BRDF for weights of the first components.
 fitted_pca brdf_of_weights(const gonio::log_relative_pca& prior, const py::object& given) {
   const doubles weights = finite_rows(given, "weights", {3});
   if (weights.shape(0) > prior.size())
@@ -230,7 +230,7 @@ py::array_t<double> gradients(const fitted_pca& fit, const py::object& wi, const
 
 using decomposition_type = gonio::decomposition<gonio::log_relative_pca, gonio::tikhonov>;
 
-/// A decomposition, and what it was made of.
+/// A decomposition and its arguments.
 struct configured_decomposition : decomposition_type {
   gonio::log_relative_pca prior;
   double eta = 0.0;
@@ -289,7 +289,7 @@ gonio::confidence_level level_of(double probability) {
                  std::string(py::str(py::float_(probability)))});
 }
 
-/// Intervals and deviations are of directions above the horizon.
+/// Returns pairs above the horizon, for which intervals and deviations exist; throws gonio::error for others.
 direction_pairs pairs_above_horizon(const py::object& wi, const py::object& wo) {
   direction_pairs pairs(wi, wo);
   for (Eigen::Index i = 0; i < pairs.size(); ++i)
@@ -348,7 +348,7 @@ void add_outlying_sample(py::module_& m) {
   type.def("__repr__", &sentence_of);
 }
 
-/// Throws gonio::error for an impossible model.
+/// Throws gonio::error for invalid arguments.
 configured_estimator estimator_of(const estimator_arguments& given) {
   if (!(given.variance > 0.0 && given.variance <= 10.0))
     gonio::refuse({"variance is ", given.variance, ": expected more than 0, at most 10"});

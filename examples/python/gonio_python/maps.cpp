@@ -1,4 +1,4 @@
-/// Maps of spatially varying BRDFs, which `gonio svbrdf` writes.
+/// Maps of spatially varying BRDFs, written by `gonio svbrdf`.
 
 #include "arrays.hpp"
 #include "copies.hpp"
@@ -25,17 +25,17 @@ namespace python {
 
 namespace {
 
-/// A whole map in memory.
+/// A complete map in memory.
 struct texel_map {
   gonio::io::svbrdf_header header;
   gonio::log_relative_pca prior;
   py::array weights, uncertainty, disagreement;  ///< half floats: (rows, columns, 3, r), (rows, columns) twice
 };
 
-/// An array of half floats, to be filled.
+/// Returns an uninitialised array of half floats.
 py::array halves(extents shape) { return py::array(py::dtype("float16"), std::move(shape)); }
 
-/// Copies numbers into such an array from one of them on.
+/// Copies numbers into such an array from index `first` on.
 void put(py::array& to, Eigen::Index first, std::span<const std::uint16_t> numbers) {
   std::memcpy(static_cast<std::uint16_t*>(to.mutable_data()) + first, numbers.data(), numbers.size_bytes());
 }

@@ -1,4 +1,4 @@
-/// Analytic models: fits of them, formula materials, and what renderers read.
+/// Analytic models: their fits, formula materials, and texts for renderers.
 
 #include "brdf_methods.hpp"
 #include "copies.hpp"
@@ -22,7 +22,7 @@ namespace {
 using gonio::model::cell_weighting;
 using gonio::model::fit_norm;
 
-/// What a word stands for.
+/// Returns the value of a word.
 template <class Value>
 Value named(const std::string& word, const char* name, const std::map<std::string, Value>& known) {
   if (const auto found = known.find(word); found != known.end()) return found->second;
@@ -69,7 +69,7 @@ gonio::model::model_fit fit_table(const gonio::brdf_table& table, const std::str
   return cli::fit_chosen(choice, gonio::model::fit_observations(table, choice.fit.threads, weighting));
 }
 
-/// The kind, the colour and the parameters of each lobe.
+/// Returns the kind, the colour and the parameters of each lobe.
 py::tuple state_of_lobes(const gonio::model::analytic_brdf& f) {
   py::list lobes;
   for (const gonio::model::analytic_lobe& lobe : f.lobes())
@@ -114,7 +114,7 @@ void add_model_copies(py::class_<gonio::model::model_fit>& type) {
       });
 }
 
-/// A formula that knows its name.
+/// A formula with its name.
 struct named_formula : gonio::model::formula_brdf {
   std::string name;
 };

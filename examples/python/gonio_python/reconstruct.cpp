@@ -1,4 +1,4 @@
-/// What `gonio reconstruct` does, by the same code: methods by name, with the tool's defaults.
+/// `gonio reconstruct` in Python, with the same code: methods by name, with the tool's defaults.
 
 #include "arrays.hpp"
 #include "copies.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 using paths = std::vector<std::filesystem::path>;
 
-/// Python's arguments on their way to the tool's options: those that are not None are given.
+/// Converts Python's arguments to the tool's options; None means not given.
 class given_options {
  public:
   template <class Option, class Value>
@@ -32,7 +32,7 @@ class given_options {
     option = *value;
     names_.insert(name);
   }
-  /// The same for numbers, whose bounds the command line checks by itself.
+  /// The same for numbers; checks the bounds that the command line checks itself.
   template <class Option, class Value>
   void take(const char* name, Option& option, const std::optional<Value>& value, double lowest,
             double highest = std::numeric_limits<double>::max()) {
@@ -57,14 +57,14 @@ class given_options {
   std::set<std::string> names_;
 };
 
-/// A number, gcv or loo.
+/// Returns the text of a number, or gcv or loo.
 std::optional<std::string> eta_text(const py::object& eta) {
   if (eta.is_none()) return std::nullopt;
   if (py::isinstance<py::str>(eta)) return eta.cast<std::string>();
   return std::string(py::repr(py::float_(eta)));
 }
 
-/// A file or what was read of one.
+/// A file, or a prior that was read.
 using given_prior = std::optional<std::variant<std::filesystem::path, gonio::log_relative_pca>>;
 
 void take_prior(const given_prior& prior, cli::material_source& materials, given_options& given) {

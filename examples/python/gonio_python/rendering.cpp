@@ -1,4 +1,4 @@
-/// Spheres, images as files, and how tables differ.
+/// Spheres, image files, and comparison of tables.
 
 #include "brdf_methods.hpp"
 #include "json_to_python.hpp"
@@ -32,7 +32,7 @@ void require_between(const char* name, int value, int lowest, int highest) {
   if (value < lowest || value > highest) gonio::refuse({name, " is ", value, ": expected ", lowest, " to ", highest});
 }
 
-/// In linear light, as `gonio render` draws it before it is exposed.
+/// Returns a sphere in linear light, as `gonio render` draws it before exposure.
 py::array_t<float> sphere_under_lights(const gonio::brdf_table& table, int size, unsigned threads) {
   require_between("size", size, 8, 4096);
   std::optional<gonio::image> drawn;
@@ -61,7 +61,7 @@ py::array_t<float> sphere_in_environment(const gonio::brdf_table& table, const p
   return array_of(std::move(*drawn));
 }
 
-/// A table as it is, another BRDF over some cells.
+/// Returns a table unchanged, and tabulates any other BRDF over some cells.
 gonio::brdf_table tabulated(const py::object& brdf, const char* name, const gonio::valid_cells& cells) {
   if (py::isinstance<gonio::brdf_table>(brdf)) return brdf.cast<gonio::brdf_table>();
   if (!py::hasattr(brdf, "tabulate"))
@@ -69,7 +69,7 @@ gonio::brdf_table tabulated(const py::object& brdf, const char* name, const goni
   return brdf.attr("tabulate")(py::arg("cells") = cells).cast<gonio::brdf_table>();
 }
 
-/// Where two BRDFs are compared: at the truth's cells if it has some, else at the estimate's.
+/// Returns the cells for a comparison: the truth's if it is a table, else the estimate's.
 gonio::valid_cells common_cells(const py::object& estimate, const py::object& truth) {
   for (const py::object& each : {truth, estimate})
     if (py::isinstance<gonio::brdf_table>(each)) return each.cast<const gonio::brdf_table&>().cells();
@@ -91,7 +91,7 @@ py::object compare_brdfs(const py::object& estimate, const py::object& truth,
   return to_python(cli::to_json(errors));
 }
 
-/// As the tool exposes it.
+/// Returns a sphere with the tool's exposure.
 py::bytes sphere_png(const gonio::brdf_table& table, int size) {
   std::vector<gonio::image> sphere{cli::sphere_image(table, {.size = size, .exposure = {}}, {})};
   cli::expose_spheres(sphere, {});

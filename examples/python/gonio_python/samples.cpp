@@ -1,4 +1,4 @@
-/// Measurements: arrays in, views of the library's memory out, and their files.
+/// Measurements: arrays as input, views of the library's memory as output, and their files.
 
 #include "arrays.hpp"
 #include "copies.hpp"
@@ -21,7 +21,7 @@ namespace python {
 
 namespace {
 
-/// One number for a sample, or one for each channel; the same for all samples if there is one alone.
+/// One number per sample, or one per channel.
 class channel_numbers {
  public:
   channel_numbers(const py::object& given, const std::string& name, py::ssize_t samples)
@@ -61,7 +61,7 @@ gonio::sample_set chosen(const gonio::sample_set& samples, const py::object& row
   return samples.subset(rows_of(rows, static_cast<py::ssize_t>(samples.size())));
 }
 
-/// A single number chooses one sample; IndexError behind the last one ends a loop over all.
+/// A single number chooses one sample. IndexError after the last one ends a loop over all.
 gonio::sample_set indexed(const gonio::sample_set& samples, const py::object& index) {
   if (py::isinstance<py::ellipsis>(index)) return samples;
   if (py::isinstance<py::tuple>(index))
@@ -79,7 +79,7 @@ gonio::sample_set indexed(const gonio::sample_set& samples, const py::object& in
 
 constexpr py::ssize_t from_sample_to_sample = sizeof(gonio::sample), from_number_to_number = sizeof(double);
 
-/// Numbers that stand at the same place in each sample, without their data if there is no sample.
+/// Returns a view of the same numbers in each sample; an empty array if there is no sample.
 template <class Place>
 py::array_t<double> column_view(const py::object& self, py::ssize_t columns, bool writable, const Place& place) {
   auto& samples = self.cast<gonio::sample_set&>();
@@ -119,7 +119,7 @@ void add_columns(py::class_<gonio::sample_set>& type) {
       "How much each sample counts in each channel: a view of shape (n, 3), which may be written to.");
 }
 
-/// Rows of directions, angles, values, weights and apertures. Directions are kept as they were given, to the last bit.
+/// Returns rows of directions, angles, values, weights and apertures. Directions are kept exactly as given.
 py::tuple state_of(const gonio::sample_set& samples) {
   constexpr Eigen::Index columns = 6 + 3 + 3 + 3 + 2;
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(samples.size()), columns);

@@ -21,7 +21,7 @@ namespace python {
 
 namespace {
 
-/// Cells below the horizon, or below `minimum_cosine`, are not looked at.
+/// Ignores cells below the horizon or not above `minimum_cosine`.
 gonio::brdf_table table_from_dense(const py::object& given, const std::string& anchor, double minimum_cosine) {
   const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(given);
   if (!array) gonio::refuse("values is no array of numbers");
@@ -49,7 +49,7 @@ py::array_t<float> values_of(const py::object& self) {
   return view_of(table.values().data(), {table.cells().size(), 3}, {3 * step, step}, self);
 }
 
-/// Cells below the horizon continue those above, as a look-up reads them.
+/// Cells below the horizon get the values that a look-up reads there, those of the cells above.
 py::array_t<float> filled_array(const gonio::brdf_table& table) {
   const gonio::valid_cells& cells = table.cells();
   const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
@@ -62,7 +62,7 @@ py::array_t<float> filled_array(const gonio::brdf_table& table) {
 
 py::array_t<float> dense_array(const gonio::brdf_table& table) { return array_of(gonio::dense_tensor(table)); }
 
-/// What numpy asks for.
+/// The array that numpy asks for.
 py::object as_array(const gonio::brdf_table& table, const py::object& dtype, const py::object& copy) {
   if (!copy.is_none() && !copy.cast<bool>()) gonio::refuse("a table as an array is a copy: copy=False cannot be had");
   const py::array_t<float> array = dense_array(table);
@@ -136,7 +136,7 @@ void add_table_class(py::module_& m) {
   add_brdf_methods(m, table);
 }
 
-/// The bytes of a file.
+/// Returns the bytes of a file.
 py::tuple state_of_adaptive(const gonio::model::adaptive_brdf& material) {
   const std::vector<std::byte> bytes = gonio::io::write_rgl(gonio::io::rgl_material{material, "", {}});
   return py::make_tuple(py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
