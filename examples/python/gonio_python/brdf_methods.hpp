@@ -67,7 +67,7 @@ void add_brdf_files(py::module_& m) {
           gonio::io::write_merl(path, table_of(f, {}));
       },
       py::arg("path"), py::arg("brdf"), py::call_guard<py::gil_scoped_release>(),
-      "Writes a MERL file, which renderers read. An existing file is replaced once the new one is complete.");
+      "Writes a MERL file, which renderers read. An existing file is replaced only when the new one is complete.");
   m.def(
       "write_rgl",
       [](const std::filesystem::path& path, const Brdf& f) {
@@ -78,8 +78,8 @@ void add_brdf_files(py::module_& m) {
       },
       py::arg("path"), py::arg("brdf"), py::call_guard<py::gil_scoped_release>(),
       "Writes a file of the RGL database (.bsdf) in RGB, which Mitsuba's `measured` reads: values over a\n"
-      "parameterisation that follows the highlight. Negative values become 0. An existing file is replaced once the\n"
-      "new one is complete.");
+      "parameterisation that follows the highlight. Negative values become 0. An existing file is replaced only\n"
+      "when the new one is complete.");
 }
 
 /// Makes every function that takes a table accept a BRDF of this class, tabulated over the cells of a MERL file.
@@ -93,7 +93,7 @@ void add_conversion_to_table() {
                 return table_of(f, {});
             }),
             py::prepend(), py::arg("brdf"),
-            "Of another BRDF, over the 90 x 90 x 180 cells of a MERL file; of a table a copy.");
+            "Tabulates another BRDF over the 90 x 90 x 180 cells of a MERL file; copies a table.");
   if constexpr (!std::same_as<Brdf, gonio::brdf_table>) py::implicitly_convertible<Brdf, gonio::brdf_table>();
 }
 
@@ -119,18 +119,20 @@ template <gonio::brdf Brdf>
 template <gonio::brdf Brdf, class... Extra>
 void add_brdf_methods(py::module_& m, py::class_<Brdf, Extra...>& type) {
   type.def("__call__", &evaluate<Brdf>, py::arg("wi"), py::arg("wo"), py::arg("threads") = 0,
-           "Reflectance in sr^-1, without the cosine, for the directions to the light and to the viewer: arrays of\n"
-           "shape (..., 3) of unit vectors, normal +z. The result has the same shape; it is zero below the horizon.");
+           "Returns the reflectance in sr^-1, without the cosine, for directions to the light and to the viewer:\n"
+           "arrays of shape (..., 3) of unit vectors, normal +z. The result has the same shape; it is zero below\n"
+           "the horizon.");
   type.def(
       "tabulate",
       [](const Brdf& f, unsigned threads, const std::optional<gonio::valid_cells>& cells) {
         return table_of(f, gonio::thread_count{threads}, cells ? *cells : gonio::valid_cells());
       },
       py::arg("threads") = 0, py::kw_only(), py::arg("cells") = py::none(), py::call_guard<py::gil_scoped_release>(),
-      "A table over cells such as another table's `cells`; by default the 90 x 90 x 180 of a MERL file.");
+      "Returns a table over some cells, such as another table's `cells`; by default over the 90 x 90 x 180 cells of\n"
+      "a MERL file.");
   type.def(
       "_repr_html_", [](const py::object& self) { return sphere_as_html(self, self); },
-      "For notebooks: a small sphere, and what repr says.");
+      "Returns HTML for notebooks: a small sphere and the repr.");
   add_brdf_files<Brdf>(m);
   add_conversion_to_table<Brdf>();
 }

@@ -136,21 +136,22 @@ reconstructed reconstruct_from(const gonio::sample_set& samples, const std::stri
 }  // namespace
 
 void add_reconstruct(py::module_& m) {
-  py::class_<reconstructed> type(m, "Reconstruction", "What `gonio reconstruct` finds.");
+  py::class_<reconstructed> type(m, "Reconstruction", "The result of `gonio reconstruct`.");
   type.def_property_readonly(
       "table", [](reconstructed& r) -> gonio::brdf_table& { return r.table; },
       py::return_value_policy::reference_internal, "The BRDF.");
   type.def_property_readonly(
       "uncertainty", [](reconstructed& r) { return r.uncertainty ? &*r.uncertainty : nullptr; },
       py::return_value_policy::reference_internal,
-      "If it was asked for: by how much each direction is known, relative to its value, with a probability of 68 %.");
-  type.def_readonly("details", &reconstructed::details, "What the tool prints with --json.");
-  type.def_readonly("sentence", &reconstructed::sentence, "The same for people.");
-  type.def_readonly("warnings", &reconstructed::warnings, "What Python's warnings have been told, too.");
+      "The relative uncertainty of each direction with a probability of 68 %, if requested.");
+  type.def_readonly("details", &reconstructed::details, "The details that the tool prints with --json.");
+  type.def_readonly("sentence", &reconstructed::sentence, "The result as a sentence.");
+  type.def_readonly("warnings", &reconstructed::warnings,
+                    "The warnings that were also issued through Python's warnings.");
 
   type.def(
       "_repr_html_", [](const py::object& self) { return sphere_as_html(self.attr("table"), self); },
-      "For notebooks: a small sphere, and what repr says.");
+      "Returns HTML for notebooks: a small sphere and the repr.");
   type.def("__repr__", [](const reconstructed& r) { return "<gonio.Reconstruction: " + r.sentence + '>'; });
   add_copies(
       type,

@@ -113,18 +113,16 @@ std::string sphere_as_html(const py::object& brdf, const py::object& described) 
 }
 
 void add_rendering(py::module_& m) {
-  m.def(
-      "render_sphere", &sphere_under_lights, py::arg("table"), py::kw_only(), py::arg("size") = 256,
-      py::arg("threads") = 0,
-      "A sphere of a table, or of any other BRDF, under two lights in linear light: float32 of shape (size, size, 3),\n"
-      "which nobody else holds. A white Lambertian sphere has the mean luminance 1.");
-  m.def(
-      "render_sphere_in", &sphere_in_environment, py::arg("table"), py::arg("environment"), py::kw_only(),
-      py::arg("size") = 256, py::arg("quality") = 64, py::arg("white") = 0.4, py::arg("seed") = 1,
-      py::arg("threads") = 0,
-      "A sphere in light from all around: a latitude-longitude image of shape (n, 2 n, 3), linear radiance. quality:\n"
-      "samples of the BRDF, and as many of the environment, for each pixel. white: the mean luminance that a white\n"
-      "Lambertian sphere would have. Ctrl-C ends it.");
+  m.def("render_sphere", &sphere_under_lights, py::arg("table"), py::kw_only(), py::arg("size") = 256,
+        py::arg("threads") = 0,
+        "Returns an image of a sphere of a table, or of any other BRDF, under two lights in linear light: a new\n"
+        "float32 array of shape (size, size, 3). A white Lambertian sphere has the mean luminance 1.");
+  m.def("render_sphere_in", &sphere_in_environment, py::arg("table"), py::arg("environment"), py::kw_only(),
+        py::arg("size") = 256, py::arg("quality") = 64, py::arg("white") = 0.4, py::arg("seed") = 1,
+        py::arg("threads") = 0,
+        "Returns an image of a sphere in an environment: a latitude-longitude image of shape (n, 2 n, 3), linear\n"
+        "radiance. quality: samples of the BRDF, and as many of the environment, per pixel. white: the mean luminance\n"
+        "of a white Lambertian sphere. Ctrl-C ends it.");
   m.def(
       "write_png",
       [](const std::filesystem::path& path, const py::object& image) {
@@ -135,12 +133,11 @@ void add_rendering(py::module_& m) {
   m.def(
       "read_hdr", [](const std::filesystem::path& path) { return array_of(gonio::io::read_hdr(path)); },
       py::arg("path"), "Reads a Radiance HDR image: float32 of shape (rows, columns, 3).");
-  m.def(
-      "compare", &compare_brdfs, py::arg("estimate"), py::arg("truth"), py::arg("prior") = py::none(),
-      py::arg("threads") = 0,
-      "How an estimate differs from the truth, both BRDFs of any kind: what `gonio compare --json` prints. They are\n"
-      "compared over the cells of the truth if it is a Table, else of the estimate, else of a MERL file. prior: whose\n"
-      "metric maps reflectance; without one that of the prior that ships with the package.");
+  m.def("compare", &compare_brdfs, py::arg("estimate"), py::arg("truth"), py::arg("prior") = py::none(),
+        py::arg("threads") = 0,
+        "Returns the errors of an estimate against the truth, both BRDFs of any kind, as `gonio compare --json`\n"
+        "prints them. They are compared over the cells of the truth if it is a Table, else of the estimate, else of a\n"
+        "MERL file. prior: its metric maps reflectance; by default that of the prior that ships with the package.");
 }
 
 }  // namespace python
