@@ -37,11 +37,11 @@ struct check_options {
   gonio::thread_count threads;
 };
 
-/// The samples of a file that count: where each is in the file, and where it is on the prior's cells; and what the file
-/// says of them.
+/// The samples of a file with nonzero weight, their numbers in the file, their locations on the prior's cells, and the
+/// file's facts.
 struct measured_surface {
   std::vector<gonio::sample_directions> counting;
-  std::vector<Eigen::Index> numbers;  ///< from 1
+  std::vector<Eigen::Index> numbers;  ///< in the file, from 1
   gonio::located_samples located;
   json facts;
 
@@ -54,7 +54,7 @@ struct measured_surface {
   }
 };
 
-/// Part and reference in the channels that both have, else by their colours.
+/// Reads part and reference in the channels that both have, else as colours.
 std::pair<measured_surface, measured_surface> read_both(const check_options& given,
                                                         const gonio::log_relative_pca& prior) {
   gonio::io::sample_file part = read_measurement_file(given.part, given.reading),
@@ -70,7 +70,7 @@ std::pair<measured_surface, measured_surface> read_both(const check_options& giv
   return {{std::move(part), given, prior}, {std::move(reference), given, prior}};
 }
 
-/// What the channels of an answer are called. Channels that all have the same values are one.
+/// Returns the names of the result's channels. Channels with identical values become one.
 std::vector<std::string> channel_names(const gonio::conformity& found, const measured_surface& part) {
   if (found.shift.size() == 1) return {part.located.kinds.size() == 1 ? part.located.kinds.name(0) : "value"};
   std::vector<std::string> names;
@@ -78,7 +78,7 @@ std::vector<std::string> channel_names(const gonio::conformity& found, const mea
   return names;
 }
 
-/// What was asked, what came out of it, and all that is told of it.
+/// The options and the results of a check.
 struct check_result {
   gonio::conformity_options options;
   gonio::conformity conformity;
@@ -86,7 +86,7 @@ struct check_result {
   bool conforms = true;
 };
 
-/// The noise as it is stated, or as repeated measurements tell.
+/// Returns the options with the noise as stated, or as estimated from repeated measurements.
 gonio::conformity_options options_of(const check_options& given, const gonio::log_relative& metric,
                                      const measured_surface& part, const measured_surface& reference) {
   gonio::conformity_options options{
@@ -117,18 +117,18 @@ check_result check_part(const check_options& given, const measured_surface& part
   return result;
 }
 
-/// A probability, in as many digits as matter.
+/// Returns a probability with its significant digits.
 std::string probability(double value) {
   std::array<char, 32> digits{};
   std::snprintf(digits.data(), digits.size(), "%.2g", value);
   return digits.data();
 }
 
-/// Of a difference of mapped values, relative: "+4.1 %".
+/// Returns a relative difference from one of mapped values: "+4.1 %".
 std::string percent(double mapped) { return (mapped >= 0.0 ? "+" : "") + fixed(100.0 * std::expm1(mapped), 1) + " %"; }
 
-/// "sample 6 (theta_i 30.0, theta_o 41.2 degrees): measured 0.210, the reference says 0.140 +- 0.020 (red, p =
-/// 0.0003)", of the channel that differs most.
+/// Returns "sample 6 (theta_i 30.0, theta_o 41.2 degrees): measured 0.210, the reference says 0.140 +- 0.020 (red, p =
+/// 0.0003)", for the channel with the largest difference.
 std::string told(const gonio::compared_direction& each, const measured_surface& part,
                  const std::vector<std::string>& names) {
   Eigen::Index channel = 0;
@@ -143,7 +143,7 @@ std::string told(const gonio::compared_direction& each, const measured_surface& 
          ", p = " + probability(each.adjusted_p_value) + ")";
 }
 
-/// What limits the answer.
+/// Prints the limits of the answer.
 void print_limits(const check_result& result, const measured_surface& part, const measured_surface& reference) {
   const Eigen::Index predicted = result.conformity.predicted(), all = std::ssize(result.conformity.directions);
   if (predicted > 0)
@@ -158,7 +158,7 @@ void print_limits(const check_result& result, const measured_surface& part, cons
               << fixed(result.options.part.degrees_of_freedom, 0) << " degrees of freedom\n";
 }
 
-/// "red +0.1 %, green +0.3 %, blue -0.2 %"; of many wavelengths the one that is shifted most.
+/// Returns "red +0.1 %, green +0.3 %, blue -0.2 %"; for many wavelengths only the one with the largest shift.
 std::string shifts(const gonio::conformity& found, const std::vector<std::string>& names) {
   constexpr std::size_t most_listed = 6;
   const auto told = [&](Eigen::Index channel) { return names[channel] + ' ' + percent(found.shift[channel]); };
@@ -195,7 +195,7 @@ void print(const check_options& given, const check_result& result, const measure
             << fixed(100.0 * known.discrepancy, 0) << " %, errors " << fixed(100.0 * known.errors, 0) << " %)\n";
 }
 
-/// A number for each channel.
+/// Returns a number for each channel.
 json listed(const Eigen::ArrayXd& channels) {
   json all = json::array();
   for (const double value : channels) all.push_back(value);
@@ -249,7 +249,7 @@ json as_json(const check_options& given, const check_result& result, const measu
   return all;
 }
 
-/// The page for people: the same, and what was done.
+/// Writes the page for people: the result, and the record of the command.
 void write_report(const check_options& given, const json& check) {
   const auto described = [](const std::filesystem::path& path, const json& facts) {
     std::string text = path.string();
@@ -269,7 +269,7 @@ void write_report(const check_options& given, const json& check) {
                                    {"record", record}});
 }
 
-/// Says whether the part conforms.
+/// Checks the files; returns whether the part conforms.
 bool check_files(const check_options& given) {
   const gonio::log_relative_pca prior = gonio::io::read_prior(given.prior);
   const auto [part, reference] = read_both(given, prior);
@@ -283,7 +283,7 @@ bool check_files(const check_options& given) {
   return result.conforms;
 }
 
-/// The same; what fails is bad input, so that exit code 1 means that the part differs.
+/// The same, but every failure is bad input, so that exit code 1 means only that the part differs.
 bool check_or_refuse(const check_options& given) {
   try {
     return check_files(given);
