@@ -46,7 +46,7 @@ std::string_view word_at(std::string_view text) {
   return text.substr(0, static_cast<std::size_t>(end - text.begin()));
 }
 
-/// Returns "eta=" for "eta"; nothing if the option is no argument.
+/// Returns "eta=" for "eta"; nothing if the option is not an argument.
 std::string argument_of(std::string_view option) {
   for (const auto& [name, argument] : renamed)
     if (name == option) return std::string(argument);

@@ -25,8 +25,8 @@ class texel_clusters {
 
   [[nodiscard]] Eigen::Index count() const noexcept { return centres_.rows(); }
 
-  /// Returns for each texel of a band the number of its cluster, from 1 for the largest cluster in the first texels; 0
-  /// outside the sample. Adds the texels to `summary`.
+  /// Returns for each texel of a band the number of its cluster, from 1 on in order of decreasing size among the
+  /// sampled texels; 0 outside the sample. Adds the texels to `summary`.
   [[nodiscard]] std::vector<std::uint8_t> assign(const gonio::io::svbrdf_band& band);
 
   /// The texels assigned so far.

@@ -48,7 +48,7 @@ gonio::valid_cells cells_of(const file_content& content) {
   return table != nullptr ? table->cells() : gonio::valid_cells();
 }
 
-/// Has the BRDF negative values, and must the renderer's file have none? Then warns the user.
+/// Does the BRDF have negative values although the renderer's file must have none? If so, warns the user.
 template <gonio::brdf Brdf>
 bool must_be_clipped(const fs::path& path, const Brdf& f, const gonio::valid_cells& cells, const writing& how) {
   if (how.keeps_negative) return false;

@@ -6,7 +6,7 @@
 
 namespace cli {
 
-/// Returns the first 65,536 bytes of a file, or all if it has fewer; nothing if it cannot be opened or is no regular
+/// Returns the first 65,536 bytes of a file, or all if it has fewer; nothing if it cannot be opened or is not a regular
 /// file (its reader then gives the reason).
 [[nodiscard]] std::string file_start(const std::filesystem::path& path);
 

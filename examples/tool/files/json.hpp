@@ -50,7 +50,7 @@ class json {
   [[nodiscard]] static json object();
   /// The nesting and the number of values that `read` accepts: destroying or printing a value recurses.
   static constexpr std::size_t deepest = 100, most_values = 1 << 18;
-  /// Returns null if the text is no JSON or exceeds these limits.
+  /// Returns null if the text is not JSON or exceeds these limits.
   [[nodiscard]] static json read(const std::string& text);
 
   [[nodiscard]] bool is_null() const noexcept;
@@ -86,7 +86,7 @@ class json {
   [[nodiscard]] std::size_t size() const noexcept;
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
 
-  /// Returns the text on one line, or indented. Bytes that are no UTF-8 are replaced.
+  /// Returns the text on one line, or indented. Bytes that are not UTF-8 are replaced.
   [[nodiscard]] std::string dump(int indent = -1) const;
 
   /// Numbers of different types are compared by value.

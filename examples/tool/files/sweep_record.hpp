@@ -21,7 +21,7 @@ class sweep_record {
  public:
   /// The record of a search that writes `output`: the file `output`.part. `checksum` covers all inputs of the result.
   /// Throws gonio::error in all processes if the file was begun with another one. There is no file before the first
-  /// sweep, nor if the output is no regular file, such as a pipe.
+  /// sweep, nor if the output is not a regular file, such as a pipe.
   sweep_record(const std::filesystem::path& output, std::uint32_t checksum, const team& processes);
 
   /// Returns the result of the next sweep, from an earlier run or computed now.

@@ -341,8 +341,8 @@ bool is_option(const std::string& word) {
          (word.size() == 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0);
 }
 
-/// Returns a sentence on the first word that is no known subcommand or option in its position, with the nearest known
-/// word; empty if all words are known.
+/// Returns a sentence on the first word that is not a known subcommand or option in its position, with the nearest
+/// known word; empty if all words are known.
 std::string unknown_word(const CLI::App& all, int argc, char** argv) {
   const CLI::App* at = &all;
   const auto sentence = [&](const std::string& word, const char* kind, const std::vector<std::string>& known) {

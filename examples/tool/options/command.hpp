@@ -78,7 +78,7 @@ class command {
                           std::function<void(const std::function<void()>&)> around);
   option_group add_option_group(const std::string& name, const std::string& description);
   void require_subcommand();
-  /// Accepts words that are no options.
+  /// Accepts words that are not options.
   void allow_extras();
 
   option add_option(const std::string& names, std::string& value, const std::string& description);

@@ -13,7 +13,7 @@ namespace cli {
 option add_light_option(command& to, std::vector<std::string>& lights);
 
 /// Returns the given lights, or the two lights of Nielsen et al. 2015, Figure 2. Throws gonio::error naming the text
-/// that is no pair of angles.
+/// that is not a pair of angles.
 [[nodiscard]] gonio::render::directional_lighting lighting_of(const std::vector<std::string>& lights);
 
 }  // namespace cli

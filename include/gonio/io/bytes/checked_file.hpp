@@ -19,7 +19,7 @@ namespace gonio::io {
 struct checked_file_kind {
   std::string_view magic;
   std::uint32_t version;     ///< the version that is written
-  std::string_view noun;     ///< what errors call it
+  std::string_view noun;     ///< its name in errors
   std::uint32_t oldest = 0;  ///< the oldest version that is read; 0: only `version`
 };
 

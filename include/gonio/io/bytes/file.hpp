@@ -160,7 +160,7 @@ class file_writer {
 void remove_unfinished_files() noexcept;
 
 /// Calls `fill(file_writer&)` and then replaces the file. If anything fails, the callback included, the old file stays
-/// whole and nothing is left beside it.
+/// whole and no temporary file is left.
 template <std::invocable<file_writer&> Fill>
 void write_atomically(const std::filesystem::path& path, Fill&& fill) {
   file_writer file(path);

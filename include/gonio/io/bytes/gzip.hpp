@@ -33,7 +33,7 @@ class inflater {
   /// Fills `out` unless the stream ends first; returns the number of bytes written.
   [[nodiscard]] std::size_t read(std::span<std::byte> out);
 
-  /// Has the stream ended, its checksum included?
+  /// Has the stream ended, including its checksum?
   [[nodiscard]] bool ended() const noexcept { return ended_; }
   [[nodiscard]] std::span<const std::byte> left() const noexcept { return left_; }
 

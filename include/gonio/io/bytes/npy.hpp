@@ -87,7 +87,7 @@ class npy_header_reader {
 
 }  // namespace detail
 
-/// Reads magic, version and header from the front of a file's bytes.
+/// Reads magic, version and header, and removes them from the front of a file's bytes.
 [[nodiscard]] npy_layout read_npy_header(std::span<const std::byte>& bytes, const std::string& name);
 
 template <std::floating_point Stored, std::floating_point T>

@@ -11,7 +11,7 @@
 namespace gonio::io {
 
 /// Returns the exposure time in seconds; nothing if the EXIF data has none. Throws gonio::error starting with `name` if
-/// the bytes are no JPEG file with EXIF data, or if the time is not from 1e-7 s to a day.
+/// the bytes are not a JPEG file with EXIF data, or if the time is not from 1e-7 s to a day.
 [[nodiscard]] std::optional<double> read_exif_exposure_time(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads it from a file.

@@ -17,9 +17,9 @@
 namespace gonio::io {
 
 /// Reads the image in the data window of an OpenEXR file of scan lines or tiles; ignores other channels. Throws
-/// gonio::error starting with `name` if the bytes are no such file or are truncated, if the image has more than 16384
-/// rows or columns or more pixels than so many bytes plausibly hold, if it has neither R, G and B nor Y, or if a value
-/// is NaN.
+/// gonio::error starting with `name` if the bytes are not such a file or are truncated, if the image has more than
+/// 16384 rows or columns or more pixels than so many bytes plausibly hold, if it has neither R, G and B nor Y, or if a
+/// value is NaN.
 [[nodiscard]] image read_exr(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads an OpenEXR file.

@@ -30,7 +30,7 @@ struct mbsdf_material {
   bool has_transmission = false;  ///< the file's transmission is skipped, and is not written
 };
 
-/// Reads a material from the bytes of a file. Errors call it `name`. Header lines that are no key and value are
+/// Reads a material from the bytes of a file. Errors call it `name`. Header lines that are not a key and a value are
 /// skipped, as in MDL's own reader. Throws gonio::error for a file without reflection, and for values that are not
 /// finite.
 [[nodiscard]] mbsdf_material read_mbsdf(std::span<const std::byte> bytes, const std::string& name);
@@ -40,7 +40,7 @@ struct mbsdf_material {
   return read_mbsdf(read_bytes(path), path.string());
 }
 
-/// Returns the bytes of a file. Characters of values that are no printable ASCII become '?'. Throws gonio::error for a
+/// Returns the bytes of a file. Characters of values that are not printable ASCII become '?'. Throws gonio::error for a
 /// key that is not letters, digits and underscores.
 [[nodiscard]] std::vector<std::byte> write_mbsdf(const mbsdf_material& material);
 

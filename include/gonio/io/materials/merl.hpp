@@ -3,8 +3,8 @@
 /// phi_d), then a plane of float64 for red, green and blue; a value times 1/1500, 1.15/1500 or 1.66/1500 is in sr^-1.
 /// Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 ///
-/// A file does not tell at which point of a cell its values were taken. Only its cells without a value, -1 in all three
-/// channels, allow to infer it: see `infer_convention`.
+/// A file does not tell at which point of a cell its values were taken. It can only be inferred from the cells without
+/// a value, -1 in all three channels: see `infer_convention`.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/io/bytes/file.hpp>

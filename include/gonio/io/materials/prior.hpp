@@ -16,7 +16,7 @@ namespace gonio::io {
 /// codes.
 [[nodiscard]] std::vector<std::byte> write_prior(const log_relative_pca& prior);
 
-/// Reads a prior from the bytes of a file. Throws gonio::error starting with `name` if they are no prior, of another
+/// Reads a prior from the bytes of a file. Throws gonio::error starting with `name` if they are not a prior, of another
 /// version, damaged (checksum), truncated or too long.
 [[nodiscard]] log_relative_pca read_prior(std::span<const std::byte> bytes, const std::string& name);
 

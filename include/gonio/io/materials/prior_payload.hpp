@@ -12,8 +12,8 @@ namespace gonio::io {
 /// Appends a prior: components as 8-bit codes, mean and logarithm of the reference as 16-bit ones. O(cells x k).
 void write_prior(byte_writer& out, const log_relative_pca& prior);
 
-/// Reads a prior, which must be all that is left. Throws gonio::error starting with `name` if the bytes are no prior;
-/// refuses counts that they cannot hold before memory is allocated. O(cells x k).
+/// Reads a prior, which must be all that is left. Throws gonio::error starting with `name` if the bytes are not a
+/// prior; refuses counts that they cannot hold before memory is allocated. O(cells x k).
 [[nodiscard]] log_relative_pca read_prior(byte_reader& in, const std::string& name);
 
 }  // namespace gonio::io

@@ -89,8 +89,8 @@ struct conductor {
 [[nodiscard]] std::string gltf_material(const model::analytic_brdf& model);
 
 /// Returns a shader `gonio_material` in the Open Shading Language for Blender's Cycles, linear Rec. 709: the sum of a
-/// diffuse closure and `generalized_schlick_bsdf` with the model's parameters. Only masking differs: Cycles correlates
-/// the heights that both directions see. Throws gonio::error for models other than GGX, with or without Lambert.
+/// diffuse closure and `generalized_schlick_bsdf` with the model's parameters. Only masking differs: that of Cycles is
+/// height-correlated. Throws gonio::error for models other than GGX, with or without Lambert.
 [[nodiscard]] std::string osl_shader(const model::analytic_brdf& model);
 
 /// Writes such a text, completely or not at all.

@@ -102,8 +102,8 @@ class svbrdf_writer {
 /// A complete map, read band by band. Any number of threads may read it.
 class svbrdf_map {
  public:
-  /// Reads the header. Throws gonio::error if the file is no map, of another version, damaged, or of another size than
-  /// its header requires.
+  /// Reads the header. Throws gonio::error if the file is not a map, of another version, damaged, or of another size
+  /// than its header requires.
   explicit svbrdf_map(const std::filesystem::path& path);
 
   [[nodiscard]] const svbrdf_header& header() const noexcept { return header_; }

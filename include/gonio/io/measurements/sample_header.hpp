@@ -48,7 +48,7 @@ namespace detail {
 
 class sample_header {
  public:
-  /// The column of a field that is no column of samples.
+  /// The column of a field that is not a column of samples.
   static constexpr std::size_t ignored = sample_columns.size();
 
   /// Reads the file's current line, and the line of units below it if there is one, to which the file then advances.

@@ -61,7 +61,7 @@ class sample_rows {
   [[nodiscard]] std::optional<sample_quantity> quantity() const noexcept { return quantity_.quantity(); }
   [[nodiscard]] std::optional<double> wavelength() const noexcept { return wavelength_; }
   [[nodiscard]] const sample_provenance& provenance() const noexcept { return provenance_; }
-  /// Has the file no azimuths and no statement of the side of the normal on which theta_o is positive?
+  /// Does the file lack both azimuths and a statement of the side of the normal on which theta_o is positive?
   [[nodiscard]] bool assumes_side() const noexcept { return header_.is_in_plane() && !sign_; }
   [[nodiscard]] const std::optional<theta_o_sign>& sign() const noexcept { return sign_; }
   /// Are azimuths counted from the mirror direction? Without azimuths the signs in the rows tell.

@@ -37,7 +37,7 @@ struct sample_file {
 [[nodiscard]] sample_set read_samples(std::string_view text, const std::string& name,
                                       const sample_reading& reading = {});
 
-/// Has the text no column of values? Throws gonio::error for a header line or a first line of numbers that
+/// Does the text have no column of values? Throws gonio::error for a header line or a first line of numbers that
 /// `read_directions` refuses.
 [[nodiscard]] bool has_directions_alone(std::string_view text, const std::string& name,
                                         const sample_reading& reading = {});

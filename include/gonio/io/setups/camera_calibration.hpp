@@ -23,7 +23,7 @@ struct camera_calibration {
 };
 
 /// Throws gonio::error naming the entry that is missing or wrong: a matrix whose shape does not fit its numbers, a size
-/// that is no whole number, focal lengths that are not positive, skewed axes, nonzero coefficients after k3, or a
+/// that is not a whole number, focal lengths that are not positive, skewed axes, nonzero coefficients after k3, or a
 /// fisheye lens (OpenCV's `fisheye_model`, ROS's `distortion_model` equidistant), whose four coefficients have another
 /// meaning. Errors call the text `name`.
 [[nodiscard]] camera_calibration read_camera_calibration(std::string_view text, const std::string& name);

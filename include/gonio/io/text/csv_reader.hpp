@@ -69,7 +69,7 @@ class csv_reader {
   std::vector<std::string_view> fields_;
   char separator_ = '\0';        ///< set by a first line `sep=;`, or 0
   std::size_t columns_ = 0;      ///< number of fields of the header line; 0 above it
-  std::size_t header_line_ = 0;  ///< 0: the first line that is no comment
+  std::size_t header_line_ = 0;  ///< 0: the first line that is not a comment
   std::vector<std::string_view> passed_over_;
 };
 

@@ -31,7 +31,7 @@ class json_reader {
   /// Returns the next key of the innermost open object, or nothing at its end. Read its value before the next key.
   [[nodiscard]] std::optional<std::string> next_key();
 
-  /// Has the innermost open array a next element? Read it before the next call.
+  /// Does the innermost open array have a next element? Read it before the next call.
   [[nodiscard]] bool next_element();
 
   /// Reads a finite number.

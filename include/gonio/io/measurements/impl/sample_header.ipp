@@ -197,7 +197,7 @@ inline constexpr std::size_t longest_name = 40;
   return true;
 }
 
-/// Returns false if the name is no wavelength.
+/// Returns false if the name is not a wavelength.
 [[gnu::cold]] GONIO_INLINE bool sample_header::add_wavelength(const written_column& written, const text_place& place) {
   const double nanometres = wavelength_named(written);
   if (nanometres == 0.0) return false;
@@ -315,7 +315,7 @@ inline constexpr std::size_t longest_name = 40;
     if (!knows(column)) refuse_missing(column, place);
 }
 
-/// Has it a column, or is it stated for all samples?
+/// Does it have a column, or is it stated for all samples?
 [[gnu::cold]] GONIO_INLINE bool sample_header::knows(std::size_t column) const {
   return has(column) || std::ranges::find(stated_, column, &stated_angle::column) != stated_.end();
 }

@@ -150,7 +150,7 @@ GONIO_INLINE void sample_rows::read_fields() {
   return field.size() <= 10 && std::ranges::find(words, lower_case(field)) != words.end();
 }
 
-/// Has the line a number in every needed column? Counts lines that have not.
+/// Does the line have a number in every needed column? Counts lines that do not.
 GONIO_INLINE bool sample_rows::has_value() {
   const std::vector<std::size_t>& columns = header_.columns();
   for (std::size_t i = 0; i < columns.size(); ++i) {

@@ -259,7 +259,7 @@ GONIO_INLINE std::vector<speos_turn> speos_reader::read_turns() {
   return turns;
 }
 
-/// Skips a line that is no number.
+/// Skips a line that is not a number.
 GONIO_INLINE void speos_reader::skip_title() {
   double number = 0.0;
   if (io::read_number(words_.peek(), number) != nullptr) static_cast<void>(words_.read_rest_of_line());
