@@ -135,8 +135,7 @@ class dark_room {
   }
 
  private:
-  /// Returns the radiance at an image position: 1 / pi for perfect white under a lamp at the normal and its usual
-  /// distance.
+  /// Returns the radiance at an image position: 1 / pi for white under a lamp at the normal and usual distance.
   [[nodiscard]] gonio::rgb radiance(double x, double y) const {
     // In the sample's own axes, with all misalignments undone.
     const Eigen::Vector3d camera = turn_sample_.transpose() * turn_camera_ * camera_;
@@ -167,8 +166,7 @@ class dark_room {
 
   [[nodiscard]] double lamp_samples() const { return wrong_.lamp_radius > 0.0 ? 1.0 + ring : 1.0; }
 
-  /// Returns points that represent the lamp: its centre and a ring, with the disc's mean square distance from the
-  /// centre.
+  /// Returns points that represent the lamp: its centre and a ring, with the disc's mean square distance.
   [[nodiscard]] std::vector<Eigen::Vector3d> lamp_points(const Eigen::Vector3d& lamp) const {
     std::vector<Eigen::Vector3d> points{lamp};
     if (!(wrong_.lamp_radius > 0.0)) return points;

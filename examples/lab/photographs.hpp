@@ -1,6 +1,5 @@
 #pragma once
-/// A simulated camera that photographs a radiance image: exposure brackets and dark frames. `photograph_settings` holds
-/// its defects.
+/// A simulated camera that photographs a radiance image: exposure brackets and dark frames.
 
 #include "dark_room.hpp"
 #include <gonio/capture/dark_signal.hpp>
@@ -141,8 +140,7 @@ namespace detail {
   return photograph_bracket(gonio::uniform_image(rows, columns), all, settings, seed + (std::uint64_t{1} << 40));
 }
 
-/// Returns the value that `merge_frames` gives for a radiance of 1: it scales exposure so that the middle count is 1
-/// per second.
+/// Returns the value that `merge_frames` gives for a radiance of 1: the middle count is at an exposure of 1 per second.
 [[nodiscard]] inline double merged_unit(const photograph_settings& settings) {
   double low = 0.0, high = 1.0;
   for (int halvings = 0; halvings < 60; ++halvings) {

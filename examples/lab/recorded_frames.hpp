@@ -22,8 +22,7 @@ namespace lab {
 
 class recorded_frames {
  public:
-  /// Reads the manifest; frames are read when they are measured. Throws gonio::error naming the manifest and the
-  /// invalid frame.
+  /// Reads the manifest; frames are read when they are measured. Throws gonio::error naming manifest and invalid frame.
   explicit recorded_frames(const std::filesystem::path& manifest)
       : folder_(manifest.parent_path()), name_(manifest.string()) {
     const auto bytes = gonio::io::read_bytes(manifest);

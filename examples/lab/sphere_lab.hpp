@@ -24,7 +24,7 @@ namespace lab {
 struct camera_defects {
   double noise = 0.0;       ///< relative standard deviation, for each channel of each pixel
   double background = 0.0;  ///< standard deviation of the dark background, in the unit of radiance
-  bool vignetting = false;  ///< cosine to the axis to the fourth power, and 40 % more at the corners
+  bool vignetting = false;  ///< by the fourth power of the cosine to the axis, and by another 40 % at the corners
 };
 
 /// Returns the radiance along a ray from a sphere under a lamp; nothing if the ray misses the sphere.

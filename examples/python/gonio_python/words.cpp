@@ -56,8 +56,7 @@ std::string argument_of(std::string_view option) {
   return argument + '=';
 }
 
-/// Returns the length of an option's value in the text after it, with a leading space, and the value as Python writes
-/// it.
+/// Returns the length of an option's value in the text after it, with a leading space, and the value in Python.
 std::pair<std::size_t, std::string> value_behind(std::string_view option, std::string_view text) {
   if (text.size() < 2 || text.front() != ' ') return {0, ""};
   const std::string_view word = word_at(text.substr(1));

@@ -37,8 +37,7 @@ struct check_options {
   gonio::thread_count threads;
 };
 
-/// The samples of a file with nonzero weight, their numbers in the file, their locations on the prior's cells, and the
-/// file's facts.
+/// The samples of a file with nonzero weight, their numbers in the file, their locations on the cells, and facts.
 struct measured_surface {
   std::vector<gonio::sample_directions> counting;
   std::vector<Eigen::Index> numbers;  ///< in the file, from 1

@@ -60,8 +60,7 @@ std::string angle_of(const Eigen::Vector3d& turn) { return fixed(gonio::degrees(
 /// The samples of each image, for each material.
 using samples_of_materials = std::vector<std::vector<gonio::sample_set>>;
 
-/// Returns each material's samples with refined poses of light and cameras, common to all materials; prints the
-/// corrections.
+/// Returns each material's samples with refined poses of light and cameras, which they share; prints the corrections.
 std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, samples_of_materials samples,
                                        const near_field_command& options) {
   gonio::pose_refinement refinement(
@@ -146,8 +145,7 @@ std::filesystem::path path_of_material(const std::filesystem::path& output, Eige
   return path;
 }
 
-/// Returns a map of each material's pixels in its mean colour, scaled so that the brightest channel is 1; black
-/// outside.
+/// Returns a map of each material's pixels in its mean colour, scaled so that the brightest is 1; black outside.
 gonio::image label_map(const gonio::capture::colour_clusters& clusters, const std::vector<Eigen::Index>& region,
                        const gonio::camera_intrinsics& size) {
   gonio::image map = gonio::uniform_image(size.rows, size.columns);

@@ -117,8 +117,7 @@ class number_labels {
                 Eigen::Vector2d(static_cast<double>(image.shape(1)) - 1.0, static_cast<double>(image.shape(0)) - 1.0)) {
   }
 
-  /// Draws a number near a point, on the side away from `other` or on the next side with room; omits it if there is
-  /// none.
+  /// Draws a number near a point, on the side away from `other` or on the next with room; omits it if there is none.
   void add(const Eigen::Vector2d& at, const Eigen::Vector2d& other, std::size_t number, const gonio::rgb& colour) {
     const std::string text = std::to_string(number);
     const text_extent size = extent_of(text, scale_);
@@ -174,8 +173,7 @@ void draw_numbers(gonio::image& image, const std::vector<pose>& poses) {
     labels.add(place_of(poses[i].wo), place_of(poses[i].wi), i + 1, colour_of(i));
 }
 
-/// Draws each pose as a line from its light (a disc) to its viewer (a ring) with its number, and circles every 30
-/// degrees.
+/// Draws each pose as a line from its light (a disc) to its viewer (a ring) with its number; circles every 30 degrees.
 gonio::image drawing_of(const std::vector<pose>& poses) {
   const auto size = static_cast<Eigen::Index>(2 * (hemisphere_radius + hemisphere_margin));
   gonio::image image = gonio::uniform_image(size, size, gonio::rgb::Ones());

@@ -74,8 +74,7 @@ void write_result(const reconstruct_options& options, const reconstruction& resu
   write_spectra(options.output, *result.spectra, options.output.stem().string(), how);
 }
 
-/// Returns the samples in the channels to fit. Wavelengths are kept if requested, or if the output format can hold
-/// them.
+/// Returns the samples in the channels to fit. Keeps wavelengths if requested, or if the output can hold them.
 gonio::io::sample_file read_fitted(reconstruct_options& options) {
   gonio::io::sample_file measured = read_measurement_file(options.samples, options.reading);
   const gonio::channels& kinds = measured.samples.channels();

@@ -18,8 +18,7 @@
 
 namespace cli {
 
-/// Reflectance in sr^-1 of a range of texels: a column for each image, with red, green and blue of one texel after the
-/// other.
+/// Reflectance in sr^-1 of a range of texels: a column per image, with red, green and blue texel by texel.
 struct texel_values {
   Eigen::MatrixXf reflectance;
   std::vector<Eigen::Index> outside;  ///< the texels outside the sample, whose values are zeros

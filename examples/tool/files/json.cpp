@@ -128,8 +128,7 @@ bool operator==(const json& one, const json& other) {
 
 namespace {
 
-/// Builds a value from the events of the library's parser, which does not recurse; a handler that returns false stops
-/// it.
+/// Builds a value from the events of the library's parser, which does not recurse; false stops it.
 class json_reader {
  public:
   using number_integer_t = nlohmann::json::number_integer_t;

@@ -74,8 +74,7 @@ class json {
   [[nodiscard]] const json& operator[](std::size_t index) const;
   [[nodiscard]] json& operator[](std::size_t index);
 
-  /// For objects; null becomes an object, and a missing key is added. The const version throws std::logic_error
-  /// instead.
+  /// For objects; null becomes an object, and a missing key is added. The const version throws std::logic_error.
   [[nodiscard]] json& operator[](const std::string& key);
   [[nodiscard]] const json& operator[](const std::string& key) const;
   [[nodiscard]] bool contains(const std::string& key) const;

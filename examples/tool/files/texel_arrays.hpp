@@ -15,8 +15,7 @@
 
 namespace cli {
 
-/// Writes an array (.npy) of rows x columns x `extents` with elements of a NumPy type; calls `write` for each band in
-/// order.
+/// Writes an array (.npy) of rows x columns x `extents` with elements of a NumPy type; calls `write` band by band.
 void write_texel_array(const std::filesystem::path& path, const gonio::io::svbrdf_header& header, std::string_view type,
                        const std::vector<std::size_t>& extents,
                        const std::function<void(gonio::io::file_writer&, Eigen::Index)>& write);

@@ -16,8 +16,7 @@
 
 namespace cli {
 
-/// Any number of files of networks, folders of MERL tables and folders of RGL materials; or else the materials of a
-/// prior.
+/// Any number of files of networks and folders of MERL tables and RGL materials; or else the materials of a prior.
 struct material_source {
   std::vector<std::filesystem::path> networks, tables, rgl;
   std::filesystem::path prior;
@@ -46,8 +45,7 @@ option_group add_material_options(command& to, material_source& source);
 /// The same, but reads each material once, one after the other, into a scratch file. Not for a prior. With `cells` all
 /// are over these cells: tables are interpolated, or copied if the nodes coincide; otherwise over the cells of
 /// read_materials. Spectra are at the requested wavelengths, or else must all have the same. Several processes each
-/// tabulate some of the materials and exchange the rows of their groups; a single folder of MERL tables is read by
-/// every process.
+/// tabulate some of the materials and exchange the rows of their groups; each process reads a single MERL folder.
 [[nodiscard]] gonio::material_rows stream_materials(const material_source& source,
                                                     const std::optional<gonio::valid_cells>& cells,
                                                     gonio::io::scratch_materials scratch, gonio::thread_count threads,

@@ -21,8 +21,7 @@ struct model_choice {
       .norm = gonio::model::fit_norm::huber, .cosine_weighted = true, .largest_albedo = 1.0};
 };
 
-/// Returns the lobes of `ggx` (with a Lambertian one), or of `sum:ggx+ward` (as named). Throws gonio::error for unknown
-/// ones.
+/// Returns the lobes of `ggx` (with a Lambertian one), or of `sum:ggx+ward` (as named). Throws gonio::error for others.
 [[nodiscard]] std::vector<const gonio::model::lobe_kind*> lobes_named(const std::string& model);
 
 /// Returns the kind with Fresnel's factor: phong-fresnel for phong. Throws gonio::error for a kind that has none.

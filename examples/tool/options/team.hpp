@@ -35,7 +35,7 @@ class team {
   /// Returns the threads of this process: as requested, or its share of the machine's cores.
   [[nodiscard]] virtual gonio::thread_count threads(gonio::thread_count asked) const { return asked; }
 
-  /// Does each process' work. An exception in one process is thrown in all.
+  /// Runs the work of each process. An exception in one process is thrown in all.
   virtual void together(const std::function<void()>& work) const { work(); }
 
   /// Throws gonio::error in all processes unless they have the same checksum of an input, which errors call `what`.
@@ -49,8 +49,7 @@ class team {
     static_cast<void>(block_size);
     return {0, count};
   }
-  /// Given each process' best value and its number, returns the number with the lowest value; for equal values the
-  /// lowest number.
+  /// Given each process' best value and its number, returns the number with the lowest value, of equal ones the lowest.
   [[nodiscard]] virtual Eigen::Index best(double value, Eigen::Index number) const {
     static_cast<void>(value);
     return number;

@@ -23,8 +23,7 @@ struct component_figure {
 
 namespace detail {
 
-/// Colours the values at the pixels of slices, row by row from the top: first a column for the BRDF, then one per
-/// component.
+/// Colours the values at the pixels of slices, row by row from the top: a column for the BRDF, then one per component.
 [[nodiscard]] component_figure colour_slices(const Eigen::MatrixXd& values, int size);
 
 }  // namespace detail

@@ -38,8 +38,7 @@ template <class Sigma>
 }
 
 /// Draws a slice of values at samples: a square of 2 x 2 pixels for each, or of 4 x 4 if they are few. Shows the
-/// samples within half a degree or, if these are fewer than 400, the 400 nearest. `colour(i)` is the colour of sample
-/// i.
+/// samples within half a degree or, if these are fewer than 400, the 400 nearest. `colour(i)` is that of sample i.
 [[nodiscard]] gonio::image samples_tile(const gonio::sample_set& samples, const gonio::rgb& nothing,
                                         const std::function<gonio::rgb(Eigen::Index)>& colour);
 

@@ -51,7 +51,7 @@ inline void add_image_options(command& to, image_options& options, option image)
                                       {.size = options.size, .supersampling = 3}, threads);
 }
 
-/// Gives spheres the same exposure: that of the options, or one for which the brightest of `by` is white at its 99th
+/// Gives spheres the same exposure: the given one, or one for which the brightest of `by` is white at its 99th
 /// percentile.
 inline void expose_spheres(std::span<gonio::image> spheres, std::span<const gonio::image> by,
                            const image_options& options) {

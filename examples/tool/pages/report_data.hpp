@@ -20,8 +20,7 @@ struct reported_fit {
 };
 
 /// Returns directions in degrees, reflectances in sr^-1, numbers of samples from 1; "known to" is relative, with a
-/// probability of 68 %. If there are more than `most_residuals` samples, shows that many at random, and the rejected
-/// ones.
+/// probability of 68 %. If there are more than `most_residuals` samples, shows that many at random and the rejected.
 [[nodiscard]] json report_data(const reported_fit& fit);
 
 /// A model, its samples, and the output of `gonio fit --json`.

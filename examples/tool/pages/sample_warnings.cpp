@@ -134,8 +134,7 @@ bool fall_like_cosine(const std::vector<dull_reading>& readings) {
   return std::abs(slope - 1.0) < 0.3 && correlation > 0.9;
 }
 
-/// Returns the upper median reflectance of the samples away from the highlight, relative to a white diffuser; 0 for few
-/// samples.
+/// Returns the upper median reflectance of the samples away from the highlight, relative to white; 0 for few samples.
 double typical_reflectance_factor(const std::vector<dull_reading>& readings) {
   constexpr std::size_t enough = 5;
   if (readings.size() < enough) return 0.0;

@@ -10,8 +10,7 @@
 
 namespace gonio::io::detail {
 
-/// Bytes that a table may claim whatever its file's size. A MERL table has 35 MB, and a table of a single colour
-/// shrinks 1000-fold.
+/// Bytes that a table may claim whatever its file's size. A MERL table has 35 MB; a plain one shrinks 1000-fold.
 inline constexpr std::uint64_t freely_claimed_table = std::uint64_t{36} << 20;
 
 /// The same for a payload. A prior of one component over MERL's grid has 5.5 MB.

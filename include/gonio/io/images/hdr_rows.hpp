@@ -19,8 +19,7 @@ namespace gonio::io {
 class hdr_rows {
  public:
   /// Reads through the file once. Throws gonio::error naming the file if it is not an HDR image, is truncated or
-  /// damaged, has bytes after its last row, has more than 16384 rows or columns, or has axes other than -Y or +Y and
-  /// +X.
+  /// damaged, has bytes after its last row, has more than 16384 rows or columns, or axes other than -Y or +Y and +X.
   explicit hdr_rows(const std::filesystem::path& path);
 
   [[nodiscard]] Eigen::Index rows() const noexcept { return std::ssize(begins_) - 1; }

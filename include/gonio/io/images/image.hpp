@@ -75,8 +75,7 @@ void check_png(std::span<const std::byte> bytes, const std::string& name);
 
 // ---- Radiance HDR is read by io/images/hdr_rows.hpp ----------------------------------------------
 
-/// Returns the colour as RGBE stores it: three 8-bit mantissas with a common exponent, rounded. stb would truncate
-/// them.
+/// Returns the colour as RGBE stores it: three 8-bit mantissas with a common exponent, rounded; stb truncates.
 [[nodiscard]] std::array<float, 3> round_to_rgbe(const float* pixel) noexcept;
 
 // ---- writing --------------------------------------------------------------------------------
@@ -114,8 +113,7 @@ void write_png(const std::filesystem::path& path, const image& picture);
 /// Reads a Radiance HDR image as linear Rec. 709; see `hdr_rows::read`.
 [[nodiscard]] image read_hdr(const std::filesystem::path& path);
 
-/// Writes a Radiance HDR image. Negative values become 0. Refuses NaN and values from 1.7e38 on, which RGBE cannot
-/// hold.
+/// Writes a Radiance HDR image. Negative values become 0. Refuses NaN, and values from 1.7e38 on, too large for RGBE.
 void write_hdr(const std::filesystem::path& path, const image& picture);
 
 }  // namespace gonio::io

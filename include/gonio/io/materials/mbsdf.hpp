@@ -31,7 +31,7 @@ struct mbsdf_material {
 };
 
 /// Reads a material from the bytes of a file. Errors call it `name`. Header lines that are not a key and a value are
-/// skipped, as in MDL's own reader. Throws gonio::error for a file without reflection, and for values that are not
+/// skipped, as in MDL's own reader. Throws gonio::error for a file without reflection and for values that are not
 /// finite.
 [[nodiscard]] mbsdf_material read_mbsdf(std::span<const std::byte> bytes, const std::string& name);
 

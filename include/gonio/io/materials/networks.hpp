@@ -17,8 +17,7 @@
 
 namespace gonio::io {
 
-/// Reads one name per line, without surrounding blanks. Throws gonio::error naming the line if a name is empty or
-/// appears twice.
+/// Reads one name per line, without surrounding blanks. Throws gonio::error naming an empty or repeated line.
 [[nodiscard]] std::vector<std::string> read_names(const std::filesystem::path& path);
 
 /// Reads networks and their names.

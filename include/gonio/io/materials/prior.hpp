@@ -12,8 +12,7 @@
 
 namespace gonio::io {
 
-/// Returns a prior as the bytes of a file: components as 8-bit codes, mean and logarithm of the reference as 16-bit
-/// codes.
+/// Returns a prior as the bytes of a file: components in 8-bit codes, mean and logarithm of the reference in 16-bit.
 [[nodiscard]] std::vector<std::byte> write_prior(const log_relative_pca& prior);
 
 /// Reads a prior from the bytes of a file. Throws gonio::error starting with `name` if they are not a prior, of another

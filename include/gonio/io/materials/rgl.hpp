@@ -63,8 +63,7 @@ struct rgl_material {
   return read_rgl(read_bytes(path), path.string());
 }
 
-/// Returns the colours of a material that was read. Throws gonio::error saying that `name` has none if no wavelength is
-/// visible.
+/// Returns the colours of a material that was read. Throws gonio::error with `name` if no wavelength is visible.
 [[nodiscard]] model::adaptive_brdf colours_of(rgl_material material, const std::string& name);
 
 /// Returns spectra for an RGB material, for pbrt-v4 and spectral variants of Mitsuba.

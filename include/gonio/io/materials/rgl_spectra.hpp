@@ -1,5 +1,5 @@
 #pragma once
-/// Spectra in files of the RGL material database (io/materials/rgl.hpp): written from a spectral table, and read in any
+/// Spectra in files of the RGL material database (io/materials/rgl.hpp): written from a spectral table, read in any
 /// directions.
 
 #include <gonio/core/parallel.hpp>

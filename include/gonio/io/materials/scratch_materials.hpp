@@ -17,12 +17,10 @@ namespace gonio::io {
 
 class scratch_materials {
  public:
-  /// Keeps the scratch file in `folder`; writes the tables to it whenever they fill `memory` bytes, at least one at a
-  /// time.
+  /// Keeps the scratch file in `folder`; writes tables to it when they fill `memory` bytes, at least one at a time.
   explicit scratch_materials(std::filesystem::path folder, std::uint64_t memory = std::uint64_t{512} << 20);
 
-  /// Throws gonio::error if the table has other cells or wavelengths than the first one, or if the folder cannot hold
-  /// it.
+  /// Throws gonio::error if the table has other cells or wavelengths than the first one, or the folder is full.
   void append(const std::string& name, const brdf_table& table);
   void append(const std::string& name, spectral_table table);
   /// Appends a row of values for each cell, at some wavelengths or, if there are none, in RGB.

@@ -78,8 +78,7 @@ class svbrdf_writer {
 
   /// Appends the next band. Throws gonio::error if it cannot be stored, for example on a full disk: earlier bands stay.
   void append(const svbrdf_band& values);
-  /// Appends the next band as bytes of `write_band`, possibly made elsewhere. Also throws gonio::error if they are
-  /// damaged.
+  /// Appends the next band as bytes of `write_band`, possibly made elsewhere. Also throws gonio::error if damaged.
   void append(std::span<const std::byte> bytes);
 
   /// Gives the file its name once all bands are on the disk.

@@ -17,8 +17,7 @@
 
 namespace gonio::io {
 
-/// The required description of a material. No licence is guessed: "NOASSERTION" is SPDX's word for a licence that is
-/// not stated.
+/// The required description of a material. No licence is guessed: "NOASSERTION" is SPDX's word for an unstated one.
 struct openmaterial_metadata {
   std::string name = "material";
   std::string description = {};  ///< comes before the meaning of the numbers, which is always written
@@ -47,8 +46,7 @@ namespace detail {
 }  // namespace detail
 
 /// Returns the text of a file. A colour becomes the smooth spectrum of `model::smooth_spectra`, at 20 wavelengths from
-/// 380 to 760 nanometres; negative values become 0, the schema's minimum. The bytes do not depend on the number of
-/// threads.
+/// 380 to 760 nanometres; negative values become 0, the schema's minimum. Any number of threads gives the same bytes.
 template <brdf Brdf>
 [[nodiscard]] std::string write_openmaterial(const Brdf& f, const openmaterial_metadata& metadata = {},
                                              const openmaterial_steps& steps = {}, thread_count threads = {}) {

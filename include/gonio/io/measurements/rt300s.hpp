@@ -2,8 +2,7 @@
 /// Measurements exported by the program of J&C's gonio-spectrophotometer RT-300S: text of the type `BRDF(RT-300S)`
 /// (`.jdv`), a block for each angle of incidence with a row for each azimuth and a column for each polar angle of the
 /// receiver; or its sheet, saved as text, a column for each reading in rows named `Azimuth`, `Incidence`, `Receive` and
-/// `RT`. Layouts as in the examples of github.com/ua-loft/bsdf-tools, angles and the meaning of RT as in its
-/// converters.
+/// `RT`. Layouts as in the examples of github.com/ua-loft/bsdf-tools, angles and meaning of RT as in its converters.
 
 #include <gonio/io/text/text.hpp>
 #include <gonio/table/sample_set.hpp>

@@ -1,6 +1,5 @@
 #pragma once
-/// Common parts of the readers of other programs' tables: the meaning of a direction's numbers, and the valid
-/// directions.
+/// Common parts of the readers of other programs' tables: meaning and validity of the numbers of directions.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/io/text/json_reader.hpp>

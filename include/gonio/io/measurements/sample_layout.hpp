@@ -22,8 +22,7 @@ struct sample_matrix {
 using column_finder = std::function<std::size_t(std::string_view name)>;
 
 /// Returns the matrix of a header line: the first field names the angle down, or both, `theta_o \ theta_i`; the others
-/// are angles of at most 90 degrees, such as 30 (with or without a degree sign) or theta_i=30. Returns nothing for any
-/// other line.
+/// are angles of at most 90 degrees, such as 30 (with or without a degree sign) or theta_i=30. Nothing for others.
 [[nodiscard]] std::optional<sample_matrix> matrix_of(std::span<const std::string_view> fields,
                                                      const column_finder& find_column);
 
@@ -36,7 +35,7 @@ struct stated_angle {
   double degrees = 0.0;
 };
 
-/// Returns theta_i, phi_i, theta_o or phi_o as stated in a line above the header line: "Einfallswinkel: 45",
+/// Returns theta_i, phi_i, theta_o or phi_o as a line above the header line states it: "Einfallswinkel: 45",
 /// "theta_i;45".
 [[nodiscard]] std::optional<stated_angle> stated_angle_of(std::string_view line, const column_finder& find_column);
 

@@ -41,7 +41,7 @@ class sample_rows {
   sample_rows(std::string_view text, const std::string& name, bool needs_value, const sample_reading& reading);
 
   /// Moves to the next line of numbers, or cell of a matrix. At the end of the file returns false, or throws
-  /// gonio::error if there was none. Skips lines without a value ("n/a", "OVER") if values are needed, and always such
+  /// gonio::error if there was none. Skips lines without a value ("n/a", "OVER") if values are needed; always such
   /// cells.
   [[nodiscard]] bool next();
 

@@ -100,7 +100,7 @@ void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& 
 
 }  // namespace detail
 
-/// Throws gonio::error naming a line that is damaged or invalid; ignores an incomplete last line. Errors call the text
+/// Throws gonio::error naming a line that is damaged or invalid; ignores an incomplete last line. Errors call it
 /// `name`.
 [[nodiscard]] recorded_scan read_scan(std::string_view text, const std::string& name);
 
@@ -111,8 +111,7 @@ void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& 
 class scan_journal {
  public:
   /// Resumes a scan, or begins it if there is no such file. Throws gonio::error if the file has another subject or
-  /// none, other poses or another camera, is damaged, cannot be written, or is open in another process. It is then
-  /// unchanged.
+  /// none, other poses or another camera, is damaged, cannot be written, or is open elsewhere. It is then unchanged.
   scan_journal(const std::filesystem::path& path, const scan_subject& subject, std::span<const direction_pair> poses,
                std::uint16_t largest_count);
 

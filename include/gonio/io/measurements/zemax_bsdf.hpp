@@ -42,8 +42,7 @@ class zemax_bsdf_reader {
   std::vector<double> rotations_, incidences_, azimuths_, radials_;  ///< degrees
 };
 
-/// Returns the direction at a radial angle and azimuth about the specular direction of light at `theta`, `phi`;
-/// radians.
+/// Returns the direction at a radial angle and azimuth about the specular direction of light at (theta, phi), radians.
 [[nodiscard]] direction about_specular(double theta, double phi, double radial, double azimuth) noexcept;
 
 }  // namespace detail

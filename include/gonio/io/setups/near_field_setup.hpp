@@ -22,8 +22,7 @@
 namespace gonio::io {
 
 /// Throws gonio::error naming the line if an entry is unknown, repeated or wrong, naming the entry if one is missing,
-/// and as `require_usable` does. With a calibration the text must give neither size nor lens. Errors call the text
-/// `name`.
+/// and as `require_usable` does. With a calibration the text must give neither size nor lens. Errors call it `name`.
 [[nodiscard]] capture::near_field_setup read_near_field_setup(
     std::string_view text, const std::string& name, const std::optional<camera_calibration>& calibration = {});
 

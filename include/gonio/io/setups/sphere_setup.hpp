@@ -1,7 +1,6 @@
 #pragma once
 /// Text files that describe how a sphere or another known surface was photographed, with the entries of
-/// io/setups/setup_text.hpp: a line for each entry, lengths in any one unit. docs/reference/formats.md lists all
-/// entries.
+/// io/setups/setup_text.hpp: a line for each entry, lengths in any one unit. All entries: docs/reference/formats.md.
 ///
 /// ```
 /// size 640 480             # of the image: columns, rows

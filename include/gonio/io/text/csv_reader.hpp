@@ -45,7 +45,7 @@ class csv_reader {
   /// Returns the line's fields, trimmed and without quotes.
   [[nodiscard]] const std::vector<std::string_view>& fields() const noexcept { return fields_; }
 
-  /// Reads a finite number in the file's dialect; the first decimal mark sets it. Returns the fault of the field, or
+  /// Reads a finite number in the file's dialect; the first decimal mark sets it. Returns the field's fault, or
   /// nullptr.
   [[nodiscard]] const char* read_number(std::string_view field, double& value) {
     // Fast path: nearly all numbers are plain with a decimal point.

@@ -1,6 +1,5 @@
 #pragma once
-/// Lists the files of a folder that have given extensions, in lower or upper case, by their names without the
-/// extension.
+/// Lists the files of a folder with given extensions, in lower or upper case, by their names without extension.
 
 #include <filesystem>
 #include <span>

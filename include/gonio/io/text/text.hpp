@@ -1,6 +1,5 @@
 #pragma once
-/// Common parts of the readers and writers of text files of numbers. Bad input is refused with its file, line and
-/// field.
+/// Common parts of the readers and writers of text files of numbers. Errors name file, line and field.
 
 #include <gonio/core/error.hpp>
 #include <gonio/io/bytes/file.hpp>

@@ -71,8 +71,7 @@ namespace gonio::io::detail {
   while (true) {
     size += stream.read(std::span(result).subspan(size));
     if (stream.ended() || result.size() == limit) return size;
-    // Doubles each time. The last step, which holds both buffers at once, starts at between a quarter and a half of the
-    // limit.
+    // Doubles each time. The last step, which holds both buffers at once, starts at a quarter to a half of the limit.
     const std::size_t doubled = std::max<std::size_t>(2 * result.size(), 4096);
     const std::size_t next = doubled < limit / 2 ? doubled : limit;
     result.reserve(next);

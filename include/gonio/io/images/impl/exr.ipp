@@ -104,8 +104,7 @@ class exr_sink : public Imf::OStream {
 inline constexpr int exr_limit = 16384;
 inline constexpr std::array<const char*, 3> exr_channels{"R", "G", "B"};
 
-/// Returns an image's size, or refuses an implausible one. The decoder takes up to 28 bytes per pixel, 32 lines at a
-/// time.
+/// Returns an image's size, or refuses an implausible one. Decoding takes up to 28 bytes per pixel, 32 lines at a time.
 [[nodiscard]] GONIO_INLINE std::array<std::size_t, 2> exr_extents(std::int64_t columns, std::int64_t rows,
                                                                   std::size_t bytes, const std::string& name) {
   if (rows < 1 || columns < 1 || rows > exr_limit || columns > exr_limit)

@@ -66,8 +66,7 @@ struct hdr_header {
   return found;
 }
 
-/// Returns the matrix to Rec. 709 from X, Y and Z in candela per square metre, as Radiance writes them at 179 lumens
-/// per watt.
+/// Returns the matrix to Rec. 709 from X, Y and Z in candela per square metre, at Radiance's 179 lumens per watt.
 [[nodiscard]] GONIO_INLINE Eigen::Matrix3d from_radiance_xyz() {
   Eigen::Matrix3d found;
   for (Eigen::Index i = 0; i < 3; ++i) found.col(i) = from_xyz(rgb(Eigen::Vector3d::Unit(i).array())).matrix() / 179.0;
@@ -252,7 +251,7 @@ GONIO_INLINE hdr_rows::hdr_rows(const std::filesystem::path& path) : name_(path.
   has_colours_ = !header.colours.isIdentity(0.0);
   colours_ = header.colours.cast<float>();
   from_bottom_ = header.from_bottom;
-  // An encoded row begins with 2, 2 and its number of columns. A dark pixel may look the same, but rarely matches the
+  // An encoded row begins with 2, 2 and its number of columns. A dark pixel may look the same, but rarely has that
   // number.
   const std::string_view first = std::string_view(text).substr(header.size).substr(0, 4);
   has_runs_ = header.columns >= 8 && first.size() == 4 && first.starts_with("\x02\x02") &&

@@ -49,8 +49,7 @@ GONIO_INLINE rough_surface bounded(rough_surface surface) {
 }
 
 GONIO_INLINE rgb base_below_coat(const rgb& seen, double index) {
-  // Fraction of diffuse light that a dielectric transmits; by reciprocity this also gives the fraction that leaves from
-  // inside.
+  // Fraction of diffuse light that a dielectric transmits; by reciprocity it gives that from inside, too.
   constexpr int steps = 1000;
   double enters = 0.0;
   for (int step = 0; step < steps; ++step) {

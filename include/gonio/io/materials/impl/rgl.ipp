@@ -158,8 +158,7 @@ inline void require_spectra(const rgl_spectra& spectra, std::size_t angles) {
   return spectra;
 }
 
-/// The arrays of a container to write. Keeps views, because spectra take hundreds of megabytes: the arrays must outlive
-/// it.
+/// The arrays of a container to write. Keeps views of them, because spectra take hundreds of megabytes.
 class tensor_writer {
  public:
   using extents = std::vector<std::uint64_t>;

@@ -140,8 +140,7 @@ inline constexpr std::size_t longest_name = 40;
       return quantity_.state_percent_signs("the line of units", place);
 }
 
-/// Adds stated angles that have no column. An azimuth is only used if the other one has a column: a file without both
-/// is in-plane.
+/// Adds stated angles without a column. An azimuth counts only if the other has a column; else the file is in-plane.
 [[gnu::cold]] GONIO_INLINE void sample_header::find_stated(std::span<const stated_angle> stated) {
   if (!has_any(angle_group)) return;
   const auto take = [&](std::size_t column) {

@@ -32,8 +32,7 @@ struct tree_cell {
   double size = 1.0;
 };
 
-/// Returns the direction whose x and y are the image of a point of the unit square under Shirley and Chiu's map to the
-/// disk.
+/// Returns the direction whose x and y are the image of a point of the unit square under Shirley and Chiu's map.
 [[nodiscard]] GONIO_INLINE direction direction_of_square(double u, double v) {
   const double a = 2.0 * u - 1.0, b = 2.0 * v - 1.0;
   const bool is_along_a = std::abs(a) > std::abs(b);
