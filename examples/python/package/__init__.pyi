@@ -1,4 +1,4 @@
-"""What the compiled module has, for type checkers; tests/python/test_stub.py compares the two."""
+"""The compiled module's interface for type checkers; tests/python/test_stub.py compares the two."""
 
 import os
 from typing import Any, Iterator, Mapping, Optional, Sequence, Tuple, TypedDict, Union, overload

@@ -57,7 +57,7 @@ measured_surface surface_of(gonio::io::sample_file file, const std::filesystem::
   return surface;
 }
 
-/// Part and reference in the channels that both have, else by their colours.
+/// Reads part and reference in the channels that both have, else as colours.
 std::pair<measured_surface, measured_surface> read_both(const std::filesystem::path& path, const check_options& given,
                                                         const gonio::log_relative_pca& prior) {
   gonio::io::sample_file part = read_measurement_file(path, given.reading),
@@ -74,7 +74,7 @@ std::pair<measured_surface, measured_surface> read_both(const std::filesystem::p
           surface_of(std::move(reference), given.reference, given, prior)};
 }
 
-/// The noise as it is stated, or as repeated measurements tell.
+/// Returns the options with the noise as stated, or as estimated from repeated measurements.
 gonio::conformity_options options_of(const check_options& given, const gonio::log_relative& metric,
                                      const measured_surface& part, const measured_surface& reference) {
   gonio::conformity_options options{.part = {},
@@ -109,7 +109,7 @@ checked_part check_part(const check_options& given, const measured_surface& part
   return checked;
 }
 
-/// The page for people: the same, and what was done.
+/// Writes the page for people: the result, and the record of the command.
 void write_report(const check_options& given, const json& check) {
   const auto described = [](const std::filesystem::path& path, const json& facts) {
     std::string text = path.string();
@@ -151,7 +151,7 @@ bool check_files(const check_options& given) {
   return std::ranges::all_of(checked, &checked_part::conforms);
 }
 
-/// The same; what fails is bad input, so that exit code 1 means that the part differs.
+/// The same, but every failure is bad input, so that exit code 1 means only that the part differs.
 bool check_or_refuse(const check_options& given) {
   try {
     return check_files(given);

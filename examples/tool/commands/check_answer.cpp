@@ -14,7 +14,7 @@ namespace cli {
 
 namespace {
 
-/// What the channels of an answer are called. Channels that all have the same values are one.
+/// Returns the names of the result's channels. Channels with identical values become one.
 std::vector<std::string> channel_names(const checked_part& checked) {
   const gonio::conformity& found = checked.found;
   const measured_surface& part = checked.part;
@@ -24,14 +24,14 @@ std::vector<std::string> channel_names(const checked_part& checked) {
   return names;
 }
 
-/// A probability, in as many digits as matter.
+/// Returns a probability with its significant digits.
 std::string probability(double value) {
   std::array<char, 32> digits{};
   std::snprintf(digits.data(), digits.size(), "%.2g", value);
   return digits.data();
 }
 
-/// Of a difference of mapped values, relative: "+4.1 %".
+/// Returns a relative difference from one of mapped values: "+4.1 %".
 std::string percent(double mapped) { return (mapped >= 0.0 ? "+" : "") + fixed(100.0 * std::expm1(mapped), 1) + " %"; }
 
 /// Angles of light and viewer in degrees: in the plane of incidence theta_o is negative on the mirror direction's side,
@@ -131,7 +131,7 @@ void print_familiarity(const gonio::familiarity& known) {
             << fixed(100.0 * known.discrepancy, 0) << " %, errors " << fixed(100.0 * known.errors, 0) << " %)\n";
 }
 
-/// A number for each channel.
+/// Returns a number for each channel.
 json listed(const Eigen::ArrayXd& channels) {
   json all = json::array();
   for (const double value : channels) all.push_back(value);

@@ -31,7 +31,7 @@ struct compare_options {
   gonio::thread_count threads;
 };
 
-/// The mean difference that is seen under an environment, at the truth's own exposure, over the truth's cells.
+/// Returns the mean visible difference in an environment, at the truth's exposure, over the truth's cells.
 double delta_e_under(const std::filesystem::path& environment, const gonio::brdf_table& estimate,
                      const gonio::brdf_table& truth, gonio::thread_count threads) {
   const gonio::render::environment_map map(read_radiance(environment));

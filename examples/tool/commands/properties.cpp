@@ -1,4 +1,4 @@
-/// gonio properties: does a measurement keep what a physical BRDF keeps?
+/// gonio properties: checks the properties of a physical BRDF.
 
 #include "commands.hpp"
 #include "tool/files/file_start.hpp"
@@ -30,7 +30,7 @@ struct properties_options {
   gonio::thread_count threads;
 };
 
-/// The quadrature's own error.
+/// 1 plus the quadrature error.
 constexpr double largest_possible_albedo = 1.005;
 
 constexpr std::array channel_names{"red", "green", "blue"};
@@ -41,7 +41,7 @@ json to_json(const gonio::half_difference& angles) {
           {"phi_d", gonio::degrees(angles.phi_d)}};
 }
 
-/// The largest share of the light is what tells; the others are for a figure.
+/// The largest albedo decides; the others are for a figure.
 template <gonio::brdf Brdf>
 json energy_of(const Brdf& f) {
   const auto albedos = gonio::model::albedo_by_angle(f);
@@ -55,7 +55,7 @@ json energy_of(const Brdf& f) {
           {"by_angle", all}};
 }
 
-/// What tables of any kind have.
+/// Returns the properties of a table of any kind.
 json properties_of(const gonio::brdf_table& table) {
   const gonio::model::table_values values = gonio::model::summarise(table);
   const gonio::model::tail_rise rise = gonio::model::largest_tail_rise(table);
@@ -77,7 +77,7 @@ json to_json(const gonio::model::worst_pair& worst) {
   return found;
 }
 
-/// A MERL file has no place for what breaks reciprocity or isotropy.
+/// A MERL file cannot represent violations of reciprocity or isotropy.
 json properties_of_merl(const std::filesystem::path& path) {
   const gonio::brdf_table table = gonio::io::read_merl_any(path);
   json all{{"kind", "MERL table"}, {"energy", energy_of(table)}};
@@ -88,8 +88,8 @@ json properties_of_merl(const std::filesystem::path& path) {
   return all;
 }
 
-/// Not the mean with what was measured the other way round, which the BRDF is. `directional_albedo` has the viewer
-/// fixed where this has the light.
+/// The measured values, not averaged with the reverse directions as in the BRDF. Swapped, because `directional_albedo`
+/// fixes the viewer where the light is fixed here.
 struct light_and_viewer_swapped {
   gonio::model::adaptive_brdf material;
 
@@ -118,7 +118,7 @@ json to_json(const gonio::model::equal_samples& equal) {
   return found;
 }
 
-/// Samples have no integral; what they have is pairs that ought to be equal.
+/// Samples have no integral; pairs that should be equal are compared.
 json properties_of_samples(const properties_options& options) {
   const gonio::io::sample_file measured = read_colour_file(options.file, options.reading);
   const gonio::sample_set& samples = measured.samples;
@@ -167,7 +167,7 @@ std::string negative_sentence(const json& negative, bool of_samples) {
          (of_samples ? "sample " + negative["sample"].dump() : "at " + where(negative["at"]));
 }
 
-/// Of a format, of a worst pair of directions, or of pairs of samples.
+/// Returns a sentence on a format, on the worst pair of directions, or on pairs of samples.
 std::string symmetry_sentence(const json& symmetry, const char* what) {
   if (symmetry.contains("kept_by")) return "kept by " + symmetry["kept_by"].text();
   if (symmetry.contains("pairs") && symmetry["pairs"].number() == 0.0) return std::string("no samples ") + what;
@@ -179,7 +179,7 @@ std::string symmetry_sentence(const json& symmetry, const char* what) {
 }
 
 std::string tails_sentence(const json& tails) {
-  if (tails["largest_rise"].number() < 5e-4) return "monotone";  // up to the rounding of stored values
+  if (tails["largest_rise"].number() < 5e-4) return "monotone";  // within the rounding of stored values
   return "rise by up to " + percent(tails["largest_rise"]) + " (" + tails["channel"].text() + "), at theta_h " +
          fixed(tails["theta_h"], 1) + ", theta_d " + fixed(tails["theta_d"], 1);
 }
@@ -203,7 +203,7 @@ void print_readings(const json& readings) {
               << " | " << fixed(each["b"], 1) << " |\n";
 }
 
-/// As Markdown, as `gonio plan` does.
+/// Prints Markdown, like `gonio plan`.
 void print(const std::filesystem::path& file, const json& all) {
   const auto row = [](const char* what, const std::string& sentence) {
     std::cout << "| " << what << " | " << sentence << " |\n";

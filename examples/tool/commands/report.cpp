@@ -1,4 +1,4 @@
-/// gonio report: samples in, a page for people out.
+/// gonio report: completes samples and writes a page for people.
 
 #include "commands.hpp"
 #include "tool/files/measurement_files.hpp"

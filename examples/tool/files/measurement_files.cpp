@@ -22,7 +22,7 @@ namespace cli {
 
 namespace {
 
-/// The light's azimuth to a tenth of a degree, where it has one.
+/// Returns the light's azimuth to a tenth of a degree; nothing near the normal, where it has none.
 std::optional<double> rotation_of(const gonio::direction_pair& pair) {
   constexpr double least_incidence = 0.1;
   if (gonio::degrees(gonio::polar_angle(pair.wi)) < least_incidence) return {};
@@ -42,7 +42,7 @@ void add_columns(const std::string& list, std::vector<gonio::io::column_name>& c
   }
 }
 
-/// The light's azimuths in degrees, ascending, where they are few: the rotations of a sample.
+/// Returns the light's azimuths in degrees, ascending, if they are few: the rotations of a sample.
 std::vector<double> rotations_of(const gonio::sample_set& samples) {
   constexpr std::size_t most = 36;
   std::vector<double> all;
@@ -61,7 +61,7 @@ std::string listed(const std::vector<double>& rotations) {
   return text;
 }
 
-/// One rotation of the samples, if one is asked for. Refuses samples that differ from rotation to rotation.
+/// Returns the samples of one rotation if requested. Refuses samples that differ between rotations.
 gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::filesystem::path& path,
                                   const measurement_options& options) {
   constexpr double noticeable = 0.1, anisotropic = 0.25;
@@ -89,7 +89,7 @@ gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::f
   return samples;
 }
 
-/// Samples whose values are of this quantity, where their format says that they are a BRDF.
+/// Returns samples whose values are of this quantity, although their format states a BRDF.
 gonio::sample_set of_quantity(const gonio::sample_set& samples, gonio::io::sample_quantity quantity) {
   gonio::sample_set changed(samples.channels());
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
