@@ -6,6 +6,7 @@
 #include "tool/options/negative_answer.hpp"
 #include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
+#include "tool/pages/elapsed_time.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/measures_as_json.hpp"
 #include "tool/pages/report_page.hpp"
@@ -101,6 +102,7 @@ gonio::conformity_options options_of(const check_options& given, const gonio::lo
 
 checked_part check_part(const check_options& given, const measured_surface& part, const measured_surface& reference,
                         const gonio::log_relative_pca& prior) {
+  const elapsed_time waiting("comparing " + part.name);
   checked_part checked{part, reference, options_of(given, prior.metric(), part, reference), {}, {}};
   const gonio::reconstruction estimator{prior, {.noise = checked.options.part.relative}, given.threads};
   checked.found = gonio::check_conformity(estimator, part.located, reference.located, checked.options);

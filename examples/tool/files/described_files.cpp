@@ -6,6 +6,7 @@
 #include "measurement_kinds.hpp"
 #include "tiff_files.hpp"
 #include "tool/pages/measures_as_json.hpp"
+#include "tool/pages/read_as.hpp"
 #include "tool/pages/sample_facts.hpp"
 #include <gonio/io/bytes/npy.hpp>
 #include <gonio/io/images/exposure_times.hpp>
@@ -156,6 +157,7 @@ json describe_samples(const path_type& path, const measurement_options& reading)
   const gonio::io::sample_file file = read_measurement_file(path, reading);
   json facts{{"kind", "samples"}};
   if (const measurement_kind* kind = measurement_kind_of(path)) facts["format"] = kind->name;
+  facts.update(read_as(file));
   facts.update(facts_of(file.samples.in_three_channels()));
   facts.update(facts_of(file));
   if (file.samples.have_apertures())

@@ -1,6 +1,7 @@
 #include "file_kinds.hpp"
 
 #include "file_start.hpp"
+#include "tool/pages/elapsed_time.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/warning.hpp"
 #include <gonio/core/error.hpp>
@@ -228,11 +229,13 @@ const file_kind& written_kind(const fs::path& path) {
 }
 
 void write_file(const fs::path& path, const file_content& content, const writing& how) {
+  const elapsed_time waiting("writing " + path.string());
   written_kind(path).write(path, content, how);
 }
 
 void write_spectra(const fs::path& path, const gonio::spectral_table& table, const std::string& description,
                    const writing& how) {
+  const elapsed_time waiting("writing " + path.string());
   const file_content content = io::tabulate_adaptively(table, how.albedo_tolerance, description, how.threads);
   const std::size_t written = std::get<io::rgl_material>(content).spectra->wavelengths.size();
   if (written < table.wavelengths().size())

@@ -3,6 +3,7 @@
 #include "file_kinds.hpp"
 #include "file_start.hpp"
 #include "measurement_kinds.hpp"
+#include "tool/pages/elapsed_time.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/sample_warnings.hpp"
 #include "tool/pages/warning.hpp"
@@ -185,6 +186,7 @@ gonio::sample_set read_kind(const measurement_kind& kind, const std::filesystem:
 }  // namespace
 
 gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, const measurement_options& options) {
+  const elapsed_time waiting("reading " + path.string());
   gonio::io::sample_file file;
   if (const measurement_kind* kind = measurement_kind_of(path)) {
     if (!options.columns.empty())
@@ -213,8 +215,7 @@ gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, 
                      "--receiver-half-angle"});
     file.samples = file.samples.through(aperture);
   }
-  const gonio::io::sample_file seen{file.samples.in_three_channels(), file.quantity, file.sign, file.provenance};
-  for (const std::string& sentence : doubts_of(seen)) warn(path.native() + ": " + sentence);
+  for (const std::string& sentence : doubts_of(file)) warn(path.native() + ": " + sentence);
   return file;
 }
 

@@ -2,6 +2,7 @@
 
 #include "reconstruct_methods.hpp"
 #include "tool/files/measurement_files.hpp"
+#include "tool/pages/elapsed_time.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/measures_as_json.hpp"
 #include "tool/pages/sample_warnings.hpp"
@@ -155,6 +156,7 @@ reconstruction described(reconstruction result, const reconstructed_brdf& paint,
 
 reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, const gonio::log_relative_pca& prior,
                                             const gonio::sample_set& samples) {
+  const elapsed_time waiting("reconstructing");
   const Eigen::Index count = std::ssize(gonio::counting_positions(samples));
   const auto paint = estimator_of(options, prior, count).fit(samples);
   reconstruction result =
@@ -168,6 +170,7 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
 reconstruction reconstruct_misplaced(const reconstruct_options& options, const gonio::log_relative_pca& prior,
                                      const gonio::sample_set& samples) {
   const std::string& stated = options.solver.eta;
+  const elapsed_time waiting("reconstructing");
   if ((!options.solver.name.empty() && options.solver.name != "tikhonov") || stated == "gcv" || stated == "loo")
     gonio::refuse("--misplaced needs --solver tikhonov, and --noise or a number as its --eta");
   // A reconstruction that knows the angular error gives the uncertainty and the disagreeing samples.

@@ -159,13 +159,14 @@ std::string likely_quantity(double reflectance_factor, gonio::io::sample_quantit
 }  // namespace
 
 std::vector<std::string> doubts_of(const gonio::io::sample_file& file) {
+  const gonio::sample_set samples = file.samples.in_three_channels();
   std::vector<std::string> sentences;
-  if (looks_like_radians(file.samples))
+  if (looks_like_radians(samples))
     sentences.emplace_back(
         "light and viewer of all samples are within 3.2 degrees of the normal: are the angles radians? They are read "
         "as degrees; columns like 'theta_i [rad]' are not");
   const auto read_as = file.quantity.value_or(gonio::io::sample_quantity::brdf);
-  const std::vector<dull_reading> readings = dull_readings(file.samples);
+  const std::vector<dull_reading> readings = dull_readings(samples);
   const double reflectance_factor = typical_reflectance_factor(readings);
   if (const std::string likely = likely_quantity(reflectance_factor, read_as); !likely.empty())
     sentences.push_back("away from highlights half of the samples reflect more than " + fixed(reflectance_factor, 1) +
@@ -174,7 +175,7 @@ std::vector<std::string> doubts_of(const gonio::io::sample_file& file) {
     sentences.emplace_back(
         "away from highlights the values fall like the cosine of the viewer's angle: do they contain it (--quantity "
         "brdf-cosine)?");
-  if (const double ratio = file.sign ? 0.0 : gonio::brightness_towards_light(file.samples);
+  if (const double ratio = file.sign ? 0.0 : gonio::brightness_towards_light(samples);
       ratio > gonio::implausible_brightness_towards_light)
     sentences.push_back("where light and viewer meet, it is " + fixed(ratio, 1) +
                         " times as bright as in the mirror direction: does the material reflect light back "
