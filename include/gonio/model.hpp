@@ -1,5 +1,5 @@
 #pragma once
-/// All of `model/`: analytic BRDFs, and their fit.
+/// All of `model/`: analytic BRDFs and their fitting.
 
 #include <gonio/model/adaptive_brdf.hpp>
 #include <gonio/model/analytic_brdf.hpp>

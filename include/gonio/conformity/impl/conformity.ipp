@@ -78,7 +78,7 @@ GONIO_INLINE located_samples both_of(const located_samples& part, const located_
   return both;
 }
 
-/// The difference of an isotropic material's directions; the azimuth counts as far as it moves one of them.
+/// Compares directions on an isotropic material. The azimuth counts by how far it moves one of them.
 [[nodiscard]] inline bool is_same(const half_difference& a, const half_difference& b, double limit) {
   const double turn = std::remainder(a.phi_d - b.phi_d, std::numbers::pi);
   return std::abs(a.theta_h - b.theta_h) <= limit && std::abs(a.theta_d - b.theta_d) <= limit &&
@@ -93,8 +93,8 @@ GONIO_INLINE std::vector<Eigen::Index> same_directions(const std::vector<locatio
   return same;
 }
 
-/// What the differences are of part and reference, as a matrix times the samples: n x N. `shared` counts the samples of
-/// the reference that have each direction.
+/// The differences of part and reference as a matrix times the samples: n x N. `shared` is the number of the
+/// reference's samples in each direction.
 struct difference_operator {
   Eigen::MatrixXd rows;
   std::vector<Eigen::Index> shared;
@@ -102,8 +102,8 @@ struct difference_operator {
   bool predicts = false;
 };
 
-/// How the channels of the reference vary together, relative to what the model expects of one of them. Ten measurements
-/// are what is known before, as in `sample_process`, of channels that are correlated as those of most materials.
+/// Returns the covariance of the reference's channels, relative to the model's variance of one channel. The prior
+/// counts as ten measurements, as in `sample_process`, with a correlation of channels typical of most materials.
 [[nodiscard]] inline Eigen::MatrixXd channel_covariance(const Eigen::MatrixXd& whitened) {
   constexpr double before = sample_process::known_before, correlation = 0.9;
   Eigen::MatrixXd known = Eigen::MatrixXd::Constant(whitened.cols(), whitened.cols(), correlation);
@@ -111,7 +111,7 @@ struct difference_operator {
   return (before * known + product(whitened.transpose(), whitened)) / (before + static_cast<double>(whitened.rows()));
 }
 
-/// Differences from the mean of the reference's measurements in the same direction, or from its prediction.
+/// Returns differences from the mean of the reference's measurements in the same direction, or from its prediction.
 [[nodiscard]] inline difference_operator differences(const conformity_samples& samples, double limit) {
   const Eigen::Index n = samples.parts, all = samples.mapped.rows(), r = all - n;
   const Eigen::Index channels = samples.mapped.cols();
@@ -131,7 +131,7 @@ struct difference_operator {
   }
   if (!found.predicts) return found;
 
-  // Predict from all of the reference. Its noise is at least 0.1 %, so that it may be repeated in a direction.
+  // Predict from the whole reference. Its noise is at least 0.1 %, so that it may have repeated directions.
   Eigen::MatrixXd among = samples.covariance.bottomRightCorner(r, r);
   among.diagonal() += samples.noise.bottomRows(r).rowwise().mean().cwiseMax(1e-6);
   const cholesky factors(among);
@@ -143,7 +143,7 @@ struct difference_operator {
   return found;
 }
 
-/// The covariance of all differences, channels of a direction adjacent: n c x n c.
+/// Returns the covariance of all differences, with the channels of a direction adjacent: n c x n c.
 [[nodiscard]] inline Eigen::MatrixXd covariance_of(const difference_operator& by, const conformity_samples& samples) {
   const Eigen::Index n = samples.parts, channels = samples.mapped.cols();
   const Eigen::MatrixXd model = by.predicts ? product(product(by.rows, samples.covariance), by.rows.transpose())
@@ -160,7 +160,7 @@ struct difference_operator {
   return all;
 }
 
-/// By its adjugate. Eigen's own is in its LU module, which costs every reader of this header.
+/// Returns the inverse by the adjugate. Eigen's inverse needs its LU module, which would slow down every includer.
 [[nodiscard]] inline Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& m) {
   Eigen::Matrix3d inverse;
   for (Eigen::Index i = 0; i < 3; ++i)
@@ -225,14 +225,14 @@ inline void adjust(std::vector<compared_direction>& directions) {
   }
 }
 
-/// The inverse of a covariance.
+/// Returns the inverse of a covariance.
 [[nodiscard]] inline Eigen::MatrixXd precision_of(const Eigen::MatrixXd& covariance) {
   const cholesky factors(covariance);
   if (!factors.positive_definite()) refuse("the covariance of part and reference is not positive definite");
   return factors.inverse();
 }
 
-/// Differences, channels of a direction adjacent: n c; their covariance and what is tolerated.
+/// Differences, with the channels of a direction adjacent (n c), their covariance and their tolerance.
 struct stacked_differences {
   Eigen::Index channels;  ///< c
   Eigen::VectorXd residuals;
@@ -247,9 +247,9 @@ struct stacked_differences {
   }
 };
 
-/// The degrees of freedom by which the covariance of differences is known. Where the reference predicts they come from
-/// measured materials whose families the prior has not seen: their errors have heavier tails than normal ones, and the
-/// heavier the fewer samples r the reference has. See docs/results/conformity.md.
+/// The degrees of freedom of the covariance of differences. For predictions they come from measured materials whose
+/// families the prior has not seen: their errors have heavier tails than normal ones, and the fewer samples r the
+/// reference has, the heavier. See docs/results/conformity.md.
 struct freedoms {
   double measured, shift, total, direction;
 
@@ -262,12 +262,13 @@ struct freedoms {
   }
 };
 
-/// The upper tail of a sum of squares of so many normal variables whose variance is known to some degrees of freedom.
+/// Returns the upper tail of a sum of `count` squared normal variables whose variance is known to `freedom` degrees of
+/// freedom.
 [[nodiscard]] inline double tail_of(double squares, double count, double freedom) {
   return f_tail(squares / count, count, freedom);
 }
 
-/// All differences together, and one shift of each channel in all directions by generalised least squares.
+/// Tests all differences together, and one shift of each channel in all directions by generalised least squares.
 inline void test_together(const stacked_differences& all, const freedoms& known, conformity& found) {
   const Eigen::MatrixXd precision = precision_of(all.covariance);
   found.total_p_value = tail_of(least_within(precision, all.residuals, all.tolerance),
@@ -282,7 +283,7 @@ inline void test_together(const stacked_differences& all, const freedoms& known,
                                 static_cast<double>(all.channels), known.shift);
 }
 
-/// Each direction alone, and the worst of them. `lab_by_mapped` of all directions, or of none.
+/// Tests each direction alone, and finds the worst. `lab_by_mapped` has a matrix for each direction, or none.
 inline void test_apart(const stacked_differences& all, const std::vector<Eigen::Index>& shared, const freedoms& known,
                        const std::vector<Eigen::Matrix3d>& lab_by_mapped, double delta_e, conformity& found) {
   for (Eigen::Index i = 0; i < std::ssize(shared); ++i) {
@@ -305,7 +306,7 @@ inline void test_apart(const stacked_differences& all, const std::vector<Eigen::
 }
 
 GONIO_INLINE conformity compare_samples(conformity_samples samples, const conformity_options& options) {
-  // What is independent in each direction is the same wherever that direction is measured again.
+  // The independent part is the same in all measurements of one direction.
   const Eigen::Index n = samples.parts, all = samples.mapped.rows(), channels = samples.mapped.cols();
   for (Eigen::Index i = 0; i < all; ++i)
     for (Eigen::Index j = 0; j < all; ++j)
@@ -322,7 +323,7 @@ GONIO_INLINE conformity compare_samples(conformity_samples samples, const confor
     stacked.tolerance.segment(channels * i, channels) = samples.tolerance.row(i).transpose();
   }
 
-  // Test those together whose differences are noise alone, or all if there is none.
+  // Test the shared directions together, whose differences are noise alone, or all directions if none is shared.
   std::vector<Eigen::Index> together;
   for (Eigen::Index i = 0; i < n; ++i)
     if (by.shared[i] > 0) together.push_back(i);
