@@ -1,5 +1,5 @@
 import gonio
 prior = gonio.read_prior("materials.prior")
 samples = gonio.read_samples("measurements.csv")
-paint = gonio.Decomposition(prior, eta=40.0).fit(samples)
+paint = gonio.Estimator(prior).fit(samples)
 gonio.write_merl("paint.binary", paint)

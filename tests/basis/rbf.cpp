@@ -244,7 +244,7 @@ TEST_CASE("radial basis functions that cannot be are refused") {
   // Where theta_d = 0 all phi_d are one location.
   const gonio::valid_cells corners(gonio::grid({4, 1, 30}, gonio::cell_anchor::lower_corner));
   CHECK(gonio::farthest_point_centres(corners, 4).size() == 4);
-  CHECK_THROWS_WITH_AS(gonio::farthest_point_centres(corners, 5), doctest::Contains("among 4 places"), gonio::error);
+  CHECK_THROWS_WITH_AS(gonio::farthest_point_centres(corners, 5), doctest::Contains("among 4 locations"), gonio::error);
 }
 
 TEST_CASE("samples that cannot be used, and more functions than a fit can evaluate, are refused") {

@@ -31,6 +31,9 @@ std::string probability(double value) {
   return digits.data();
 }
 
+/// Returns "p = 0.42"; tails so small that no noise is known as well are "p < 1e-9".
+std::string p_value(double value) { return value < 1e-9 ? "p < 1e-9" : "p = " + probability(value); }
+
 /// Returns a relative difference from one of mapped values: "+4.1 %".
 std::string percent(double mapped) { return (mapped >= 0.0 ? "+" : "") + fixed(100.0 * std::expm1(mapped), 1) + " %"; }
 
@@ -63,8 +66,7 @@ std::string described(const gonio::compared_direction& each, const checked_part&
   return angles_of(part.counting[each.number].pair()) + " (" + location + "): " + channel_names(checked)[channel] +
          ' ' + reflectance(each.value[channel]) + " instead of " + reflectance(each.expected[channel]) + " +- " +
          reflectance(off) + (each.measured > 0 ? "" : ", which the reference predicts") +
-         (each.delta_e > 0.0 ? ", Delta E " + fixed(each.delta_e, 1) : "") +
-         ", p = " + probability(each.adjusted_p_value);
+         (each.delta_e > 0.0 ? ", Delta E " + fixed(each.delta_e, 1) : "") + ", " + p_value(each.adjusted_p_value);
 }
 
 /// What limits the answer, a sentence each.
@@ -125,10 +127,10 @@ std::vector<Eigen::Index> others_that_differ(const check_question& question, con
 const char* verdict_of(const checked_part& checked) { return checked.conforms ? "GO" : "NO-GO"; }
 
 void print_familiarity(const gonio::familiarity& known) {
-  std::cout << "known materials explain the part " << (known.p_value < 0.01 ? "badly" : "well")
-            << " (p = " << probability(known.p_value) << "; " << fixed(known.scale, 2)
-            << " times what is expected: components " << fixed(100.0 * known.components, 0) << " %, discrepancy "
-            << fixed(100.0 * known.discrepancy, 0) << " %, errors " << fixed(100.0 * known.errors, 0) << " %)\n";
+  std::cout << "known materials explain the part " << (known.p_value < 0.01 ? "badly" : "well") << " ("
+            << p_value(known.p_value) << "; " << fixed(known.scale, 2) << " times what is expected: components "
+            << fixed(100.0 * known.components, 0) << " %, discrepancy " << fixed(100.0 * known.discrepancy, 0)
+            << " %, errors " << fixed(100.0 * known.errors, 0) << " %)\n";
 }
 
 /// Returns a number for each channel.
@@ -163,12 +165,12 @@ json directions_as_json(const checked_part& checked) {
 
 void print_verdict(const check_question& question, const checked_part& checked) {
   const gonio::conformity& found = checked.found;
-  std::cout << verdict_of(checked) << ": " << (checked.conforms ? "no difference found" : "the part differs")
-            << " (p = " << probability(found.p_value) << "; false alarms " << probability(100.0 * question.false_alarms)
-            << " %" << tolerances(checked.options) << ")\n";
+  std::cout << verdict_of(checked) << ": " << (checked.conforms ? "no difference found" : "the part differs") << " ("
+            << p_value(found.p_value) << "; false alarms " << probability(100.0 * question.false_alarms) << " %"
+            << tolerances(checked.options) << ")\n";
   std::cout << "worst: " << described(found.directions[found.worst()], checked) << '\n';
-  std::cout << "all directions together: " << shifts(found, channel_names(checked))
-            << " (p = " << probability(found.shift_p_value) << ")\n";
+  std::cout << "all directions together: " << shifts(found, channel_names(checked)) << " ("
+            << p_value(found.shift_p_value) << ")\n";
   const std::vector<Eigen::Index> others = others_that_differ(question, found);
   if (question.is_verbose) {
     for (const Eigen::Index i : others) std::cout << "differs: " << described(found.directions[i], checked) << '\n';
@@ -185,7 +187,8 @@ void print_verdict(const check_question& question, const checked_part& checked) 
 }
 
 void print_table(const check_question& question, const std::vector<checked_part>& parts) {
-  std::cout << "| part | verdict | p | worst direction | other directions that differ |\n|---|---|---|---|---|\n";
+  std::cout
+      << "| part | verdict | as a whole | worst direction | other directions that differ |\n|---|---|---|---|---|\n";
   for (const checked_part& each : parts)
     std::cout << "| " << each.part.name << " | " << verdict_of(each) << " | " << probability(each.found.p_value)
               << " | " << described(each.found.directions[each.found.worst()], each) << " | "

@@ -46,7 +46,7 @@ void print_verdict(const check_question& question, const checked_part& checked);
 /// A row for each part.
 void print_table(const check_question& question, const std::vector<checked_part>& parts);
 
-/// All of it, with the keys that docs/learn/in-plane-scan.md documents.
+/// Returns all of it, as `gonio check --json` prints it.
 [[nodiscard]] json as_json(const check_question& question, const checked_part& checked);
 
 }  // namespace cli

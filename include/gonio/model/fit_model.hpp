@@ -47,8 +47,8 @@ namespace detail {
 ///
 /// ```cpp
 /// const std::vector kinds{&gonio::model::lobe_kind::of<gonio::model::lambert_shape>(),
-/// &gonio::model::lobe_kind_named("ggx")}; const auto fit = gonio::model::fit_model(kinds,
-/// gonio::model::fit_observations(samples));
+///                         &gonio::model::lobe_kind_named("ggx")};
+/// const auto fit = gonio::model::fit_model(kinds, gonio::model::fit_observations(samples));
 /// ```
 template <smooth_metric Metric = lin>
 [[nodiscard]] model_fit fit_model(const std::vector<const lobe_kind*>& kinds,

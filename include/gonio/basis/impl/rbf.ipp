@@ -44,7 +44,8 @@ GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cel
     nearest.maxCoeff(&farthest);
   }
   if (std::ssize(centres) < count)
-    refuse({"cannot choose ", count, " different centres of radial basis functions among ", centres.size(), " places"});
+    refuse(
+        {"cannot choose ", count, " different centres of radial basis functions among ", centres.size(), " locations"});
   return centres;
 }
 

@@ -74,8 +74,8 @@ GONIO_INLINE void normal_equations::require_consistent() const {
     refuse({"normal equations of ", gram_.rows(), " unknowns and ", rhs_.cols(), " right-hand sides are empty"});
   if (gram_.rows() != gram_.cols() || rhs_.rows() != gram_.rows() || rhs_squared_norm_.size() != rhs_.cols())
     refuse({"normal equations do not match in size: the Gram matrix is ", gram_.rows(), " x ", gram_.cols(),
-            ", the moment ", rhs_.rows(), " x ", rhs_.cols(), ", and ", rhs_squared_norm_.size(),
-            " right-hand sides have their energy"});
+            ", the right-hand sides are ", rhs_.rows(), " x ", rhs_.cols(), ", and ", rhs_squared_norm_.size(),
+            " of them have a squared norm"});
   for (Eigen::Index column = 0; column < gram_.cols(); ++column) {
     bool finite = true;
     for (Eigen::Index row = 0; row < gram_.rows(); ++row) finite = finite && std::isfinite(gram_(row, column));
