@@ -20,7 +20,7 @@ namespace gonio {
 /// The regions inside and outside of a highlight, by theta_h in radians. Directions between them belong to neither.
 struct highlight_regions {
   double in_peak = radians(5.0);    ///< a direction with theta_h up to this is in the peak
-  double off_peak = radians(20.0);  ///< one with theta_h from this on is out of it
+  double off_peak = radians(20.0);  ///< a direction with theta_h from this on is out of it
 };
 
 namespace detail {

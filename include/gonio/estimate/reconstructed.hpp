@@ -149,7 +149,7 @@ class reconstructed {
     }
   }
 
-  // ---- how sure ----
+  // ---- uncertainty ----
 
   /// Returns the standard deviation of a value in the metric's domain. If the metric is a logarithm, it is relative to
   /// the value. O(n (n + k)) for n samples, at most `most_known`, and k components.
@@ -210,7 +210,7 @@ class reconstructed {
   /// Tests whether the material is like those of the prior.
   [[nodiscard]] gonio::familiarity familiarity() const { return known_.familiarity(); }
 
-  // ---- which samples ----
+  // ---- samples ----
 
   /// Returns the inlier weight, from 0 to 1, of each sample of positive weight.
   [[nodiscard]] const Eigen::VectorXd& inlier_weights() const noexcept { return found_.weights; }

@@ -38,7 +38,7 @@ namespace gonio {
 ///   std::printf("%g of the samples counted less than half\n", paint.history().back().down_weighted);
 /// }
 /// ```
-/// With a model of your own, which leaves out what is off by more than a half:
+/// With a model of your own, which ignores measurements that are off by more than half:
 /// ```cpp
 /// #include <gonio/robust/outlier_weights.hpp>
 ///

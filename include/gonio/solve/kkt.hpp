@@ -38,10 +38,10 @@ namespace detail {
 
 }  // namespace detail
 
-/// Returns the violation of the KKT conditions of min 1/2 x'Q x - m'x + lambda |x|_1, with or without x >= 0. lambda =
-/// 0 with `sign_rule::non_negative` is NNLS. The gradient is -lambda where x_j > 0 and lambda where x_j < 0. Where x_j
-/// = 0 it is at least -lambda and, unless x >= 0, at most lambda. A forbidden x_j < 0, or a weight that is not finite,
-/// is an infinite violation.
+/// Returns the violation of the KKT conditions of min 1/2 x'Q x - m'x + lambda |x|_1, with or without x >= 0. For NNLS,
+/// use lambda = 0 and `sign_rule::non_negative`. The gradient is -lambda for x_j > 0 and lambda for x_j < 0. For x_j =
+/// 0 it is at least -lambda and, unless x >= 0, at most lambda. A forbidden x_j < 0, or a weight that is not finite, is
+/// an infinite violation.
 [[nodiscard]] Eigen::VectorXd kkt_violation(const normal_equations& normal, const Eigen::MatrixXd& x, double lambda,
                                             sign_rule signs);
 

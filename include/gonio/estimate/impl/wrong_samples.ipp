@@ -195,7 +195,7 @@ class wrong_sample_set {
       return dot(dual.data(), values.data(), values.size());
     }
 
-    /// The matrix determinant lemma, for the covariance with or without a sample's error variance.
+    /// Returns the changes if a sample's error variance is added or removed, by the matrix determinant lemma.
     [[nodiscard]] change change_by(Eigen::Index i, double sign) const {
       const double error = sign * error_variance, growth = 1.0 + error * inverse(i, i);
       double squares = 0.0;
@@ -203,7 +203,7 @@ class wrong_sample_set {
       return {error * squares / growth, static_cast<double>(dual.cols()) * std::log(growth)};
     }
 
-    /// The formula of Sherman and Morrison.
+    /// Adds or removes a sample's error variance, by the Sherman-Morrison formula.
     void update(Eigen::Index i, double sign) {
       const double error = sign * error_variance;
       const Eigen::Index n = inverse.rows();
@@ -286,7 +286,7 @@ class set_search {
         most_(std::max<Eigen::Index>(
             static_cast<Eigen::Index>(rule.largest_share * static_cast<double>(samples.size())), 1)) {
     starts_.insert(starts_.begin(), std::vector<bool>(samples.size(), false));
-    // Choose the variance everywhere, then the one in the highlight beside it.
+    // Choose the variance everywhere, then in addition the variance in the highlight.
     consider({}, 0.0);
     for (std::size_t i = 0; i < rule.everywhere.size(); ++i)
       consider({rule.everywhere[i], 0.0}, rule.everywhere_penalty * static_cast<double>(i + 1));

@@ -94,7 +94,7 @@ class eta_scores {
     return squares;
   }
 
-  /// r = U f U'b and 1 - h = U^2 f in the eigenvectors U of the dual.
+  /// Computes r = U f U'b and 1 - h = U^2 f in the eigenvectors U of the dual.
   [[nodiscard]] Eigen::VectorXd leave_one_out_dual(const Eigen::VectorXd& etas) const {
     const Eigen::MatrixXd factors = left_over(etas), remaining = product(vectors_.cwiseAbs2(), factors);
     Eigen::VectorXd scores = Eigen::VectorXd::Zero(etas.size());
@@ -105,7 +105,7 @@ class eta_scores {
     return scores;
   }
 
-  /// One pass over the rows for all eta: with u = V'a of a row a, h = sum of u_j^2 / (lambda_j + eta).
+  /// Passes over the rows once for all etas: with u = V'a of a row a, h = sum of u_j^2 / (lambda_j + eta).
   [[nodiscard]] Eigen::VectorXd leave_one_out_primal(const Eigen::VectorXd& etas) const {
     const Eigen::MatrixXd factors = left_over(etas).array().rowwise() / etas.transpose().array();
     std::vector<Eigen::MatrixXd> of_each;
