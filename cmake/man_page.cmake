@@ -23,6 +23,10 @@ function(describe)
     if(line MATCHES "^          +(.*)$") # a description that did not fit beside its option
       escaped(text "${CMAKE_MATCH_1}")
       string(APPEND page "${text}\n")
+    elseif(line MATCHES "^  (gonio .*)$")
+      escaped(text "${CMAKE_MATCH_1}")
+      string(APPEND page ".PP\n.B ${text}\n")
+      set_property(GLOBAL APPEND_STRING PROPERTY examples ".PP\n.B ${text}\n")
     elseif(line MATCHES "^ +([^ ]+( [^ ]+)*)  +(.*)$")
       escaped(term "${CMAKE_MATCH_1}")
       escaped(text "${CMAKE_MATCH_3}")
@@ -45,6 +49,7 @@ endfunction()
 
 describe()
 get_property(commands GLOBAL PROPERTY page)
+get_property(examples GLOBAL PROPERTY examples)
 file(WRITE "${OUTPUT}" ".TH GONIO 1 \"\" \"gonio ${VERSION}\" \"User Commands\"
 .SH NAME
 gonio \\- complete BRDFs from a few reflectance measurements
@@ -53,11 +58,12 @@ gonio \\- complete BRDFs from a few reflectance measurements
 .I SUBCOMMAND
 .RI [ OPTIONS ]
 .SH DESCRIPTION
-Twenty measured directions, and what 100 measured materials have in common, give a table of reflectance for every pair
-of directions, how sure it is, and where to measure next. Angles are degrees; reflectance is in sr^\\-1 without the
+gonio completes a BRDF from a few measured directions and a prior of known materials. It says how sure each value is, and
+where to measure next. Angles are degrees; reflectance is in sr^\\-1 without the
 cosine.
 .SH COMMANDS
-${commands}.SH EXIT STATUS
+${commands}.SH EXAMPLES
+${examples}.SH EXIT STATUS
 .TP
 .B 0
 The work is done; of

@@ -1,22 +1,21 @@
 # What the scripts that read the tool's help share.
 
-# gonio_tool_help(RESULT TOOL WORD...): what `TOOL WORD... --help` prints.
+# gonio_tool_help(RESULT TOOL WORD...): returns what `TOOL WORD... --help` prints, of a subcommand with more options what
+# --help-all prints.
 function(gonio_tool_help result tool)
   execute_process(COMMAND "${tool}" ${ARGN} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+  if(help MATCHES " --help-all prints more options")
+    execute_process(COMMAND "${tool}" ${ARGN} --help-all OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+  endif()
   string(REGEX REPLACE "\n+$" "\n" help "${help}")
   set(${result} "${help}" PARENT_SCOPE)
 endfunction()
 
-# gonio_subcommands(RESULT HELP): the names of the subcommands that a help lists.
+# gonio_subcommands(RESULT HELP): returns the names of the subcommands that a help lists, under whatever headings. Beside
+# positionals stand capitals, one blank away.
 function(gonio_subcommands result help)
-  set(${result} "" PARENT_SCOPE)
-  string(FIND "${help}" "\nSubcommands:\n" position)
-  if(position EQUAL -1)
-    return()
-  endif()
-  string(SUBSTRING "${help}" ${position} -1 help)
-  string(REGEX MATCHALL "\n  [a-z-]+" names "${help}")
-  string(REGEX REPLACE "\n  " "" names "${names}")
+  string(REGEX MATCHALL "\n  [a-z][a-z-]*  " names "${help}")
+  string(REGEX REPLACE "[\n ]" "" names "${names}")
   set(${result} ${names} PARENT_SCOPE)
 endfunction()
 

@@ -222,6 +222,9 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
   add_image_options(command, *how, image);
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(command, options->threads);
+  command.help_with({"--noise", "-o", "--quantity", "--columns", "--theta-o-sign", "--spectra", "--method", "--prior",
+                     "--no-reject", "--residuals", "--uncertainty", "--uncertainty-image", "--report", "--image",
+                     "--json", "--threads"});
   // Refuse options that the method does not take, then run it.
   command.callback([command, options, how] {
     take_given(*options, [&](const std::string& option) { return command.count(option) > 0; });

@@ -1,6 +1,7 @@
 #include "command.hpp"
 
 #include "declared_files.hpp"
+#include "help_formatter.hpp"
 #include "negative_answer.hpp"
 #include "tool/files/exr_files.hpp"
 #include <gonio/core/error.hpp>
@@ -17,6 +18,7 @@
 #include <iostream>
 #include <map>
 #include <new>
+#include <sstream>
 
 namespace cli {
 
@@ -93,6 +95,29 @@ command command::add_subcommand(const std::string& name, const std::string& desc
 
 option_group command::add_option_group(const std::string& name, const std::string& description) {
   return {*known_->add_option_group(name, description), files_};
+}
+
+void command::list_subcommands(const std::string& heading, std::initializer_list<listed> subcommands) {
+  for (const auto& [name, example] : subcommands) {
+    std::istringstream words(name);
+    CLI::App* found = known_;
+    for (std::string word; found != nullptr && words >> word;) {
+      const auto known = found->get_subcommands([&](const CLI::App* each) { return each->get_name() == word; });
+      found = known.empty() ? nullptr : known.front();
+    }
+    if (found == nullptr) continue;
+    found->footer(std::string("  ") + example);
+    if (found->get_parent() == known_) found->group(heading);
+  }
+}
+
+void command::help_with(const std::vector<std::string>& options) {
+  for (CLI::Option* each : known_->get_options())
+    if (each->nonpositional() && each != known_->get_help_ptr() && each != known_->get_help_all_ptr() &&
+        std::ranges::none_of(options, [&](const std::string& name) { return each->check_name(name); }))
+      each->group(help_formatter::rare_options);
+  for (CLI::App* group : known_->get_subcommands(nullptr))
+    if (group->get_name().empty()) command(*group, files_).help_with(options);
 }
 
 void command::require_subcommand() { known_->require_subcommand(1); }
@@ -369,6 +394,8 @@ std::string unknown_word(const CLI::App& all, int argc, char** argv) {
 
 program::program(const std::string& name, const std::string& description, const std::string& version)
     : program(name, std::make_unique<CLI::App>(description, name)) {
+  all_->formatter(std::make_shared<help_formatter>());
+  all_->set_help_all_flag("--help-all", "Print this help with all options, and exit");
   all_->set_version_flag("--version", version);
   require_subcommand();
 }
@@ -385,6 +412,10 @@ int program::run(int argc, char** argv) {
   };
   clean_up_on_signals();
   go_on_at_size_limits();
+  if (argc == 1 && !greeting_.empty()) {
+    std::cout << greeting_ << '\n';
+    return 0;
+  }
   try {
     all_->parse(argc, argv);
     return 0;

@@ -77,6 +77,15 @@ class command {
   void extend_subcommands(std::function<void(command&)> added,
                           std::function<void(const std::function<void()>&)> around);
   option_group add_option_group(const std::string& name, const std::string& description);
+  /// Lists subcommands, also "lab scan", under a heading of their own, each with an example above its options. Ignores
+  /// those that the program does not have.
+  struct listed {
+    const char* name;
+    const char* example;
+  };
+  void list_subcommands(const std::string& heading, std::initializer_list<listed> subcommands);
+  /// Leaves all options but these out of --help; --help-all has them.
+  void help_with(const std::vector<std::string>& options);
   void require_subcommand();
   /// Accepts words that are not options.
   void allow_extras();
@@ -164,13 +173,16 @@ class program : public command {
   program& operator=(const program&) = delete;
   ~program();
 
+  /// Text that a program without any word on its command line prints.
+  void greet_with(std::string greeting) { greeting_ = std::move(greeting); }
+
   /// Reads and executes the command line. Returns the exit code: 2 for bad input, 1 for any other failure.
   [[nodiscard]] int run(int argc, char** argv);
 
  private:
   program(std::string name, std::unique_ptr<CLI::App> all);
 
-  std::string name_;
+  std::string name_, greeting_;
   std::unique_ptr<CLI::App> all_;
 };
 

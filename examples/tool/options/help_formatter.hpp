@@ -1,0 +1,94 @@
+#pragma once
+/// How `--help` looks. Only command.cpp includes this: it needs CLI11.
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+/// CLI11's formatter with lines of at most 100 columns, an example above the options of each subcommand (CLI11's
+/// footer), and groups of rarely used options that only --help-all prints.
+class help_formatter : public CLI::Formatter {
+ public:
+  static constexpr const char* rare_options = "More options";
+
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    if (mode != CLI::AppFormatMode::Sub) prints_all_ = mode == CLI::AppFormatMode::All;
+    return CLI::Formatter::make_help(app, std::move(name), mode);
+  }
+
+  std::string make_expanded(const CLI::App* app) const override {
+    const bool is_group = app->get_name().empty();
+    return is_group && is_hiding(app) && !prints_all_ ? "" : CLI::Formatter::make_expanded(app);
+  }
+
+  std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override {
+    const std::vector<std::string> groups = app->get_groups();
+    const bool has_rare = std::ranges::find(groups, rare_options) != groups.end();
+    std::string text;
+    for (const std::string& group : groups) {
+      if (group.empty() || (group == rare_options && !prints_all_)) continue;
+      const auto options = app->get_options([&](const CLI::Option* each) {
+        const bool asks_for_help = each == app->get_help_ptr() || each == app->get_help_all_ptr();
+        if (each == app->get_help_all_ptr() && !has_rare) return false;
+        return each->get_group() == group && each->nonpositional() &&
+               (mode != CLI::AppFormatMode::Sub || !asks_for_help);
+      });
+      if (!options.empty()) text += make_group(group, false, options);
+    }
+    return text;
+  }
+
+  std::string make_description(const CLI::App* app) const override {
+    const std::string example = app->get_footer(), text = CLI::Formatter::make_description(app);
+    return example.empty() ? text : text + "\n" + example + "\n\n";
+  }
+
+  std::string make_footer(const CLI::App* app) const override {
+    return is_hiding(app) && !prints_all_ ? "gonio " + app->get_name() + " --help-all prints more options.\n" : "";
+  }
+
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return described(make_option_name(option, is_positional) + make_option_opts(option), make_option_desc(option));
+  }
+
+  std::string make_subcommand(const CLI::App* app) const override {
+    return described(app->get_display_name(true), app->get_description());
+  }
+
+ private:
+  static constexpr std::size_t indent = 30, width = 100;
+
+  static bool is_hiding(const CLI::App* app) {
+    return !app->get_options([](const CLI::Option* each) { return each->get_group() == rare_options; }).empty();
+  }
+
+  /// Returns a name and, from a fixed column on, its description, broken between words.
+  static std::string described(const std::string& name, const std::string& description) {
+    std::string text = "  " + name;
+    if (text.size() + 2 > indent) text += '\n' + std::string(indent, ' ');
+    text.resize(std::max(text.size(), indent), ' ');
+    std::istringstream words(description);
+    std::size_t column = indent;
+    for (std::string word; words >> word;) {
+      if (column > indent && column + 1 + word.size() > width) {
+        text += '\n' + std::string(indent, ' ');
+        column = indent;
+      }
+      if (column > indent) text += ' ';
+      text += word;
+      column += word.size() + (column > indent ? 1 : 0);
+    }
+    return text + '\n';
+  }
+
+  mutable bool prints_all_ = false;  ///< CLI11 does not pass it on to groups of options
+};
+
+}  // namespace cli
