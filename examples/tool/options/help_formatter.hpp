@@ -20,6 +20,7 @@ class help_formatter : public CLI::Formatter {
 
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     if (mode != CLI::AppFormatMode::Sub) prints_all_ = mode == CLI::AppFormatMode::All;
+    hides_ = is_hiding(app);
     return CLI::Formatter::make_help(app, std::move(name), mode);
   }
 
@@ -28,21 +29,11 @@ class help_formatter : public CLI::Formatter {
     return is_group && is_hiding(app) && !prints_all_ ? "" : CLI::Formatter::make_expanded(app);
   }
 
-  std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override {
-    const std::vector<std::string> groups = app->get_groups();
-    const bool has_rare = std::ranges::find(groups, rare_options) != groups.end();
-    std::string text;
-    for (const std::string& group : groups) {
-      if (group.empty() || (group == rare_options && !prints_all_)) continue;
-      const auto options = app->get_options([&](const CLI::Option* each) {
-        const bool asks_for_help = each == app->get_help_ptr() || each == app->get_help_all_ptr();
-        if (each == app->get_help_all_ptr() && !has_rare) return false;
-        return each->get_group() == group && each->nonpositional() &&
-               (mode != CLI::AppFormatMode::Sub || !asks_for_help);
-      });
-      if (!options.empty()) text += make_group(group, false, options);
-    }
-    return text;
+  std::string make_group(std::string group, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    if (group == rare_options && !prints_all_) return "";
+    if (!hides_) std::erase_if(options, [](const CLI::Option* each) { return each->check_name("--help-all"); });
+    return options.empty() ? "" : CLI::Formatter::make_group(std::move(group), is_positional, std::move(options));
   }
 
   std::string make_description(const CLI::App* app) const override {
@@ -88,7 +79,8 @@ class help_formatter : public CLI::Formatter {
     return text + '\n';
   }
 
-  mutable bool prints_all_ = false;  ///< CLI11 does not pass it on to groups of options
+  // CLI11 does not pass these on to groups of options.
+  mutable bool prints_all_ = false, hides_ = false;
 };
 
 }  // namespace cli

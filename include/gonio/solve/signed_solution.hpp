@@ -23,7 +23,7 @@ struct signed_task {
 
 /// Makes a solution of the weights that a solver found (NaN if it failed). The weights of a right-hand side are
 /// computed again unless
-/// - their KKT residual is at most 1e-9,
+/// - their KKT residual is at most 1e-12,
 /// - the objective is in [-b'Wb/2, 0] except for rounding: weights cannot explain more than everything, and weights of
 ///   zero are allowed,
 /// - rounding the weights moves A x by less than 1e-5 |b| (larger weights would always pass, since a KKT residual is
