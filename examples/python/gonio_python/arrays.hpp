@@ -4,13 +4,13 @@
 /// Numbers in: an array of float64 in C order is read where it is, any other is converted once. Values out: a view of
 /// what an object holds, which keeps the object alive, or an array that was made for the caller.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/core/direction.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <Eigen/Core>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
-#include <xtensor/xtensor.hpp>
 
 #include <initializer_list>
 #include <memory>

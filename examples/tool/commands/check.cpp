@@ -10,7 +10,6 @@
 #include "tool/pages/report_page.hpp"
 #include "tool/pages/sample_facts.hpp"
 #include <gonio/conformity/conformity.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/io/text/text.hpp>
 
 #include <algorithm>
@@ -271,7 +270,7 @@ void write_report(const check_options& given, const json& check) {
 
 /// Says whether the part conforms.
 bool check_files(const check_options& given) {
-  const gonio::log_relative_pca prior = gonio::io::read_prior(given.prior);
+  const gonio::log_relative_pca prior = read_prior(given.prior);
   const auto [part, reference] = read_both(given, prior);
   const check_result result = check_part(given, part, reference, prior);
   const json told = as_json(given, result, part, reference);

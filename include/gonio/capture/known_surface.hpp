@@ -4,11 +4,11 @@
 /// Noell, Koehler and Stricker 2014 for objects of known shape. A mesh is seen
 /// by shape/mesh_surface.hpp.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/core/lens_distortion.hpp>
 #include <gonio/table/surface_image.hpp>
 
 #include <Eigen/Core>
-#include <xtensor/xtensor.hpp>
 
 #include <optional>
 #include <string>

@@ -6,10 +6,9 @@
 /// xtensor's own reader (xnpy.hpp) believes what a file says of itself: it neither checks that reads
 /// succeed nor that the shape's product fits in memory, and wants the header's keys in one order.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/core/half.hpp>
 #include <gonio/io/bytes/file.hpp>
-
-#include <xtensor/xtensor.hpp>
 
 #include <algorithm>
 #include <array>

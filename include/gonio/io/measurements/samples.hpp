@@ -49,10 +49,14 @@ struct sample_file {
 [[nodiscard]] sample_set read_samples(const std::filesystem::path& path, const sample_reading& reading = {});
 
 /// Reads directions alone; the file may have columns of reflectance and weights, which are checked and left out.
+[[nodiscard]] std::vector<half_difference> read_directions(std::string_view text, const std::string& name,
+                                                           const sample_reading& reading = {});
 [[nodiscard]] std::vector<half_difference> read_directions(const std::filesystem::path& path,
                                                            const sample_reading& reading = {});
 
 /// Reads the same files as pairs, in which light and viewer are told apart.
+[[nodiscard]] std::vector<direction_pair> read_direction_pairs(std::string_view text, const std::string& name,
+                                                               const sample_reading& reading = {});
 [[nodiscard]] std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
                                                                const sample_reading& reading = {});
 
