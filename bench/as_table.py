@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A benchmark's times and counters as a Markdown table, for a page of docs/results:
+"""Prints a benchmark's times and counters as a Markdown table, for a page of docs/results:
 
   gonio-papers run --markdown docs/results/solvers.md -- bench/as_table.py build/release/bench/bench_solve_gram
 
-With --across KEY one number of each benchmark is printed, its time or the first whose name starts as --figure says:
-benchmarks whose names differ only in "KEY:value" share a row, with a column for each value.
+With --across KEY, it prints one number of each benchmark: its time, or the first figure whose name starts with
+--figure. Benchmarks whose names differ only in "KEY:value" share a row, with a column for each value.
 """
 import argparse
 import json
@@ -18,7 +18,7 @@ OF_EVERY_RUN = {
 
 
 def benchmarks_of(command, parser):
-    # Not from its output: what a benchmark calls may print, too.
+    # Not from its output, because a benchmark's functions may print too.
     with tempfile.NamedTemporaryFile("r", suffix=".json") as file:
         told = subprocess.run(command + ["--benchmark_out=" + file.name, "--benchmark_out_format=json"],
                               stdout=subprocess.DEVNULL)

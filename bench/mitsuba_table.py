@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The plug-in for Mitsuba 3 beside Mitsuba's own `measured`, on materials of the RGL database, for docs/results/python.md:
+"""Compares the plug-in for Mitsuba 3 with Mitsuba's `measured` on RGL database materials, for docs/results/python.md:
 
   gonio-papers run --markdown docs/results/python.md -- bench/mitsuba_table.py satin_purple.bsdf paper_white.bsdf ...
 
-in an environment that has the module and Mitsuba (`pip install mitsuba`).
+Run it in an environment with the module and Mitsuba (`pip install mitsuba`).
 """
 import argparse
 import contextlib
@@ -29,9 +29,9 @@ PAIRS = 1 << 20
 
 
 def refused(file):
-    """How many of Mitsuba's chi-square tests of samples against the density fail at 1 %, of four directions and three
-    seeds. At 0 degrees the test's cells, in equal steps of the cosine, are wider than the narrowest highlights: there it
-    would test its own integration of the density."""
+    """Returns how many of Mitsuba's chi-square tests of samples against the density fail at 1 %, for four directions
+    and three seeds. At 0 degrees the test's cells, in equal steps of the cosine, are wider than the narrowest
+    highlights, so the test would measure its own integration of the density."""
     count = 0
     for degrees in (20, 40, 60, 80):
         wi = [float(np.sin(np.radians(degrees))), 0.0, float(np.cos(np.radians(degrees)))]
@@ -46,7 +46,7 @@ def refused(file):
 
 
 def seconds_of(work, runs=5):
-    """Of all cores together, which other programs on the machine change least."""
+    """Returns the minimum processor time of all cores, which other programs on the machine affect least."""
     work()  # compiles the kernel
     times = []
     for _ in range(runs):
@@ -57,7 +57,7 @@ def seconds_of(work, runs=5):
 
 
 def evaluate_and_sample(bsdf):
-    """Millions a CPU second: of pairs that are evaluated, and of directions that are drawn."""
+    """Returns millions per CPU second: of evaluated pairs, and of drawn directions."""
     sampler = mi.load_dict({"type": "independent"})
     sampler.seed(1, PAIRS)
     si = dr.zeros(mi.SurfaceInteraction3f, PAIRS)
@@ -79,7 +79,7 @@ def evaluate_and_sample(bsdf):
 
 
 def sphere(bsdf):
-    """A sphere under a sky with a bright disc, 64 samples a pixel: the image and the seconds."""
+    """Renders a sphere under a sky with a bright disc. Returns the image (256 samples a pixel) and the time for 64."""
     scene = mi.load_dict({
         "type": "scene",
         "integrator": {"type": "direct", "emitter_samples": 1, "bsdf_samples": 1},

@@ -1,8 +1,9 @@
 #!/bin/sh
-# Prints docs/results/benchmarks.md again:
+# Updates docs/results/benchmarks.md:
 #   bench/page.sh build/release OLDER/build/release
-# Two release builds, with benchmarks (the first with GONIO_PEERS, see bench/peers/CMakeLists.txt); the older one is that
-# of an earlier commit, its bench/ replaced by this one where that compiles. Takes some ten minutes on an idle machine.
+# Both arguments are release builds with benchmarks (the first with GONIO_PEERS, see bench/peers/CMakeLists.txt). The
+# older one is of an earlier commit, with its bench/ replaced by this one where that compiles. Takes about ten minutes
+# on an idle machine.
 set -e
 build=$(cd "$1" && pwd)
 older=$(cd "$2" && pwd)

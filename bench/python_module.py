@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""The Python module beside the tool and beside C++, as tables for docs/results/python.md:
+"""Compares the Python module with the tool and with C++, as tables for docs/results/python.md:
 
   PYTHONPATH=build/python/python gonio-papers run --markdown docs/results/python.md --
       bench/python_module.py --build build/python
 
-It needs the targets gonio_python, gonio_tool and example_first_program of that build. Without any argument but --build
-it looks for them there.
+It needs the targets gonio_python, gonio_tool and example_first_program of that build.
 """
 import argparse
 import json
@@ -25,7 +24,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[1]
 DATA = SOURCE / "examples" / "data"
 MEASUREMENTS = DATA / "measurements.csv"
 
-# What is asked of the module, and the same of the tool.
+# Arguments for the module, and the same for the tool.
 METHODS = [
     ("pca", {}, []),
     ("pca", {"noise": 0.02}, ["--noise", "0.02"]),
@@ -67,7 +66,7 @@ def print_first_program(program, folder, runs):
         (folder / name).symlink_to(DATA / name)
     commands = [[program], [sys.executable, SOURCE / "examples" / "python" / "first_program.py"]]
     for command in commands:
-        seconds_of(command, folder)  # the files are in memory from here on
+        seconds_of(command, folder)  # loads the files into memory
     times = [[seconds_of(command, folder) for command in commands] for _ in range(runs)]
     cpp, python = (statistics.median(column) for column in zip(*times))
     ratio = statistics.median(p / c for c, p in times)
@@ -122,7 +121,7 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, required=True, help="folder of the build")
     parser.add_argument("--runs", type=int, default=15, help="of the first program")
     given = parser.parse_args()
-    warnings.simplefilter("ignore")  # of methods that are further off than others
+    warnings.simplefilter("ignore")  # methods with larger errors warn
     build = given.build.resolve()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

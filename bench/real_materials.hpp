@@ -1,6 +1,6 @@
 #pragma once
-/// The materials that benchmarks run on: the surrogates of the MERL materials at full resolution where the networks are
-/// at hand, else what the shipped prior remembers of them, on its own cells.
+/// The materials of the benchmarks: the surrogates of the MERL materials at full resolution if the networks are
+/// available, otherwise the shipped prior's approximations on its own cells.
 
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/io/materials/networks.hpp>

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What benchmarks reach of what the machine could do, as a Markdown table for docs/results/benchmarks.md:
+"""Prints how close benchmarks come to the machine's limits, as a Markdown table for docs/results/benchmarks.md:
 
   gonio-papers run --markdown docs/results/benchmarks.md -- bench/shares.py build/release/bench/bench_solve_gram
 
-A benchmark names its limits, other benchmarks of the program (bench/limit.hpp); its share is that of their rate, of the
-limit that binds. With --before PROGRAM, an older build of the same program runs between the rounds of this one, and
-"times" is how much faster this one is. Everything is the median of --rounds.
+A benchmark names its limits: other benchmarks of the program (bench/limit.hpp). Its share is its rate relative to the
+binding limit's. With --before PROGRAM, an older build of the same program runs between the rounds of this one, and
+"times" is the speed-up of this one. All figures are medians over --rounds.
 """
 import argparse
 import statistics
@@ -17,7 +17,7 @@ UNITS = {"items_per_second": (1e-6, "M/s"), "bytes_per_second": (1e-9, "GB/s")}
 
 
 def rates_of(benchmark):
-    """What is counted of a benchmark: rates by their units."""
+    """Returns a benchmark's rates by their units."""
     found = {}
     for name in RATES:
         if name in benchmark:
@@ -27,7 +27,7 @@ def rates_of(benchmark):
 
 
 class rounds:
-    """The benchmarks of a program by their names, with all their rounds."""
+    """The benchmarks of a program by name, with all their rounds."""
 
     def __init__(self):
         self.of = {}
@@ -45,7 +45,7 @@ class rounds:
 
 
 def limits_of(benchmark):
-    """[(factor, name)], empty for a benchmark that names none."""
+    """Returns [(factor, name)]; empty for a benchmark without limits."""
     label = benchmark.get("label", "")
     if not label.startswith("limit: "):
         return []
@@ -57,7 +57,7 @@ def limits_of(benchmark):
 
 
 def binding(found, name, parser):
-    """(share, unit, own rate, limit's rate, limit's name) of the limit that leaves least."""
+    """Returns (share, unit, own rate, limit's rate, limit's name) of the limit with the largest share."""
     shares = []
     for factor, limit in limits_of(found.of[name][0]):
         if limit not in found.of:

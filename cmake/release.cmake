@@ -51,7 +51,7 @@ endif()
 
 # ---- the tool -------------------------------------------------------------------------------------------------------
 
-# What is looked for is static. Debian's dlib says that it needs shared libraries, of which we use nothing.
+# What is looked for is static. Debian's dlib names shared libraries, of which the tool uses nothing.
 file(WRITE "${folder}/static.cmake" [=[
 set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
 file(WRITE "${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/dlib-config.cmake" "
@@ -62,6 +62,43 @@ file(WRITE "${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/dlib-config.cmake" "
 step("configure" ${cmake} -S . -B "${folder}/build" -G Ninja -D CMAKE_BUILD_TYPE=Release
      -D GONIO_BUILD_TESTS=OFF -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_SHAPE=ON -D GONIO_EMBED_DATA=ON
      -D CMAKE_PROJECT_INCLUDE=${folder}/static.cmake -D CMAKE_PREFIX_PATH=${libraries}
-     "-DCMAKE_CXX_FLAGS=-ffunction-sections -fdata-sections" "-DCMAKE_EXE_LINKER_FLAGS=-static -s -Wl,--gc-sections"
+     "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG -ffunction-sections -fdata-sections"
+     "-DCMAKE_EXE_LINKER_FLAGS=-static -s -Wl,--gc-sections"
      "-DCMAKE_CXX_STANDARD_LIBRARIES=-lwebp -lzstd -llzma -lLerc -ljpeg -ldeflate -lz")
 step("build" ${cmake} --build "${folder}/build" --parallel ${cores} --target gonio_tool)
+
+# ---- README's main job in an empty root -----------------------------------------------------------------------------
+
+# A user who is not root needs a namespace in which that user is.
+execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
+set(root "${folder}/root")
+set(enter unshare --root=${root} --wd=/)
+if(NOT user STREQUAL "0")
+  list(INSERT enter 1 --map-root-user)
+endif()
+file(REMOVE_RECURSE "${root}")
+file(MAKE_DIRECTORY "${root}")
+file(COPY "${folder}/build/bin/gonio" DESTINATION "${root}")
+execute_process(COMMAND file --brief "${root}/gonio" OUTPUT_VARIABLE kind COMMAND_ERROR_IS_FATAL ANY)
+if(NOT kind MATCHES "statically linked, .*stripped" OR kind MATCHES "not stripped")
+  message(FATAL_ERROR "The program is no static one that is stripped: ${kind}")
+endif()
+
+# run(LINE FILE): a command line of the tool, which writes a file that must not be empty.
+function(run line file)
+  separate_arguments(arguments UNIX_COMMAND "${line}")
+  step("gonio ${line}" ${enter} /gonio ${arguments})
+  file(SIZE "${root}/${file}" size)
+  if(size EQUAL 0)
+    message(FATAL_ERROR "gonio ${line}: ${file} is empty")
+  endif()
+endfunction()
+run("expand --formula red-paint -o truth.binary" truth.binary)
+run("sample truth.binary --directions shipped:directions/point-20-expected-error.csv -o samples.csv" samples.csv)
+run("reconstruct samples.csv -o estimate.binary" estimate.binary)
+run("report samples.csv -o report.html" report.html)
+run("render estimate.binary truth.binary --size 256 -o spheres.png" spheres.png)
+run("design --apparatus three-axis-goniometer -n 2 -o two.csv" two.csv)
+run("info shipped:materials.prior" gonio)
+
+# The same job by the same program where there are files, and by one that reads what is shipped from files.

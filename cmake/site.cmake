@@ -13,7 +13,8 @@ string(REGEX MATCH "VERSION ([0-9.]+)" found "${lists}")
 set(version "${CMAKE_MATCH_1}")
 
 # Copy what pages link to, in the layout of the repository, so that relative links stay as they are.
-file(COPY "${source}/README.md" "${source}/CHANGELOG.md" "${source}/docs" DESTINATION "${pages}")
+file(COPY "${source}/README.md" "${source}/CHANGELOG.md" "${source}/CONTRIBUTING.md" "${source}/SECURITY.md" "${source}/docs"
+     DESTINATION "${pages}")
 file(COPY "${source}/examples/data/directions/README.md" DESTINATION "${pages}/examples/data/directions")
 file(GLOB programs RELATIVE "${source}/examples/learn" "${source}/examples/learn/*.cpp")
 set(listing "# Teaching programs\n")
@@ -120,7 +121,8 @@ add_folder("What is there" docs/reference)
 add_folder("Results" docs/results)
 add_folder("Decisions" docs/decisions)
 string(APPEND nav "  - Teaching programs: examples/learn/README.md\n  - Directions that ship: examples/data/directions/README.md\n"
-                  "  - Reference of the headers: headers.md\n  - Changes: CHANGELOG.md\n")
+                  "  - Reference of the headers: headers.md\n  - Changes: CHANGELOG.md\n  - Contributing: CONTRIBUTING.md\n"
+                  "  - Security: SECURITY.md\n")
 file(WRITE "${pages}/headers.md" "# Reference of the headers\n\n"
      "Every public class and function with its docstring, made by Doxygen: [by header](headers/files.html), "
      "[classes and concepts](headers/annotated.html), [search](headers/index.html).\n")

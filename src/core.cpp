@@ -1,4 +1,4 @@
-// The bodies of core/, and what alignment the library is compiled for.
+// The bodies of core/, and the alignment for which the library is compiled.
 
 #include <gonio/core/compiled_alignment.hpp>
 #include <gonio/core/impl/error.ipp>

@@ -1,4 +1,4 @@
-// The bodies of estimate/, but for what estimate_iterations.cpp has.
+// The bodies of estimate/ except those in estimate_iterations.cpp.
 
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>

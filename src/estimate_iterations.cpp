@@ -1,4 +1,4 @@
-// The bodies of estimate/ that iterate over products of their own, apart from estimate.cpp so that both compile side by
-// side.
+// The bodies of estimate/ that iterate over products of their own. A separate file, compiled in parallel with
+// estimate.cpp.
 
 #include <gonio/estimate/impl/pose_refinement.ipp>

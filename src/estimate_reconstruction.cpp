@@ -1,4 +1,4 @@
-// What is instantiated of estimate/reconstruction.hpp, apart from estimate.cpp so that both compile side by side.
+// The instantiations of estimate/reconstruction.hpp. A separate file, compiled in parallel with estimate.cpp.
 
 #include <gonio/estimate/reconstruction.hpp>
 

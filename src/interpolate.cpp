@@ -1,4 +1,4 @@
-// The bodies of interpolate/, but for what scattered.cpp has.
+// The bodies of interpolate/ except those in scattered.cpp.
 
 #include <gonio/interpolate/impl/pull_push.ipp>
 #include <gonio/interpolate/impl/scattered_options.ipp>

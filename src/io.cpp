@@ -1,4 +1,4 @@
-// The bodies of io/, but for what image.cpp and shape_io.cpp have.
+// The bodies of io/ except those in image.cpp, exr.cpp, tiff.cpp, exif.cpp and shape/src/shape_io.cpp.
 
 #include <gonio/io/bytes/impl/byte_stream.ipp>
 #include <gonio/io/bytes/impl/checked_file.ipp>

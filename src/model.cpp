@@ -5,6 +5,7 @@
 #include <gonio/model/impl/fit_model.ipp>
 #include <gonio/model/impl/fit_observations.ipp>
 #include <gonio/model/impl/formula_materials.ipp>
+#include <gonio/model/impl/instrument_readings.ipp>
 #include <gonio/model/impl/lobe.ipp>
 #include <gonio/model/impl/lobe_sampler.ipp>
 #include <gonio/model/impl/measured_properties.ipp>

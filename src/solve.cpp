@@ -1,4 +1,4 @@
-// The bodies of solve/, but for those in solve_dense.cpp and solve_orthogonal.cpp.
+// The bodies of solve/ except those in solve_dense.cpp and solve_orthogonal.cpp.
 
 #include <gonio/solve/impl/choose_eta.ipp>
 #include <gonio/solve/impl/dual_active_set.ipp>

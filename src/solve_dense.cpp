@@ -1,4 +1,4 @@
-// The bodies of solve/ that generate Eigen's kernels: products and factorisations.
+// The bodies of solve/ that instantiate Eigen's kernels: products and factorisations.
 
 #include <gonio/solve/impl/cholesky.ipp>
 #include <gonio/solve/impl/float_product.ipp>

@@ -1,6 +1,6 @@
-/// The discrepancy beside a prior's components, in functions around 1,000 measurements: making them, their rows at
-/// measurements, and what they add to all cells of MERL's grid; beside Eigen's factorisation, its substitution and its
-/// product of matrices of the same sizes, all in double.
+/// The discrepancy next to a prior's components, as functions around 1,000 measurements: constructing them, their rows
+/// at measurements, and adding them to all cells of MERL's grid. Compared with Eigen's factorisation, substitution and
+/// matrix product of the same sizes, all in double.
 
 #include "../limit.hpp"
 #include <gonio/basis/discrepancy.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr Eigen::Index centres = 1000;
 
-/// Angles of cells chosen at random.
+/// Returns the angles of random cells.
 std::vector<gonio::half_difference> some_angles(Eigen::Index count, std::uint64_t seed) {
   static const gonio::valid_cells cells;
   std::vector<gonio::half_difference> angles;
@@ -38,7 +38,7 @@ void make_functions(benchmark::State& state) {
 }
 BENCHMARK(make_functions)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// Of 1,000 other measurements.
+/// Reads rows at 1,000 other measurements.
 void read_rows(benchmark::State& state) {
   const auto angles = some_angles(centres, 2);
   gonio::row_matrix rows(centres, centres);
@@ -52,7 +52,7 @@ void read_rows(benchmark::State& state) {
 }
 BENCHMARK(read_rows)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// Of the products that its operations are: 180 values of phi_d, for each of 90 theta_d, by 3 x 90 theta_h.
+/// Counts the operations of its products: for each of 90 theta_d, 180 values of phi_d by 3 x 90 theta_h.
 void add_to_all_cells(benchmark::State& state) {
   const gonio::valid_cells cells;
   const Eigen::MatrixXd weights = Eigen::MatrixXd::Ones(centres, 3);

@@ -1,5 +1,5 @@
-/// What a design costs with all components of 90 materials over all cells of MERL's grid (or what the shipped prior
-/// remembers): E(S) of 20 samples, the set-up of the candidates, and sweeps over all cells as the next sample, beside
+/// The cost of a design with all components of 90 materials over all cells of MERL's grid (or the shipped prior's):
+/// E(S) of 20 samples, the set-up of the candidates, and sweeps over all cells as the next sample, compared with
 /// reading as many bytes.
 
 #include "../limit.hpp"
@@ -17,7 +17,7 @@
 
 namespace {
 
-/// Both cores of the machine that the figures in the documentation are from.
+/// Both cores of the machine that gave the documented figures.
 constexpr gonio::thread_count threads{2};
 
 const gonio::log_relative_pca& prior() {
@@ -35,7 +35,7 @@ const gonio::log_relative_pca& prior() {
   return learned;
 }
 
-/// Of Y, and of W.
+/// Returns the number of entries of Y, and of W.
 double entries() {
   return static_cast<double>(prior().components().rows()) * static_cast<double>(prior().coefficients().rows());
 }
@@ -45,14 +45,14 @@ const gonio::design::cell_candidates& candidates() {
   return all;
 }
 
-/// Each material left out of the prior that reconstructs it, as `gonio design` does if it is not told otherwise.
+/// Leaves each material out of the prior that reconstructs it, the default of `gonio design`.
 const gonio::design::cell_candidates& candidates_left_out() {
   static const gonio::design::cell_candidates all(prior(), gonio::design::expected_error(prior(), {.leave_out = true}),
                                                   {}, threads);
   return all;
 }
 
-/// A choice of cells far from one another.
+/// Returns cells that are far apart.
 std::vector<Eigen::Index> some_cells(std::size_t count) {
   std::vector<Eigen::Index> cells;
   for (std::size_t i = 0; i < count; ++i) cells.push_back((i * 7919 + 13) * 137 % candidates().size());
@@ -65,7 +65,7 @@ void error_of_20(benchmark::State& state) {
 }
 BENCHMARK(error_of_20)->Unit(benchmark::kMicrosecond);
 
-/// As a descent asks: the other 19 stay where they are.
+/// As in a descent: the other 19 stay fixed.
 void error_of_one_beside_19(benchmark::State& state) {
   const auto cells = some_cells(19);
   const auto with = candidates().beside(cells);
@@ -85,8 +85,8 @@ void set_up(benchmark::State& state) {
 }
 BENCHMARK(set_up)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(2);
 
-/// The bytes of Y and W, which a sweep reads once, and its operations with n measurements: 10 n for each entry of Y in
-/// the products, and `end` in what is made of them, a square root among them.
+/// Counts the bytes of Y and W, which a sweep reads once, and its operations with n measurements: per entry of Y, 10 n
+/// for the products and `end` for the final step, including a square root.
 void measure_sweep(benchmark::State& state, const gonio::design::cell_candidates& all, double end) {
   const auto n = static_cast<std::size_t>(state.range(0));
   const auto cells = some_cells(n);
@@ -99,11 +99,11 @@ void measure_sweep(benchmark::State& state, const gonio::design::cell_candidates
 void sweep(benchmark::State& state) { measure_sweep(state, candidates(), 12.0); }
 BENCHMARK(sweep)->Arg(0)->Arg(1)->Arg(10)->Arg(19)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// Of each material 18 operations for each of X and L, 24 for an adjugate, 60 for three squares: 44 for each entry.
+/// Per material, 18 operations for each of X and L, 24 for an adjugate, 60 for three squares: 44 per entry.
 void sweep_left_out(benchmark::State& state) { measure_sweep(state, candidates_left_out(), 44.0); }
 BENCHMARK(sweep_left_out)->Arg(0)->Arg(1)->Arg(10)->Arg(19)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// The yardsticks of this machine: reading as many bytes, and a product of floats by Eigen on both cores.
+/// The yardsticks of this machine: reading as many bytes, and Eigen's product of floats on both cores.
 void read_as_many_bytes(benchmark::State& state) {
   const std::size_t count = (2 * prior().coefficients().rows()) * candidates().size();
   const std::vector<float> values(count, 1.0f);

@@ -1,5 +1,5 @@
 /// Reconstruction of a full RGB 90 x 90 x 180 table from 20 samples with the shipped prior: the solve, and the
-/// expansion beside what it cannot do without, by Eigen, and beside a plain copy of the same bytes.
+/// expansion, compared with its unavoidable work done by Eigen and with a plain copy of the same bytes.
 
 #include "../limit.hpp"
 #include <gonio/design/published_directions.hpp>
@@ -36,10 +36,10 @@ const gonio::sample_set& samples() {
   return measured;
 }
 
-/// Bytes of the result: 3 floats a valid cell.
+/// Returns the bytes of the result: 3 floats per valid cell.
 std::int64_t table_bytes() { return static_cast<std::int64_t>(3 * sizeof(float) * cells().size()); }
 
-/// Bytes that an expansion must move: the basis once, and the result.
+/// Returns the bytes that an expansion must move: the basis once, and the result.
 std::int64_t moved_bytes() {
   return table_bytes() + static_cast<std::int64_t>(sizeof(float) * (prior().size() + 2) * prior().cells().size());
 }
@@ -66,7 +66,7 @@ void expand_cell_by_cell(benchmark::State& state) {
 }
 BENCHMARK(expand_cell_by_cell)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// The components times the weights, a column at a time, which Eigen is faster at than three at once.
+/// Multiplies the components with the weights, one column at a time, which is faster in Eigen than three at once.
 void multiply_by_eigen(Eigen::MatrixX3f& product, const Eigen::MatrixX3f& weights, gonio::thread_count threads) {
   const auto& components = prior().components();
   gonio::for_each_block(
@@ -79,7 +79,7 @@ void multiply_by_eigen(Eigen::MatrixX3f& product, const Eigen::MatrixX3f& weight
       threads);
 }
 
-/// Writes exponentials of four numbers a cell, three channels and the reference, that are in the cache.
+/// Writes exponentials of four numbers per cell (three channels and the reference) that are in the cache.
 void exponentiate_by_eigen(float* table, gonio::thread_count threads) {
   constexpr Eigen::Index at_once = 256;
   const Eigen::ArrayXf logarithms = Eigen::ArrayXf::Random(4 * at_once);
@@ -93,8 +93,8 @@ void exponentiate_by_eigen(float* table, gonio::thread_count threads) {
       threads);
 }
 
-/// The limit: the product with the prior's components, an exponential for each number, and writing a new table, each by
-/// Eigen, and no interpolation between the prior's cells.
+/// The limit: the product with the prior's components, an exponential per number, and writing a new table, all by
+/// Eigen, without interpolation between the prior's cells.
 void product_and_exponentials(benchmark::State& state) {
   const gonio::thread_count threads{static_cast<unsigned>(state.range(0))};
   const Eigen::MatrixX3f weights = Eigen::MatrixX3f::Random(prior().size(), 3);
@@ -110,7 +110,7 @@ void product_and_exponentials(benchmark::State& state) {
 }
 BENCHMARK(product_and_exponentials)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// What memory alone allows: writing a new table by copying as many bytes as an expansion reads and writes.
+/// The limit of memory: writing a new table by copying as many bytes as an expansion reads and writes.
 void copy(benchmark::State& state) {
   const std::vector<char> from(moved_bytes() / 2, 1);
   const auto threads = static_cast<unsigned>(state.range(0));

@@ -1,6 +1,6 @@
-/// Fits of Torrance and Sparrow's lobe beside a Lambertian one to one RGB table over all cells of MERL's grid: how long
-/// one takes, how fast a pass over the cells is, and what random starts cost beside the consecutive scheme that ends in
-/// the same loss.
+/// Fits of a Torrance-Sparrow lobe plus a Lambertian lobe to one RGB table over all cells of MERL's grid: the time of a
+/// fit, the speed of a pass over the cells, and the cost of random starts in addition to the consecutive scheme, which
+/// ends at the same loss.
 
 #include "../real_materials.hpp"
 #include <gonio/model/fit_model.hpp>
@@ -24,7 +24,7 @@ const std::vector<const gonio::model::lobe_kind*>& kinds() {
   return all;
 }
 
-/// Of `state.range(0)` random starts beside the consecutive one, in `state.range(1)` threads.
+/// Fits with `state.range(0)` random starts in addition to the consecutive one, in `state.range(1)` threads.
 void fit_table(benchmark::State& state) {
   const gonio::model::model_fit_options options{.random_starts = state.range(0),
                                                 .threads = {static_cast<unsigned>(state.range(1))}};
@@ -48,7 +48,7 @@ void fit_table_by_l1(benchmark::State& state) {
 }
 BENCHMARK(fit_table_by_l1)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(1);
 
-/// What a laboratory fits: 20 samples.
+/// A typical laboratory fit: 20 samples.
 void fit_20_samples(benchmark::State& state) {
   std::vector<gonio::model::fit_observation> few;
   for (std::size_t i = 0; i < 20; ++i) few.push_back(observations()[i * i * 2711 % observations().size()]);

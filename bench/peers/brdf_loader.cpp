@@ -1,7 +1,6 @@
-/// A measured material of the RGL database in its own adaptive form, as it was measured (gonio's BRDF
-/// is the mean of both ways), at scattered pairs, times the cosine: gonio's
-/// reader and the database's own (Jonathan Dupuy and Wenzel Jakob, github.com/rgl-epfl/brdf-loader), each of the same
-/// file; and gonio's table of the same material.
+/// A measured material of the RGL database in its adaptive form, as measured (gonio's BRDF is the mean of both orders),
+/// at scattered pairs, times the cosine. Compares gonio's reader with the database's own (Jonathan Dupuy and Wenzel
+/// Jakob, github.com/rgl-epfl/brdf-loader) on the same file, and gonio's table of the same material.
 
 #include "scattered_pairs.hpp"
 #include <gonio/io/materials/rgl.hpp>

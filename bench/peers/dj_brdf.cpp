@@ -1,11 +1,11 @@
-/// The nearest value of a table of MERL's, at scattered pairs: gonio's look-up and that of dj_brdf (Jonathan Dupuy,
+/// The nearest value of a MERL table at scattered pairs: gonio's look-up and that of dj_brdf (Jonathan Dupuy,
 /// github.com/jdupuy/dj_brdf), which reads the file that gonio wrote.
 
 #include "scattered_pairs.hpp"
 #include <gonio/io/materials/merl.hpp>
 #include <gonio/render/lookup_table.hpp>
 
-// It prints what it thinks of directions, from the loop.
+// It prints messages about directions inside the loop.
 #define DJB_LOG(...)
 #define DJ_BRDF_IMPLEMENTATION 1
 #include <dj_brdf.h>

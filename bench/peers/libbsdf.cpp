@@ -1,7 +1,7 @@
 /// A GGX lobe fitted to samples of a measured material, by gonio and by libbsdf (Kimura Ryo,
-/// github.com/KimuraRyo/libbsdf), which uses Ceres: libbsdf draws as many directions from the table that it reads, and
-/// fits a colour and a roughness to logarithms; gonio fits colour, roughness and refractive index. Then the table at
-/// scattered pairs, interpolated.
+/// github.com/KimuraRyo/libbsdf), which uses Ceres. libbsdf draws as many directions from the table that it reads, and
+/// fits a colour and a roughness to logarithms. gonio fits colour, roughness and reflectance at normal incidence. Then
+/// interpolates the table at scattered pairs.
 
 #include "scattered_pairs.hpp"
 #include <gonio/evaluate/simulated_measurement.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-/// Pairs of directions above the horizon, uniform in solid angle, and a BRDF whose values differ.
+/// Pairs of directions above the horizon, uniform in solid angle, and a BRDF with varying values.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/random.hpp>
@@ -35,7 +35,7 @@ struct some_material {
   }
 };
 
-/// The pairs as another library wants them, and the sum of all that it finds.
+/// Evaluates the pairs in another library's types, and sums the results.
 template <class Vector, class Number, class Evaluate>
 void look_up_pairs(benchmark::State& state, const Evaluate& evaluate) {
   std::vector<std::pair<Vector, Vector>> pairs;

@@ -1,4 +1,4 @@
-/// How long a sphere in an environment takes at equal error: render/sampled_sphere.hpp beside paired draws
+/// The time to render a sphere in an environment at equal error: render/sampled_sphere.hpp compared with paired draws
 /// (tests/render/paired_draws_sphere.hpp). Prints a table for docs/results/renderers.md.
 ///
 ///     bench_render_environment_sphere LIGHT.hdr [--size N] [--quality N] [--reference N] TABLE...
@@ -29,10 +29,10 @@ struct bench_options {
   int size = 128, quality = 64, reference = 4096;
 };
 
-/// Of all threads, in seconds.
+/// Returns the time of all threads in seconds.
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// The root of the mean square of the difference over that of the reference, of all pixels and channels.
+/// Returns the root mean square difference relative to the reference's, over all pixels and channels.
 double relative_error(const gonio::image& found, const gonio::image& reference) {
   double squares = 0.0, scale = 0.0;
   for (std::size_t i = 0; i < reference.size(); ++i) {
@@ -47,7 +47,7 @@ struct measured {
   double seconds = 0.0, error = 0.0;
 };
 
-/// Renders, and compares with the reference.
+/// Renders and compares with the reference.
 template <class Render>
 measured measure(const Render& render, const gonio::image& reference) {
   const double start = processor_time();
@@ -85,7 +85,7 @@ void run(const bench_options& options) {
   const gonio::render::environment_map map(gonio::io::read_hdr(options.light));
   const paired_draws::row_by_row_light rows(map);
   const gonio::render::environment_sampler light(map);
-  const double white = gonio::render::white_sphere_luminance(map);  // such that the exposure is 1
+  const double white = gonio::render::white_sphere_luminance(map);  // makes the exposure 1
   std::printf("| material | paired draws: CPU s | error | now: CPU s | error | CPU time at equal error |\n");
   std::printf("|---|---|---|---|---|---|\n");
   for (const auto& path : options.tables) {

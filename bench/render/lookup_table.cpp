@@ -1,8 +1,7 @@
-/// Looking a BRDF up at scattered pairs of directions: the obvious way with arc functions, as a renderer's reader of
-/// MERL tables does it, beside `lookup_table` one by one and many at once, and `component_brdf`. "far" tables have all
-/// their memory in use; "near" ones read the same value whatever the pair, so that the difference is the wait for
-/// memory. "reading" reads what the table would read for the same pairs, at places that were computed before: the
-/// limit. Counters: bytes are the memory of a material.
+/// BRDF look-up at scattered pairs of directions. Compares the obvious way with arc functions, as in a renderer's
+/// reader of MERL tables, with `lookup_table` one by one and many at once, and `component_brdf`. "far" tables use all
+/// their memory; "near" tables stay in the cache, so the difference is the wait for memory. "reading" reads the same
+/// memory at precomputed positions: the limit. Counters: bytes are the memory of a material.
 
 #include "../limit.hpp"
 #include <gonio/io/materials/prior.hpp>
@@ -23,7 +22,7 @@ struct pairs_of {
   std::array<std::vector<Real>, 6> arrays;
   std::vector<Eigen::Matrix<Real, 3, 1>> wi, wo;
 
-  /// Above the horizon, uniform in solid angle.
+  /// Draws pairs above the horizon, uniform in solid angle.
   pairs_of() {
     std::mt19937_64 generator(1);
     std::uniform_real_distribution<double> uniform(1e-3, 1.0);
@@ -49,15 +48,15 @@ const pairs_of<Real>& pairs() {
   return all;
 }
 
-/// A material whose values differ, so that nothing can be guessed.
+/// A material with varying values, so that nothing is predictable.
 struct some_material {
   gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
     return gonio::rgb(0.1 + wi.z() * wo.z(), 0.2, 0.3 + std::pow((wi + wo).normalized().z(), 50));
   }
 };
 
-/// Half vector, rotation by its angles, acos and atan2, and the three planes of a MERL file in double: as one would
-/// write it down from the definition.
+/// Half vector, rotation by its angles, acos and atan2, and the three planes of a MERL file in double: the direct
+/// implementation of the definition.
 class obvious_lookup {
  public:
   obvious_lookup() : planes_(3 * cells_.size()) {
@@ -121,7 +120,7 @@ const gonio::render::lookup_table<Stored, Interpolation>& far_table() {
   return table;
 }
 
-/// Reading alone, of the same table.
+/// Returns the name of the benchmark that only reads the same table.
 template <class Stored, interpolation Interpolation>
 std::string reading_of() {
   return std::string("reading_alone<") + (sizeof(Stored) == 2 ? "Eigen::half" : "float") +
@@ -134,7 +133,7 @@ void one_by_one(benchmark::State& state) {
   limited_by(state, reading_of<Stored, Interpolation>());
 }
 
-/// The same work on a grid so small that it stays in the first cache: what is left is computation.
+/// The same work on a grid that fits into the first cache: only computation remains.
 template <class Stored, interpolation Interpolation, class Real>
 void one_by_one_near(benchmark::State& state) {
   static const auto table =
@@ -142,7 +141,7 @@ void one_by_one_near(benchmark::State& state) {
   look_up_all<Real>(state, table);
 }
 
-/// The nearest value by polynomials, as many at once are found, for one pair after the other.
+/// Finds the nearest value for one pair at a time with the polynomials used for many at once.
 class polynomial_lookup {
  public:
   polynomial_lookup() : values_(3 * index_.size(), 0.5f) {}
@@ -193,8 +192,7 @@ void many_at_once_near(benchmark::State& state) {
   evaluate_all<gonio::render::lookup_table<Stored, Interpolation>, Real>(state, table);
 }
 
-/// One vector of what is read for a pair from memory of the table's size: a cell's numbers, or four times those of two
-/// neighbours.
+/// Reads as a look-up does for a pair, in memory of the table's size: one cell, or four rows of two neighbours.
 template <class Stored, interpolation Interpolation>
 class reading {
  public:
@@ -243,7 +241,7 @@ void reading_alone(benchmark::State& state) {
   state.counters["bytes"] = static_cast<double>(memory.memory());
 }
 
-/// Twenty components of the shipped prior's grid enlarged to MERL's would be another prior; its own grid is coarser.
+/// Uses the shipped prior's own grid, which is coarser than MERL's. Enlarging it would give another prior.
 template <class Stored, interpolation Interpolation>
 void by_components(benchmark::State& state) {
   static const auto prior = gonio::io::read_prior(GONIO_SOURCE_PRIOR);

@@ -1,5 +1,5 @@
-/// Correction functions on real materials: the basis, one round of the iteration for three channels, and what the
-/// machine could do: a rank update by Eigen on as many rows, and a copy of as many bytes.
+/// Correction functions on real materials: the basis and one round of the iteration for three channels. Compared with
+/// Eigen's rank update of as many rows and a copy of as many bytes.
 
 #include "../limit.hpp"
 #include "../real_materials.hpp"
@@ -21,7 +21,7 @@ const gonio::material_set& materials() {
   return set;
 }
 
-/// All but the material that is measured.
+/// All materials except the measured one.
 const gonio::measured<gonio::log>& others() {
   static const auto basis = gonio::measured{materials(), gonio::log{}}.without({"blue-acrylic"});
   return basis;
@@ -32,7 +32,7 @@ const gonio::correction& corrections() {
   return functions;
 }
 
-/// Blue acrylic at one cell in `step`, a fifth of the measurements outliers.
+/// Samples blue acrylic at one of `step` cells; a fifth of the measurements are outliers.
 gonio::located_samples samples(std::int64_t step) {
   const auto truth = materials().table(materials().find("blue-acrylic"));
   const std::size_t count = truth.cells().size() / step;
@@ -40,7 +40,7 @@ gonio::located_samples samples(std::int64_t step) {
                                                                   {.outlier_ratio = 0.2}, 1));
 }
 
-/// Samples and channels that count in the next round of a run: outliers' weights may be too small to change anything.
+/// Returns the number of samples and channels that count in a run's next round. Outliers' weights may be negligible.
 template <class Run>
 double counted(const Run& run) {
   const gonio::channel_values weights = run.inlier_weights(), sized = weights * run.sigma().abs().max(1.0f);
@@ -50,7 +50,7 @@ double counted(const Run& run) {
   return count;
 }
 
-/// Multiplications and additions of the normal equations of so many samples.
+/// Returns the multiplications and additions of the normal equations of some samples.
 double operations(double samples) {
   const auto k = static_cast<double>(corrections().size() + 1);
   return samples * k * (k + 1.0);
@@ -65,7 +65,7 @@ void one_round(benchmark::State& state, const Weighting& weighting) {
   run.step();
   const double samples_that_count = counted(run);
   for (auto _ : state) benchmark::DoNotOptimize(run.step());
-  // A round that builds no normal equations reads the rows twice: right-hand sides, and the correction at the samples.
+  // A round without normal equations reads the rows twice: for the right-hand sides, and for the correction there.
   constexpr bool assembles = !std::same_as<Weighting, gonio::trust_all>;
   if (assembles) count_operations(state, operations(samples_that_count));
   if (!assembles) count_bytes(state, 2.0 * 12.0 * static_cast<double>(measured.size() * corrections().size()));
@@ -83,7 +83,7 @@ BENCHMARK(round_with_fixed_weights)->Arg(1)->Arg(10)->UseRealTime()->Unit(benchm
 
 void correction_basis(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(gonio::correction{others()});
-  // The approximations of all materials by the others; their Gram matrices are known after the first time.
+  // The approximations of all materials by the others. Their Gram matrices are known after the first run.
   const auto k = static_cast<double>(others().size());
   count_operations(state, 6.0 * k * k * static_cast<double>(materials().cells.size()));
   limited_by(state, "eigen_product; product_into_new_memory");
@@ -100,8 +100,8 @@ void whole_robust_reconstruction(benchmark::State& state) {
 }
 BENCHMARK(whole_robust_reconstruction)->Arg(1)->Arg(10)->Arg(1000)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// The yardstick: Eigen's rank update in double, as sums are, over the same rows, in blocks that fit into the cache, on
-/// two threads.
+/// The yardstick: Eigen's rank update in double, like the sums, over the same rows, in blocks that fit into the cache,
+/// on two threads.
 void eigen_rank_update(benchmark::State& state) {
   const auto channel = corrections().channel(1);
   const std::size_t rows = channel.values().rows();
@@ -133,7 +133,7 @@ void eigen_product(benchmark::State& state) {
 }
 BENCHMARK(eigen_product)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// The same of three channels with room for the result that is new each time, which the system clears: corrections take
+/// The same for three channels, with newly allocated memory for each result, which the system clears. Corrections take
 /// 1.3 GB of it.
 void product_into_new_memory(benchmark::State& state) {
   const gonio::measured<gonio::log>& basis = others();
@@ -154,7 +154,7 @@ void product_into_new_memory(benchmark::State& state) {
 }
 BENCHMARK(product_into_new_memory)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// Reading the rows of all channels, of one cell in `step`.
+/// Reads the rows of all channels for one of `step` cells.
 void read_every(benchmark::State& state, Eigen::Index step) {
   const Eigen::Index count = materials().cells.size() / step, functions = std::ssize(corrections());
   const std::array channels{corrections().channel(0), corrections().channel(1), corrections().channel(2)};

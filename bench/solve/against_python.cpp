@@ -1,6 +1,6 @@
-/// Our solvers beside numpy and scipy on the same real matrices, in one run: writes the problem to a scratch folder,
-/// times our side, lets rivals.py time theirs (Debian's python3-scipy and, for a BLAS worth comparing with,
-/// libopenblas0-pthread), and prints the ratios. Says so where Python is absent.
+/// Our solvers compared with numpy and scipy on the same real matrices in one run. Writes the problem to a scratch
+/// folder, times our side, lets rivals.py time theirs (Debian's python3-scipy and, for a competitive BLAS,
+/// libopenblas0-pthread), and prints the ratios. Prints a message if Python is missing.
 
 #include "../real_materials.hpp"
 #include <gonio/basis/measured.hpp>
@@ -27,7 +27,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The least of several runs, in microseconds: noise only adds.
+/// Returns the minimum of several runs in microseconds, because noise only adds.
 template <class Run>
 double best_of(int runs, Run&& run) {
   double best = std::numeric_limits<double>::infinity();
@@ -47,7 +47,7 @@ void save(const std::filesystem::path& path, const Scalar* data, std::size_t row
   gonio::io::write_npy(path, array);
 }
 
-/// What the rivals took, or nothing with the reason on standard error.
+/// Returns the rivals' times; nothing if they failed.
 std::optional<json> time_rivals(const std::filesystem::path& folder) {
   for (const std::string python : {"/usr/bin/python3", "python3"}) {
     if (std::system((python + " -c 'import numpy, scipy' 2> /dev/null").c_str()) != 0) continue;

@@ -1,5 +1,5 @@
-/// Gram matrices of tall float matrices: ours beside Eigen's rank update of the same shape, on one thread and on two;
-/// of two threads twice what Eigen's reaches on one. GFlop counts n k (k + 1) operations for both.
+/// Gram matrices of tall float matrices, compared with Eigen's rank update of the same shape, on one thread and on two.
+/// The limit for two threads is twice Eigen's rate on one. GFlop counts n k (k + 1) operations for both.
 
 #include "../limit.hpp"
 #include <gonio/solve/gram.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 using float_rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// 1.1 million rows of 99 columns, and fewer of more so that all take as many bytes.
+/// Returns 1.1 million rows of 99 columns, or as many bytes with other numbers of columns.
 const float_rows& matrix(Eigen::Index columns) {
   static std::map<Eigen::Index, float_rows> made;
   float_rows& rows = made[columns];
@@ -36,7 +36,7 @@ void ours(benchmark::State& state) {
                         "/columns:" + std::to_string(columns));
 }
 
-/// Eigen's own has one thread.
+/// Eigen's update uses one thread.
 void eigen_float(benchmark::State& state) {
   const Eigen::Index columns = state.range(0);
   const float_rows& rows = matrix(columns);
@@ -48,7 +48,7 @@ void eigen_float(benchmark::State& state) {
   count(state, columns);
 }
 
-/// In double it needs a copy of the rows, taken here block by block.
+/// In double it needs a copy of the rows, made here block by block.
 void eigen_double(benchmark::State& state) {
   const Eigen::Index columns = state.range(0), block = 256;
   const float_rows& rows = matrix(columns);

@@ -1,5 +1,5 @@
-/// What it costs to accumulate a Gram matrix in float: each of the ten test materials from the 99 others, the normal
-/// equations once from products and block sums in float, once in double; both solutions judged in double. No timings.
+/// The cost of accumulating a Gram matrix in float. Solves for each of the ten test materials from the 99 others, with
+/// normal equations from products and block sums in float and in double. Evaluates both in double. No timings.
 
 #include "../../tests/solve/oracles/nnls_block_pivoting.hpp"
 #include "../real_materials.hpp"
@@ -35,7 +35,7 @@ class study {
   study(std::string metric, std::vector<products> channels, std::vector<Eigen::Index> targets)
       : metric_(std::move(metric)), channels_(std::move(channels)), targets_(std::move(targets)) {}
 
-  /// The matrices themselves: condition, and the largest error of an entry in units of its columns' lengths.
+  /// Prints the matrices' condition, and the largest error of an entry relative to its columns' lengths.
   void describe() const {
     double condition = 0.0, error = 0.0;
     for (const auto& [exact, rounded] : channels_) {

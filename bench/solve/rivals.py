@@ -1,4 +1,4 @@
-"""The other side of against_python.cpp: times numpy and scipy on the matrices in a folder, prints JSON.
+"""The counterpart of against_python.cpp: times numpy and scipy on the matrices in a folder, and prints JSON.
 
 usage: rivals.py FOLDER   (with rows.npy, gram.npy, moment.npy; OPENBLAS_NUM_THREADS set before)"""
 import json
@@ -12,7 +12,7 @@ from scipy.optimize import nnls
 
 
 def best_of(runs, run):
-    """The least of several runs, in microseconds."""
+    """Returns the minimum time of several runs, in microseconds."""
     best = float("inf")
     for _ in range(runs):
         start = time.perf_counter()
@@ -22,7 +22,7 @@ def best_of(runs, run):
 
 
 def blas_library():
-    """The shared library that numpy's products really run in."""
+    """Returns the shared library that runs numpy's products."""
     with open("/proc/self/maps") as maps:
         names = {line.split()[-1] for line in maps if "blas" in line}
     return ", ".join(sorted(name.rsplit("/", 1)[-1] for name in names)) or "unknown"
@@ -34,8 +34,8 @@ gram = np.load(folder + "/gram.npy")
 moment = np.load(folder + "/moment.npy").ravel()
 result = {}
 
-# A'A of one array is a symmetric update to numpy. The faster of both layouts counts; so does, in double, the faster of
-# one product of a copy made before and of blocks converted on the way.
+# To numpy, A'A of one array is a symmetric update. The faster of both layouts counts; in double, also the faster of one
+# product of a copy made before and of blocks converted on the way.
 columns = np.ascontiguousarray(rows.T)
 result["gram_float"] = min(best_of(5, lambda: rows.T @ rows), best_of(5, lambda: columns @ columns.T))
 
@@ -53,7 +53,7 @@ columns = columns.astype(np.float64)
 result["gram_double"] = min(by_blocks, best_of(5, lambda: columns @ columns.T))
 del columns, rows
 
-# min |A x - b| over x >= 0 through the Cholesky factor of A'A, which is given.
+# min |A x - b| over x >= 0 with the given Cholesky factor of A'A.
 factor = cholesky(gram)
 right = solve_triangular(factor, moment, trans="T")
 result["nnls"] = best_of(200, lambda: nnls(factor, right))

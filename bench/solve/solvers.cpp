@@ -1,5 +1,5 @@
-/// All solvers on the same problem: one material from the 99 others, every cell of it or a tenth. And larger ones:
-/// 50 to 800 columns. Counters: objective over that of NNLS, KKT residual, weights that are not zero.
+/// All solvers on the same problem: one material from the 99 others, on every cell or a tenth of them. Also larger
+/// problems with 50 to 800 columns. Counters: objective relative to NNLS, KKT residual, number of non-zero weights.
 
 #include "../../tests/solve/oracles/nnls_block_pivoting.hpp"
 #include "../../tests/solve/oracles/nnls_coordinate_descent.hpp"
@@ -30,7 +30,7 @@ const gonio::measured<gonio::log>& materials() {
 
 constexpr std::size_t channel = 1;
 
-/// One material from the others over every `step`-th cell. Reading rows copies nothing.
+/// Returns the problem of one material from the others over every `step`-th cell. Reading rows copies nothing.
 gonio::least_squares_problem problem(std::size_t step) {
   const auto functions = materials().channel(channel);
   const std::size_t target = (std::ranges::find(materials().names(), "blue-acrylic") - materials().names().begin());
@@ -64,7 +64,7 @@ void report(benchmark::State& state, const gonio::solution& found, const Problem
   state.counters["iterations"] = found.report.iterations;
 }
 
-/// With the normal equations at hand, as after the first solve.
+/// Times the solver with the normal equations given, as after the first solve.
 template <class Solver>
 void from_normal(benchmark::State& state, const Solver& solver) {
   const gonio::normal_equations& normal = problem_of(state.range(0)).normal();
@@ -73,7 +73,7 @@ void from_normal(benchmark::State& state, const Solver& solver) {
   report(state, found, normal);
 }
 
-/// From the rows, what else there is included.
+/// Times the solver from the rows, including all other work.
 template <class Solver>
 void from_rows(benchmark::State& state, const Solver& solver) {
   const gonio::least_squares_problem& solved = problem_of(state.range(0));
@@ -83,11 +83,11 @@ void from_rows(benchmark::State& state, const Solver& solver) {
 }
 
 void assembly(benchmark::State& state) {
-  (void)materials();  // made once, and not to be timed
+  (void)materials();  // loaded once, outside the timing
   for (auto _ : state) benchmark::DoNotOptimize(problem(state.range(0)).normal().rhs().sum());
 }
 
-/// Made-up data of k columns that are alike, as reflectance is, plus noise.
+/// Returns normal equations of k random positive columns, which are similar to one another, as for reflectance.
 const gonio::normal_equations& synthetic(Eigen::Index k) {
   static std::map<Eigen::Index, gonio::normal_equations> made;
   const auto found = made.find(k);
@@ -113,7 +113,7 @@ double lambda(std::int64_t step) {
   return 1e-3 * gonio::largest_lambda(problem_of(step).normal(), gonio::sign_rule::any);
 }
 
-/// Registers everything on the problems of every cell and of a tenth of them.
+/// Registers all benchmarks for the problems on every cell and on a tenth of them.
 const bool registered = [] {
   const auto add = [](const std::string& name, auto run) {
     benchmark::RegisterBenchmark(name.c_str(), run)

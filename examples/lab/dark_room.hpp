@@ -1,6 +1,6 @@
 #pragma once
-/// A simulated laboratory: a flat sample in a dark room, a lamp and a camera, and all that is wrong with them. The
-/// devices of the other files move lamp and camera about in it. Lengths are in mm.
+/// A simulated laboratory: a flat sample in a dark room, a lamp, a camera, and their defects. The devices in the other
+/// files move lamp and camera. Lengths are in mm.
 
 #include "random_turn.hpp"
 #include <gonio/capture/device.hpp>
@@ -21,17 +21,17 @@
 
 namespace lab {
 
-/// What goes wrong. By default nothing does.
+/// The defects. By default there are none.
 struct defects {
-  double misalignment = 0.0;  ///< radians by which all lamps, the camera and the sample are turned, each about an axis
+  double misalignment = 0.0;  ///< radians by which lamps, camera and sample are rotated, each about its own axis
   double lamp_radius = 0.0;   ///< mm; the lamp is a disc that faces the sample
-  double field = 0.0;         ///< mm from the middle of the sample to the edge of what the camera sees
-  double vignetting = 0.0;    ///< share of the light that is lost in the image's corners
-  double stray = 0.0;         ///< light from the room's walls, as a share of what a white sample would send
-  double flicker = 0.0;       ///< relative deviation of each exposure, of lamp and shutter
-  double outliers = 0.0;      ///< share of the poses at which the light is up to 10 times more, or less, than it should
+  double field = 0.0;         ///< mm from the centre of the sample to the edge of the camera's field of view
+  double vignetting = 0.0;    ///< fraction of the light that is lost in the image's corners
+  double stray = 0.0;         ///< light from the room's walls, as a fraction of the light from a white sample
+  double flicker = 0.0;       ///< relative standard deviation of each exposure, from lamp and shutter
+  double outliers = 0.0;      ///< fraction of the poses at which the light is wrong by a factor of up to 10
 
-  /// Those of a laboratory that is well kept.
+  /// The defects of a well-kept laboratory.
   [[nodiscard]] static defects usual() {
     return {.misalignment = gonio::radians(0.5),
             .lamp_radius = 5.0,
@@ -42,7 +42,7 @@ struct defects {
   }
 };
 
-/// The share of the largest count that a share of the saturating exposure gives.
+/// The camera's response: the fraction of the largest count as a function of the fraction of the saturating exposure.
 enum class response_curve { linear, gamma, s_shaped };
 
 [[nodiscard]] inline double count_share(response_curve curve, double exposure) {
@@ -58,24 +58,23 @@ enum class response_curve { linear, gamma, s_shaped };
   return x;
 }
 
-/// What the camera's chip is like. By default it adds no noise but that of whole counts.
+/// The camera's sensor. By default it adds no noise except rounding to whole counts.
 struct sensor {
   std::uint16_t largest_count = 65535;
   response_curve curve = response_curve::linear;
-  double full_well =
-      std::numeric_limits<double>::infinity();  ///< electrons at saturation, which are counted: shot noise
-  double read_noise = 0.0;                      ///< electrons
-  double saturating = 0.04;                     ///< seconds in which white under a lamp right above saturates
-  int side = 8;                                 ///< pixels each way that see the sample
+  double full_well = std::numeric_limits<double>::infinity();  ///< electrons at saturation, for shot noise
+  double read_noise = 0.0;                                     ///< electrons
+  double saturating = 0.04;  ///< exposure in seconds that saturates on white with a lamp at the normal
+  int side = 8;              ///< pixels in each direction that see the sample
   double shortest_time = 10e-6, longest_time = 10.0;
 
-  /// A camera of 12 bits.
+  /// A 12-bit camera.
   [[nodiscard]] static sensor usual(response_curve curve = response_curve::linear) {
     return {.largest_count = 4095, .curve = curve, .full_well = 20'000.0, .read_noise = 8.0};
   }
 };
 
-/// f(wi, wo) of what lies in the middle of the room.
+/// f(wi, wo) of the sample in the centre of the room.
 using surface = std::function<gonio::rgb(const gonio::direction& wi, const gonio::direction& wo)>;
 
 /// The white reference.
@@ -86,9 +85,9 @@ using surface = std::function<gonio::rgb(const gonio::direction& wi, const gonio
   };
 }
 
-/// Where everything is, and what the camera counts of it. All that is random comes from the seeds: lamps and camera are
-/// turned by that of the room, the sample by that with which it was laid down, and the noise of each pose by that and
-/// the pose, so that a scan that is broken off and resumed reads the same counts as one that is not.
+/// The positions of all devices, and the camera's counts. All random numbers come from seeds: the room's for the
+/// misalignment of lamps and camera, the sample's for that of the sample, and the sample's seed and the pose for the
+/// noise of each pose. A resumed scan therefore reads the same counts as an uninterrupted one.
 class dark_room {
  public:
   dark_room(surface sample, const sensor& chip, const defects& wrong, std::uint64_t room_seed = 0,
@@ -102,7 +101,7 @@ class dark_room {
 
   [[nodiscard]] const sensor& chip() const noexcept { return chip_; }
 
-  /// What is random from now on is that of this pose.
+  /// Seeds the random numbers for this pose.
   void begin(const gonio::direction_pair& pose) {
     std::vector<std::int64_t> parts{static_cast<std::int64_t>(seed_)};
     for (const gonio::direction& w : {pose.wi, pose.wo})
@@ -125,7 +124,7 @@ class dark_room {
     gonio::capture::camera_frame counts(chip_.side * chip_.side, 3);
     for (int row = 0; row < chip_.side; ++row)
       for (int column = 0; column < chip_.side; ++column) {
-        // Places across the image, from -1 to 1.
+        // Position in the image, from -1 to 1.
         const double x = (2.0 * column + 1.0) / chip_.side - 1.0, y = (2.0 * row + 1.0) / chip_.side - 1.0;
         const double vignette = 1.0 - wrong_.vignetting * (x * x + y * y) / 2.0;
         const gonio::rgb light = is_lit_ ? gonio::rgb(vignette * radiance(x, y)) : gonio::rgb::Zero();
@@ -136,9 +135,9 @@ class dark_room {
   }
 
  private:
-  /// The radiance at a place of the image; 1 / pi of a perfect white under a lamp right above at its usual distance.
+  /// Returns the radiance at an image position: 1 / pi for white under a lamp at the normal and usual distance.
   [[nodiscard]] gonio::rgb radiance(double x, double y) const {
-    // In the sample's own axes, where all that is turned is turned back.
+    // In the sample's own axes, with all misalignments undone.
     const Eigen::Vector3d camera = turn_sample_.transpose() * turn_camera_ * camera_;
     const Eigen::Vector3d lamp = turn_sample_.transpose() * turn_lamp_ * lamp_;
     const Eigen::Vector3d point = seen_point(camera, wrong_.field * x, wrong_.field * y);
@@ -156,7 +155,7 @@ class dark_room {
     return factor_ * sum + wrong_.stray * white_sum * std::numbers::inv_pi;
   }
 
-  /// Where the ray through a place of the plane across the view, through the middle of the sample, meets the sample.
+  /// Returns the sample point that is seen at a position in the plane through the sample's centre across the view.
   [[nodiscard]] static Eigen::Vector3d seen_point(const Eigen::Vector3d& camera, double x, double y) {
     if (x == 0.0 && y == 0.0) return Eigen::Vector3d::Zero();
     const Eigen::Vector3d right = camera.unitOrthogonal();
@@ -167,7 +166,7 @@ class dark_room {
 
   [[nodiscard]] double lamp_samples() const { return wrong_.lamp_radius > 0.0 ? 1.0 + ring : 1.0; }
 
-  /// The lamp's middle and places around it that have its mean square distance from there.
+  /// Returns points that represent the lamp: its centre and a ring, with the disc's mean square distance.
   [[nodiscard]] std::vector<Eigen::Vector3d> lamp_points(const Eigen::Vector3d& lamp) const {
     std::vector<Eigen::Vector3d> points{lamp};
     if (!(wrong_.lamp_radius > 0.0)) return points;
@@ -180,7 +179,7 @@ class dark_room {
     return points;
   }
 
-  /// What the chip makes of a share of the exposure that saturates it.
+  /// Returns the count for an exposure relative to the saturating one.
   [[nodiscard]] std::uint16_t count(double exposure) {
     double share = exposure;
     if (std::isfinite(chip_.full_well)) {
@@ -224,14 +223,14 @@ class room_camera {
 };
 static_assert(gonio::capture::camera<room_camera>);
 
-/// What a machine carries on a sphere about the sample, and always looks at it.
+/// A tool that a machine carries on a sphere about the sample, always pointed at it.
 struct carried_tool {
   std::string name;
   gonio::capture::camera_sphere sphere;                   ///< in the machine's axes
-  gonio::direction gonio::direction_pair::*towards = {};  ///< which of a pair's directions it is at
+  gonio::direction gonio::direction_pair::*towards = {};  ///< the direction of a pair at which it is
 };
 
-/// Switches a lamp on, and off again whatever happens.
+/// Switches a lamp on, and off again even after an exception.
 template <gonio::capture::light_source Lights>
 class lit {
  public:
@@ -244,8 +243,8 @@ class lit {
   Lights& lights_;
 };
 
-/// The smallest angle between two directions at which what stands nearer to the sample, of some radius at a distance,
-/// does not cover what is farther away.
+/// Returns the smallest angle between two directions at which the nearer object, with a radius and a distance from the
+/// sample, does not cover the farther one.
 [[nodiscard]] inline double smallest_separation(double near_radius, double near_distance, double far_radius,
                                                 double far_distance) {
   return std::asin(near_radius / near_distance) + std::asin(far_radius / far_distance);

@@ -1,12 +1,12 @@
 #pragma once
-/// A simulated spherical gantry (Nielsen's thesis 2016, section 4.3): two arms that turn about the sample, one with a
+/// A simulated spherical gantry (Nielsen's thesis 2016, section 4.3): two arms that rotate about the sample, one with a
 /// lamp, one with a camera.
 
 #include "dark_room.hpp"
 
 namespace lab {
 
-/// One of the two arms. It carries something of a size on a sphere about the sample.
+/// One of the two arms. It carries its tool on a sphere about the sample.
 class gantry_arm {
  public:
   using carry = void (dark_room::*)(const Eigen::Vector3d&);
@@ -59,7 +59,7 @@ class gantry {
       obstacle = "the camera hides the lamp up to " + in_degrees(nearest()) + ", this is " + in_degrees(apart);
     return {pair, obstacle};
   }
-  /// The arms turn at the same time.
+  /// The arms move simultaneously.
   [[nodiscard]] double travel(const gonio::direction_pair& from, const gonio::direction_pair& to) const {
     return std::max(gonio::angle_between(from.wi, to.wi), gonio::angle_between(from.wo, to.wo));
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// A whole measurement in memory: scans, and what calibration makes of them.
+/// A whole measurement in memory: scans and their calibration.
 
 #include "dark_room.hpp"
 #include <gonio/capture/calibration.hpp>
@@ -11,7 +11,7 @@
 
 namespace lab {
 
-/// A record that forgets all when it ends.
+/// A scan record in memory.
 struct scan_in_memory {
   std::map<Eigen::Index, gonio::capture::reading> readings{};
 
@@ -20,7 +20,7 @@ struct scan_in_memory {
 };
 static_assert(gonio::capture::scan_record<scan_in_memory>);
 
-/// The readings of all poses. Throws gonio::capture::device_failure if one stays missing.
+/// Returns the readings of all poses. Throws gonio::capture::device_failure if one remains missing.
 template <gonio::capture::goniometer Machine>
 [[nodiscard]] std::vector<gonio::capture::reading> measure_all(Machine& machine,
                                                                std::span<const gonio::direction_pair> poses) {
@@ -34,8 +34,8 @@ template <gonio::capture::goniometer Machine>
   return all;
 }
 
-/// What scans of a material and of the white reference at the same poses say of its BRDF, by the response that both
-/// show the camera to have.
+/// Returns the BRDF measured by scans of a material and of the white reference at the same poses. The camera's response
+/// is estimated from both scans.
 [[nodiscard]] inline std::vector<gonio::capture::measured_reflectance> calibrate(
     const std::vector<gonio::capture::reading>& material, const std::vector<gonio::capture::reading>& reference,
     std::span<const gonio::direction_pair> poses, const sensor& chip, const gonio::capture::sensor_noise& noise) {

@@ -5,8 +5,8 @@
 
 namespace lab {
 
-/// A square image that the sphere fills, black beside it. `radiance(direction)` is the light from a direction;
-/// `samples` rays across each pixel see it, of which those beside the sphere are black.
+/// Returns a square image filled by the sphere, black beside it. `radiance(direction)` is the light from a direction.
+/// Each pixel averages `samples` x `samples` rays; rays beside the sphere are black.
 template <class Radiance>
 [[nodiscard]] gonio::image photograph(const gonio::capture::mirror_sphere& sphere, const Radiance& radiance,
                                       std::size_t pixels, int samples = 4) {

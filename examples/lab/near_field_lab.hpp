@@ -1,6 +1,6 @@
 #pragma once
-/// A simulated laboratory for images from close by: a flat disc of a known material, a light and a camera, with noise,
-/// and with light and camera not quite where they are said to be.
+/// A simulated laboratory for images from a short distance: a flat disc of a known material, a light and a camera, with
+/// noise and misalignment.
 
 #include "random_turn.hpp"
 #include <gonio/capture/near_field_image.hpp>
@@ -13,16 +13,16 @@
 
 namespace lab {
 
-/// What goes wrong.
+/// The defects.
 struct near_field_defects {
-  /// Standard deviation of Gaussian noise relative to the value, independent in each channel of each pixel.
+  /// Relative standard deviation of Gaussian noise, independent for each channel of each pixel.
   double noise = 0.0;
-  /// Angle in radians by which the light, and the camera, are turned about the middle of the sample, each about an
-  /// axis of its own: the true direction of every ray differs from the assumed one by at most this angle.
+  /// Angle in radians by which light and camera are rotated about the centre of the sample, each about its own axis:
+  /// the true direction of every ray differs from the assumed one by at most this angle.
   double misalignment = 0.0;
 };
 
-/// A light turned about the middle of the sample.
+/// Returns a light rotated about the centre of the sample.
 [[nodiscard]] inline gonio::capture::surface_light turned(gonio::capture::surface_light light,
                                                           const Eigen::Matrix3d& turn) {
   if (auto* distant = std::get_if<gonio::directional_light>(&light)) distant->towards = turn * distant->towards;
@@ -30,7 +30,7 @@ struct near_field_defects {
   return light;
 }
 
-/// Where light and camera truly are if both are turned by an angle in radians, each about an axis of its own.
+/// Returns the true set-up if light and camera are rotated by an angle in radians, each about its own axis.
 [[nodiscard]] inline gonio::capture::near_field_setup misaligned(gonio::capture::near_field_setup setup, double angle,
                                                                  std::mt19937_64& generator) {
   const Eigen::Matrix3d turn_light = random_turn(angle, generator), turn_camera = random_turn(angle, generator);
@@ -42,8 +42,8 @@ struct near_field_defects {
   return setup;
 }
 
-/// An image of a disc of the material: radiance under the set-up's light, black beside the disc and where the light is
-/// below the horizon. The defects come from the seed alone; the set-up is what the experimenter believes.
+/// Returns an image of a disc of the material: radiance under the set-up's light, black beside the disc and where the
+/// light is below the horizon. `setup` is the assumed set-up; the seed determines the defects.
 template <gonio::brdf Brdf>
 [[nodiscard]] gonio::image photograph(const Brdf& material, const gonio::capture::sample_disc& disc,
                                       const gonio::capture::near_field_setup& setup,

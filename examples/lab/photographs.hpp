@@ -1,6 +1,5 @@
 #pragma once
-/// A simulated camera that photographs a radiance image: brackets of exposures, and dark frames. What it does wrong is
-/// a value, `photograph_settings`.
+/// A simulated camera that photographs a radiance image: exposure brackets and dark frames.
 
 #include "dark_room.hpp"
 #include <gonio/capture/dark_signal.hpp>
@@ -17,19 +16,19 @@
 
 namespace lab {
 
-/// The chip, and what goes wrong. By default no light is lost and nothing is dark.
+/// The sensor and its defects. By default no light is lost and there is no dark signal.
 struct photograph_settings {
   sensor chip = {};             ///< `saturating` is for a radiance of 1 / pi
-  double pedestal = 0.0;        ///< counts that the camera adds after its response
-  double dark_current = 0.0;    ///< electrons each second, in the mean of the pixels
-  double dark_spread = 0.3;     ///< relative deviation of the current from pixel to pixel
-  double hot_pixels = 0.0;      ///< share of the pixels
-  double hot_current = 0.0;     ///< electrons each second of these
-  double vignetting = 0.0;      ///< share of the light that is lost in the image's corners
-  double flicker = 0.0;         ///< relative deviation of each exposure, common to its pixels
-  std::uint64_t chip_seed = 1;  ///< of the currents and of which pixels are hot
+  double pedestal = 0.0;        ///< counts added after the response
+  double dark_current = 0.0;    ///< mean over the pixels, electrons per second
+  double dark_spread = 0.3;     ///< relative standard deviation of the current between pixels
+  double hot_pixels = 0.0;      ///< fraction of the pixels
+  double hot_current = 0.0;     ///< electrons per second of a hot pixel
+  double vignetting = 0.0;      ///< fraction of the light that is lost in the image's corners
+  double flicker = 0.0;         ///< relative standard deviation of each exposure, common to its pixels
+  std::uint64_t chip_seed = 1;  ///< for the currents and the positions of hot pixels
 
-  /// A camera of 12 bits on a tripod.
+  /// A 12-bit camera on a tripod.
   [[nodiscard]] static photograph_settings usual(response_curve curve = response_curve::linear) {
     return {.chip = sensor::usual(curve),
             .pedestal = 64.0,
@@ -41,7 +40,7 @@ struct photograph_settings {
   }
 };
 
-/// The radiance that reaches the chip.
+/// Returns the radiance that reaches the sensor.
 [[nodiscard]] inline gonio::image through_lens(gonio::image radiance, const photograph_settings& settings) {
   const std::size_t rows = radiance.shape(0), columns = radiance.shape(1);
   for (std::size_t row = 0; row < rows; ++row)
@@ -56,7 +55,7 @@ struct photograph_settings {
 
 namespace detail {
 
-/// A number from 0 up to 1 of two numbers, always the same (S. Vigna's splitmix64).
+/// Returns a deterministic hash of two numbers, in [0, 1) (S. Vigna's splitmix64).
 [[nodiscard]] inline double hashed(std::uint64_t seed, std::uint64_t number) {
   std::uint64_t bits = seed * 0xD1342543DE82EF95u + (number + 1) * 0x9E3779B97F4A7C15u;
   bits = (bits ^ bits >> 30) * 0xBF58476D1CE4E5B9u;
@@ -64,21 +63,21 @@ namespace detail {
   return static_cast<double>((bits ^ bits >> 31) >> 11) * 0x1p-53;
 }
 
-/// The dark current of a pixel, always the same: uniform about the mean, with the deviation that is wanted.
+/// Returns the fixed dark current of a pixel: uniform about the mean, with the given standard deviation.
 [[nodiscard]] inline double current_of_pixel(const photograph_settings& settings, std::uint64_t pixel) {
   if (hashed(settings.chip_seed, 2 * pixel) < settings.hot_pixels) return settings.hot_current;
   const double off = std::sqrt(12.0) * (hashed(settings.chip_seed, 2 * pixel + 1) - 0.5);
   return settings.dark_current * std::max(1.0 + settings.dark_spread * off, 0.0);
 }
 
-/// What the chip counts of so many electrons in the mean.
+/// Returns the sensor's count for an expected number of electrons.
 [[nodiscard]] inline std::uint16_t count_of(double electrons, const photograph_settings& settings,
                                             std::mt19937_64& generator) {
   const sensor& chip = settings.chip;
   const bool is_noisy = std::isfinite(chip.full_well);
   double counted = electrons;
   if (is_noisy) {
-    // A Poisson number is close to a normal one from some hundred electrons on.
+    // A Poisson distribution is nearly normal from some hundred electrons on.
     constexpr double many = 500.0;
     std::normal_distribution<double> normal;
     if (electrons < many)
@@ -95,7 +94,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// One photograph, of the radiance that reaches the chip. The same bytes for any number of threads.
+/// Returns one photograph of the radiance that reaches the sensor. The result does not depend on the number of threads.
 [[nodiscard]] inline gonio::stored_codes photograph(const gonio::image& radiance, double seconds,
                                                     const photograph_settings& settings, std::uint64_t seed) {
   const std::size_t rows = radiance.shape(0), columns = radiance.shape(1);
@@ -119,7 +118,7 @@ namespace detail {
   return codes;
 }
 
-/// A bracket: a photograph at each time.
+/// Returns a bracket: a photograph for each exposure time.
 [[nodiscard]] inline std::vector<gonio::capture::exposed_frame> photograph_bracket(const gonio::image& radiance,
                                                                                    std::span<const double> times,
                                                                                    const photograph_settings& settings,
@@ -131,7 +130,7 @@ namespace detail {
   return frames;
 }
 
-/// Dark frames: `each` of them at each time.
+/// Returns dark frames: `each` of them for each exposure time.
 [[nodiscard]] inline std::vector<gonio::capture::exposed_frame> photograph_dark(std::size_t rows, std::size_t columns,
                                                                                 std::span<const double> times, int each,
                                                                                 const photograph_settings& settings,
@@ -141,7 +140,7 @@ namespace detail {
   return photograph_bracket(gonio::uniform_image(rows, columns), all, settings, seed + (std::uint64_t{1} << 40));
 }
 
-/// What `merge_frames` calls a radiance of 1 that such a camera sees: the exposure per second of the middle count is 1.
+/// Returns the value that `merge_frames` gives for a radiance of 1: the middle count is at an exposure of 1 per second.
 [[nodiscard]] inline double merged_unit(const photograph_settings& settings) {
   double low = 0.0, high = 1.0;
   for (int halvings = 0; halvings < 60; ++halvings) {
@@ -151,7 +150,7 @@ namespace detail {
   return std::numbers::pi / (settings.chip.saturating * high);
 }
 
-/// The noise of such a camera, as merging wants it: in counts of a linear one.
+/// Returns the noise of such a camera for merging: in counts of a linear one.
 [[nodiscard]] inline gonio::capture::sensor_noise noise_of(const photograph_settings& settings) {
   const double counts = settings.chip.largest_count - settings.pedestal;
   if (!std::isfinite(settings.chip.full_well)) return {.read = 0.0, .shot = 0.0, .relative = settings.flicker};

@@ -1,5 +1,5 @@
 #pragma once
-/// How what is said to be straight is not.
+/// Random rotations, for simulated misalignment.
 
 #include <gonio/core/direction.hpp>
 
@@ -11,7 +11,7 @@
 
 namespace lab {
 
-/// A turn by an angle in radians about an axis that is uniform on the sphere.
+/// Returns a rotation by an angle in radians about an axis that is uniform on the sphere.
 [[nodiscard]] inline Eigen::Matrix3d random_turn(double angle, std::mt19937_64& generator) {
   std::uniform_real_distribution<double> height(-1.0, 1.0), azimuth(0.0, 2.0 * std::numbers::pi);
   const double z = height(generator);

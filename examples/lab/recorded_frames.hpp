@@ -1,7 +1,6 @@
 #pragma once
-/// Frames that a real laboratory recorded, as a goniometer: a folder of PNG files and a manifest that says which was
-/// taken where (JSON; docs/reference/formats.md). What was recorded elsewhere goes through the same path as what a
-/// machine measures now.
+/// Frames recorded in a real laboratory, as a goniometer: a folder of PNG files and a manifest with the directions of
+/// each (JSON; docs/reference/formats.md). Recorded measurements take the same path as live ones.
 
 #include "tool/files/json.hpp"
 #include <gonio/capture/device.hpp>
@@ -23,8 +22,7 @@ namespace lab {
 
 class recorded_frames {
  public:
-  /// Reads the manifest; the frames are read when they are measured. Throws gonio::error naming the manifest and the
-  /// frame of it that is not what it should be.
+  /// Reads the manifest; frames are read when they are measured. Throws gonio::error naming manifest and invalid frame.
   explicit recorded_frames(const std::filesystem::path& manifest)
       : folder_(manifest.parent_path()), name_(manifest.string()) {
     const auto bytes = gonio::io::read_bytes(manifest);
@@ -40,7 +38,7 @@ class recorded_frames {
     for (const auto& each : text["frames"].elements()) add(each);
   }
 
-  /// All pairs that were recorded, in the manifest's order.
+  /// Returns all recorded pairs of directions, in the manifest's order.
   [[nodiscard]] std::vector<gonio::direction_pair> poses() const {
     std::vector<gonio::direction_pair> all;
     for (const recorded_pose& each : recorded_) all.push_back(each.at);
@@ -67,7 +65,7 @@ class recorded_frames {
  private:
   struct recorded_pose {
     gonio::direction_pair at;
-    std::vector<std::pair<double, std::string>> frames;  ///< seconds of exposure, and the file
+    std::vector<std::pair<double, std::string>> frames;  ///< exposure time in seconds, and the file
   };
   struct window {
     std::size_t column, row, columns, rows;
@@ -84,7 +82,7 @@ class recorded_frames {
       gonio::refuse(name_ + ": '" + key + "' must be a whole number up to " + std::to_string(most));
     return static_cast<std::size_t>(value);
   }
-  /// The beginning of what is not what it should be.
+  /// Returns the beginning of an invalid entry.
   [[nodiscard]] static std::string shown(const cli::json& object) {
     return gonio::printable(object.dump().substr(0, 120));
   }
@@ -120,7 +118,7 @@ class recorded_frames {
     known->frames.emplace_back(seconds, frame["file"].text());
   }
 
-  /// A number that differs where directions do, by less than twice as much.
+  /// Returns a search key. It differs between two pairs by less than twice the difference of their directions.
   [[nodiscard]] static double key_of(const gonio::direction_pair& pair) {
     return pair.wi.dot(gonio::direction(0.61, 0.53, 0.59)) + pair.wo.dot(gonio::direction(0.37, 0.71, 0.43));
   }
@@ -139,7 +137,7 @@ class recorded_frames {
     return const_cast<recorded_pose*>(std::as_const(*this).find(pair));
   }
 
-  /// A file that is missing or damaged is a frame that did not arrive.
+  /// A missing or damaged file counts as a frame that did not arrive.
   [[nodiscard]] gonio::capture::camera_frame read_frame(const std::filesystem::path& file) const try {
     const gonio::stored_codes codes = gonio::io::read_png_codes(file);
     const window seen = window_.value_or(window{0, 0, codes.columns, codes.rows});
@@ -162,7 +160,7 @@ class recorded_frames {
   std::uint16_t largest_count_ = 0;
   std::optional<window> window_;
   std::vector<recorded_pose> recorded_;
-  std::multimap<double, std::size_t> by_key_;  ///< numbers of the poses
+  std::multimap<double, std::size_t> by_key_;  ///< indices of the poses
 };
 static_assert(gonio::capture::goniometer<recorded_frames>);
 

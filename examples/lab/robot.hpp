@@ -7,7 +7,7 @@
 
 namespace lab {
 
-/// The arc: lamps every 7.5 degrees at 1000 mm, one of which burns.
+/// The arc: lamps every 7.5 degrees at 1000 mm, one of them on.
 class lamp_arc {
  public:
   explicit lamp_arc(dark_room& room) : room_(&room), towards_(gonio::capture::arc_lamps()) {}
@@ -19,7 +19,7 @@ class lamp_arc {
   }
   void switch_off() { room_->light(false); }
 
-  /// In the sample's axes, in which the arc lies above x.
+  /// In the sample's axes; the arc lies above x.
   [[nodiscard]] const gonio::direction& towards(Eigen::Index lamp) const { return towards_[lamp]; }
   [[nodiscard]] Eigen::Index nearest(const gonio::direction& w) const {
     const auto off = [&](const gonio::direction& lamp) { return gonio::angle_between(lamp, w); };
@@ -34,8 +34,8 @@ class lamp_arc {
 };
 static_assert(gonio::capture::light_source<lamp_arc>);
 
-/// The six-axis robot with the camera in its hand. What it is told are positions and quaternions in its own axes, in
-/// which the arc lies above y.
+/// The six-axis robot with the camera in its hand. Its commands are positions and quaternions in its own axes, in which
+/// the arc lies above y.
 class robot_arm {
  public:
   explicit robot_arm(dark_room& room) : room_(&room) {}
@@ -50,7 +50,7 @@ class robot_arm {
   [[nodiscard]] const gonio::capture::camera_sphere& sphere() const { return sphere_; }
 
  private:
-  /// As the robot's controller does: it goes where it is told, and the camera sees the sample if it looks there.
+  /// Acts like the robot's controller: moves to the commanded pose. Throws if the camera does not look at the sample.
   void obey(const gonio::capture::camera_pose& pose) {
     const gonio::direction to_sample = (sphere_.centre - pose.position).normalized();
     if (gonio::angle_between(pose.looks_along(), to_sample) > gonio::radians(0.01))
@@ -65,8 +65,8 @@ class robot_arm {
 };
 static_assert(gonio::capture::positioner<robot_arm>);
 
-/// Robot and arc. A light of which the nearest lamp is farther than `tolerance` cannot be had; else it is measured
-/// where that lamp is.
+/// Robot and arc. A direction of the light is unreachable if the nearest lamp is more than `tolerance` away; else the
+/// pair is measured with that lamp.
 class robot {
  public:
   explicit robot(dark_room& room, double tolerance = gonio::radians(0.5))
@@ -92,7 +92,7 @@ class robot {
   [[nodiscard]] std::uint16_t largest_count() const { return camera_.largest_count(); }
   [[nodiscard]] const lamp_arc& arc() const { return arc_; }
 
-  /// The camera in its hand, in the robot's axes.
+  /// The camera in the robot's hand, in the robot's axes.
   [[nodiscard]] std::vector<carried_tool> tools() const {
     return {{"camera", arm_.sphere(), &gonio::direction_pair::wo}};
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// A simulated laboratory for photographs of a sphere: a lens camera at a finite distance that darkens towards the
-/// corners, a lamp whose light falls off, and noise.
+/// A simulated laboratory for photographs of a sphere: a lens camera at a finite distance with vignetting, a point
+/// lamp, and noise.
 
 #include "white_material.hpp"
 #include <gonio/capture/known_surface.hpp>
@@ -20,14 +20,14 @@
 
 namespace lab {
 
-/// What a camera does to radiance.
+/// The defects of a camera.
 struct camera_defects {
-  double noise = 0.0;       ///< standard deviation relative to the value, in each channel of each pixel
+  double noise = 0.0;       ///< relative standard deviation, for each channel of each pixel
   double background = 0.0;  ///< standard deviation of the dark background, in the unit of radiance
-  bool vignetting = false;  ///< by the fourth power of the cosine to the axis, and 40 % more at the corners
+  bool vignetting = false;  ///< by the fourth power of the cosine to the axis, and by another 40 % at the corners
 };
 
-/// The radiance that a ray brings from a sphere under a lamp; nothing beside the sphere.
+/// Returns the radiance along a ray from a sphere under a lamp; nothing if the ray misses the sphere.
 template <gonio::brdf Brdf>
 [[nodiscard]] std::optional<gonio::rgb> radiance_along(const gonio::ray& line, const Brdf& material,
                                                        const gonio::capture::placed_sphere& sphere,
@@ -45,7 +45,7 @@ template <gonio::brdf Brdf>
   return gonio::rgb(gonio::rgb(material(wi, wo)) * lamp.intensity * (wi.z() / away.squaredNorm()));
 }
 
-/// How much of the light a camera lets through at a place of the image.
+/// Returns the camera's transmission at an image position.
 [[nodiscard]] inline double transmission(const gonio::lens_camera& camera, double column, double row) {
   const gonio::camera_intrinsics& size = camera.intrinsics();
   const Eigen::Vector2d off((column - size.principal_x) / static_cast<double>(size.columns),
@@ -54,8 +54,8 @@ template <gonio::brdf Brdf>
   return std::pow(cosine, 4) * (1.0 - 0.8 * off.squaredNorm());
 }
 
-/// A photograph of a sphere of the material on a dark ground; each pixel is the mean of 4 x 4 rays. The defects come
-/// from the seed alone.
+/// Returns a photograph of a sphere of the material on a dark ground; each pixel is the mean of 4 x 4 rays. The seed
+/// determines the defects.
 template <gonio::brdf Brdf>
 [[nodiscard]] gonio::image photograph(const Brdf& material, const gonio::capture::placed_sphere& sphere,
                                       const gonio::lens_camera& camera, const gonio::capture::point_lamp& lamp,

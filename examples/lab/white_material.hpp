@@ -8,7 +8,7 @@
 
 namespace lab {
 
-/// A surface that reflects evenly.
+/// A Lambertian surface.
 struct white_material {
   double reflectance = 1.0;
 

@@ -1,4 +1,4 @@
-/// The same prior and the same 20 samples with several solvers, judged by the truth.
+/// Compares several solvers with the same prior and the same 20 samples against the truth.
 
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/comparison.hpp>

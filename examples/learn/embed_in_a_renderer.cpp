@@ -1,4 +1,4 @@
-/// What a renderer does with a BRDF: look it up, and draw directions towards the light by its importance.
+/// Embeds a BRDF in a renderer: evaluates it, and importance-samples directions towards the light.
 
 #include <gonio/io/materials/merl.hpp>
 #include <gonio/render.hpp>
@@ -11,12 +11,12 @@ int main() {
       gonio::render::lookup_table<Eigen::half>::of(gonio::io::read_merl("paint.binary")));
 
   const gonio::direction wo(0.6, 0.0, 0.8);                     // towards the viewer
-  const auto [wi, weight, pdf] = paint.sample(wo, 0.25, 0.75);  // towards the light, by two random numbers
+  const auto [wi, weight, pdf] = paint.sample(wo, 0.25, 0.75);  // towards the light, from two random numbers
   const gonio::rgb f = paint.brdf()(wi, wo);                    // weight * pdf is f * wi.z()
   std::printf("f(wi, wo) red %.4f sr^-1, pdf %.4f sr^-1\n", f.x(), pdf);
   if (pdf != paint.pdf(wi, wo) || (weight * pdf - f * wi.z()).abs().maxCoeff() > 1e-9) return 1;
 
-  // The share of the light from all around that goes to the viewer: the mean of the weights.
+  // The albedo: the mean of the weights.
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> number;
   gonio::rgb sum = gonio::rgb::Zero();

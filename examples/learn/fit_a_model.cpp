@@ -1,4 +1,4 @@
-/// A Lambertian lobe and a GGX lobe fitted to 20 samples.
+/// Fits a Lambertian lobe and a GGX lobe to 20 samples.
 
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/metric/log.hpp>
@@ -22,10 +22,10 @@ int main() {
       std::printf(", %s %.4f", std::string(lobe.kind().parameters()[i].name).c_str(), lobe.parameters()[i]);
     std::printf("\n");
   }
-  // In the model's own terms.
+  // The fitted parameters by name.
   const gonio::model::lobe<gonio::model::ggx_shape> gloss = fit.model.lobes()[1].as<gonio::model::ggx_shape>();
   std::printf("alpha of the gloss: %.3f\n", gloss.shape().alpha);
-  // The model is a BRDF, as a table is.
+  // The model is a BRDF, like a table.
   const auto [wi, wo] = gonio::to_directions({gonio::radians(2.0), gonio::radians(20.0), gonio::radians(90.0)});
   std::printf("red near the highlight: %.4f sr^-1\n", fit.model(wi, wo).x());
 }

@@ -1,4 +1,4 @@
-/// 20 measurements, one of them wrong: which one, what the paint is in other directions, and how sure that is.
+/// 20 measurements, one of them wrong: finds the wrong one, predicts other directions, and gives the uncertainty.
 
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/materials/prior.hpp>
@@ -11,13 +11,13 @@ int main() {
   gonio::sample_set samples = gonio::io::read_samples("measurements.csv");
   samples[5].value *= 8.0;
 
-  // Values are good to 2 %. Samples that all others contradict are rejected.
+  // The measurements have 2 % noise. Samples that contradict all others are rejected.
   const auto paint = gonio::reconstruction{prior, {.noise = 0.02}}.fit(samples);
   for (const gonio::outlying_sample& out : paint.contradicted())
     std::printf("sample %td is wrong with %.1f %%: measured %.3f, the others say %.3f\n", out.number + 1,
                 100.0 * out.probability, out.measured.y(), out.predicted.y());
 
-  // Ask how sure the rest is.
+  // Ask for the uncertainty in other directions.
   const auto show = [&](const char* name, double theta_h, double theta_d) {
     const auto [wi, wo] =
         gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(90.0)});

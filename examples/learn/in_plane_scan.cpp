@@ -1,5 +1,6 @@
-/// An in-plane scan as goniometers make it: the light stands still, the viewer goes from grazing on its side over the
-/// normal to grazing on the other side. The instrument gives the BRDF times the cosine of the light's angle.
+/// An in-plane scan as goniometers make it: the light is fixed, and the viewer moves from grazing on the light's side
+/// through the normal to grazing on the other side. The instrument gives the BRDF times the cosine of the light's
+/// angle.
 
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/io/materials/prior.hpp>
@@ -9,8 +10,8 @@
 #include <cmath>
 #include <cstdio>
 
-/// The viewer in the plane of light and normal. A positive angle is on the far side from the light, where the mirror
-/// direction is; a negative one is on the light's side, where -theta_i is retro-reflection.
+/// Returns the viewer's direction in the plane of light and normal. A positive angle is on the side of the mirror
+/// direction, a negative one on the light's side, where -theta_i is retro-reflection.
 gonio::direction viewer(double signed_angle) {
   const double azimuth = signed_angle >= 0.0 ? gonio::radians(180.0) : 0.0;  // the light's azimuth is 0
   return gonio::spherical_direction(std::abs(signed_angle), azimuth);
@@ -18,7 +19,7 @@ gonio::direction viewer(double signed_angle) {
 
 int main() {
   const auto prior = gonio::io::read_prior("materials.prior");
-  const auto truth = gonio::model::formula_material("red-paint");  // what lies in the instrument
+  const auto truth = gonio::model::formula_material("red-paint");  // the sample in the instrument
   const double theta_i = gonio::radians(45.0);
   const gonio::direction light = gonio::spherical_direction(theta_i, 0.0);
 

@@ -1,4 +1,5 @@
-/// Two images of a flat sample from close by. Light and camera are half a degree off where they are said to be.
+/// Two images of a flat sample from a short distance. Light and camera are half a degree away from their stated
+/// directions.
 
 #include "lab/near_field_lab.hpp"
 #include <gonio/design/near_field_geometry.hpp>

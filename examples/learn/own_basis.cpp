@@ -1,4 +1,4 @@
-/// A basis of your own: a constant and two lobes about the half vector, computed wherever they are asked for.
+/// A basis of your own: a constant and two lobes about the half vector, computed on demand.
 
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/io/measurements/samples.hpp>
@@ -19,7 +19,7 @@ class lobes {
   const gonio::valid_cells& cells() const { return cells_; }
   double offset(Eigen::Index /*cell*/) const { return 0.0; }
   gonio::log metric() const { return {}; }
-  /// The values of all functions at a location, in the metric's domain.
+  /// Returns the values of all functions at a location, in the metric's domain.
   void read_row(const gonio::location& at, gonio::function_row out) const {
     out[0] = 1.0;
     for (std::size_t i = 0; i < exponents.size(); ++i) out[i + 1] = std::pow(std::cos(at.angles.theta_h), exponents[i]);

@@ -1,5 +1,5 @@
-/// A machine of your own: what a driver offers, a scan of it that goes on where it was stopped, and the values. This
-/// machine has no lamp and no camera: it counts what a formula material would send.
+/// A machine of your own: its driver, a scan that resumes where it was stopped, and the measured values. This machine
+/// has no lamp and no camera: it returns the counts that a formula material would give.
 
 #include <gonio/capture/calibration.hpp>
 #include <gonio/capture/scan.hpp>
@@ -13,7 +13,7 @@
 #include <string>
 
 struct desk_goniometer {
-  gonio::model::formula_brdf sample;  // what lies in the machine
+  gonio::model::formula_brdf sample;  // the sample in the machine
 
   gonio::capture::placement place(const gonio::direction_pair& pair) const {
     const double lowest = std::max(gonio::polar_angle(pair.wi), gonio::polar_angle(pair.wo));
@@ -52,7 +52,7 @@ int main() {
 
   const auto linear = gonio::capture::camera_response::power_law(4095);
   const gonio::capture::calibration known{.responses = {linear, linear, linear},
-                                          .reflectance = 0.18};  // of the white one
+                                          .reflectance = 0.18};  // of the white reference
   for (std::size_t i = 0; i < 3; ++i) {
     const auto found =
         gonio::capture::measure_reflectance(*paint.readings[i], *white.readings[i], plan.poses[i], known);

@@ -1,5 +1,5 @@
-/// A metric of your own: the cube root of reflectance, which is about how bright it looks. It combines the materials of
-/// the prior with weights that are not negative, and so do two of the library's metrics.
+/// A metric of your own: the cube root of reflectance, roughly its perceived brightness. The program fits nonnegative
+/// weights of the prior's materials with it and with two of the library's metrics.
 
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/measured.hpp>

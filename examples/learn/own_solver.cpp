@@ -1,5 +1,5 @@
-/// A solver of your own: ridge regression by Gauss and Seidel's method, one weight after the other. It finds what
-/// gonio::tikhonov finds.
+/// A solver of your own: ridge regression by the Gauss-Seidel method, one weight after the other. It finds the same
+/// weights as gonio::tikhonov.
 
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/io/materials/prior.hpp>
@@ -16,7 +16,7 @@ struct gauss_seidel {
     const gonio::normal_equations& rows = problem.normal();
     Eigen::MatrixXd penalised = rows.gram();
     penalised.diagonal().array() += eta;
-    const gonio::normal_equations all(penalised, rows.rhs());  // its optimality conditions are ours
+    const gonio::normal_equations all(penalised, rows.rhs());  // same optimality conditions as the penalised problem
 
     Eigen::MatrixXd x = Eigen::MatrixXd::Zero(all.unknowns(), all.right_hand_sides());
     for (int sweep = 1; sweep <= 100'000; ++sweep) {

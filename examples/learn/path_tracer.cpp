@@ -1,6 +1,6 @@
-/// A path tracer of one page: ten materials reconstructed from 20 samples each (front row) beside the truth (behind),
-/// as spheres on a floor in one environment. It uses what a renderer would: gonio/render.hpp to look a BRDF up and to
-/// sample it. The materials are those that a prior remembers; what reconstructs ten of them is learned from the others.
+/// A path tracer on one page: ten materials reconstructed from 20 samples each (front row) and their true BRDFs (back
+/// row), as spheres on a floor in one environment. Like a renderer it uses gonio/render.hpp to evaluate and sample a
+/// BRDF. The true BRDFs are a prior's own materials; the reconstruction's prior is learned from its other materials.
 /// Usage: example_path_tracer materials.prior spheres.png [ENVIRONMENT.hdr] [SAMPLES]
 
 #include <gonio/basis/expand_materials.hpp>
@@ -35,18 +35,18 @@ struct sphere {
   const material* made_of;
 };
 
-/// Where a ray meets a surface.
+/// A ray's intersection with a surface.
 struct hit {
   double distance = 1e30;
   direction normal = direction::UnitY();
-  const material* made_of = nullptr;  // the floor has none: it is grey
+  const material* made_of = nullptr;  // null for the floor, which is grey
 };
 
 struct scene {
   std::vector<sphere> spheres;
   gonio::render::environment_sampler light;
 
-  /// The nearest surface along a ray: a sphere, or the floor y = 0.
+  /// Returns the nearest surface along a ray: a sphere, or the floor y = 0.
   [[nodiscard]] std::optional<hit> meet(const direction& from, const direction& towards) const {
     hit nearest;
     for (const sphere& ball : spheres) {
@@ -66,7 +66,7 @@ struct scene {
 
 constexpr double floor_albedo = 0.25;
 
-/// The BRDF, the density and a draw of a surface, whether it is a sphere's or the floor's.
+/// BRDF, density and sampling of a surface: a sphere or the floor.
 rgb reflectance(const hit& at, const direction& wi, const direction& wo) {
   return at.made_of ? rgb(at.made_of->brdf()(wi, wo)) : rgb(rgb::Constant(floor_albedo * std::numbers::inv_pi));
 }
@@ -79,12 +79,12 @@ gonio::sampled_direction draw(const hit& at, const direction& wo, double u1, dou
   return {wi, rgb::Constant(floor_albedo), gonio::cosine_weighted_pdf(wi)};
 }
 
-/// Radiance that comes from a direction: at each surface one draw of the environment and one of the material, weighted
-/// by the balance heuristic, and on along the latter.
+/// Returns the radiance from a direction. At each surface, one sample of the environment and one of the material are
+/// combined by the balance heuristic; the path continues along the latter.
 template <class Number>
 rgb radiance(const scene& world, direction from, direction towards, Number& number) {
   rgb sum = rgb::Zero(), carried = rgb::Ones();
-  double density_of_ray = 0.0;  // of the camera's ray: the environment is seen as it is
+  double density_of_ray = 0.0;  // a camera ray sees the environment directly
   for (int bounce = 0; bounce < 8; ++bounce) {
     const auto met = world.meet(from, towards);
     if (!met) {
@@ -134,7 +134,7 @@ gonio::image render(const scene& world, std::size_t rows, std::size_t columns, i
   return image;
 }
 
-/// Truth and estimate in turn of the ten test materials of Nielsen et al. 2015.
+/// Returns truth and estimate, alternating, for the ten test materials of Nielsen et al. 2015.
 std::vector<material> measured_and_reconstructed(const std::filesystem::path& prior_file) {
   const auto all = gonio::expand(gonio::io::read_prior(prior_file));
   std::vector<Eigen::Index> tested, others;

@@ -1,4 +1,5 @@
-/// 2000 measurements, a fifth of them wrong: a least-squares fit follows them, a robust reconstruction does not.
+/// 2000 measurements, a fifth of them wrong: a least-squares fit follows the outliers, a robust reconstruction does
+/// not.
 
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
@@ -15,7 +16,7 @@
 #include <cstdio>
 
 int main() {
-  // Fewer cells than the prior's: this program is to be done in seconds.
+  // Fewer cells than the prior's, so that this program takes only seconds.
   const gonio::valid_cells cells(gonio::grid({45, 15, 18}));
   const auto prior = gonio::thin(gonio::io::read_prior("materials.prior"), cells);
   const gonio::measured materials{gonio::expand(prior), gonio::log{}};

@@ -1,4 +1,4 @@
-/// Sixty synthetic ear canals are learned; the hole in the scan of another one is filled by what they have in common.
+/// Learns a shape model from sixty synthetic ear canals and fills the hole in the scan of another one.
 
 #include "synthetic/ear_canal_scans.hpp"
 #include <gonio/shape.hpp>
@@ -8,7 +8,7 @@
 #include <vector>
 
 int main() {
-  // The same 500 vertices in each of 60 shapes. Yours come from files: gonio::io::read_mesh.
+  // The same 500 vertices in each of 60 shapes. Read your own from files with gonio::io::read_mesh.
   const synthetic::ear_canal_family family;
   const synthetic::ear_canal_template common{500};
   std::vector<gonio::shape::point_columns> shapes;
@@ -26,7 +26,7 @@ int main() {
   const gonio::shape::surface_index scan(ear.mesh);
   const auto pose = gonio::shape::align_by_shape_context(scan.mesh(), model.mean()).transform;
   const gonio::shape::recovered_shape found = gonio::shape::recover(model, scan, pose);
-  // All is in the model's space: back to that of the scan.
+  // Transform the result from the model's space to the scan's.
   const gonio::shape::point_columns vertices = found.pose.inverse()(found.surface.vertices);
 
   std::vector<Eigen::Index> hole;

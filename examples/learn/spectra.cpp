@@ -1,5 +1,5 @@
-/// A spectral measurement: 20 directions at 16 wavelengths. Each wavelength is fitted as a grey material, all of them
-/// in one system; colours are made at the end, under whatever light is asked for.
+/// A spectral measurement: 20 directions at 16 wavelengths. Each wavelength is fitted as a grey material, all in one
+/// system. Colours are computed at the end, under any illuminant.
 
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/io/materials/prior.hpp>
@@ -12,10 +12,10 @@
 
 int main() {
   const auto prior = gonio::io::read_prior("materials.prior");
-  const auto truth = gonio::model::formula_material("red-paint");  // what lies in the instrument, in RGB:
+  const auto truth = gonio::model::formula_material("red-paint");  // the sample in the instrument, in RGB:
   std::vector<double> wavelengths;
   for (int nanometres = 400; nanometres <= 700; nanometres += 20) wavelengths.push_back(nanometres);
-  const gonio::model::smooth_spectra smooth(wavelengths);  // spectra that have its colours
+  const gonio::model::smooth_spectra smooth(wavelengths);  // spectra with these colours
 
   const auto directions = gonio::io::read_directions("nielsen-20.csv");
   gonio::sample_set measured{gonio::channels(wavelengths)};

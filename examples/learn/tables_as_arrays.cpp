@@ -1,4 +1,4 @@
-/// A table as an array of xtensor: changed in place, looked at along its angles, written for numpy and read back.
+/// A table as an xtensor array: changed in place, viewed along its angles, written for numpy and read back.
 
 #include <gonio/io/bytes/npy.hpp>
 #include <gonio/model/formula_materials.hpp>
@@ -19,10 +19,10 @@ int main() {
   };
   show("red", paint);
 
-  // A view of the table's own memory, cells x 3: what is written to it is in the table.
+  // A view of the table's own memory, cells x 3: writing to the view changes the table.
   auto values = gonio::tensor_view(paint);
   std::printf("%zu cells x %zu channels\n", values.shape(0), values.shape(1));
-  xt::view(values, xt::all(), 1) = xt::view(values, xt::all(), 0);  // green as red is: yellow
+  xt::view(values, xt::all(), 1) = xt::view(values, xt::all(), 0);  // copy red to green: yellow
   show("yellow", paint);
 
   // A copy along the angles, theta_h x theta_d x phi_d x 3, with NaN below the horizon.
@@ -36,7 +36,7 @@ int main() {
                 dense.shape(0));
   }
 
-  // To a file that numpy.load reads, and back.
+  // Write a file for numpy.load, and read it back.
   gonio::io::write_npy("yellow.npy", xt::xtensor<float, 2>(values));
   const xt::xtensor<float, 2> stored = gonio::io::read_npy<float, 2>("yellow.npy");
   show("read back", gonio::brdf_table(cells, {stored.begin(), stored.end()}));

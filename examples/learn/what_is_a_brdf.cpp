@@ -1,4 +1,4 @@
-/// A BRDF, asked: how bright from where, how much of the light comes back, and what is the same both ways.
+/// Evaluates a BRDF: its values, its albedo, and its reciprocity.
 
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/model/lambert.hpp>
@@ -7,9 +7,8 @@
 #include <cstdio>
 #include <numbers>
 
-/// The share of the light from wi that is reflected in all directions together: the integral of f cos(theta_o) over the
-/// hemisphere, by the midpoint rule in theta_o and phi_o. The library has model::directional_albedo, which resolves
-/// narrow highlights as well.
+/// Returns the directional albedo for light from wi: the integral of f cos(theta_o) over the hemisphere, by the
+/// midpoint rule in theta_o and phi_o. The library's model::directional_albedo also resolves narrow highlights.
 template <gonio::brdf Brdf>
 double albedo(const Brdf& f, const gonio::direction& wi) {
   constexpr int steps = 400;

@@ -1,4 +1,4 @@
-/// Where five measurements tell the materials of a prior apart best.
+/// Finds the five measurements that best distinguish the materials of a prior.
 
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/design/cell_candidates.hpp>
@@ -10,7 +10,7 @@
 #include <cstdio>
 
 int main() {
-  // Every cell is a candidate; fewer cells than the prior's are searched faster.
+  // Every cell is a candidate. Fewer cells than the prior's make the search faster.
   const gonio::valid_cells cells(gonio::grid({45, 15, 18}));
   const auto prior = gonio::thin(gonio::io::read_prior("materials.prior"), cells);
   const gonio::design::expected_error criterion(prior, {.leave_out = true});
@@ -18,7 +18,7 @@ int main() {
   const gonio::design::capture_plan greedy = gonio::design::grow_greedily(candidates, 5);
   const gonio::design::capture_plan best = gonio::design::exchange(candidates, greedy);
   const auto published = gonio::cells_at(cells, gonio::design::nielsen_directions(5));
-  // Shares of the error that is expected without any measurement.
+  // As fractions of the error expected without any measurement.
   const double nothing = candidates({}) / 100.0;
   std::printf("expected error: %.1f %% after five chosen one by one, %.1f %% exchanged, %.1f %% of Nielsen et al.\n",
               greedy.value / nothing, best.value / nothing, candidates(published) / nothing);

@@ -1,4 +1,4 @@
-/// Why 20 measurements are enough: 137 materials differ in few ways, and each measurement tells of all of them.
+/// Why 20 measurements are enough: 137 materials vary in few ways, and each measurement informs about all of them.
 
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/decomposition.hpp>
@@ -14,13 +14,13 @@ int main() {
   const gonio::valid_cells cells(gonio::grid({90, 30, 36}));
   const gonio::appearance_metric appearance(cells);
 
-  // How much of what tells the materials apart is in the first components?
+  // How much of the variance between the materials is in the first components?
   const Eigen::ArrayXd squares = prior.singular_values().array().square();
   for (const Eigen::Index first : {1, 5, 20})
     std::printf("the first %2td of %td components: %.1f %% of the variance\n", first, prior.size(),
                 100.0 * prior.explained_variance() * squares.head(first).sum() / squares.sum());
 
-  // Measure two materials that are in no database at 1 to 20 directions.
+  // Measure two materials that are in no database, in 1 to 20 directions.
   std::printf("Delta E of a sphere\n%-12s %8s %8s\n", "measurements", "paint", "rubber");
   for (const Eigen::Index count : {1, 2, 5, 10, 20}) {
     std::printf("%-12td", count);

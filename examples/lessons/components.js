@@ -1,12 +1,12 @@
-// Lesson 2: a material of five numbers under a light, and how the error falls with the number of measurements.
+// Lesson 2: a material made of five numbers, and the error as a function of the number of measurements.
 
-// What docs/learn/components.md sees in the components of the prior that ships.
+// Meanings of the shipped prior's components, as in docs/learn/components.md.
 const named = ["Height of the highlight", "Brightness of all else", "Width of the highlight", "Grazing angles (Fresnel)", "A mixture"];
 const keys = named.map((_, i) => `component_${i + 1}`);
 for (const key of keys) viewer.state[key] = 0;
 
 // ---- the material ----------------------------------------------------------------------------------------------
-// A table of the viewer whose values change: the same texels as read_table makes (tables.js).
+// A table for the viewer with changing values, in the texels that read_table makes (tables.js).
 class changing_table {
   constructor(cells) {
     this.cells = cells;
@@ -21,12 +21,12 @@ class changing_table {
     this.scale = 1;
   }
 
-  // As the viewer takes it.
+  // The table in the viewer's form.
   get shown() { return { grid: this.cells.grid, shift: 0.5 - this.cells.offset, scale: 16384 * this.scale, texels: this.texels }; }
 
   take(values) {
     const largest = values.reduce((most, each) => Math.max(most, each), 1e-9);
-    this.scale = 2 ** (Math.ceil(Math.log2(largest)) - 15); // half floats hold up to 65504
+    this.scale = 2 ** (Math.ceil(Math.log2(largest)) - 15); // half floats reach 65504
     for (let cell = 0; cell < this.numbers.length; ++cell) {
       const weight = this.weights[cell], first = 3 * this.numbers[cell];
       for (let channel = 0; channel < 3; ++channel) this.texels[4 * cell + channel] = values[first + channel] / this.scale * weight;
@@ -42,9 +42,9 @@ class changing_table {
   }
 }
 
-let shown_table = null; // the one on the sphere
+let shown_table = null; // the table on the sphere
 
-// Weights, red, then green, then blue, of a start and of what the sliders add in all channels alike.
+// Weights (red, then green, then blue) of the start material plus the sliders' change, equal in all channels.
 const weights_by = (start, deviations) => start.map((weight, i) => weight + viewer.state[keys[i % keys.length]] * deviations[i % keys.length]);
 
 function choose_start(materials, changed) {

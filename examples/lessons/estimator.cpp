@@ -1,6 +1,6 @@
-/// What the pages of the lessons compute, as WebAssembly: the library's own estimators on the prior that ships. A page
-/// and this program exchange doubles in one buffer: each function says what it finds there and what it leaves. Angles
-/// are in degrees, reflectance in sr^-1.
+/// The computations of the lesson pages, as WebAssembly: the library's own estimators with the shipped prior. A page
+/// and this program exchange doubles in one buffer; the comment of each function states its input ("Finds") and output
+/// ("Leaves"). Angles are in degrees, reflectance in sr^-1.
 
 #include <gonio/basis/component_variance.hpp>
 #include <gonio/design/published_directions.hpp>
@@ -24,11 +24,11 @@
 
 #define PAGE_CALLS(name) extern "C" __attribute__((export_name(#name)))  // NOLINT: attributes are no expressions
 
-/// Of the page: it is told a message and throws it.
+/// Implemented by the page: throws the message.
 extern "C" __attribute__((import_module("page"), import_name("refused"))) [[noreturn]] void refused(
     const char* message);
 
-// Nothing is caught here: an exception ends the call, and the page has its message.
+// No exception is caught here: it ends the call, and the page receives its message.
 extern "C" void* __cxa_allocate_exception(std::size_t size) noexcept { return std::malloc(size); }     // NOLINT
 extern "C" [[noreturn]] void __cxa_throw(void* thrown, void* /*type*/, void (* /*destroy*/)(void*)) {  // NOLINT
   refused(static_cast<const std::exception*>(thrown)->what());
@@ -41,21 +41,21 @@ constexpr Eigen::Index shown_components = 5;
 std::vector<double> buffer;
 std::optional<gonio::log_relative_pca> prior, first_components;
 
-/// Weights of the first components in a column for each channel.
+/// The weights of the first components, one column for each channel.
 auto weights_in_buffer() { return Eigen::Map<Eigen::MatrixXd>(buffer.data(), shown_components, 3); }
 
-/// A scan in the plane of a light at 45 degrees, of the viewer: positive angles are on the side of the mirror
+/// An in-plane scan of the viewer with the light at 45 degrees; positive angles are on the side of the mirror
 /// direction.
 constexpr double light = 45.0, last_sample = 75.0, sample_step = 5.0, last_of_curve = 85.0, curve_step = 0.5;
 constexpr double scan_noise = 0.02;
 
 gonio::direction_pair in_plane(double theta_o) {
-  // Without a turn by pi, whose rounding would give the half vector of the mirror direction an azimuth.
+  // Avoids a rotation by pi, whose rounding would give the half vector of the mirror direction an azimuth.
   return {gonio::spherical_direction(gonio::radians(light), 0.0),
           gonio::spherical_direction(gonio::radians(-theta_o), 0.0)};
 }
 
-/// From -last to last.
+/// Returns angles from -last to last.
 std::vector<double> angles_of(double last, double step) {
   std::vector<double> angles;
   for (Eigen::Index i = 0; static_cast<double>(i) * step <= 2.0 * last; ++i)
@@ -78,7 +78,7 @@ const gonio::model::formula_brdf& scanned_material() {
 
 }  // namespace
 
-/// Resizes the buffer to so many doubles; returns where it is. All memory may move when it grows.
+/// Resizes the buffer to `doubles` elements and returns its address. All memory may move when it grows.
 PAGE_CALLS(buffer_of) double* buffer_of(Eigen::Index doubles) {
   buffer.resize(doubles);
   return buffer.data();
@@ -86,14 +86,14 @@ PAGE_CALLS(buffer_of) double* buffer_of(Eigen::Index doubles) {
 
 PAGE_CALLS(buffer_size) Eigen::Index buffer_size() { return std::ssize(buffer); }
 
-/// Finds: the inflated payload of a prior's file, of so many bytes.
+/// Finds: the inflated payload of a prior's file, with its number of bytes as argument.
 PAGE_CALLS(take_prior) void take_prior(std::size_t bytes) {
   gonio::io::byte_reader in(std::as_bytes(std::span(buffer)).first(bytes), "the prior of the page");
   prior = gonio::io::read_prior(in, "the prior of the page");
   first_components = prior->truncated(shown_components);
 }
 
-/// Leaves: of each component that is shown the standard deviation of its weights, and its share of the variance.
+/// Leaves: for each shown component, the standard deviation of its weights, then its fraction of the variance.
 PAGE_CALLS(describe_components) void describe_components() {
   const Eigen::VectorXd deviations = gonio::weight_deviations(prior->coefficients());
   const Eigen::VectorXd shares = gonio::variance_shares(*prior);
@@ -101,7 +101,7 @@ PAGE_CALLS(describe_components) void describe_components() {
   buffer.insert(buffer.end(), shares.begin(), shares.begin() + shown_components);
 }
 
-/// Leaves: weights of a material of the prior. Returns whether there is one of that number.
+/// Leaves: the weights of a material of the prior. Returns false if its number is too large.
 PAGE_CALLS(weights_of) bool weights_of(Eigen::Index material) {
   if (material >= std::ssize(prior->names())) return false;
   buffer.resize(3 * shown_components);
@@ -109,11 +109,11 @@ PAGE_CALLS(weights_of) bool weights_of(Eigen::Index material) {
   return true;
 }
 
-/// The name of a material of the prior, as a C string.
+/// Returns the name of a material of the prior as a C string.
 PAGE_CALLS(name_of) const char* name_of(Eigen::Index material) { return prior->names()[material].c_str(); }
 
-/// Leaves: the numbers of theta_h, theta_d and phi_d of the prior's grid, where in a cell its node is, the smallest
-/// cosine of a valid cell, and the number of valid cells.
+/// Leaves: the extents of the prior's grid in theta_h, theta_d and phi_d, the position of the node in a cell, the
+/// smallest cosine of a valid cell, and the number of valid cells.
 PAGE_CALLS(describe_cells) void describe_cells() {
   const gonio::valid_cells& cells = prior->cells();
   const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
@@ -129,9 +129,8 @@ PAGE_CALLS(tabulate) const float* tabulate() {
   return table.values().data();
 }
 
-/// Finds: nothing. Delta E of a sphere of a formula material (0: red-paint, 1: blue-rubber), reconstructed from one of
-/// the sets of 1, 2, 5, 10 and 20 directions of Nielsen et al. 2015 by so many components:
-/// examples/learn/why_twenty.cpp.
+/// Finds: nothing. Returns Delta E of a sphere of a formula material (0: red-paint, 1: blue-rubber) reconstructed with
+/// a number of components from 1, 2, 5, 10 or 20 directions of Nielsen et al. 2015: examples/learn/why_twenty.cpp.
 PAGE_CALLS(delta_e) double delta_e(int material, Eigen::Index directions, Eigen::Index components) {
   static const gonio::appearance_metric appearance(gonio::valid_cells(gonio::grid({90, 30, 36})));
   static const std::array names{"red-paint", "blue-rubber"};
@@ -146,7 +145,7 @@ PAGE_CALLS(delta_e) double delta_e(int material, Eigen::Index directions, Eigen:
       .environment;
 }
 
-/// Leaves: of each sample of the scan the angle of the viewer.
+/// Leaves: the viewer's angle for each sample of the scan.
 PAGE_CALLS(sample_angles) void sample_angles() { buffer = angles_of(last_sample, sample_step); }
 
 /// Leaves: red, green and blue of each sample, with noise.
@@ -162,7 +161,7 @@ PAGE_CALLS(measure_scan) void measure_scan() {
     buffer.insert(buffer.end(), each.value.begin(), each.value.end());
 }
 
-/// Leaves: of each point of a curve the angle of the viewer.
+/// Leaves: the viewer's angle for each point of the curve.
 PAGE_CALLS(curve_angles) void curve_angles() { buffer = angles_of(last_of_curve, curve_step); }
 
 /// Leaves: red, green and blue of the truth along the curve.
@@ -172,8 +171,8 @@ PAGE_CALLS(true_curve) void true_curve() {
 }
 
 /// Finds: red, green and blue of each sample, as `measure_scan` leaves them. Leaves: Delta E of a sphere, the mapped
-/// rms over all directions, of each sample the probability that it is wrong, or 0 where it is kept, and the curve.
-/// `rejects`: as gonio reconstruct does it, else as with --no-reject.
+/// rms over all directions, for each sample the probability that it is wrong (0 if it is kept), and the curve.
+/// `rejects`: as in `gonio reconstruct`; else as with --no-reject.
 PAGE_CALLS(fit_scan) void fit_scan(bool rejects) {
   static const gonio::appearance_metric appearance(prior->cells());
   static const gonio::brdf_table truth = gonio::tabulate(scanned_material(), appearance.cells());

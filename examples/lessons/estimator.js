@@ -1,20 +1,20 @@
-// The estimator of a lesson's page: gonio, compiled to WebAssembly (estimator.cpp). And what both pages share.
+// The estimator of the lesson pages: gonio compiled to WebAssembly (estimator.cpp), and functions that both pages use.
 
 const painted = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
 
-// Of a chart that wants so many pixels, as far as the page has them.
+// Returns a chart's width: at most `most` pixels, and not wider than the page.
 const width_of = (most) => Math.min(most, page.clientWidth - 40);
 
 class estimator {
   constructor(calls) { this.calls = calls; }
 
-  // The C string at an address of a module's memory.
+  // Returns the C string at an address of a module's memory.
   static text(memory, address) {
     const bytes = new Uint8Array(memory.buffer, address);
     return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
   }
 
-  // Throws Error where the browser has no WebAssembly, or the data are not what they should be.
+  // Throws Error if the browser has no WebAssembly or the data are invalid.
   static async start() {
     if (typeof WebAssembly === "undefined") throw new Error("this browser has no WebAssembly");
     const module = Uint8Array.from(atob(data.estimator), (each) => each.charCodeAt(0)), prior = await inflated(data.prior);
@@ -23,13 +23,13 @@ class estimator {
     const { instance: made } = await WebAssembly.instantiate(module, { page: { refused }, wasi_snapshot_preview1: no_files });
     made.exports._initialize();
     const started = new estimator(made.exports);
-    const buffer = made.exports.buffer_of(Math.ceil(prior.length / 8)); // which may move the memory
+    const buffer = made.exports.buffer_of(Math.ceil(prior.length / 8)); // may move the memory
     new Uint8Array(made.exports.memory.buffer, buffer).set(prior);
     made.exports.take_prior(prior.length);
     return started;
   }
 
-  // Calls a function that finds numbers, and returns those that it leaves.
+  // Calls a function with numbers in the buffer and returns the numbers that it leaves there.
   ask(name, numbers = [], ...words) {
     this.tell(numbers);
     this.calls[name](...words);
@@ -42,7 +42,7 @@ class estimator {
     new Float64Array(this.calls.memory.buffer, buffer, numbers.length).set(numbers);
   }
 
-  // Reflectance over the prior's valid cells: red, green, blue, until the next call.
+  // Returns reflectance over the prior's valid cells: red, green, blue. Valid until the next call.
   tabulate(weights) {
     const { cells } = this.cells();
     this.tell(weights);
@@ -55,7 +55,7 @@ class estimator {
     return { grid: [theta_h, theta_d, phi_d], offset, minimum_cosine, cells };
   }
 
-  // Names of the prior's materials and weights of its first components: red, then green, then blue.
+  // Returns the names of the prior's materials and their weights of the first components: red, then green, then blue.
   materials() {
     const found = [];
     for (let i = 0; this.calls.weights_of(i); ++i)
@@ -64,7 +64,7 @@ class estimator {
   }
 }
 
-// Fills the page, or says why it cannot be filled.
+// Fills the page, or shows why it cannot be filled.
 async function open_lesson(title, introduction, fill) {
   const waiting = paragraph("Unpacking 137 materials ...");
   page.append(element("h1", {}, title), ...introduction.map((text) => paragraph(text)), waiting);

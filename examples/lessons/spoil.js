@@ -1,4 +1,4 @@
-// Lesson 3: samples are spoiled by a click, and two fits are computed again.
+// Lesson 3: a click corrupts a sample, and two fits are recomputed.
 
 const factor = 8, channel = 0; // red, of a red paint
 const fits = [
@@ -9,7 +9,7 @@ const lesson = { spoiled: new Set(), found: [], focused: 0, scan: null, fit_agai
 const signed = (degrees) => `${degrees < 0 ? "\u2212" : ""}${Math.abs(degrees)}\u00b0`;
 const reds = (numbers) => numbers.filter((_, i) => i % 3 === channel);
 
-// Samples as they are now, in three channels.
+// Returns the samples, including the corrupted ones, in three channels.
 const now = (measured) => measured.map((value, i) => (lesson.spoiled.has(Math.floor(i / 3)) ? factor * value : value));
 
 function fit(computed, scan, { rejects }) {
@@ -37,7 +37,7 @@ function scan_chart(scan) {
   }));
 }
 
-// Every sample is a button, of which the tabulator key reaches one and arrow keys the others.
+// Makes every sample a button. The tab key reaches one of them, arrow keys the others.
 function make_buttons(chart, scan, toggle) {
   chart.setAttribute("role", "group");
   chart.setAttribute("aria-label", "Samples and fits against the viewer's angle: each sample is a button that spoils or restores it");

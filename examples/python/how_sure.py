@@ -1,19 +1,19 @@
-"""What the tool does, on numpy arrays: a wrong sample is left out, and each value comes with an interval."""
+"""Reconstructs a BRDF as the tool does, with numpy arrays: rejects a wrong sample and gives intervals of values."""
 
 import numpy as np
 
 import gonio
 
 samples = gonio.read_samples("measurements.csv")
-samples.values[5] *= 20  # the memory of the samples: sample 5 is wrong now
+samples.values[5] *= 20  # changes the samples in place: sample 5 is now wrong
 
-prior = gonio.read_prior()  # the one that ships with the package
+prior = gonio.read_prior()  # the prior that ships with the package
 paint = gonio.Estimator(prior, noise=0.02).fit(samples)
 print("rejected:", paint.rejected)
 for wrong in paint.contradicted:
     print(wrong)
 
-# Light from 30 degrees, and viewers on the other side.
+# Light from 30 degrees, and viewers on the opposite side.
 theta = np.radians([10, 20, 30, 40, 50])
 wi = np.array([np.sin(np.radians(30)), 0, np.cos(np.radians(30))])
 wo = np.stack([-np.sin(theta), np.zeros(5), np.cos(theta)], axis=1)

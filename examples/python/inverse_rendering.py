@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""A BRDF from one image: Mitsuba's derivatives move the weights of a prior until the rendered image is the given one.
+"""Estimates a BRDF from one image: fits the weights of a prior with Mitsuba's derivatives of the rendered image.
 
     python inverse_rendering.py paint.binary --prior materials-without-paint.prior -o paint.png
 
-The image is rendered from `paint.binary`: a sphere under four lights and a grey sky. The sphere's BRDF begins as the
-prior's mean material; Adam minimises the squared difference of images plus `--penalty` times the squared weights. It
-prints a table of errors, and draws the image, the estimate before and after, and the error against the steps. It needs
-`pip install mitsuba matplotlib`.
+The given image is rendered from `paint.binary`: a sphere under four lights and a grey sky. The sphere's BRDF starts as
+the prior's mean material. Adam minimises the squared difference of the images plus `--penalty` times the squared
+weights. The program prints a table of errors and draws the image, the estimate before and after, and the error over the
+steps. It needs `pip install mitsuba matplotlib`.
 """
 
 import argparse
@@ -23,7 +23,7 @@ import gonio
 import mitsuba_prior  # noqa: F401
 import mitsuba_table  # noqa: F401
 
-LIGHTS = [(0.3, 0.2, -1.0), (-1.0, 0.1, -0.4), (0.4, -1.0, -0.2), (0.9, 0.3, 0.5)]  # where light goes
+LIGHTS = [(0.3, 0.2, -1.0), (-1.0, 0.1, -0.4), (0.4, -1.0, -0.2), (0.9, 0.3, 0.5)]  # the light's directions of travel
 
 
 def scene_of(bsdf, size):
@@ -44,7 +44,7 @@ def scene_of(bsdf, size):
 
 
 def error_of(prior, weights, truth):
-    """The mean Delta E of a sphere under an environment: other light than that of the image."""
+    """Returns the mean Delta E of a sphere in an environment, unlike the image's light."""
     return gonio.compare(prior.brdf(weights), truth)["delta_e_env"]
 
 
@@ -86,7 +86,7 @@ def main():
         begin = time.perf_counter()
         parameters.update(adam)
         image = mi.render(scene, parameters, spp=arguments.samples, seed=step)
-        # Bright pixels are off by shares, dark ones by steps.
+        # Relative difference of bright pixels, absolute difference of dark ones.
         difference = (image - wanted) / (wanted + 0.05)
         loss = dr.mean(dr.square(difference), axis=None) + arguments.penalty * dr.mean(dr.square(adam[key]))
         dr.backward(loss)

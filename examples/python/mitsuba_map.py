@@ -1,12 +1,12 @@
-"""A plug-in for Mitsuba 3's vectorised RGB variants: a map of `gonio svbrdf` as a BSDF that varies over a surface.
+"""A plug-in for Mitsuba 3's vectorised RGB variants: a map of `gonio svbrdf` as a spatially varying BSDF.
 
     import mitsuba as mi
     mi.set_variant("llvm_ad_rgb")
     import mitsuba_map  # registers "gonio_map"
     sample = {"type": "rectangle", "bsdf": {"type": "gonio_map", "filename": "leaf.gsv"}}
 
-The first row of texels is at the top, v = 1; each point has the BRDF of its texel, which is black where the map has no
-sample. Values are those of `gonio.Map.brdf`.
+The first row of texels is at the top, v = 1. Each point has the BRDF of its texel; texels outside the sample are black.
+Values are those of `gonio.Map.brdf`.
 """
 
 import drjit as dr
@@ -18,8 +18,8 @@ from mitsuba_prior import GonioPrior
 
 
 class GonioMap(GonioPrior):
-    """`filename` is a map, `prior` the file of the prior that it was made with, by default the one that ships; `alpha`
-    the GGX roughness of the normals that are drawn."""
+    """`filename` is a map, `prior` the file of the prior that it was made with, by default the shipped one; `alpha` is
+    the GGX roughness of the sampled normals."""
 
     def __init__(self, props):
         mi.BSDF.__init__(self, props)
@@ -29,7 +29,7 @@ class GonioMap(GonioPrior):
         self.rows, self.columns = table.shape
         self.is_sample = mi.Float((np.asarray(table.uncertainty) > 0).astype(np.float32).ravel())
         weights = table.weights.astype(np.float32).reshape(-1, 3, len(self.functions))
-        # For each function red, green and blue of all texels.
+        # For each function: red, green and blue of all texels.
         self.weights = [mi.Float(np.ascontiguousarray(weights[:, :, k]).ravel()) for k in range(len(self.functions))]
 
     def texel(self, uv):

@@ -5,8 +5,8 @@
     import mitsuba_prior  # registers "gonio_prior"
     sphere = {"type": "sphere", "bsdf": {"type": "gonio_prior", "components": 20}}
 
-`mi.traverse` finds `weights`, those of the first component in red, green and blue first; derivatives go through it.
-Values are those of `gonio.Fit` with the same weights. `inverse_rendering.py` finds weights by an image.
+`mi.traverse` finds the differentiable parameter `weights`, component by component: red, green and blue of each. Values
+are those of `gonio.Fit` with the same weights. `inverse_rendering.py` estimates weights from an image.
 """
 
 import drjit as dr
@@ -16,12 +16,12 @@ import numpy as np
 import gonio
 from mitsuba_table import FIRST_VALUE, GonioTable
 
-EPSILON = 0.001  # of the logarithm, Nielsen et al. 2015, Eq. 1
+EPSILON = 0.001  # epsilon of the metric, Nielsen et al. 2015, Eq. 1
 
 
 class GonioPrior(GonioTable):
-    """`prior` is a file of `gonio learn`, by default the one that ships; `components` the number of them to use, by
-    default all; `alpha` the GGX roughness of the normals that are drawn."""
+    """`prior` is a file of `gonio learn`, by default the shipped one; `components` is the number of components to use,
+    by default all; `alpha` is the GGX roughness of the sampled normals."""
 
     def __init__(self, props):
         mi.BSDF.__init__(self, props)
@@ -31,8 +31,8 @@ class GonioPrior(GonioTable):
         self.parameters_changed()
 
     def use(self, prior, functions, props):
-        """Takes functions over the prior's cells, one in each column."""
-        numbers = prior.cells.numbers().ravel()  # of the cell that each of the grid reads
+        """Uses functions over the prior's cells, one per column."""
+        numbers = prior.cells.numbers().ravel()  # the cell that each cell of the grid reads
         self.extents, self.first_value = prior.cells.shape, FIRST_VALUE[prior.cells.anchor]
         self.functions = [mi.Float(column) for column in np.ascontiguousarray(functions[numbers].T)]
         self.mean = mi.Float(prior.mean[numbers])
@@ -42,7 +42,7 @@ class GonioPrior(GonioTable):
         self.m_components = [self.m_flags]
 
     def parameters_changed(self, keys=None):
-        """Expands the weights to the mapped values of all cells, one array for each channel."""
+        """Expands the weights to the mapped values of all cells, one array per channel."""
         self.mapped = []
         for channel in range(3):
             values = mi.Float(self.mean)
@@ -52,12 +52,12 @@ class GonioPrior(GonioTable):
 
     @staticmethod
     def blended(values, corners, active):
-        """Values of cells between the eight around a pair of directions."""
+        """Interpolates values between the eight cells around a pair of directions."""
         return sum(weight * dr.gather(mi.Float, values, index, active) for weight, index in corners)
 
     @staticmethod
     def unmapped(mapped, log_reference, wi, wo):
-        """Reflectance of mapped values: Nielsen et al. 2015, Eq. 2 and 3."""
+        """Returns the reflectance of mapped values: Nielsen et al. 2015, Eq. 2 and 3."""
         cosines = dr.maximum(mi.Frame3f.cos_theta(wi) * mi.Frame3f.cos_theta(wo), EPSILON)
         return dr.maximum((dr.exp(mapped) * (dr.exp(log_reference) * cosines + EPSILON) - EPSILON) / cosines, 0)
 

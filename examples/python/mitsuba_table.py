@@ -5,8 +5,8 @@
     import mitsuba_table  # registers "gonio_table"
     sphere = {"type": "sphere", "bsdf": {"type": "gonio_table", "filename": "paint.binary"}}
 
-Values are interpolated as `gonio.Table` does. Directions are drawn from visible normals of a GGX distribution as wide as
-the table's highlight, or by the cosine, in equal parts.
+Values are interpolated as in `gonio.Table`. Half of the directions are sampled from visible normals of a GGX
+distribution as wide as the table's highlight, the other half by the cosine.
 """
 
 import drjit as dr
@@ -18,12 +18,12 @@ import gonio
 SPECULAR_SHARE = 0.5
 
 
-# From the beginning of an axis to its first value, in cells.
+# Distance from the beginning of an axis to its first value, in cells.
 FIRST_VALUE = {"centre": 0.5, "lower_corner": 0.0}
 
 
 def highlight_roughness(table):
-    """GGX's alpha, from the theta_h at which the highlight of light from 20 degrees has fallen to its half."""
+    """Returns GGX's alpha, from the theta_h at which the highlight of light at 20 degrees has half its height."""
     theta_h = np.radians(np.linspace(0, 60, 241))
     angles = np.stack([theta_h, np.full_like(theta_h, np.radians(20)), np.full_like(theta_h, np.pi / 2)], axis=1)
     pairs = gonio.Samples(angles, np.ones(len(angles))).directions
@@ -50,7 +50,7 @@ class GonioTable(mi.BSDF):
     # ---- the table --------------------------------------------------------------------------------------------------
 
     def coordinates(self, wi, wo):
-        """Where a pair is on the grid: along theta_h, theta_d and phi_d, in cells from the first value."""
+        """Returns a pair's grid coordinates along theta_h, theta_d and phi_d, in cells from the first value."""
         along_half, difference = wi + wo, wi - wo
         length = dr.norm(along_half)
         half = along_half * dr.rcp(dr.maximum(length, 1e-20))
@@ -67,7 +67,7 @@ class GonioTable(mi.BSDF):
         return tuple(share * extent - self.first_value for share, extent in zip(shares, self.extents))
 
     def corners(self, wi, wo):
-        """Weights and indices of the eight values around: theta_h and theta_d end at the border, phi_d begins again."""
+        """Yields weights and indices of the eight nearest values; clamps theta_h and theta_d, wraps phi_d around."""
         h, d, p = self.coordinates(wi, wo)
         heights, rows, columns = self.extents
         h, d = dr.clip(h, 0, heights - 1), dr.clip(d, 0, rows - 1)
@@ -90,7 +90,7 @@ class GonioTable(mi.BSDF):
             total += weight * dr.gather(mi.Color3f, self.values, index, active)
         return total
 
-    # ---- what Mitsuba calls -----------------------------------------------------------------------------------------
+    # ---- Mitsuba's interface -----------------------------------------------------------------------------------------
 
     def normals(self):
         return mi.MicrofacetDistribution(mi.MicrofacetType.GGX, self.alpha, True)

@@ -28,9 +28,10 @@ function check_answer() {
     verdict.append(paragraph(`\u2715 Sample ${each.sample} (${where(each)}): ${signed_percent(each.difference)} in ${each.channel}, ${probability(each.adjusted_p_value)}.`));
   if (!differing.length) verdict.append(paragraph("No single direction differs."));
   add(element("h1", {}, data.name),
-    paragraph(check.conforms ? "No difference found." : "The part differs from the reference.", "headline"), verdict,
+    paragraph(check.conforms ? "GO: no difference found." : "NO-GO: the part differs from the reference.", "headline"), verdict,
     paragraph(`${probability(check.p_value)}. Of parts like the reference, ${percent(check.false_alarms)} are said to differ` +
-      (check.tolerance > 0 ? `; differences up to ${percent(check.tolerance)} are tolerated.` : "."), "soft"));
+      (check.delta_e_tolerance > 0 ? `; colours may be off by a Delta E of ${digits(check.delta_e_tolerance)}.`
+        : check.tolerance.some((each) => each > 0) ? `; differences up to ${check.tolerance.map(percent).join(", ")} are tolerated.` : "."), "soft"));
   if (check.predicted > 0)
     add(paragraph(`Note: ${check.predicted} of ${all.length} directions are not in the reference, which predicts them: there only gross differences can be seen.`, "soft"));
   add(paragraph(`Known materials explain the part ${check.familiarity.p_value < 0.01 ? "badly" : "well"} (${probability(check.familiarity.p_value)}).`, "soft"));

@@ -1,6 +1,6 @@
 #pragma once
-/// All of `basis/`: functions over the cells: measured materials, corrections, principal components, radial basis
-/// functions.
+/// All of `basis/`: functions over the cells: measured materials, principal components, radial basis functions, a
+/// discrepancy.
 
 #include <gonio/basis/add_materials.hpp>
 #include <gonio/basis/basis.hpp>

@@ -1,4 +1,4 @@
 #pragma once
-/// All of `conformity/`: does a part reflect like a reference?
+/// All of `conformity/`: tests whether a part reflects like a reference.
 
 #include <gonio/conformity/conformity.hpp>

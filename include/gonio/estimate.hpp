@@ -1,5 +1,5 @@
 #pragma once
-/// All of `estimate/`, the heart: from samples to a BRDF on a basis.
+/// All of `estimate/`: reconstructs BRDFs from samples on a basis.
 
 #include <gonio/estimate/angular_error.hpp>
 #include <gonio/estimate/aperture_factors.hpp>

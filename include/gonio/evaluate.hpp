@@ -1,5 +1,5 @@
 #pragma once
-/// All of `evaluate/`: how good an estimate is.
+/// All of `evaluate/`: measures the quality of an estimate.
 
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>

@@ -1,6 +1,6 @@
 #pragma once
-/// What README's first program needs: samples and a prior in, a complete BRDF out. `gonio/<module>.hpp` has all of a
-/// module; a header costs what it names.
+/// The headers of README's first program, which reconstructs a complete BRDF from samples and a prior.
+/// `gonio/<module>.hpp` includes all of a module; a single header includes only what it needs.
 
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/materials/merl.hpp>

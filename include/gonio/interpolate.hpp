@@ -1,6 +1,6 @@
 #pragma once
-/// All of `interpolate/` but scattered_brdf.hpp, which needs nanoflann: BRDFs without a basis, by pull-push or between
-/// nearest neighbours.
+/// All of `interpolate/` except scattered_brdf.hpp, which needs nanoflann: BRDFs without a basis, by pull-push or
+/// between nearest neighbours.
 
 #include <gonio/interpolate/completed_table.hpp>
 #include <gonio/interpolate/pull_push.hpp>

@@ -1,7 +1,7 @@
 #pragma once
-/// All of `io/`: files, but for PNG and HDR images (io/images/image.hpp, which needs stb), OpenEXR and TIFF images and
+/// All of `io/`: files, except PNG and HDR images (io/images/image.hpp, which needs stb), OpenEXR and TIFF images and
 /// EXIF data (io/images/exr.hpp, io/images/tiff.hpp, io/images/exif.hpp, which need OpenEXR, libtiff and libexif) and
-/// those of shapes (shape.hpp).
+/// files of shapes (shape.hpp).
 
 #include <gonio/io/bytes/believable.hpp>
 #include <gonio/io/bytes/byte_stream.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-/// All of `model/`: analytic BRDFs, and their fit.
+/// All of `model/`: analytic BRDFs and their fitting.
 
 #include <gonio/model/adaptive_brdf.hpp>
 #include <gonio/model/analytic_brdf.hpp>
@@ -10,6 +10,7 @@
 #include <gonio/model/fresnel.hpp>
 #include <gonio/model/fresnel_lobe.hpp>
 #include <gonio/model/ggx.hpp>
+#include <gonio/model/instrument_readings.hpp>
 #include <gonio/model/lafortune.hpp>
 #include <gonio/model/lambert.hpp>
 #include <gonio/model/lobe.hpp>

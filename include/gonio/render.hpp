@@ -1,16 +1,16 @@
 #pragma once
-/// What a renderer needs of a measured or reconstructed BRDF, and nothing else: look-up, importance sampling, and a
-/// view that other files see without this one. Needs Eigen's Core and the standard library; no files are read, nothing
-/// is estimated. Compiles with -fno-exceptions -fno-rtti, where what is otherwise thrown ends the program. After
-/// construction nothing allocates, locks or throws, and any number of threads may read.
+/// Everything that a renderer needs of a measured or reconstructed BRDF, and nothing else: look-up, importance
+/// sampling, and a view that can be passed to files without this header. Needs Eigen's Core and the standard library.
+/// Reads no files and estimates nothing. Compiles with -fno-exceptions -fno-rtti; errors then end the program instead
+/// of throwing. After construction nothing allocates, locks or throws, and any number of threads may read.
 /// ```cpp
 /// const auto table = gonio::render::lookup_table<Eigen::half>::from_merl(planes);
 /// const gonio::render::half_vector_sampler paint(table);
 /// const auto [wi, weight, pdf] = paint.sample(wo, u1, u2);
 /// ```
 
-// Renderers that take these headers as their own may compile with -Wsign-conversion; our indices are signed (decision
-// 18 of docs/decisions).
+// Renderers that include these headers as their own may compile with -Wsign-conversion; our indices are signed
+// (decision 18 of docs/decisions).
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 

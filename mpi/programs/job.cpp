@@ -22,7 +22,7 @@ namespace cli {
 
 namespace {
 
-/// While it lives, what this process prints is kept instead.
+/// Captures what this process prints during its lifetime.
 class silence {
  public:
   silence() : out_(std::cout.rdbuf(nullptr)), error_(std::cerr.rdbuf(unsaid_.rdbuf())) {}
@@ -33,7 +33,7 @@ class silence {
     std::cerr.rdbuf(error_);
   }
 
-  /// The first line of what it would have said on standard error.
+  /// Returns the first line that it captured from standard error.
   [[nodiscard]] std::string complaint() const {
     const std::string all = unsaid_.str();
     return all.substr(0, all.find('\n'));
@@ -44,9 +44,9 @@ class silence {
   std::streambuf *out_, *error_;
 };
 
-std::string last_words;  // of the program, for when a signal ends it
+std::string last_words;  // the program's message if a signal ends it
 
-/// What mpirun does to the ranks that are left when one has died.
+/// Handles the signal that mpirun sends to the remaining ranks after one has died.
 extern "C" void end_with_the_job(int signal) {
   static_cast<void>(!::write(STDERR_FILENO, last_words.data(), last_words.size()));
   gonio::io::remove_unfinished_files();
@@ -79,7 +79,7 @@ rank_cost cost_of(const gonio::mpi::ranks& ranks) {
   return {ranks.sent(), seconds(used.ru_utime) + seconds(used.ru_stime)};
 }
 
-/// "rank 1 sent 12 messages, 3456789 bytes; 12.3 s of processor time, 0.4 s of it in MPI", a line for each.
+/// Prints "rank 1 sent 12 messages, 3456789 bytes; 12.3 s of processor time, 0.4 s of it in MPI" for each rank.
 void print_traffic(const gonio::mpi::ranks& ranks) {
   const auto all = ranks.gather(gonio::mpi::bytes_of(cost_of(ranks)));
   for (std::size_t rank = 0; rank < all.size(); ++rank) {
@@ -102,7 +102,7 @@ int run(const job& what, const gonio::mpi::ranks& ranks, std::span<char*> given,
       },
       [&](const std::function<void()>& work) {
         has_begun = true;
-        ranks.together([] {});  // has each rank understood its command line?
+        ranks.together([] {});  // checks that each rank has understood its command line
         ranks.agree_on(checksum_of(std::span(words).subspan(1)), "command line");
         work();
         if (prints_traffic) print_traffic(ranks);
@@ -113,7 +113,7 @@ int run(const job& what, const gonio::mpi::ranks& ranks, std::span<char*> given,
   try {
     const std::string complaint = unsaid ? unsaid->complaint() : "";
     ranks.together([&] { gonio::refuse(complaint.empty() ? "was not asked for work" : complaint); });
-  } catch (const gonio::error&) {  // has been printed
+  } catch (const gonio::error&) {  // already printed
   }
   return code;
 }
@@ -122,7 +122,7 @@ int run(const job& what, const gonio::mpi::ranks& ranks, std::span<char*> given,
 
 int run_in_ranks(int argc, char** argv, const job& what) {
   const gonio::mpi::ranks ranks;
-  // What all ranks have to say, rank 0 says.
+  // Only rank 0 prints.
   std::optional<silence> unsaid;
   if (ranks.is_first())
     end_with_a_sentence_on_signals(what.name);
@@ -132,10 +132,10 @@ int run_in_ranks(int argc, char** argv, const job& what) {
   if (code != 0 && !ranks.failed_together() && ranks.size() > 1) {
     const std::string complaint = unsaid ? unsaid->complaint() : "";
     unsaid.reset();
-    if (!complaint.empty()) std::cerr << complaint << std::endl;  // before the end of all
+    if (!complaint.empty()) std::cerr << complaint << std::endl;  // before the job ends
     ranks.abort(code);
   }
-  return ranks.is_first() ? code : 0;  // which rank 0 tells mpirun
+  return ranks.is_first() ? code : 0;  // rank 0 passes it to mpirun
 }
 
 }  // namespace cli

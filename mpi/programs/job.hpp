@@ -1,5 +1,5 @@
 #pragma once
-/// Programs whose subcommands are done by the ranks of an MPI job.
+/// Programs whose subcommands run on the ranks of an MPI job.
 
 #include "tool/options/command.hpp"
 #include "tool/options/team.hpp"
@@ -10,14 +10,14 @@
 
 namespace cli {
 
-/// A program, and what adds its subcommands; `words` is the whole command line.
+/// A program and the function that adds its subcommands. `words` is the whole command line.
 struct job {
   std::string name, description;
   std::function<void(command& app, const std::vector<std::string>& words, const team& processes)> add;
 };
 
-/// Reads the command line in each rank and does what it says. Rank 0 speaks for all. The exit code, which is 2 in all
-/// ranks for bad input.
+/// Reads and runs the command line in each rank. Only rank 0 prints. Returns the exit code, which is 2 in all ranks for
+/// bad input.
 [[nodiscard]] int run_in_ranks(int argc, char** argv, const job& what);
 
 }  // namespace cli

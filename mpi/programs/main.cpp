@@ -1,4 +1,4 @@
-/// `gonio-mpi`: the long subcommands of the tool on the ranks of an MPI job.
+/// `gonio-mpi`: runs the tool's long subcommands on the ranks of an MPI job.
 
 #include "job.hpp"
 #include "tool/commands/commands.hpp"

@@ -1,4 +1,4 @@
-/// `gonio-papers-mpi`: the experiments of gonio-papers that keep their results, on the ranks of an MPI job.
+/// `gonio-papers-mpi`: runs the experiments of gonio-papers that store their results on the ranks of an MPI job.
 
 #include "job.hpp"
 #include "papers/experiments.hpp"

@@ -30,7 +30,7 @@ gonio::thread_count ranks_team::threads(gonio::thread_count asked) const {
 void ranks_team::together(const std::function<void()>& work) const {
   ranks_.together([&] {
     work();
-    ranks_.wait();  // until what was posted is received
+    ranks_.wait();  // until the posted messages are received
   });
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The ranks of an MPI job as the processes that do a command's work.
+/// The ranks of an MPI job as the processes of a command.
 
 #include "tool/options/team.hpp"
 #include <gonio/mpi/ranks.hpp>
@@ -39,10 +39,10 @@ class ranks_team : public team {
                         const std::function<void(Eigen::Index, part)>& take) const override;
 
  private:
-  /// Equal subtrees of the groups, as many as there are ranks to own one each: a power of two.
+  /// Returns the number of equal subtrees of the groups, a power of two: as many ranks as possible own one each.
   [[nodiscard]] Eigen::Index subtrees() const;
   [[nodiscard]] gonio::block groups_of(int rank) const;
-  /// Of numbers for each of some rows, those of a rank's groups.
+  /// Returns the numbers of a rank's groups, from numbers for each of some rows.
   [[nodiscard]] std::span<float> part_of(int rank, std::span<float> numbers, Eigen::Index rows) const;
 
   const gonio::mpi::ranks& ranks_;

@@ -1,4 +1,4 @@
-// The bodies of mpi/, which need MPI.
+// The implementations of mpi/, which need MPI.
 
 #include <gonio/mpi/impl/best_of_ranks.ipp>
 #include <gonio/mpi/impl/gather_in_order.ipp>

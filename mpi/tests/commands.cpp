@@ -1,4 +1,4 @@
-/// gonio-mpi under mpirun, as a user runs it: the bytes of gonio, ranks that die, ranks that disagree.
+/// gonio-mpi under mpirun, as a user runs it: results equal to gonio's, ranks that die, ranks that disagree.
 
 #include "io/scratch.hpp"
 #include "io/synthetic_spectra.hpp"
@@ -26,7 +26,7 @@ namespace {
 
 const std::string tool = std::string("'") + GONIO_MPI_TOOL + "' ";
 
-/// `gonio-mpi ARGUMENTS` in some ranks.
+/// Runs `gonio-mpi ARGUMENTS` in some ranks.
 tool_result in_ranks(int ranks, const std::string& arguments) {
   return run_program(GONIO_MPIEXEC, "-n " + std::to_string(ranks) + ' ' + tool + arguments);
 }
@@ -43,7 +43,7 @@ std::string run_in(int ranks, const std::string& arguments) {
   return result.output;
 }
 
-/// Exit code 2 and one line of the program's among those of mpirun, with the words that help.
+/// Checks for exit code 2 and a single line of the program with these words, among those of mpirun.
 void check_refused_by_all(const tool_result& result, std::initializer_list<const char*> words) {
   CAPTURE(result.output);
   CHECK(result.exit_code == 2);
@@ -59,7 +59,7 @@ void check_refused_by_all(const tool_result& result, std::initializer_list<const
   for (const char* word : words) CHECK(own.find(word) != std::string::npos);
 }
 
-/// Images of 900 x 1000 texels, whose 57 bands have 16 rows, and a small prior.
+/// Images of 900 x 1000 texels in 57 bands of 16 rows, and a small prior.
 struct job {
   scratch::folder folder;
 
@@ -84,7 +84,7 @@ struct job {
            "' --eta 2.5 -o '" + (folder / output).string() + "'";
   }
 
-  /// A number of the third image that is none.
+  /// Sets a value of the third image to NaN.
   void spoil(std::size_t row) const {
     auto image = gonio::io::read_npy<float, 3>(folder / "image-2.npy");
     image(row, 7, 1) = std::nanf("");
@@ -92,7 +92,7 @@ struct job {
   }
 };
 
-/// The process of a rank of a job that mpirun has begun; 0 if there is none yet.
+/// Returns the process of a rank of a job started by mpirun; 0 if there is none yet.
 pid_t process_of_rank(pid_t mpirun, int rank) {
   std::ifstream children("/proc/" + std::to_string(mpirun) + "/task/" + std::to_string(mpirun) + "/children");
   pid_t child = 0;
@@ -104,7 +104,7 @@ pid_t process_of_rank(pid_t mpirun, int rank) {
   return 0;
 }
 
-/// Kills a rank of two once a file has grown. What mpirun says.
+/// Kills a rank of two once a file has grown. Returns mpirun's output.
 tool_result kill_rank(int rank, const std::string& arguments, const scratch::fs::path& file,
                       const scratch::fs::path& output) {
   const std::string line = "exec '" GONIO_MPIEXEC "' -n 2 " + tool + arguments + " > '" + output.string() + "' 2>&1";
@@ -142,7 +142,7 @@ TEST_CASE("gonio-mpi svbrdf: the bytes of gonio svbrdf with 1, 2 and 3 ranks") {
     CHECK(!scratch::fs::exists(given.folder / "ranks.gsv.part"));
     scratch::fs::remove(given.folder / "ranks.gsv");
   }
-  // What an interrupted gonio left, ranks go on with.
+  // Ranks continue an interrupted gonio.
   scratch::put(given.folder / "ranks.gsv.part", whole.substr(0, whole.size() / 2));
   CHECK(run_in(2, given.command("ranks.gsv")).find("went on behind band 28 of 57") != std::string::npos);
   CHECK(scratch::get(given.folder / "ranks.gsv") == whole);
@@ -184,7 +184,7 @@ TEST_CASE("gonio-mpi: ranks that read different inputs are refused") {
   other.spoil(0);  // the first row is compared
   scratch::fs::create_directory(given.folder / "here");
   scratch::fs::create_directory(given.folder / "there");
-  // As on two machines: the same names, other files.
+  // As on two machines: the same names, but other files.
   const auto on_two = [&](const std::string& arguments) {
     const auto half = [&](const char* folder) {
       return "-n 1 -wdir '" + (given.folder / folder).string() + "' " + tool + arguments;
@@ -206,7 +206,7 @@ TEST_CASE("gonio-mpi: ranks that read different inputs are refused") {
                          learn(synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 11), 6));
   check_refused_by_all(on_two(svbrdf), {"different inputs", "rank 1's prior"});
   check_refused_by_all(on_two("design -n 2 --prior small.prior -o two.csv"), {"different inputs", "rank 1's prior"});
-  // A file that one has not.
+  // A file that one rank lacks.
   scratch::fs::remove(given.folder / "there/images.json");
   check_refused_by_all(on_two(svbrdf), {"rank 1: ", "images.json"});
   // Other options.
@@ -231,7 +231,7 @@ TEST_CASE("gonio-mpi design: the directions of gonio design") {
     }
   }
   check_refused_by_all(in_ranks(2, design("-n 0", "none.csv")), {"cannot choose 0"});
-  // Ranks go on with the sweeps of a gonio that came to its end, but could not write the page that it was asked for.
+  // Ranks continue the sweeps of a gonio that finished but could not write the requested page.
   const std::string exchanged = "-n 5 --search exchange";
   const std::string said = run_alone(design(exchanged, "alone.csv"));
   const auto part = given.folder / "ranks.csv.part";
@@ -262,7 +262,7 @@ TEST_CASE("gonio-mpi learn: the prior of gonio learn, bad files are refused") {
     run_alone(std::string("expand --formula ") + name + " -o " + file("tables") + '/' + name + ".binary");
   scratch::fs::copy_file(folder / "tables/gold-metal.binary", folder / "more/gold.binary");
   const std::string both = " --merl " + file("tables") + ' ' + file("more");
-  // One folder is read by each rank, two are shared.
+  // Each rank reads a single folder; two folders are shared.
   for (const std::string& sources : {" --merl " + file("tables") + " --components 4", both + " --components 4"}) {
     const std::string said = run_alone("learn" + sources + " -o " + file("alone.prior"));
     for (const int ranks : {2, 3}) {

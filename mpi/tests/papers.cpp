@@ -1,4 +1,4 @@
-/// gonio-papers-mpi under mpirun: the tables and result files of gonio-papers, and results that are gone on with.
+/// gonio-papers-mpi under mpirun: the same tables and result files as gonio-papers, and continued results.
 
 #include "papers/synthetic_networks.hpp"
 #include "run_program.hpp"
@@ -15,7 +15,7 @@ tool_result in_ranks(int ranks, const std::string& arguments) {
   return run_program(GONIO_MPIEXEC, "-n " + std::to_string(ranks) + " '" GONIO_PAPERS_MPI "' " + arguments);
 }
 
-/// Synthetic materials by the names of the ten that experiments judge, and four others.
+/// Synthetic materials with the names of the ten test materials, and four others.
 struct database {
   scratch::folder folder;
 
@@ -28,7 +28,7 @@ struct database {
   [[nodiscard]] std::string at(const char* name) const { return (folder / name).string(); }
 };
 
-/// The state and what is printed are those of gonio-papers, whatever the ranks and whoever goes on.
+/// Checks that the state and the output are those of gonio-papers for any number of ranks and any continuation.
 void check_same(const database& given, const std::string& experiment) {
   CAPTURE(experiment);
   const std::string arguments = experiment + " --networks " + given.at("n.npy") + " --threads 1 --state ";
@@ -42,7 +42,7 @@ void check_same(const database& given, const std::string& experiment) {
     CHECK(scratch::get(given.folder / "shared") == state);
     scratch::fs::remove(given.folder / "shared");
   }
-  // A job that was killed left some results, and half of one.
+  // A killed job left some results, and half of one.
   scratch::put(given.folder / "shared", state.substr(0, state.size() / 2));
   const tool_result again = in_ranks(2, arguments + given.at("shared"));
   CHECK_MESSAGE(again.exit_code == 0, again.output);

@@ -1,4 +1,4 @@
-/// Runs in each rank of a job, of any number of ranks: what is sent, gathered, agreed on, added and compared.
+/// Runs in each rank of a job with any number of ranks: messages, gathering, agreement, sums and comparisons.
 
 #include <gonio/core/error.hpp>
 #include <gonio/mpi.hpp>
@@ -24,7 +24,7 @@ std::vector<std::byte> bytes_of(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// What work is refused with in this rank; nothing if it is not.
+/// Returns the message with which this rank refuses work; empty if it does not.
 std::string refusal_of(const std::function<void()>& work) {
   try {
     work();
@@ -84,7 +84,7 @@ TEST_CASE("ranks: what one throws, all throw, and which it was") {
   }),
                        (who + "there is not enough memory").c_str(), std::runtime_error);
   CHECK(all().failed_together());
-  // One in the other, as commands have them.
+  // Nested calls, as in commands.
   CHECK(refusal_of([&] {
           all().together([&] {
             all().together([&] {
@@ -145,7 +145,7 @@ TEST_CASE("ranks: a part that fails, computed or taken, ends the gathering in al
     });
     CHECK(full.find("the disk is full") != std::string::npos);
   }
-  CHECK_NOTHROW(mpi::gather_in_order(all(), {0, 5}, part, take));  // nothing is left of the failures
+  CHECK_NOTHROW(mpi::gather_in_order(all(), {0, 5}, part, take));  // the failures leave nothing behind
 }
 
 TEST_CASE("ranks: a sum of groups has the bytes of one rank's") {
@@ -157,7 +157,7 @@ TEST_CASE("ranks: a sum of groups has the bytes of one rank's") {
                                         })
         .eval();
   };
-  // The same tree, by one.
+  // The same tree in one process.
   const std::function<Eigen::MatrixXd(Eigen::Index, Eigen::Index)> sum = [&](Eigen::Index begin, Eigen::Index end) {
     if (end - begin == 1) return partial(begin);
     Eigen::Index half = 1;

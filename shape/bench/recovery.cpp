@@ -1,5 +1,5 @@
-/// What learning a shape model and recovering a scan cost, on one core: the published size, 161 shapes of 3,096
-/// vertices, and synthetic ear canals of it.
+/// The cost of learning a shape model and recovering a scan on one core, at the published size: 161 synthetic ear
+/// canals of 3,096 vertices.
 
 #include "../synthetic/ear_canal_scans.hpp"
 #include <gonio/shape/recovery.hpp>

@@ -1,5 +1,5 @@
-/// gonio shape demo: ear canals that nobody has, held out from the model, with holes between the bends; how well they
-/// are recovered, beside filling the holes smoothly. After section 4 of "Anatomically correct surface recovery".
+/// gonio shape demo: recovers synthetic ear canals, held out from the model, with holes between the bends, and compares
+/// with smooth filling of the holes. After section 4 of "Anatomically correct surface recovery".
 
 #include "shape.hpp"
 #include "synthetic/ear_study.hpp"
@@ -38,18 +38,18 @@ struct shape_demo_command {
   gonio::thread_count threads;
 };
 
-/// A way to recover, and how far what it put into a hole is from the truth.
+/// A method of recovery, and its error in the hole.
 struct judged_surface {
   std::string name;
   gonio::shape::point_columns vertices;  ///< in the scan's space
   gonio::shape::surface_distance hole;
 };
 
-/// All ways, and how sure ours says that it is.
+/// All methods, and the uncertainty of ours.
 struct judged_ear {
   std::vector<judged_surface> ways;
   Eigen::Index missing = 0;      ///< vertices in the hole
-  std::optional<double> inside;  ///< share of the hole's true vertices in the 95 % ellipsoids, if that was asked for
+  std::optional<double> inside;  ///< fraction of the hole's true vertices in the 95 % ellipsoids, if requested
 };
 
 synthetic::ear_scan scan_held_out(const synthetic::ear_study& study, const shape_demo_command& options,
@@ -60,7 +60,7 @@ synthetic::ear_scan scan_held_out(const synthetic::ear_study& study, const shape
   return study.held_out(number, how);
 }
 
-/// The share of vertices whose true place is in the 95 % ellipsoid about where they were recovered.
+/// Returns the fraction of vertices whose true position is in the 95 % ellipsoid about the recovered one.
 double share_inside(const gonio::shape::cross_validated_uncertainty& uncertainty,
                     const gonio::shape::recovered_shape& ours, const gonio::shape::point_columns& truth,
                     const std::vector<Eigen::Index>& vertices) {
@@ -72,7 +72,7 @@ double share_inside(const gonio::shape::cross_validated_uncertainty& uncertainty
   return static_cast<double>(inside) / static_cast<double>(vertices.size());
 }
 
-/// The ways to recover a scan, judged where it has its hole.
+/// Recovers a scan with all methods and measures their errors in its hole.
 judged_ear judge_ear(const gonio::shape::shape_model& model, const synthetic::ear_study& study,
                      const synthetic::ear_scan& scan, const shape_demo_command& options) {
   const gonio::shape::surface_index index(scan.mesh), complete(scan.complete);
@@ -123,7 +123,7 @@ void print_ear(std::size_t number, const judged_ear& ear) {
   std::cout << std::endl;
 }
 
-/// What the ways are off in the mean over the ears, and the share of all ears' missing vertices in the ellipsoids.
+/// Prints the methods' errors averaged over the ears, and the fraction of all missing vertices in the ellipsoids.
 void print_means(const std::vector<judged_ear>& ears) {
   std::cout << "all";
   for (std::size_t way = 0; way < ears.front().ways.size(); ++way) {
@@ -150,7 +150,7 @@ json json_of(const judged_ear& ear) {
   return all;
 }
 
-/// The scan beside what the ways made of it.
+/// Returns the scan next to the result of each method.
 gonio::image demo_image(const gonio::shape::shape_model& model, const synthetic::ear_scan& scan,
                         const std::vector<judged_surface>& ways) {
   const auto upright = [&](gonio::shape::point_columns vertices) {
@@ -188,7 +188,7 @@ void show_shapes(const shape_demo_command& options) {
       if (i == 0) write_example(options.folder, model, scan, ear.ways);
       if (i < 3) rows.push_back(demo_image(model, scan, ear.ways));
     }
-    for (judged_surface& way : ear.ways) way.vertices.resize(3, 0);  // there may be many ears
+    for (judged_surface& way : ear.ways) way.vertices.resize(3, 0);  // saves memory for many ears
     ears.push_back(std::move(ear));
   }
   if (options.as_json)

@@ -1,6 +1,5 @@
-/// gonio shape grow: a model of synthetic ear canals that grows from a few annotated ones by scans of others, some of
-/// which are no good; how many it accepts, and how far their vertices are from where they belong. After section 2 of
-/// "Anatomically correct surface recovery".
+/// gonio shape grow: grows a model of synthetic ear canals from a few annotated ones with scans of others, some of them
+/// defective. Prints how many it accepts and their errors. After section 2 of "Anatomically correct surface recovery".
 
 #include "shape.hpp"
 #include "synthetic/ear_canal_scans.hpp"
@@ -28,17 +27,17 @@ struct shape_grow_command {
   gonio::thread_count threads;
 };
 
-/// What a bootstrap did to scans of which everything is known.
+/// The results of a bootstrap with scans whose true values are known.
 struct judged_bootstrap {
   Eigen::Index good = 0, defective = 0, accepted_good = 0, accepted_defective = 0;
-  std::vector<double> off;  ///< mean distance from the true vertices of each that was accepted and is good, ascending
+  std::vector<double> off;            ///< mean distance from the true vertices, for each accepted good scan, ascending
   std::vector<std::string> refusals;  ///< of the good ones
-  std::vector<std::string> rightly;   ///< of the others
+  std::vector<std::string> rightly;   ///< of the defective ones
 
   [[nodiscard]] std::size_t farther_than(double distance) const {
     return std::ranges::count_if(off, [=](double one) { return one > distance; });
   }
-  /// 0 is the least, 1 the largest.
+  /// Returns a quantile: 0 is the smallest, 1 the largest.
   [[nodiscard]] double off_at(double share) const {
     return off.empty() ? 0.0 : off[static_cast<std::size_t>(share * static_cast<double>(off.size() - 1))];
   }

@@ -1,4 +1,4 @@
-/// gonio shape learn: an active shape model of corresponded meshes, and of scans that it registers by itself.
+/// gonio shape learn: learns an active shape model from corresponded meshes and from scans, which it registers.
 
 #include "shape.hpp"
 #include "tool/options/threads_option.hpp"
@@ -20,7 +20,7 @@ struct shape_learn_command {
   gonio::thread_count threads;
 };
 
-/// The vertices of meshes that have the triangles of the first.
+/// Returns the vertices of meshes with the same triangles as the first.
 std::vector<gonio::shape::point_columns> read_corresponded(const std::vector<std::filesystem::path>& files,
                                                            gonio::shape::triangle_columns& triangles) {
   std::vector<gonio::shape::point_columns> shapes;

@@ -1,4 +1,4 @@
-/// gonio shape recover: what a partial scan does not show.
+/// gonio shape recover: recovers the missing parts of a partial scan.
 
 #include "shape.hpp"
 #include "tool/options/threads_option.hpp"
@@ -28,7 +28,7 @@ struct shape_recover_command {
   gonio::thread_count threads;
 };
 
-/// What is wrong with what a file holds, behind its name.
+/// Prefixes errors with the file's name.
 template <class Work>
 auto in_file(const std::filesystem::path& file, Work&& work) {
   try {
@@ -38,7 +38,7 @@ auto in_file(const std::filesystem::path& file, Work&& work) {
   }
 }
 
-/// How far vertices are expected to be off, by leaving shapes of the model out.
+/// Prints the expected errors of vertices, measured by leaving shapes of the model out.
 void print_how_sure(const gonio::shape::cross_validated_uncertainty& uncertainty,
                     const gonio::shape::triangle_mesh& recovered, const std::vector<Eigen::Index>& vertices) {
   const gonio::shape::point_columns normals = gonio::shape::vertex_normals(recovered);
@@ -54,7 +54,7 @@ void print_how_sure(const gonio::shape::cross_validated_uncertainty& uncertainty
             << fixed(std::sqrt(all / count), 3) << " mm with what vertices slide along it\n";
 }
 
-/// The pose to begin with: as given, or by shape context.
+/// Returns the initial pose: as given, or by shape context.
 gonio::shape::similarity_transform begin_pose(const shape_recover_command& options,
                                               const gonio::shape::shape_model& model,
                                               const gonio::shape::triangle_mesh& scan) {
@@ -82,7 +82,7 @@ void recover_shape(const shape_recover_command& options) {
   for (Eigen::Index v = 0; v < model.vertices(); ++v)
     if (!known[v]) missing.push_back(v);
   std::cout << missing.size() << " of " << model.vertices() << " vertices are recovered\n";
-  // Estimate how sure they are by trials.
+  // Estimate their uncertainty by trials.
   if (options.trials > 0 && !missing.empty())
     print_how_sure({model, index, found, {.trials = options.trials, .recovery = how}, options.threads}, found.surface,
                    missing);
@@ -100,7 +100,7 @@ void recover_shape(const shape_recover_command& options) {
                 << fixed(off.absolute_mean, 3) << " mm, largest " << fixed(off.largest, 3) << " mm\n";
     }
   }
-  // Write the pose, the mesh, coloured by its distance from the truth, and the image.
+  // Write the pose, the mesh coloured by its distance from the truth, and the image.
   if (!options.found_pose.empty()) gonio::io::write_pose(options.found_pose, found.pose);
   if (colours.empty())
     gonio::io::write_mesh(options.output, recovered);

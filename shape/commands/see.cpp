@@ -1,4 +1,4 @@
-/// gonio shape see: what a camera sees of a mesh, for `gonio sphere --normals`.
+/// gonio shape see: maps of a mesh as seen by a camera, for `gonio sphere --normals`.
 
 #include "shape.hpp"
 #include <gonio/io/bytes/npy.hpp>

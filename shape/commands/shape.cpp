@@ -1,4 +1,4 @@
-/// gonio shape: surfaces that scans show in part, from what many of their kind have in common.
+/// gonio shape: recovers the missing parts of scanned surfaces from the statistics of many similar shapes.
 
 #include "shape.hpp"
 
@@ -17,7 +17,7 @@ gonio::image shape_image(const gonio::shape::triangle_mesh& mesh, const Eigen::V
     colours[v] = gonio::render::false_colour(distances[v], {-largest, largest});
   const auto from = [&](const Eigen::Vector3d& towards) {
     gonio::shape::mesh_view view = gonio::shape::mesh_view::of(mesh, towards);
-    view.radius = 18.0;  // mm: all ears at one scale
+    view.radius = 18.0;  // mm: the same scale for all ears
     view.pixels = 240;
     return gonio::shape::image_of(mesh, colours, view);
   };
@@ -28,7 +28,7 @@ gonio::image shape_image(const gonio::shape::triangle_mesh& mesh, const Eigen::V
 gonio::shape::similarity_transform find_pose(const gonio::shape::shape_model& model,
                                              const gonio::shape::triangle_mesh& scan, gonio::thread_count threads) {
   const gonio::shape::pre_alignment found = gonio::shape::align_by_shape_context(scan, model.mean(), {}, threads);
-  // What the scan lacks is far from the model, but not the other way round.
+  // Missing parts of the scan are far from the model, so measure from the scan to the model.
   constexpr double largest = 5.0;
   if (found.mean_scan_distance > largest)
     gonio::refuse("the scan matches the model nowhere: it is " + fixed(found.mean_scan_distance, 1) +

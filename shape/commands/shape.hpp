@@ -1,5 +1,5 @@
 #pragma once
-/// The steps of `gonio shape`, and what they have in common.
+/// The steps of `gonio shape`, and their shared functions.
 
 #include "tool/options/command.hpp"
 #include <gonio/shape/mesh_image.hpp>
@@ -16,12 +16,12 @@ void add_shape_demo(command& shape);
 void add_shape_grow(command& shape);
 void add_shape_see(command& shape);
 
-/// A surface from two sides, in the colours of signed distances: blue inside, green on, red outside of what it is
-/// compared with; without distances in grey. `largest` mm are pure blue and red.
+/// Renders a surface from two sides, coloured by signed distances from a reference: blue inside, green on it, red
+/// outside; grey without distances. Pure blue and red are at `largest` mm.
 [[nodiscard]] gonio::image shape_image(const gonio::shape::triangle_mesh& mesh, const Eigen::VectorXd& distances,
                                        double largest);
 
-/// Where a scan lies by shape context, from it to the model. Throws gonio::error if it matches nowhere.
+/// Returns the pose from a scan to the model by shape context. Throws gonio::error if the scan matches nowhere.
 [[nodiscard]] gonio::shape::similarity_transform find_pose(const gonio::shape::shape_model& model,
                                                            const gonio::shape::triangle_mesh& scan,
                                                            gonio::thread_count threads);

@@ -1,4 +1,4 @@
-// The bodies of shape/ that know the model; src/shape_mesh.cpp has the others.
+// The implementations of shape/ that use the model; src/shape_mesh.cpp has the others.
 
 #include <gonio/shape/impl/bootstrap.ipp>
 #include <gonio/shape/impl/correspondence.ipp>

@@ -1,4 +1,4 @@
-// The bodies of the files of shapes.
+// The implementations of shape file formats.
 
 #include <gonio/shape/io/impl/mesh.ipp>
 #include <gonio/shape/io/impl/mesh_parts.ipp>

@@ -1,4 +1,4 @@
-// The bodies of shape/ that know meshes alone, which need dlib and nanoflann.
+// The implementations of shape/ that use only meshes, with dlib and nanoflann.
 
 #include <gonio/shape/impl/alignment.ipp>
 #include <gonio/shape/impl/assignment.ipp>

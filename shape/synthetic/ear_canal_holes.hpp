@@ -23,16 +23,17 @@
 
 namespace synthetic {
 
-/// A hole like an ellipse in (u, v). Millimetres.
+/// An elliptic hole in (u, v). Millimetres.
 struct hole_options {
-  double u = 0.5;           ///< of its centre: between the bends
-  std::optional<double> v;  ///< of its centre; none for anywhere
+  double u = 0.5;           ///< of the centre: between the bends
+  std::optional<double> v;  ///< of the centre; empty: random
   double length = 4.0;      ///< along the canal
-  double share = 0.3;       ///< of the circumference; at 1 or more, the hole may part the scan, and the rest is dropped
-  double ragged = 0.15;     ///< how much its edge goes in and out, relative to its radius; below 0.5
+  double share =
+      0.3;  ///< of the circumference; at 1 or more, the hole may split the scan, and the smaller part is dropped
+  double ragged = 0.15;     ///< amplitude of the edge's waves relative to its radius; below 0.5
   double edge_noise = 0.0;  ///< standard deviation along the normals of vertices near the edge
-  double edge_reach = 1.5;  ///< how far from the edge these are
-  double flaps = 0.0;       ///< probability of a spurious triangle on an edge of the border
+  double edge_reach = 1.5;  ///< distance from the edge up to which these are
+  double flaps = 0.0;       ///< probability of a spurious triangle at an edge of the border
 
   [[nodiscard]] static hole_options large() {
     hole_options options;
@@ -48,15 +49,15 @@ struct hole_options {
   }
 };
 
-/// A mesh on a surface with the surface's normals and places.
+/// A mesh on a surface with the surface's normals and parameters.
 struct sampled_surface {
   gonio::shape::triangle_mesh mesh;
   parameter_columns places;
   gonio::shape::point_columns normals;
 
-  /// Removes the triangles that have a vertex without a property, what then hangs together in a point only, all but
-  /// the largest part, and the vertices of no triangle. Returns the former indices of the vertices that are left.
-  /// Throws gonio::error if nothing is.
+  /// Removes the triangles that have a vertex without a property. Then removes parts joined only at a point, all but
+  /// the largest part, and unused vertices. Returns the former indices of the remaining vertices. Throws gonio::error
+  /// if nothing remains.
   template <class Property>
   std::vector<Eigen::Index> keep_where(Property&& property) {
     std::vector<Eigen::Vector3i> kept;
@@ -71,13 +72,13 @@ struct sampled_surface {
   }
 
  private:
-  /// The triangles fall in groups that `parent` joins: the group's first triangle.
+  /// Returns the first triangle of a group of triangles joined by `parent`.
   [[nodiscard]] static Eigen::Index root(std::vector<Eigen::Index>& parent, Eigen::Index one) {
     while (parent[one] != one) one = parent[one] = parent[parent[one]];
     return one;
   }
 
-  /// Of the fans of triangles at each vertex, keeps the largest. Were there others?
+  /// Keeps the largest fan of triangles at each vertex. Returns whether there were others.
   bool remove_small_fans(std::vector<Eigen::Vector3i>& triangles) const {
     std::vector<std::vector<Eigen::Index>> around(mesh.vertices.cols());
     for (Eigen::Index t = 0; t < std::ssize(triangles); ++t)
@@ -90,12 +91,12 @@ struct sampled_surface {
     return gone > 0;
   }
 
-  /// The triangles round a vertex that are not in its largest fan.
+  /// Returns the triangles around a vertex that are not in its largest fan.
   [[nodiscard]] static std::vector<Eigen::Index> small_fans(const std::vector<Eigen::Vector3i>& triangles,
                                                             const std::vector<Eigen::Index>& around, int vertex) {
     std::vector<Eigen::Index> parent(around.size()), sizes(around.size(), 0), small;
     std::iota(parent.begin(), parent.end(), Eigen::Index{0});
-    std::map<int, Eigen::Index> first_with;  // another vertex, and so an edge
+    std::map<int, Eigen::Index> first_with;  // another vertex, which defines an edge
     for (Eigen::Index i = 0; i < std::ssize(around); ++i)
       for (const int other : triangles[around[i]]) {
         if (other == vertex) continue;
@@ -145,7 +146,7 @@ struct sampled_surface {
 /// A hole in one individual's canal.
 class ear_hole {
  public:
-  /// Throws gonio::error for a hole without size, with too ragged an edge or a negative probability or length.
+  /// Throws gonio::error for a hole without size, an edge that is too ragged, or a negative probability or length.
   ear_hole(const ear_canal& individual, const hole_options& options, number_source& numbers) : options_(options) {
     if (!(options.length > 0.0 && options.share > 0.0))
       gonio::refuse("a hole of a scan must have a length and a share of the circumference above 0");
@@ -164,7 +165,7 @@ class ear_hole {
     }
   }
 
-  /// Is a place (u, v) in the hole?
+  /// Returns whether a point (u, v) is in the hole.
   [[nodiscard]] bool contains(const Eigen::Vector2d& place) const {
     const double along = (place.x() - options_.u) / half_u_;
     const double round = std::remainder(place.y() - v_, 2.0 * std::numbers::pi) / (std::numbers::pi * options_.share);
@@ -176,7 +177,7 @@ class ear_hole {
     return std::hypot(along, round) < edge;
   }
 
-  /// Takes the hole's triangles out of a scan, and disturbs its edge. Throws gonio::error if nothing is left.
+  /// Removes the hole's triangles from a scan and disturbs its edge. Throws gonio::error if nothing remains.
   void cut(sampled_surface& sampled, number_source& numbers) const {
     std::vector<bool> inside, on_edge(sampled.places.cols(), false);
     for (const auto& place : sampled.places.colwise()) inside.push_back(contains(place));
@@ -208,10 +209,11 @@ class ear_hole {
     }
   }
 
-  /// Triangles that reach from border edges into the hole, each to a vertex of its own.
+  /// Adds triangles from border edges into the hole, each with its own vertex.
   void add_flaps(sampled_surface& sampled, const std::vector<bool>& on_edge, number_source& numbers) const {
     if (options_.flaps <= 0.0) return;
-    std::map<std::pair<int, int>, int> opposite;  // to the border's half-edges, and others
+    std::map<std::pair<int, int>, int>
+        opposite;  // vertex opposite to each half-edge; those without a partner are on the border
     for (const auto& corners : sampled.mesh.triangles.colwise())
       for (int side = 0; side < 3; ++side) opposite[{corners[side], corners[(side + 1) % 3]}] = corners[(side + 2) % 3];
     std::vector<Eigen::Vector3i> flaps;

@@ -1,6 +1,6 @@
 #pragma once
-/// Triangles for a surface that is a map from (u, v), v round it and u from an open end to a tip: rings of near-equal
-/// triangles, regular for a template or irregular as a scanner's.
+/// Triangulates a surface that is a map from (u, v), with v around it and u from an open end to a tip, into rings of
+/// near-equal triangles: regular for a template, or irregular like a scanner's.
 
 #include "ear_canals.hpp"
 #include <gonio/core/error.hpp>
@@ -23,29 +23,29 @@
 
 namespace synthetic {
 
-/// (u, v) of a vertex for each column.
+/// (u, v) of a vertex per column.
 using parameter_columns = Eigen::Matrix2Xd;
 
-/// A surface as a map from u, up to 1 where all v are one point, and v, in radians. d/dv x d/du points outwards.
+/// A surface as a map from u, up to 1 where all v give one point, and v, in radians. d/dv x d/du points outwards.
 using parametric_surface = std::function<Eigen::Vector3d(double u, double v)>;
 
-/// A mesh with the places of its vertices.
+/// A mesh with the parameters of its vertices.
 struct parametric_mesh {
   gonio::shape::triangle_mesh mesh;
   parameter_columns places;
 };
 
-/// What makes a mesh look as if it came from a scanner.
+/// Makes a mesh look like a scanner's.
 struct irregularity {
   std::uint64_t seed = 0;
-  double jitter = 0.16;         ///< of places, in steps between neighbours; above 0.2 triangles might fold
-  double long_diagonals = 0.2;  ///< probability to prefer the longer diagonal where there is little difference
-  double skew = 0.02;           ///< how much u differs round a ring
+  double jitter = 0.16;         ///< of the parameters, in steps between neighbours; above 0.2 triangles might fold
+  double long_diagonals = 0.2;  ///< probability of choosing the longer diagonal if both are similar
+  double skew = 0.02;           ///< variation of u around a ring
 };
 
 namespace detail {
 
-/// Rings round a parametric surface that are the same distance apart as their vertices are.
+/// Makes rings around a parametric surface. The distance between rings matches that of their vertices.
 class ring_mesher {
  public:
   ring_mesher(const parametric_surface& surface, double from, std::size_t vertices,
@@ -78,7 +78,7 @@ class ring_mesher {
     return columns;
   }
 
-  /// Circumferences, and distances along the surface from the open end, on many levels of u.
+  /// Measures circumferences, and distances along the surface from the open end, at many levels of u.
   void measure() {
     std::vector<Eigen::Vector3d> before;
     for (int level = 0; level <= levels; ++level) {
@@ -96,7 +96,7 @@ class ring_mesher {
     }
   }
 
-  /// The level, with its fraction, at a distance from the open end.
+  /// Returns the fractional level at a distance from the open end.
   [[nodiscard]] double level_at(double distance) const {
     const auto above = std::ranges::upper_bound(distances_, distance);
     if (above == distances_.end()) return levels;
@@ -118,7 +118,7 @@ class ring_mesher {
     return counts;
   }
 
-  /// The spacing that comes closest to a number of vertices; rings here and there take one more or less to meet it.
+  /// Chooses the spacing closest to a number of vertices. Some rings get one more vertex to match it exactly.
   void choose_counts(std::size_t vertices) {
     const auto total = [](const std::vector<Eigen::Index>& counts) {
       return std::accumulate(counts.begin(), counts.end(), std::size_t{1});
@@ -146,7 +146,7 @@ class ring_mesher {
       double place = static_cast<double>(i) + start, height = u;
       if (irregular_) {
         place += irregular_->jitter * numbers_.uniform(-1.0, 1.0);
-        // The last ring stays clear of the tip.
+        // The last ring must not reach the tip.
         height += step * irregular_->jitter * numbers_.uniform(-1.0, 1.0);
       }
       const double v = angle_at(lengths, place / static_cast<double>(count));
@@ -156,7 +156,7 @@ class ring_mesher {
     }
   }
 
-  /// Moves a ring along the canal by an amount that differs round it and fades at both ends.
+  /// Returns a shift of a ring along the canal that varies around it and fades at both ends.
   [[nodiscard]] double skew_at(double u, double v) const {
     const double place = (u - from_) / (1.0 - from_);
     return irregular_->skew * 4.0 * place * (1.0 - place) * std::sin(v + skew_phase_);
@@ -173,7 +173,7 @@ class ring_mesher {
     return lengths;
   }
 
-  /// The angle at which a share of the circumference is passed; shares below 0 and above 1 go on.
+  /// Returns the angle at a fraction of the circumference. Fractions below 0 and above 1 continue around.
   [[nodiscard]] static double angle_at(const std::vector<double>& lengths, double share) {
     const double turns = std::floor(share), length = (share - turns) * lengths.back();
     const auto above = std::ranges::upper_bound(lengths, length);
@@ -182,11 +182,11 @@ class ring_mesher {
     return full * (turns + (static_cast<double>(low) + part) / sectors);
   }
 
-  /// Triangles between a ring and the next.
+  /// Adds the triangles between a ring and the next.
   void stitch(std::size_t ring) {
     const std::size_t lower = counts_[ring], upper = counts_[ring + 1];
     const auto at_lower = [&](std::size_t i) { return firsts_[ring] + i % lower; };
-    // Begin with the upper vertex that is closest to the first lower one.
+    // Begin with the upper vertex closest to the first lower one.
     std::size_t begin = 0;
     for (std::size_t j = 1; j < upper; ++j)
       if (distance(firsts_[ring], firsts_[ring + 1] + j) < distance(firsts_[ring], firsts_[ring + 1] + begin))
@@ -228,8 +228,8 @@ class ring_mesher {
   std::optional<irregularity> irregular_;
   number_source numbers_;
   double skew_phase_ = 0.0;
-  std::vector<double> circumferences_, distances_;  // at the levels
-  std::vector<Eigen::Index> counts_, firsts_;       // of the rings
+  std::vector<double> circumferences_, distances_;  // per level
+  std::vector<Eigen::Index> counts_, firsts_;       // per ring
   std::vector<Eigen::Vector2d> places_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Eigen::Vector3i> triangles_;
@@ -237,21 +237,21 @@ class ring_mesher {
 
 }  // namespace detail
 
-/// A mesh of exactly so many vertices from u = `from` to the tip, regular or not. Throws gonio::error for fewer than 50
-/// vertices. O(vertices).
+/// Returns a mesh with exactly `vertices` vertices from u = `from` to the tip, regular or irregular. Throws
+/// gonio::error for fewer than 50 vertices. O(vertices).
 [[nodiscard]] inline parametric_mesh mesh_of(const parametric_surface& surface, double from, std::size_t vertices,
                                              const std::optional<irregularity>& irregular = std::nullopt) {
   return detail::ring_mesher(surface, from, vertices, irregular).mesh();
 }
 
-/// The surface of an ear canal, which has to live as long.
+/// Returns the surface of an ear canal, which must outlive it.
 [[nodiscard]] inline parametric_surface surface_of(const ear_canal& individual) {
   return [&individual](double u, double v) { return individual.at(u, v); };
 }
 
 parametric_surface surface_of(ear_canal&&) = delete;
 
-/// The points of an individual at some places: 3 x places.
+/// Returns the points of an individual at some parameters: 3 x places.
 [[nodiscard]] inline gonio::shape::point_columns points_at(const ear_canal& individual,
                                                            const parameter_columns& places) {
   gonio::shape::point_columns points(3, places.cols());
@@ -259,19 +259,19 @@ parametric_surface surface_of(ear_canal&&) = delete;
   return points;
 }
 
-/// Near-equilateral triangles on the family's mean, and so the true correspondences of all individuals.
+/// Near-equilateral triangles on the family's mean, which give the true correspondences of all individuals.
 class ear_canal_template {
  public:
-  /// Of the published number of vertices or another. Throws gonio::error for fewer than 50.
+  /// The default is the published number of vertices. Throws gonio::error for fewer than 50.
   explicit ear_canal_template(std::size_t vertices = 3096)
       : on_mean_(
             mesh_of([mean = ear_canal_family::mean()](double u, double v) { return mean.at(u, v); }, 0.0, vertices)) {}
 
-  /// On the family's mean.
+  /// Returns the mesh on the family's mean.
   [[nodiscard]] const gonio::shape::triangle_mesh& mesh() const noexcept { return on_mean_.mesh; }
   [[nodiscard]] const parameter_columns& places() const noexcept { return on_mean_.places; }
 
-  /// The true places of the vertices on an individual: 3 x vertices.
+  /// Returns the true positions of the vertices on an individual: 3 x vertices.
   [[nodiscard]] gonio::shape::point_columns corresponded(const ear_canal& individual) const {
     return points_at(individual, on_mean_.places);
   }

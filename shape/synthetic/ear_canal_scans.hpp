@@ -1,6 +1,6 @@
 #pragma once
-/// Scans of the ear canals of `synthetic::ear_canal_family`: triangulated by chance, somewhere in space, noisy, with
-/// holes and of the kinds that a bootstrap must reject, and what is true about each of them.
+/// Scans of the ear canals of `synthetic::ear_canal_family`, with their true values: randomly triangulated and placed,
+/// noisy, with holes, and with the defects that a bootstrap must reject.
 
 #include "ear_canal_holes.hpp"
 #include "ear_canal_mesh.hpp"
@@ -23,43 +23,43 @@
 
 namespace synthetic {
 
-/// What is wrong with a scan.
+/// The defect of a scan.
 enum class scan_defect {
   none,
   mirrored,      ///< a right ear
   half,          ///< the inner or the outer half is missing
-  upside_down,   ///< turned by 180 degrees about the horizontal axis of the canal
+  upside_down,   ///< rotated by 180 degrees about the horizontal axis of the canal
   heavy_noise,   ///< 0.6 mm
   other_object,  ///< no ear canal at all
 };
 
-/// How a scan is taken. Millimetres and radians.
+/// The settings of a scan, in millimetres and radians.
 struct scan_options {
   std::size_t vertices = 0;                       ///< before holes; 0 for any number from 8,000 to 15,000
-  std::size_t complete_vertices = 20000;          ///< of `ear_scan::complete`; 0 to go without
-  double turn = 20.0 * std::numbers::pi / 180.0;  ///< at most, about the vertical axis
+  std::size_t complete_vertices = 20000;          ///< of `ear_scan::complete`; 0 for none
+  double turn = 20.0 * std::numbers::pi / 180.0;  ///< largest rotation about the vertical axis
   double tilt = 3.0 * std::numbers::pi / 180.0;   ///< standard deviation about each horizontal axis
   double shift = 5.0;                             ///< standard deviation along each axis
   double noise = 0.03;                            ///< standard deviation along the normals
-  double cut = 0.008;  ///< standard deviation, in u, of where the outer end is cut and of how aslant
+  double cut = 0.008;  ///< standard deviation, in u, of the position and slant of the cut at the outer end
   std::optional<hole_options> hole;
   scan_defect defect = scan_defect::none;
 };
 
-/// A scan and what is true about it.
+/// A scan and its true values.
 struct ear_scan {
   gonio::shape::triangle_mesh mesh;
-  parameter_columns places;           ///< (u, v) of each vertex of `mesh`; that of a neighbour for spurious flaps
-  gonio::shape::point_columns truth;  ///< the template's vertices, in the scan's coordinates; none for another object
-  /// Which of them are on the part of the surface that was scanned, up to a triangle's size.
+  parameter_columns places;           ///< (u, v) of each vertex of `mesh`; for spurious flaps, that of a neighbour
+  gonio::shape::point_columns truth;  ///< the template's vertices, in the scan's coordinates; empty for another object
+  /// Whether each of them is on the scanned part of the surface, up to a triangle's size.
   std::vector<bool> covered;
   gonio::shape::triangle_mesh
       complete;               ///< without holes and noise, in the scan's coordinates, from `ear_canal::outermost`
   Eigen::Affine3d placement;  ///< from the family's coordinates to the scan's; reflects if mirrored
   scan_defect defect = scan_defect::none;
-  ear_canal individual;  ///< for another object, the one that it replaces
+  ear_canal individual;  ///< for another object, the individual that it replaces
 
-  /// Where a point of the individual is in the scan's coordinates.
+  /// Returns a point of the individual in the scan's coordinates.
   [[nodiscard]] Eigen::Vector3d placed(double u, double v) const { return placement * individual.at(u, v); }
 };
 
@@ -76,7 +76,7 @@ inline void require_options(const scan_options& options) {
       gonio::refuse(std::string("a scan's ") + name + " must be finite and not negative, not " + std::to_string(value));
 }
 
-/// A smooth closed thing of the size of an ear canal, cut open at u = 0. It owns its shape.
+/// Returns a smooth closed object of the size of an ear canal, cut open at u = 0. It owns its shape.
 [[nodiscard]] inline parametric_surface blob(std::uint64_t seed) {
   number_source numbers(seed);
   std::array<double, 3> axes{}, bumps{}, phases{};
@@ -93,7 +93,7 @@ inline void require_options(const scan_options& options) {
   };
 }
 
-/// The outward unit normal of a parametric surface where it is smooth.
+/// Returns the outward unit normal of a smooth parametric surface.
 [[nodiscard]] inline Eigen::Vector3d normal_of(const parametric_surface& surface, double u, double v) {
   constexpr double step = 1e-4;
   const double inside = std::min(u, 1.0 - 10.0 * step);
@@ -102,7 +102,7 @@ inline void require_options(const scan_options& options) {
   return round.cross(along).normalized();
 }
 
-/// Makes one scan. Everything has a source of numbers of its own, so that an option does not change the rest.
+/// Makes one scan. Each step has its own random source, so that an option does not change the others.
 class scanner {
  public:
   scanner(const ear_canal& individual, std::uint64_t seed, const scan_options& options)
@@ -157,7 +157,7 @@ class scanner {
     return placement;
   }
 
-  /// The mesh of the scan without noise, in the family's coordinates.
+  /// Returns the mesh of the scan without noise, in the family's coordinates.
   [[nodiscard]] sampled_surface sample() {
     number_source numbers(own_seeds_[3]);
     const auto drawn = 8000 + static_cast<std::size_t>(7001.0 * numbers.uniform());
@@ -174,7 +174,7 @@ class scanner {
     return {std::move(made.mesh), std::move(made.places), std::move(normals)};
   }
 
-  /// The outer end is cut aslant; further in, this fades.
+  /// The outer end is cut at a slant, which fades inwards.
   [[nodiscard]] double slant_at(double u, double v) const {
     return slant_ * std::pow(1.0 - std::max(0.0, u), 4) * std::sin(v + slant_phase_);
   }
@@ -220,16 +220,15 @@ class scanner {
 
 }  // namespace detail
 
-/// A scan of an individual. Equal arguments give equal scans; `hole` and `noise` change nothing else. Throws
-/// gonio::error for options that make no sense. O(vertices), of which 10,000 with the complete surface take some 0.03
-/// s.
+/// Returns a scan of an individual. Equal arguments give equal scans; `hole` and `noise` change nothing else. Throws
+/// gonio::error for invalid options. O(vertices): 10,000 with the complete surface take about 0.03 s.
 [[nodiscard]] inline ear_scan scan_of(const ear_canal& individual, const ear_canal_template& common, std::uint64_t seed,
                                       const scan_options& options = {}) {
   return detail::scanner(individual, seed, options).scan(common);
 }
 
-/// Scans of so many individuals of a family, of which each has any of the defects with a probability; of the others,
-/// `options.defect` is in force. The first scans are the same for any `count`. Throws gonio::error unless the share is
+/// Returns scans of `count` individuals of a family. Each has one of the defects with probability `share_of_defects`,
+/// otherwise `options.defect`. The first scans are the same for any `count`. Throws gonio::error unless the share is
 /// from 0 to 1.
 [[nodiscard]] inline std::vector<ear_scan> population(const ear_canal_family& family, const ear_canal_template& common,
                                                       std::size_t count, std::uint64_t seed,

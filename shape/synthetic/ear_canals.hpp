@@ -1,9 +1,9 @@
 #pragma once
-/// Ear canals that nobody has: a smooth family of surfaces with known correspondences, for tests and teaching.
+/// Synthetic ear canals: a smooth family of surfaces with known correspondences, for tests and teaching.
 ///
-/// Made after the description of the data of "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU
-/// 2016, contribution C.V), section 1.1: left ears with a bowl at the outer end, two bends and a blunt tip as of an
-/// impression. Millimetres. The vertical axis is y, inwards is about -x, to the back of the head is -z.
+/// They follow the description of the data of "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU
+/// 2016, contribution C.V), section 1.1: left ears with a bowl at the outer end, two bends and the blunt tip of an
+/// impression. Millimetres. The vertical axis is y, inwards is about -x, the back of the head is -z.
 
 #include <gonio/core/error.hpp>
 #include <gonio/core/random.hpp>
@@ -25,7 +25,7 @@
 
 namespace synthetic {
 
-/// Random numbers that are the same on every standard library.
+/// Random numbers that are equal on every standard library.
 class number_source {
  public:
   explicit number_source(std::uint64_t seed) : generator_(seed) {}
@@ -34,45 +34,45 @@ class number_source {
   [[nodiscard]] double uniform() { return gonio::uniform_number(generator_); }
   [[nodiscard]] double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-  /// Of mean 0 and variance 1 (Box and Muller).
+  /// Returns a normal number of mean 0 and variance 1 (Box and Muller).
   [[nodiscard]] double normal() {
     const double length = std::sqrt(-2.0 * std::log(1.0 - uniform()));
     return length * std::cos(2.0 * std::numbers::pi * uniform());
   }
 
-  /// A normal number drawn again until it is within this many standard deviations.
+  /// Returns a normal number, redrawn until it is within this many standard deviations.
   [[nodiscard]] double normal_within(double limit) {
     double number = normal();
     while (std::abs(number) > limit) number = normal();
     return number;
   }
 
-  /// For a source that is to be independent of this one.
+  /// Returns a seed for an independent source.
   [[nodiscard]] std::uint64_t seed() { return generator_(); }
 
  private:
   std::mt19937_64 generator_;
 };
 
-/// A local cavity (height < 0) or bump that is no matter of statistics.
+/// A local cavity (height < 0) or bump outside the family's statistics.
 struct abnormality {
   double u, v;
   double height;  ///< mm
   double width;   ///< mm
 };
 
-/// The surface of one ear canal: a map from (u, v) to points. u runs from the outer open end, 0, to the tip, 1; v goes
-/// round the canal in radians from "up" to "back". The bends are at the same u in all individuals, so that equal (u, v)
-/// are corresponding places.
+/// The surface of one ear canal: a map from (u, v) to points. u runs from the outer open end, 0, to the tip, 1. v goes
+/// around the canal in radians from "up" to "back". The bends are at the same u in all individuals, so equal (u, v)
+/// correspond.
 class ear_canal {
  public:
-  /// How many independent normal numbers make an individual.
+  /// The number of independent normal numbers of an individual.
   static constexpr std::size_t latent_count = 56;
-  /// The surface goes on a little outside u = 0, so that scans may be cut there.
+  /// The surface continues a little outside u = 0, so that scans can be cut there.
   static constexpr double outermost = -0.05;
-  /// Where the centre line bends most.
+  /// The positions of the largest bends of the centre line.
   static constexpr double first_bend = 0.36, second_bend = 0.64;
-  /// Where the tip's cap begins.
+  /// The beginning of the tip's cap.
   static constexpr double cap_begin = 0.84;
 
   /// Throws gonio::error unless there are `latent_count` finite latent numbers.
@@ -90,11 +90,11 @@ class ear_canal {
   [[nodiscard]] const std::vector<double>& latents() const noexcept { return latents_; }
   [[nodiscard]] const std::optional<abnormality>& oddity() const noexcept { return oddity_; }
 
-  /// The point at u in [outermost, 1] and any v.
+  /// Returns the point at u in [outermost, 1] and any v.
   [[nodiscard]] Eigen::Vector3d at(double u, double v) const {
     const station here = station_at(u);
     const double turn = std::max(0.0, (u - cap_begin) / (1.0 - cap_begin)) * 0.5 * std::numbers::pi;
-    // At the tip itself the cosine must be nothing, whatever its rounding.
+    // At the tip the cosine must be exactly 0.
     const double sine = std::sin(turn), cosine = u >= 1.0 ? 0.0 : std::cos(turn);
     const double radius = radius_at(u, v, cosine) * cosine * (1.0 + bluntness_ * sine * sine);
     const double c = std::cos(v), s = std::sin(v);
@@ -102,7 +102,7 @@ class ear_canal {
     return here.centre + here.frame * Eigen::Vector3d(along, radius * c, radius * s);
   }
 
-  /// The outward unit normal.
+  /// Returns the outward unit normal.
   [[nodiscard]] Eigen::Vector3d normal(double u, double v) const {
     constexpr double step = 1e-4;
     if (u > 1.0 - 2.0 * step) {
@@ -116,15 +116,16 @@ class ear_canal {
     return round.cross(along).normalized();
   }
 
-  /// The point of the centre line at u, in the cap its axis.
+  /// Returns the point of the centre line at u; in the cap, a point of its axis.
   [[nodiscard]] Eigen::Vector3d centre(double u) const {
     const station here = station_at(u);
     const double turn = std::max(0.0, (u - cap_begin) / (1.0 - cap_begin)) * 0.5 * std::numbers::pi;
     return here.centre + here.frame * Eigen::Vector3d(cap_length_ * std::sin(turn), 0.0, 0.0);
   }
 
-  /// How far the surface is from folding: the least stretch of the surface along the canal against that of the centre
-  /// line, 1 in a straight tube and 0 where the wall reaches the centre of a bend; no more than the least radius in mm.
+  /// Returns the distance from folding: the smallest stretch of the surface along the canal relative to the centre
+  /// line, 1 in a straight tube and 0 where the wall reaches the centre of a bend; at most the smallest radius in mm
+  /// minus 1.
   [[nodiscard]] double regularity() const {
     double least = 1.0;
     for (int ring = 0; ring <= 60; ++ring) {
@@ -132,7 +133,7 @@ class ear_canal {
       const Eigen::Vector3d turning = turning_at(u) / speed_at(u);
       for (int sector = 0; sector < 24; ++sector) {
         const double v = 2.0 * std::numbers::pi * sector / 24.0, radius = radius_at(u, v, 1.0);
-        // The part along the canal of turning x arm.
+        // The component of turning x arm along the canal.
         const double stretch = 1.0 + radius * (turning[1] * std::sin(v) - turning[2] * std::cos(v));
         least = std::min({least, stretch, radius - 1.0});
       }
@@ -142,21 +143,21 @@ class ear_canal {
 
  private:
   static constexpr int stations = 240;
-  static constexpr double middle = 0.45;  // where all individuals have one frame
+  static constexpr double middle = 0.45;  // all individuals have the same frame here
 
-  /// A place of the centre line. The frame's columns are inwards, up and back.
+  /// A point of the centre line. The frame's columns are inwards, up and back.
   struct station {
     Eigen::Vector3d centre;
     Eigen::Quaterniond frame;
   };
 
-  /// One smooth bump of the wall: cos(k pi u) (a cos(m v) + b sin(m v)).
+  /// A smooth bump of the wall: cos(k pi u) (a cos(m v) + b sin(m v)).
   struct wave {
     int k, m;
     double a, b;
   };
 
-  /// The latent numbers one by one, scaled, the strong ones first within each kind.
+  /// Reads the latent numbers one by one, scaled; the strong ones come first within each kind.
   class latent_reader {
    public:
     explicit latent_reader(const std::vector<double>& all) : all_(all) {}
@@ -199,7 +200,7 @@ class ear_canal {
     for (double& slope : tilt_) slope = read.next(0.1, 0.10);
   }
 
-  /// Anatomy in the small. What all have in common makes places of the wall differ from one another.
+  /// Small-scale anatomy. The common part makes places on the wall distinguishable.
   void read_waves(latent_reader& read) {
     const std::array<wave, 9> common{{{0, 3, 0.10, -0.16},
                                       {1, 3, -0.14, 0.08},
@@ -220,7 +221,7 @@ class ear_canal {
 
   [[nodiscard]] double speed_at(double u) const { return 29.0 * std::exp(cosine_sum(log_speed_, u)); }
 
-  /// The sum of c_k cos(k pi u).
+  /// Returns the sum of c_k cos(k pi u).
   template <std::size_t Size>
   [[nodiscard]] static double cosine_sum(const std::array<double, Size>& factors, double u) {
     const double first = std::cos(std::numbers::pi * u);
@@ -232,7 +233,7 @@ class ear_canal {
     return sum;
   }
 
-  /// How the frame turns with u, in its own axes.
+  /// Returns the rotation of the frame per u, in its own axes.
   [[nodiscard]] Eigen::Vector3d turning_at(double u) const {
     Eigen::Vector3d turning(twist_, cosine_sum(wander_[0], u), cosine_sum(wander_[1], u));
     for (const bend& one : bends_) {
@@ -260,7 +261,7 @@ class ear_canal {
     stand_upright();
   }
 
-  /// Moves the line so that in the middle it runs inwards through the origin, with the frame's second axis up.
+  /// Moves the line so that its middle is at the origin and runs inwards, with the frame's second axis up.
   void stand_upright() {
     Eigen::Matrix3d head;
     head << -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0;
@@ -274,12 +275,12 @@ class ear_canal {
     const auto first = static_cast<std::size_t>(std::min(place, stations - 1.0));
     const double share = place - static_cast<double>(first);
     const station &low = line_[first], &high = line_[first + 1];
-    // Neighbouring frames are so close that it does not matter how to go from one to the other.
+    // Neighbouring frames are so close that any interpolation works.
     const Eigen::Vector4d frame = (1.0 - share) * low.frame.coeffs() + share * high.frame.coeffs();
     return {(1.0 - share) * low.centre + share * high.centre, Eigen::Quaterniond(frame.normalized())};
   }
 
-  /// From the centre line to the wall, before the cap draws it in. `fading` takes the bumps away towards the tip.
+  /// Returns the distance from the centre line to the wall without the cap. `fading` removes the bumps towards the tip.
   [[nodiscard]] double radius_at(double u, double v, double fading) const {
     std::array<double, 6> c{1.0, std::cos(v)}, s{0.0, std::sin(v)};
     for (std::size_t m = 2; m < c.size(); ++m) {
@@ -298,7 +299,7 @@ class ear_canal {
            fading * fading * (bumps + oddness_at(u, v));
   }
 
-  /// The bowl widens fast where the canal opens, and ever less towards the rim.
+  /// The bowl widens quickly where the canal opens, and less towards the rim.
   [[nodiscard]] double bowl_at(double u) const {
     constexpr double softness = 0.03;
     const double into = softness * std::log1p(std::exp((bowl_depth_ - u) / softness)) / bowl_depth_;
@@ -333,11 +334,11 @@ class ear_canal {
   std::vector<station> line_;
 };
 
-/// Where ear canals come from.
+/// A distribution of ear canals.
 class ear_canal_family {
  public:
-  /// `variation` scales the latent numbers, `abnormal_share` is the probability of an `abnormality`. Throws
-  /// gonio::error if the variation is not in [0, 1] or the share is not.
+  /// `variation` scales the latent numbers; `abnormal_share` is the probability of an `abnormality`. Throws
+  /// gonio::error unless both are in [0, 1].
   explicit ear_canal_family(double variation = 1.0, double abnormal_share = 0.03)
       : variation_(variation), abnormal_share_(abnormal_share) {
     if (!(variation >= 0.0 && variation <= 1.0))
@@ -346,8 +347,8 @@ class ear_canal_family {
       gonio::refuse("a share of abnormal ear canals must be from 0 to 1, not " + std::to_string(abnormal_share));
   }
 
-  /// The individual of a seed: latent numbers within 3 standard deviations, drawn again until the surface keeps clear
-  /// of folding.
+  /// Returns the individual of a seed. Latent numbers are within 3 standard deviations and redrawn until the surface is
+  /// far enough from folding.
   [[nodiscard]] ear_canal draw(std::uint64_t seed) const {
     number_source numbers(seed);
     for (;;) {
@@ -358,7 +359,7 @@ class ear_canal_family {
     }
   }
 
-  /// That of no deviation: not the mean of the points, as they do not depend on the latent numbers linearly.
+  /// Returns the individual with zero latent numbers. It is not the mean: points are not linear in these.
   [[nodiscard]] static ear_canal mean() { return ear_canal(std::vector<double>(ear_canal::latent_count, 0.0)); }
 
  private:

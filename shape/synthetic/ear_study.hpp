@@ -1,6 +1,6 @@
 #pragma once
 /// Ears to learn a model from, and others with holes to recover: the study of "Anatomically correct surface recovery"
-/// (Nielsen, doctoral thesis, DTU 2016, contribution C.V, section 4), with ears that nobody has.
+/// (Nielsen, doctoral thesis, DTU 2016, contribution C.V, section 4), with synthetic ears.
 
 #include "ear_canal_scans.hpp"
 #include <gonio/core/parallel.hpp>
@@ -15,14 +15,14 @@
 
 namespace synthetic {
 
-/// All that is random comes from the seed.
+/// All random numbers derive from the seed.
 class ear_study {
  public:
   explicit ear_study(std::uint64_t seed) : seed_(seed) {}
 
   [[nodiscard]] const ear_canal_template& common() const noexcept { return common_; }
 
-  /// A model of so many ears.
+  /// Learns a model from `shapes` ears.
   [[nodiscard]] gonio::shape::shape_model learn(Eigen::Index shapes, gonio::thread_count threads) const {
     std::vector<gonio::shape::point_columns> all;
     std::vector<std::string> names;
@@ -34,15 +34,15 @@ class ear_study {
     return gonio::shape::learn_shape_model(all, std::move(names), common_.mesh().triangles, threads);
   }
 
-  /// A scan of an ear that is in no model. It has a source of numbers of its own, so that who is held out does not
-  /// depend on how many were learned from.
+  /// Returns a scan of an ear that is in no model. It has its own random source, so the held-out ears do not depend on
+  /// the number of learned ones.
   [[nodiscard]] ear_scan held_out(Eigen::Index number, const scan_options& how) const {
     number_source seeds(seed_ + 1'000'003 * (number + 1));
     const std::uint64_t individual = seeds.seed(), scanner = seeds.seed();
     return scan_of(family_.draw(individual), common_, scanner, how);
   }
 
-  /// The template's vertices in the hole of a scan.
+  /// Returns the template's vertices in the hole of a scan.
   [[nodiscard]] std::vector<Eigen::Index> hole_of(const ear_scan& scan) const {
     std::vector<Eigen::Index> hole;
     for (std::size_t v = 0; v < scan.covered.size(); ++v)

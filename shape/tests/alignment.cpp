@@ -26,7 +26,7 @@ point_columns scattered_points(Eigen::Index count, std::uint64_t seed) {
   return points;
 }
 
-/// Any rotation, a translation of up to 50 and a scale from 0.25 to 4.
+/// Returns a random rotation, a translation of up to 50 and a scale from 0.25 to 4.
 similarity_transform scattered_pose(std::uint64_t seed, alignment_kind kind) {
   const point_columns numbers = scattered_points(4, seed);
   const Eigen::Quaterniond turn(numbers.reshaped().head<4>());
@@ -145,7 +145,7 @@ TEST_CASE("what leaves an alignment undetermined is refused") {
   refused(broken, onto, {}, "finite");
   refused(from, broken, {}, "finite");
   refused(1e200 * from, 1e200 * onto, {}, "too far apart");
-  // On a line, far from the origin; one point many times; and a mirrored cube, which three turns fit equally well.
+  // Points on a line far from the origin, one repeated point, and a mirrored cube, which three rotations fit equally.
   point_columns line = Eigen::Vector3d(1.0, 2.0, -3.0) * Eigen::RowVectorXd::LinSpaced(5, -1.0, 1.0);
   line.colwise() += Eigen::Vector3d(1000.0, -300.0, 77.0);
   refused(line, line, {}, "on a line");
@@ -188,7 +188,7 @@ TEST_CASE("each aligned shape is one of the given ones, and best aligned with th
     sum += aligned[i];
   }
   CHECK((sum / 12.0 - mean).norm() < 1e-9);
-  // The pose in which a shape was scanned does not matter, but for that of the first.
+  // The pose in which a shape was scanned does not matter, except for the first shape.
   std::vector<point_columns> others = posed;
   for (std::size_t i = 1; i < others.size(); ++i) others[i] = scattered_pose(100 + i, alignment_kind::rigid)(others[i]);
   CHECK((gonio::shape::procrustes_mean(others).mean - mean).norm() < 1e-6);

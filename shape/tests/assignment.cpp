@@ -15,7 +15,7 @@ using gonio::shape::optimal_assignment;
 
 namespace {
 
-/// Some of them equal: 50 different values.
+/// Returns costs with 50 different values, so that some are equal.
 Eigen::MatrixXd any_costs(Eigen::Index rows, Eigen::Index columns) {
   Eigen::MatrixXd costs(rows, columns);
   for (double& cost : costs.reshaped()) cost = 0.1 * *rc::gen::inRange(-25, 25);
@@ -29,7 +29,7 @@ double assigned_cost(const Eigen::MatrixXd& costs, const std::vector<Eigen::Inde
   return sum;
 }
 
-/// Over all ways to assign the rows, no more than the columns.
+/// Returns the least cost over all assignments of the rows, which must not outnumber the columns.
 double least_cost_of_all(const Eigen::MatrixXd& costs) {
   std::vector<Eigen::Index> columns(costs.cols());
   std::iota(columns.begin(), columns.end(), Eigen::Index{0});
@@ -42,7 +42,7 @@ double least_cost_of_all(const Eigen::MatrixXd& costs) {
   return least;
 }
 
-/// How many rows have a column, if none is there twice; otherwise -1.
+/// Returns the number of rows with a column; -1 if a column occurs twice.
 std::ptrdiff_t pairs_of(const std::vector<Eigen::Index>& columns) {
   std::set<Eigen::Index> distinct(columns.begin(), columns.end());
   distinct.erase(-1);
@@ -65,7 +65,7 @@ TEST_CASE("no assignment of all is cheaper") {
 }
 
 TEST_CASE("many rows find their own columns") {
-  // A permutation's columns cost least when all others cost at least the dual prices of both: row + column + 1.
+  // A permutation is optimal if all other costs are at least the sum of their dual prices: row + column + 1.
   for (const auto& [rows, columns] : {std::pair(200, 200), std::pair(150, 220), std::pair(220, 150)}) {
     std::mt19937_64 generator(static_cast<std::uint64_t>(rows));
     const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
@@ -96,7 +96,7 @@ TEST_CASE("the unit and the zero of costs do not matter") {
     const Eigen::MatrixXd shifted = costs.array() + 1000.0;
     RC_ASSERT(std::abs(assigned_cost(costs, optimal_assignment(shifted)) - least) < 1e-6);
   }));
-  // Whose difference is not finite.
+  // The difference of these costs is not finite.
   const double huge = std::numeric_limits<double>::max();
   CHECK(optimal_assignment((Eigen::Matrix2d() << huge, -huge, -huge, huge).finished()) ==
         std::vector<Eigen::Index>{1, 0});

@@ -34,7 +34,7 @@ TEST_CASE("places too far, of another side, or where the scan ends are none") {
   inside_out.triangles.row(0).swap(inside_out.triangles.row(1));
   CHECK(gonio::shape::closest_places({gonio::shape::surface_index(inside_out), {}}, sphere).vertices.empty());
 
-  // The upper half alone: what is below has its border as the nearest place.
+  // For the upper half alone, the closest point to the lower half is on the border.
   gonio::shape::triangle_mesh half = sphere;
   Eigen::Index kept = 0;
   for (Eigen::Index t = 0; t < sphere.triangles.cols(); ++t)

@@ -65,7 +65,7 @@ TEST_CASE("it is the same for any number of threads, and another for another see
     CHECK(one.covariance(vertex) != other.covariance(vertex));
   }
   CHECK(one.squared_radius(0.9) == two.squared_radius(0.9));
-  // Ten shapes tell ten of eleven and no more.
+  // Ten shapes give the quantile 10/11 and no higher one.
   REQUIRE(one.trials() == 10);
   CHECK(one.squared_radius(0.9) < one.squared_radius(0.92));
   CHECK(one.squared_radius(0.92) == one.squared_radius(0.999));

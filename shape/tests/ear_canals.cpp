@@ -17,7 +17,7 @@
 
 namespace {
 
-/// Scans that are quick to make.
+/// Returns options for scans that are quick to make.
 synthetic::scan_options quick_ear_scan() {
   synthetic::scan_options options;
   options.vertices = 1500;
@@ -30,7 +30,7 @@ const synthetic::ear_canal_template& ear_template() {
   return common;
 }
 
-/// The smallest angle of each triangle in degrees, ascending.
+/// Returns the smallest angle of each triangle in degrees, ascending.
 std::vector<double> smallest_angles(const gonio::shape::triangle_mesh& mesh) {
   std::vector<double> angles;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
@@ -47,7 +47,7 @@ std::vector<double> smallest_angles(const gonio::shape::triangle_mesh& mesh) {
   return angles;
 }
 
-/// V - E + F.
+/// Returns V - E + F.
 Eigen::Index euler_number(const gonio::shape::triangle_mesh& mesh) {
   std::map<std::pair<int, int>, int> edges;
   for (const auto& corners : mesh.triangles.colwise())
@@ -61,7 +61,7 @@ bool uses_all_vertices(const gonio::shape::triangle_mesh& mesh) {
   return std::ranges::find(used, false) == used.end();
 }
 
-/// The share of triangles whose normals agree with those of the surface.
+/// Returns the fraction of triangles whose normals agree with the surface's.
 double share_outwards(const synthetic::ear_canal& individual, const gonio::shape::triangle_mesh& mesh,
                       const synthetic::parameter_columns& places) {
   const gonio::shape::point_columns normals = gonio::shape::area_normals(mesh);
@@ -73,7 +73,7 @@ double share_outwards(const synthetic::ear_canal& individual, const gonio::shape
   return outwards / static_cast<double>(normals.cols());
 }
 
-/// Does a side of a triangle pierce another triangle that has no vertex in common with it?
+/// Returns whether a side of a triangle intersects another triangle without a common vertex.
 bool intersects_itself(const gonio::shape::triangle_mesh& mesh) {
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     const Eigen::Matrix3d of = mesh.corners(t);
@@ -110,7 +110,7 @@ bool equal_scans(const synthetic::ear_scan& first, const synthetic::ear_scan& se
          first.placement.matrix() == second.placement.matrix();
 }
 
-/// Distances of a scan's vertices from where they are on the individual, along the normal.
+/// Returns the distances of a scan's vertices from their positions on the individual, along the normal.
 std::vector<double> offsets_of(const synthetic::ear_scan& scan) {
   const Eigen::Affine3d back = scan.placement.inverse();
   std::vector<double> offsets;
@@ -127,7 +127,7 @@ double root_mean_square(const std::vector<double>& numbers) {
   return std::sqrt(sum / static_cast<double>(numbers.size()));
 }
 
-/// What turns and moves points onto others best, in the sense of least squares.
+/// Returns points rotated and translated onto others in the least-squares sense.
 gonio::shape::point_columns turned_onto(const gonio::shape::point_columns& points,
                                         const gonio::shape::point_columns& onto) {
   const Eigen::Matrix3d spread = onto * points.transpose();
@@ -201,7 +201,7 @@ TEST_CASE("an ear canal is regular, inwards, upright and does not intersect itse
     CHECK(length < 35.0);
     CHECK(std::ranges::all_of(individual.latents(), [](double z) { return std::abs(z) <= 3.0; }));
   }
-  // The test for intersections finds one.
+  // The intersection test finds an intersection.
   gonio::shape::triangle_mesh crossed{gonio::shape::point_columns(3, 6), gonio::shape::triangle_columns(3, 2)};
   crossed.vertices << 0.0, 4.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 4.0, 1.0, 1.0, 2.0, 0.0, 0.0, 0.0, -1.0, 1.0, 1.0;
   crossed.triangles << 0, 3, 1, 4, 2, 5;
@@ -219,7 +219,7 @@ TEST_CASE("ear canals are functions of a seed and of their latent numbers") {
   CHECK(synthetic::ear_canal_family(0.0, 0.0).draw(3).at(0.2, 4.0) == synthetic::ear_canal_family::mean().at(0.2, 4.0));
   CHECK((first.at(0.4, 0.0) - first.at(0.4, 2.0 * std::numbers::pi)).norm() < 1e-12);
   CHECK(first.at(1.0, 0.0) == first.at(1.0, 2.0));
-  // Each latent number does something, and none too much.
+  // Each latent number has an effect, but not too large.
   const synthetic::ear_canal plain = synthetic::ear_canal_family::mean();
   for (std::size_t i = 0; i < synthetic::ear_canal::latent_count; ++i) {
     std::vector<double> latents(synthetic::ear_canal::latent_count, 0.0);
@@ -328,7 +328,7 @@ TEST_CASE("a scan's noise and pose are those asked for") {
     options.vertices = 60;
     const Eigen::Matrix3d turn = synthetic::scan_of(individual, ear_template(), seed, options).placement.linear();
     CHECK((turn.transpose() * turn - Eigen::Matrix3d::Identity()).norm() < 1e-12);
-    CHECK(turn(1, 1) > std::cos(13.0 * std::numbers::pi / 180.0));  // up stays up
+    CHECK(turn(1, 1) > std::cos(13.0 * std::numbers::pi / 180.0));  // up remains up
     farthest = std::max(farthest, std::abs(std::atan2(turn(0, 2), turn(0, 0))) * 180.0 / std::numbers::pi);
   }
   CHECK(farthest > 12.0);
@@ -351,7 +351,7 @@ TEST_CASE("holes are where they were asked for, with disturbed edges") {
   const Eigen::Vector3d inside = holed.placed(0.5, 1.0), across = holed.placed(0.5, 1.0 + std::numbers::pi);
   CHECK(scanned.closest(inside).distance > 2.0);
   CHECK(scanned.closest(across).distance < 0.1);
-  // A missing vertex is far from the scan or at its border.
+  // A missing vertex is far from the scan or nearest to its border.
   for (Eigen::Index i = 0; i < holed.truth.cols(); i += 5) {
     const auto nearest = scanned.closest(holed.truth.col(i));
     if (!holed.covered[i]) CHECK((nearest.on_border || nearest.distance < 0.1));
@@ -376,7 +376,7 @@ TEST_CASE("holes are where they were asked for, with disturbed edges") {
 }
 
 TEST_CASE("parts that touch in a point or are cut off are removed from a scan") {
-  // Two triangles that share vertex 2 only, and a larger strip apart from them.
+  // Two triangles that share only vertex 2, and a separate larger strip.
   synthetic::sampled_surface sampled;
   sampled.mesh.vertices = gonio::shape::point_columns::Random(3, 10);
   sampled.mesh.triangles.resize(3, 5);
@@ -405,7 +405,7 @@ TEST_CASE("defective scans have their defect") {
     return scan;
   };
 
-  // No rotation brings a mirrored ear near the other, a reflection does; triangles still face outwards.
+  // A reflection, but no rotation, aligns a mirrored ear with the other. Its triangles still face outwards.
   const synthetic::ear_scan mirrored = with(synthetic::scan_defect::mirrored);
   CHECK(mirrored.placement.linear().determinant() == doctest::Approx(-1.0));
   const gonio::shape::point_columns normals = gonio::shape::area_normals(mirrored.mesh);

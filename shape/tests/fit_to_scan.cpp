@@ -11,7 +11,7 @@
 
 namespace {
 
-/// The true pose, turned by some degrees and shifted by some millimetres.
+/// Returns the true pose, rotated by some degrees and shifted by some millimetres.
 gonio::shape::similarity_transform about_right(const synthetic::ear_scan& scan, const gonio::shape::shape_model& model,
                                                double degrees, double shift) {
   const Eigen::AngleAxisd turn(gonio::radians(degrees), Eigen::Vector3d(1, 2, 2) / 3.0);
@@ -35,7 +35,7 @@ TEST_CASE("a model finds the shape and the pose of a whole scan from one that is
   CHECK(off.absolute_mean < 0.12);  // a shape of the family is 1.15 mm from the mean
   CHECK(found.squared_distance() > 0.0);
   CHECK(found.weights().size() == std::ssize(ears.model.truncated_to_variance(0.99).basis()));
-  // What little motion was left in the end is in the pose.
+  // The pose includes the last remaining motion.
   CHECK(found.all_weights.tail<6>().norm() * 1e3 < 0.05);
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("a pose that is held stays as it was given, bit by bit, and costs what
     }
     return gonio::shape::distance_to(complete, found.pose.inverse()(found.shape())).absolute_mean;
   };
-  // Where it is right it serves as well as one that is fitted; where it is off it does not.
+  // A correct pose serves as well as a fitted one; a wrong pose does not.
   CHECK(off_with(0.0, 0.0, true) < 1.5 * off_with(0.0, 0.0, false));
   CHECK(off_with(6.0, 1.0, true) > 2.0 * off_with(6.0, 1.0, false));
 }

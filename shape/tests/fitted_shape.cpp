@@ -14,8 +14,8 @@
 
 namespace {
 
-/// E{s1|y2} as Eq. 5-7 have it, from the covariance of the shapes, with the largest eigenvalues of S22 that explain a
-/// share. Returns all vertices, the known ones predicted, too.
+/// Returns E{s1|y2} by Eq. 5-7, from the covariance of the shapes and the largest eigenvalues of S22 that explain a
+/// share: all vertices, including predictions for the known ones.
 gonio::shape::point_columns by_block_covariance(const gonio::shape::shape_basis& basis,
                                                 const gonio::shape::vertex_observations& known, double share) {
   const Eigen::MatrixXd q = basis.components().cast<double>();

@@ -21,7 +21,7 @@ namespace {
 
 const auto any_vertex = [](Eigen::Index) { return true; };
 
-/// Shortest paths by relaxing all edges until nothing changes (Bellman and Ford).
+/// Returns shortest paths by relaxing all edges until nothing changes (Bellman and Ford).
 Eigen::VectorXd relaxed_distances(const gonio::shape::triangle_mesh& mesh, Eigen::Index source) {
   Eigen::VectorXd distances = Eigen::VectorXd::Constant(mesh.vertices.cols(), std::numeric_limits<double>::infinity());
   distances[source] = 0.0;
@@ -48,7 +48,7 @@ TEST_CASE("distances on a grid of squares cut in two are those of steps and diag
   for (int row = 0; row < 8; ++row)
     for (int column = 0; column < 9; ++column) {
       const int up = row - 3, right = column - 4;
-      // The diagonals go up to the right only.
+      // The diagonals go only up to the right.
       const int diagonals = up * right > 0 ? std::min(std::abs(up), std::abs(right)) : 0;
       const double expected = diagonals * std::sqrt(2.0) + std::abs(up) + std::abs(right) - 2 * diagonals;
       CHECK(std::abs(distances[row * 9 + column] - expected) < 1e-13);
@@ -101,7 +101,7 @@ TEST_CASE("what no path leads to is infinitely far, and is no neighbour") {
 TEST_CASE("the nearest candidates are the first of all by distance and number") {
   CHECK(rc::check([](std::uint64_t seed) {
     std::mt19937_64 generator(seed);
-    gonio::shape::triangle_mesh mesh = flat_grid(6, 7);  // many at the same distance
+    gonio::shape::triangle_mesh mesh = flat_grid(6, 7);  // many vertices at equal distance
     if (generator() % 2 == 0)
       for (auto vertex : mesh.vertices.colwise()) vertex += synthetic_point(generator, 0.3);
     const mesh_topology topology(mesh);
@@ -122,7 +122,7 @@ TEST_CASE("the nearest candidates are the first of all by distance and number") 
 }
 
 TEST_CASE("vertices at one place are taken by number") {
-  // 3 is at the place of 0 and further by no length.
+  // Vertex 3 is at the position of 0, so the edge between them has length 0.
   const gonio::shape::triangle_mesh mesh =
       mesh_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}}, {{2, 3, 1}, {1, 3, 0}});
   const mesh_topology topology(mesh);

@@ -19,7 +19,7 @@ using gonio::shape::smoothness;
 
 namespace {
 
-/// All but those that `is_missing(position)` tells.
+/// Marks all points except those for which `is_missing(position)` is true.
 template <class Missing>
 std::vector<bool> known_but(const gonio::shape::point_columns& points, const Missing& is_missing) {
   std::vector<bool> known;
@@ -27,7 +27,7 @@ std::vector<bool> known_but(const gonio::shape::point_columns& points, const Mis
   return known;
 }
 
-/// The mesh's positions filled in where they are not known and then unreadable.
+/// Returns the mesh's positions with the unknown ones replaced by NaN and filled in.
 gonio::shape::point_columns filled(const gonio::shape::triangle_mesh& mesh, const std::vector<bool>& known,
                                    smoothness kind = smoothness::thin_plate) {
   gonio::shape::point_columns points = mesh.vertices;
@@ -40,7 +40,7 @@ double largest_change(const gonio::shape::point_columns& one, const gonio::shape
   return (one - other).colwise().norm().maxCoeff();
 }
 
-/// |L x|^2 with L as documented, of a mesh without border.
+/// Returns |L x|^2 with L as documented, for a mesh without border.
 double bending(const gonio::shape::triangle_mesh& mesh, const gonio::shape::point_columns& points) {
   const mesh_topology topology(mesh);
   double sum = 0.0;
@@ -82,7 +82,7 @@ TEST_CASE("a thin plate goes on with the curvature of a cylinder, a membrane cut
   const gonio::shape::triangle_mesh mesh = tube_mesh(30, 40, 5.0);
   const Eigen::Vector3d side(5.0, 0.0, mesh.vertices.row(2).mean());
   const auto known = known_but(mesh.vertices, [&](const auto& point) { return (point - side).norm() < 3.0; });
-  const double sagitta = 5.0 - std::sqrt(25.0 - 9.0);  // what a plane across the hole would be off: 1
+  const double sagitta = 5.0 - std::sqrt(25.0 - 9.0);  // error of a plane across the hole: 1
   CHECK(largest_change(filled(mesh, known), mesh.vertices) < 0.06 * sagitta);
   CHECK(largest_change(filled(mesh, known, smoothness::membrane), mesh.vertices) > 0.4 * sagitta);
 }
@@ -91,7 +91,7 @@ TEST_CASE("a thin plate closes a sphere nearly round") {
   const gonio::shape::triangle_mesh mesh = sphere_mesh(4, 10.0);
   const auto known = known_but(mesh.vertices, [](const auto& point) { return point.z() > 8.0; });
   const gonio::shape::point_columns plate = filled(mesh, known), film = filled(mesh, known, smoothness::membrane);
-  // The cap that is missing is 2 high.
+  // The missing cap is 2 high.
   CHECK((plate.colwise().norm().array() - 10.0).abs().maxCoeff() < 0.3);
   CHECK(film.colwise().norm().minCoeff() < 8.5);
 }
@@ -101,7 +101,7 @@ TEST_CASE("an end of a tube is continued by its slope") {
   for (auto vertex : cone.vertices.colwise()) vertex.head<2>() *= 1.0 - 0.02 * vertex.z();
   const double end = cone.vertices.row(2).maxCoeff();
   const auto known = known_but(cone.vertices, [&](const auto& point) { return point.z() > end - 3.0; });
-  CHECK(largest_change(filled(cone, known), cone.vertices) < 0.8);  // of 3 that are missing
+  CHECK(largest_change(filled(cone, known), cone.vertices) < 0.8);  // 3 are missing
   CHECK(largest_change(filled(cone, known, smoothness::membrane), cone.vertices) > 2.0);
 }
 

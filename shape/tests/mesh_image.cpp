@@ -5,7 +5,7 @@
 
 namespace {
 
-/// A square in z = 0 that is seen from above, and one behind it in another colour.
+/// A square in z = 0 seen from above, and one behind it in another colour.
 struct two_squares {
   gonio::shape::triangle_mesh mesh;
   std::vector<gonio::rgb> colours;
@@ -32,7 +32,7 @@ TEST_CASE("what is near hides what is behind, from either side") {
   const two_squares scene;
   gonio::shape::mesh_view view;
   view.radius = 4.0;
-  view.pixels = 80;  // ten to a unit
+  view.pixels = 80;  // ten per unit
   const gonio::image from_above = gonio::shape::image_of(scene.mesh, scene.colours, view);
   CHECK(shows(from_above, 40, 40, {1, 0, 0}));
   CHECK(shows(from_above, 31, 48, {1, 0, 0}));
@@ -56,7 +56,7 @@ TEST_CASE("no pixel is left out between two triangles") {
       red += shows(image, row, column, {1, 0, 0});
       blue += shows(image, row, column, {0, 0, 1});
     }
-  // 32.04 and 64.07 pixels to either side of the middle one's centre.
+  // 32.04 and 64.07 pixels to each side of the centre of the middle pixel.
   CHECK(red == 65 * 65);
   CHECK(blue == 129 * 129 - 65 * 65);
 }

@@ -23,7 +23,7 @@ TEST_CASE("a part has the marked triangles, each vertex once") {
 
 TEST_CASE("what would touch in one vertex only is parted there") {
   const gonio::shape::triangle_mesh mesh = flat_grid(3, 3);
-  // Vertices 2 and 6 are the corners off the diagonal: without 1, 3, 5 and 7 nothing but the middle would be left.
+  // Vertices 2 and 6 are the corners off the diagonal. Without 1, 3, 5 and 7 only the middle would remain.
   std::vector<bool> marked(9, true);
   marked[2] = marked[6] = marked[1] = marked[5] = false;
   const gonio::shape::triangle_mesh one = gonio::shape::part_of(mesh, marked);

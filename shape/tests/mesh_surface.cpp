@@ -18,7 +18,7 @@ gonio::lens_camera distorting_camera() {
           {.k1 = -0.25, .k2 = 0.1, .p1 = 0.002, .p2 = -0.001}};
 }
 
-/// A sphere of rings of squares, each of two triangles; its poles, whose vertices are many, are on the outline.
+/// Returns a sphere of rings of squares, each of two triangles. Many vertices coincide at its poles, on the outline.
 triangle_mesh meshed_sphere(const gonio::capture::placed_sphere& sphere, int rings) {
   const int around = 2 * rings;
   triangle_mesh mesh;
@@ -39,7 +39,7 @@ triangle_mesh meshed_sphere(const gonio::capture::placed_sphere& sphere, int rin
   return mesh;
 }
 
-/// A square in the plane of a height, seen from above.
+/// Returns a horizontal square at a height, facing up.
 triangle_mesh square_at(double height) {
   triangle_mesh mesh;
   mesh.vertices.resize(3, 4);
@@ -61,7 +61,7 @@ TEST_CASE("a fine mesh of a sphere is seen as the sphere is, through a lens that
     if (exact.sees(pixel) != meshed.sees(pixel)) ++one;
     if (!(exact.sees(pixel) && meshed.sees(pixel))) continue;
     ++both;
-    // Near the outline the ray meets a facet at a grazing angle.
+    // Near the outline, rays meet facets at grazing angles.
     const double facing = exact.normals(2, pixel);
     if (facing < 0.3) continue;
     REQUIRE((exact.normals.col(pixel) - meshed.normals.col(pixel)).norm() < 0.01);
@@ -84,7 +84,7 @@ TEST_CASE("the nearest triangle is seen, and hides what is behind it") {
   CHECK(seen.positions(2, seen.pixel(32, 8)) == doctest::Approx(0.0));
   CHECK((seen.normals.col(seen.pixel(32, 32)) - Eigen::Vector3d::UnitZ()).norm() < 1e-12);
   CHECK_FALSE(seen.sees(seen.pixel(0, 0)));
-  // From its inside the nearer square shows nothing, and hides the other all the same.
+  // Seen from its inside, the nearer square shows nothing but still hides the other.
   two.triangles.rightCols(2).row(1).swap(two.triangles.rightCols(2).row(2));
   const auto inside = surface_of(two, camera);
   CHECK_FALSE(inside.sees(inside.pixel(32, 32)));

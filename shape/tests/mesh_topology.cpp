@@ -27,7 +27,7 @@ std::vector<Eigen::Index> border_of(const mesh_topology& topology) {
   return border;
 }
 
-/// Closed fans of the given sizes about vertex 0, each closed below by another vertex: spindles.
+/// Returns closed fans of the given sizes around vertex 0, each closed below by another vertex: spindles.
 gonio::shape::triangle_mesh spindles_touching(const std::vector<int>& sizes) {
   std::vector<Eigen::Vector3d> vertices{{0, 0, 0}};
   std::vector<Eigen::Vector3i> triangles;
@@ -44,7 +44,7 @@ gonio::shape::triangle_mesh spindles_touching(const std::vector<int>& sizes) {
   return mesh_of(vertices, triangles);
 }
 
-/// The mesh of these triangles, among vertices at arbitrary places.
+/// Returns the topology of these triangles; vertex positions do not matter.
 mesh_topology topology_of(const std::vector<Eigen::Vector3i>& triangles, int vertices) {
   return mesh_topology(mesh_of({}, triangles).triangles, vertices);
 }

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// A scan with a hole, and how far from the truth what was recovered there is.
+/// A scan with a hole, and the error of its recovery there.
 struct recovered_hole {
   synthetic::ear_scan scan;
   gonio::shape::surface_index index, complete;
@@ -45,7 +45,7 @@ TEST_CASE("a large hole is recovered closer to the truth than a thin plate fills
     shown(Eigen::all, found.known.vertices) = found.known.positions;
     const auto known = gonio::shape::marks_of(found.known, ears.model.vertices());
     thin_plate += judge.off(gonio::shape::fill_smoothly(ears.model.topology(), shown, known), found.pose);
-    // Where nothing is known less is sure across the surface; along it little is anywhere.
+    // Across the surface, the uncertainty is larger in the hole. Along it, the uncertainty is large everywhere.
     const gonio::shape::shape_uncertainty uncertainty = found.fit.uncertainty();
     const gonio::shape::point_columns normals = gonio::shape::vertex_normals(found.surface);
     double in_hole = 0.0, elsewhere = 0.0;

@@ -14,7 +14,7 @@ TEST_CASE("the components of shapes are the eigenvectors of their covariance (Eq
   x.colwise() -= mean;
   CHECK((gonio::shape::mean_shape(basis).reshaped() - mean).cwiseAbs().maxCoeff() < 1e-5);
   const auto eigen = dense_reference::symmetric_eigen(x * x.transpose() / 9.0);
-  REQUIRE(basis.size() == 8);  // the mean costs one
+  REQUIRE(basis.size() == 8);  // the mean takes one degree of freedom
   for (Eigen::Index i = 0; i < 8; ++i)
     CHECK(basis.singular_values()[i] * basis.singular_values()[i] / 9.0 ==
           doctest::Approx(eigen.values[17 - i]).epsilon(1e-4));

@@ -20,7 +20,7 @@ using gonio::shape::triangle_mesh;
 
 namespace {
 
-/// About the vertical axis.
+/// Returns a rotation about the vertical axis.
 Eigen::Matrix3d turned_about_y(double degrees) {
   return Eigen::AngleAxisd(gonio::radians(degrees), Eigen::Vector3d::UnitY()).toRotationMatrix();
 }
@@ -72,18 +72,18 @@ TEST_CASE("the bins of places around a point") {
   CHECK(bin(0.1, 1.0, -135.0) == 0);
   CHECK(bin(0.1, 1.0, -45.0) == 1);
   CHECK(bin(0.1, 1.0, 45.0) == 2);
-  CHECK(bin(0.1, 1.0, 135.0) == 3);  // arctan(y / x) would have it with -45
+  CHECK(bin(0.1, 1.0, 135.0) == 3);  // arctan(y / x) would give the bin of -45
   CHECK(bin(0.1, 90.0, 45.0) == 6 * 4 + 2);
   CHECK(bin(0.1, 179.0, 45.0) == 12 * 4 + 2);
   CHECK(bin(1.3, 1.0, 45.0) == 52 + 2);
-  CHECK(bin(10.0, 179.9, 179.9) == 415);  // the last one has its far end
+  CHECK(bin(10.0, 179.9, 179.9) == 415);  // the last bin includes its upper end
   CHECK(gonio::shape::context_bin({0.0, 0.0, 10.0}, options) == 7 * 52 + 2);
   CHECK(gonio::shape::context_bin({0.0, 0.0, -10.0}, options) == 7 * 52 + 12 * 4 + 2);
 }
 
 TEST_CASE("a descriptor is the area around a point by hand") {
-  // Equilateral triangles with side 1 in the plane z = 0; within 1.2 of an inner vertex are its six neighbours, all of
-  // which have six triangles, too.
+  // Equilateral triangles with side 1 in the plane z = 0. The neighbours within 1.2 of an inner vertex are its six
+  // neighbours, which also have six triangles each.
   const triangle_mesh grid = flat_grid(7, 9, 1.0, std::sqrt(0.75), -0.5);
   shape_context_options options;
   options.radius = 1.2;
@@ -92,8 +92,8 @@ TEST_CASE("a descriptor is the area around a point by hand") {
   const auto found = describe(grid, {middle}, options);
   REQUIRE(found.vertex == std::vector<Eigen::Index>{middle});
   REQUIRE(found.histograms.rows() == options.bins());
-  // b1 is y and b2 is b3 x b1 = -x: azimuths of neighbours from y are 30, 90, 150, -150, -90 and -30 degrees. Those at
-  // +-90 are on the edge of bins, and rounding puts them on either side.
+  // b1 is y and b2 is b3 x b1 = -x. The azimuths of the neighbours from y are 30, 90, 150, -150, -90 and -30 degrees.
+  // Those at +-90 are at a border of bins, and rounding puts them on either side.
   const auto sector = [&](Eigen::Index azimuthal) { return found.histograms((13 + 6) * 4 + azimuthal, 0); };
   CHECK(sector(0) + sector(1) + sector(2) + sector(3) == doctest::Approx(1.0));
   for (Eigen::Index i = 0; i < 4; ++i) CHECK(std::round(6.0F * sector(i)) >= 1.0F);
@@ -112,10 +112,10 @@ TEST_CASE("a descriptor is left unchanged by turns about the vertical, translati
   posed.vertices = (turned_about_y(133.0) * canal.vertices).colwise() + Eigen::Vector3d(30.0, -200.0, 7.0);
   const auto found = describe(posed, chosen);
   REQUIRE(found.vertex == expected.vertex);
-  // But for vertices on the edge of bins.
+  // Equal, except for vertices at a border of bins.
   for (Eigen::Index i = 0; i < found.histograms.cols(); ++i)
     CHECK(chi_square_between(found.histograms.col(i), expected.histograms.col(i)) < 0.01);
-  // A turn about another axis changes it.
+  // A rotation about another axis changes it.
   posed.vertices = Eigen::AngleAxisd(gonio::radians(60), Eigen::Vector3d::UnitX()).toRotationMatrix() * canal.vertices;
   const auto tilted = describe(posed, {expected.vertex[5]});
   REQUIRE(tilted.vertex.size() == 1);
@@ -123,7 +123,7 @@ TEST_CASE("a descriptor is left unchanged by turns about the vertical, translati
 }
 
 TEST_CASE("a descriptor tells about the surface, not about its triangles") {
-  // One part of a plane has vertices twice as dense along x as the other.
+  // One part of a plane has twice the vertex density of the other along x.
   const auto plane_of = [](int columns, bool uneven) {
     triangle_mesh plane = flat_grid(41, columns, 40.0 / (columns - 1), 1.0);
     for (double& x : plane.vertices.row(0))
@@ -153,7 +153,7 @@ TEST_CASE("points without a frame or without surroundings are left out, others k
   shape_context_options near;
   near.radius = 1e-3;
   CHECK(describe(sphere, all, near).vertex.empty());
-  // A stray vertex is of no area and has no normal.
+  // A stray vertex has no area and no normal.
   triangle_mesh strayed = sphere;
   strayed.vertices.conservativeResize(3, sphere.vertices.cols() + 1);
   strayed.vertices.rightCols<1>() << 1.0, 0.0, 0.0;
@@ -184,7 +184,7 @@ TEST_CASE("spread vertices are each the farthest from those before") {
 TEST_CASE("spread vertices are of triangles, and no more than there are places") {
   triangle_mesh mesh = tetrahedron();
   mesh.vertices.conservativeResize(3, 6);
-  mesh.vertices.rightCols<2>() << 100.0, 0.0, 0.0, 0.0, 0.0, 0.0;  // two of no triangle
+  mesh.vertices.rightCols<2>() << 100.0, 0.0, 0.0, 0.0, 0.0, 0.0;  // two unused vertices
   const auto chosen = spread_vertices(mesh, 10);
   CHECK(std::set<Eigen::Index>(chosen.begin(), chosen.end()) == std::set<Eigen::Index>{0, 1, 2, 3});
   CHECK(chosen.size() == 4);
@@ -227,7 +227,7 @@ TEST_CASE("a surface is matched to itself, whichever has more points") {
       CHECK(cost == 0.0);
     }
   }
-  // The most alike first.
+  // The matches are sorted by cost.
   const triangle_mesh other = canal_mesh(30, 26, synthetic_traits(4));
   const auto matches = gonio::shape::match(describe(other, spread_vertices(other, 50)), many);
   CHECK(std::ranges::is_sorted(matches, {}, &gonio::shape::shape_match::cost));

@@ -18,7 +18,7 @@ using gonio::shape::triangle_mesh;
 
 namespace {
 
-/// On the platform: any turn about the vertical axis, anywhere.
+/// Returns a pose on the platform: any rotation about the vertical axis, at any position.
 similarity_transform platform_pose(std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   const double turn = 2.0 * std::numbers::pi * synthetic_number(generator);
@@ -34,7 +34,7 @@ double turn_between(const similarity_transform& a, const similarity_transform& b
   return gonio::degrees(Eigen::AngleAxisd(a.rotation * b.rotation.transpose()).angle());
 }
 
-/// Without the triangles near a place.
+/// Returns a mesh without the triangles near a point.
 triangle_mesh with_hole(const triangle_mesh& mesh, const Eigen::Vector3d& place, double radius) {
   triangle_mesh left{mesh.vertices, gonio::shape::triangle_columns(3, mesh.triangles.cols())};
   Eigen::Index kept = 0;
@@ -44,7 +44,7 @@ triangle_mesh with_hole(const triangle_mesh& mesh, const Eigen::Vector3d& place,
   return left;
 }
 
-/// Fewer points than the default, for time.
+/// Returns options with fewer points than the default, to save time.
 shape_context_alignment_options quick_options() {
   shape_context_alignment_options options;
   options.points = 120;
@@ -99,7 +99,7 @@ TEST_CASE("the mean distances are those of closest vertices") {
   };
   CHECK(found.mean_distance == doctest::Approx(expected(model.vertices, aligned)));
   CHECK(found.mean_scan_distance == doctest::Approx(expected(aligned, model.vertices)));
-  // Vertices of no triangle do not count.
+  // Unused vertices do not count.
   triangle_mesh strayed = scan;
   strayed.vertices.conservativeResize(3, scan.vertices.cols() + 1);
   strayed.vertices.rightCols<1>() = found.transform.inverse()(model.vertices.col(7));
@@ -193,7 +193,7 @@ TEST_CASE("what cannot be aligned by shape contexts is refused") {
   refused([](auto& o) { o.significant = 1.01; }, "significant");
   refused([](auto& o) { o.tolerance = nan; }, "tolerance");
   refused([](auto& o) { o.context.radius = -1.0; }, "radius");
-  // Flat on the platform.
+  // A flat mesh on the platform.
   triangle_mesh flat = flat_grid(8, 8);
   flat.vertices.row(1).swap(flat.vertices.row(2));
   CHECK_THROWS_WITH_AS(shape_context_matcher{flat}, doctest::Contains("a model to be aligned"), gonio::error);

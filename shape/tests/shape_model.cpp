@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Spheres stretched by chance, each moved about.
+/// Returns randomly stretched and moved spheres.
 std::vector<gonio::shape::point_columns> stretched_spheres(std::size_t count) {
   const gonio::shape::triangle_mesh sphere = sphere_mesh(1);
   std::mt19937_64 generator(1);
@@ -35,7 +35,7 @@ TEST_CASE("a model has three directions of change for ellipsoids, wherever they 
   CHECK(model.truncated_to_variance(0.999).basis().size() <= 4);
   CHECK(model.truncated_to_variance(0.999).basis().size() >= 3);
   CHECK(model.mean().triangles == sphere_mesh(1).triangles);
-  // A shape that was learned from comes back, but for where it was.
+  // A training shape is reproduced up to its pose.
   const gonio::shape::point_columns again = model.shape(model.basis().weights_of(5).col(0)).vertices;
   CHECK((gonio::shape::align(shapes[5], again)(shapes[5]) - again).cwiseAbs().maxCoeff() < 1e-5);
 }

@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Rows of coordinates of every other vertex, from the first or the second on.
+/// Returns the coordinate rows of every other vertex, starting from the first or the second.
 std::vector<Eigen::Index> every_other(Eigen::Index first, Eigen::Index vertices) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index v = first; v < vertices; v += 2)

@@ -9,7 +9,7 @@ using gonio::shape::point_columns, gonio::shape::shape_with_motion;
 
 namespace {
 
-/// Every coordinate as the basis has it: offset + row . weights.
+/// Returns every coordinate from the basis: offset + row . weights.
 point_columns combined(const shape_with_motion& functions, const Eigen::VectorXd& weights) {
   point_columns shape(3, functions.cells().vertices);
   for (Eigen::Index coordinate = 0; coordinate < functions.cells().size(); ++coordinate) {
@@ -21,7 +21,7 @@ point_columns combined(const shape_with_motion& functions, const Eigen::VectorXd
   return shape;
 }
 
-/// A shape of the family, its weights, and a motion's.
+/// A shape of the family, its weights, and the weights of a motion.
 struct moving_shape {
   gonio::shape::shape_basis basis = synthetic_basis(synthetic_shapes(8, 6, 3, 6));
   Eigen::VectorXd weights = basis.weights_of(4).col(0).cast<double>();
@@ -58,7 +58,7 @@ TEST_CASE("a shape with motion: weights are split into the shape's and the motio
   const auto [shape, motion] = functions.split(weights);
   CHECK(shape == made.weights);
   CHECK(std::abs(motion.rotation.determinant() - 1.0) < 1e-12);
-  // For small turns the motion moves the shape as the functions do.
+  // For small rotations, the motion moves the shape as the functions do.
   CHECK((motion(made.shape) - combined(functions, weights)).cwiseAbs().maxCoeff() < 1e-5);
   const auto still = functions.split(made.with(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), freedom)).motion;
   CHECK((still(made.shape) - made.shape).cwiseAbs().maxCoeff() < 1e-12);

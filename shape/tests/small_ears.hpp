@@ -1,5 +1,5 @@
 #pragma once
-/// A coarse model of synthetic ear canals, and scans of others, for tests of what works on scans.
+/// A coarse model of synthetic ear canals, and scans of others, for tests with scans.
 
 #include "synthetic/ear_canal_scans.hpp"
 #include <gonio/shape/shape_model.hpp>
@@ -20,7 +20,7 @@ struct small_ears {
         names(name(count)),
         model(gonio::shape::learn_shape_model(shapes, names, common.mesh().triangles)) {}
 
-  /// Of one that the model has not seen.
+  /// Returns a scan of an ear that the model has not seen.
   [[nodiscard]] synthetic::ear_scan scan(std::uint64_t seed, synthetic::scan_options how = {}) const {
     how.vertices = 2500;
     how.complete_vertices = 6000;

@@ -22,7 +22,7 @@ TEST_CASE("a sphere that has grown is outside by what it has grown, a shrunk one
   const gonio::shape::point_columns vertices = surface.mesh().vertices;
   for (const double change : {0.5, -0.5}) {
     const surface_distance told = gonio::shape::distance_to(surface, (1.0 + 0.1 * change) * vertices);
-    // Vertices of the shrunk one are nearer to the flat triangles than to the vertices.
+    // Vertices of the shrunk sphere are nearer to the flat triangles than to the vertices.
     CHECK(told.signed_mean == doctest::Approx(change).epsilon(0.02));
     CHECK(told.absolute_mean == doctest::Approx(0.5).epsilon(0.02));
     CHECK(told.root_mean_square == doctest::Approx(0.5).epsilon(0.02));

@@ -19,7 +19,7 @@ using gonio::shape::surface_point;
 
 namespace {
 
-/// The closest point of a triangle by Ericson's seven regions: not the way that the index has it.
+/// Returns the closest point of a triangle by Ericson's seven regions, another method than the index uses.
 Eigen::Vector3d closest_by_region(const Eigen::Matrix3d& corners, const Eigen::Vector3d& p) {
   const Eigen::Vector3d a = corners.col(0), b = corners.col(1), c = corners.col(2), ab = b - a, ac = c - a;
   const double d1 = ab.dot(p - a), d2 = ac.dot(p - a), d3 = ab.dot(p - b), d4 = ac.dot(p - b), d5 = ab.dot(p - c),
@@ -41,7 +41,7 @@ double least_distance(const gonio::shape::triangle_mesh& mesh, const Eigen::Vect
   return least;
 }
 
-/// The least distance along a line of unit direction at which it meets a triangle: by its plane, and the sides' planes.
+/// Returns the smallest distance along a line of unit direction to a triangle, from its plane and its sides' planes.
 std::optional<double> least_along(const gonio::shape::triangle_mesh& mesh, const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& unit) {
   std::optional<double> least;
@@ -61,7 +61,7 @@ std::optional<double> least_along(const gonio::shape::triangle_mesh& mesh, const
   return least;
 }
 
-/// Triangles of random shapes and places that do not touch: also slivers.
+/// Returns separate random triangles, including slivers.
 gonio::shape::triangle_mesh triangle_soup(std::mt19937_64& generator, int triangles) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> corners;
@@ -144,7 +144,7 @@ TEST_CASE("of triangles at the same distance, the one of the lowest number is to
 }
 
 TEST_CASE("triangles without area are searched as well") {
-  // A point, a segment whose middle vertex is a corner, and a segment with a corner twice.
+  // Triangles that are a point, a segment with a vertex in its middle, and a segment with a repeated corner.
   const std::vector<Eigen::Vector3d> vertices{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {4, 0, 0},
                                               {3, 0, 0}, {5, 0, 0}, {5, 0, 0}, {5, 2, 0}};
   const surface_index surface(mesh_of(vertices, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}));
@@ -174,7 +174,7 @@ TEST_CASE("a line's nearest intersection is that of all triangles") {
       const double along = (found->position - origin).dot(direction);
       CHECK(std::abs(std::abs(along) - found->distance) < 1e-8);
       CHECK((origin + along * direction - found->position).norm() < 1e-8);
-      // The reach ends there.
+      // The reach limits the distance.
       CHECK(surface.along(origin, direction, std::numeric_limits<double>::infinity())->triangle == found->triangle);
       CHECK(surface.along(origin, direction, 1.0001 * found->distance)->triangle == found->triangle);
       CHECK_FALSE(surface.along(origin, direction, 0.9999 * found->distance));
@@ -246,13 +246,13 @@ TEST_CASE("distances are positive outside of a closed surface and negative insid
     const Eigen::Vector3d middle = mesh.vertices.rowwise().mean();
     const gonio::shape::point_columns normals = gonio::shape::unit_columns(gonio::shape::area_normals(mesh));
     for (int i = 0; i < 1000; ++i) {
-      // About an edge, from its middle to its end.
+      // A point near an edge, from its middle to its end.
       const Eigen::Index triangle = generator() % static_cast<std::uint64_t>(mesh.triangles.cols());
       const Eigen::Matrix3d corners = mesh.corners(triangle);
       const double share = std::min(1.0, 1.2 * synthetic_number(generator));
       const Eigen::Vector3d point =
           share * corners.col(0) + (1.0 - share) * corners.col(1) + synthetic_point(generator, i % 2 == 0 ? 1.0 : 1e-3);
-      // Convex: outside is outside of some triangle's plane.
+      // The mesh is convex: a point is outside if it is outside some triangle's plane.
       double above = -std::numeric_limits<double>::infinity();
       for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
         above = std::max(above, normals.col(t).dot(point - mesh.corners(t).col(0)));
@@ -265,7 +265,7 @@ TEST_CASE("distances are positive outside of a closed surface and negative insid
 }
 
 TEST_CASE("the sign at a vertex is right where the mean normal by area has it wrong") {
-  // A spike, with one triangle much larger than the two others.
+  // A spike with one triangle much larger than the other two.
   const std::vector<Eigen::Vector3d> vertices{{0, 0, 0}, {100, 0, -200}, {-50, 86.6, -200}, {-0.5, -0.866, -2}};
   const gonio::shape::triangle_mesh spike = mesh_of(vertices, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
   const surface_index surface(spike);
@@ -276,7 +276,7 @@ TEST_CASE("the sign at a vertex is right where the mean normal by area has it wr
     const Eigen::Vector3d point = synthetic_point(generator, 1.0);
     const surface_point place = surface.closest(point);
     if (place.distance == 0.0 || place.position != spike.vertices.col(0)) continue;
-    ++outside;  // the vertex is convex: what is closest to it is outside
+    ++outside;  // the vertex is convex, so points closest to it are outside
     CHECK(surface.signed_distance(point) > 0.0);
     if (means.col(0).dot(point) < 0.0) ++wrong_by_mean;
   }
@@ -290,7 +290,7 @@ TEST_CASE("pseudonormals are of the triangle, of the edge's two and of the verte
   CHECK((normal_near({1, 1, 1}) - Eigen::Vector3d(1, 1, 1).normalized()).norm() < 1e-15);
   CHECK((normal_near({0.5, -1, -1}) - Eigen::Vector3d(0, -1, -1).normalized()).norm() < 1e-15);
   CHECK((normal_near({-1, -1, -1}) - Eigen::Vector3d(-1, -1, -1).normalized()).norm() < 1e-15);
-  // Two right angles' halves and a third of a half turn.
+  // Two angles of 45 degrees and one of 60 degrees.
   const Eigen::Vector3d at_tip = std::numbers::pi / 4.0 * Eigen::Vector3d(0, -1, -1) +
                                  std::numbers::pi / 3.0 * Eigen::Vector3d(1, 1, 1).normalized();
   CHECK((normal_near({5, 0, 0}) - at_tip.normalized()).norm() < 1e-14);

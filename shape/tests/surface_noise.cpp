@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Uniform noise of a standard deviation along the normals.
+/// Returns a mesh with uniform noise of a standard deviation along the normals.
 gonio::shape::triangle_mesh with_noise(gonio::shape::triangle_mesh mesh, double deviation, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   const gonio::shape::point_columns normals = gonio::shape::vertex_normals(mesh);

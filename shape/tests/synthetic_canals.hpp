@@ -1,5 +1,5 @@
 #pragma once
-/// Bent tubes with an oval flare and a dimple, somewhat like ear canals, for tests of what recognises a shape.
+/// Bent tubes with an oval flare and a dimple, similar to ear canals, for tests of shape recognition.
 
 #include "synthetic_surfaces.hpp"
 #include <gonio/core/direction.hpp>
@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-/// What makes one canal differ from another: about -2 to 2 each; zeros are the mean.
+/// Parameters that distinguish canals, about -2 to 2 each; zeros give the mean.
 using canal_traits = std::array<double, 6>;
 
 inline canal_traits synthetic_traits(std::uint64_t seed) {
@@ -24,8 +24,8 @@ inline canal_traits synthetic_traits(std::uint64_t seed) {
   return traits;
 }
 
-/// 25 mm high along the y axis and open at both ends: `rings` rings of `around` vertices, numbered as those of
-/// `tube_mesh`.
+/// Returns a canal 25 mm high along the y axis and open at both ends: `rings` rings of `around` vertices, numbered as
+/// in `tube_mesh`.
 inline gonio::shape::triangle_mesh canal_mesh(int rings, int around, const canal_traits& traits = {}) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
@@ -46,7 +46,7 @@ inline gonio::shape::triangle_mesh canal_mesh(int rings, int around, const canal
       if (ring == 0) continue;
       const int here = ring * around + i, next = ring * around + (i + 1) % around, below = here - around,
                 below_next = next - around;
-      // As in `tube_mesh`, but that every second ring is turned by half a step.
+      // As in `tube_mesh`, except that every second ring is rotated by half a step.
       if (ring % 2 == 1) {
         triangles.emplace_back(below, below_next, here);
         triangles.emplace_back(below_next, next, here);

@@ -1,5 +1,5 @@
 #pragma once
-/// Small sets of corresponded points for tests: a few random directions of change and a little of everything.
+/// Small sets of corresponded points for tests: a few random directions of change, and small changes in all directions.
 
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/shape/shape_basis.hpp>
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-/// `count` shapes of `vertices` vertices about a mean of size 10, whose changes have `directions` directions of falling
-/// size and a hundredth of it besides.
+/// Returns `count` shapes of `vertices` vertices about a mean of size 10. Their changes have `directions` directions of
+/// decreasing size, plus random changes of a hundredth.
 inline std::vector<gonio::shape::point_columns> synthetic_shapes(Eigen::Index vertices, std::size_t count,
                                                                  Eigen::Index directions, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
@@ -38,7 +38,7 @@ inline std::vector<std::string> synthetic_names(std::size_t count) {
   return names;
 }
 
-/// Of such shapes, all components.
+/// Returns the basis of such shapes with all components.
 inline gonio::shape::shape_basis synthetic_basis(const std::vector<gonio::shape::point_columns>& shapes) {
   return gonio::learn_pca(gonio::shape::shape_set::of(shapes, synthetic_names(shapes.size())), gonio::lin{},
                           shapes.size());

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-/// Uniform in [0, 1), the same with all standard libraries.
+/// Returns a uniform number in [0, 1), the same with all standard libraries.
 inline double synthetic_number(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
 
-/// Uniform in a cube about zero.
+/// Returns a uniform point in a cube about zero.
 inline Eigen::Vector3d synthetic_point(std::mt19937_64& generator, double half_size) {
   Eigen::Vector3d point;
   for (double& coordinate : point) coordinate = half_size * (2.0 * synthetic_number(generator) - 1.0);
@@ -32,14 +32,14 @@ inline gonio::shape::triangle_mesh mesh_of(const std::vector<Eigen::Vector3d>& v
   return mesh;
 }
 
-/// The corners (0, 0, 0), (1, 0, 0), (0, 1, 0) and (0, 0, 1), and the triangle opposite to each, outwards.
+/// Returns the corners (0, 0, 0), (1, 0, 0), (0, 1, 0) and (0, 0, 1), and the outward triangle opposite to each.
 inline gonio::shape::triangle_mesh tetrahedron() {
   return mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}});
 }
 
-/// A part of the plane z = 0, seen from above: vertex row * columns + column is at (width * column + shift * row,
-/// height * row, 0), and each cell is cut from its first corner to the opposite one. A shift of -width/2 and a height
-/// of sqrt(3)/2 width make all triangles equilateral.
+/// Returns a part of the plane z = 0, facing up. Vertex row * columns + column is at (width * column + shift * row,
+/// height * row, 0), and each cell is cut from its first corner to the opposite one. With shift -width/2 and height
+/// sqrt(3)/2 width, all triangles are equilateral.
 inline gonio::shape::triangle_mesh flat_grid(int rows, int columns, double width = 1.0, double height = 1.0,
                                              double shift = 0.0) {
   std::vector<Eigen::Vector3d> vertices;
@@ -55,8 +55,8 @@ inline gonio::shape::triangle_mesh flat_grid(int rows, int columns, double width
   return mesh_of(vertices, triangles);
 }
 
-/// An icosahedron whose triangles were cut into four `times` times and put on a sphere about zero: 20 * 4^times
-/// triangles.
+/// Returns an icosahedron whose triangles were divided into four `times` times and projected to a sphere about zero: 20
+/// * 4^times triangles.
 inline gonio::shape::triangle_mesh sphere_mesh(int times, double radius = 1.0) {
   const double golden = std::numbers::phi;
   std::vector<Eigen::Vector3d> vertices{{-1, golden, 0}, {1, golden, 0}, {-1, -golden, 0}, {1, -golden, 0},
@@ -88,8 +88,8 @@ inline gonio::shape::triangle_mesh sphere_mesh(int times, double radius = 1.0) {
   return mesh;
 }
 
-/// The open wall of a cylinder about the z axis, seen from outside: `rings` rings of `around` vertices, each turned
-/// by half a step from the one below, near-equilateral. Vertex i of a ring is ring * around + i.
+/// Returns the open wall of a cylinder about the z axis, facing outwards: `rings` rings of `around` vertices, each
+/// rotated by half a step relative to the one below, near-equilateral. Vertex i of a ring is ring * around + i.
 inline gonio::shape::triangle_mesh tube_mesh(int rings, int around, double radius = 1.0) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;

@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>
@@ -55,17 +56,22 @@ TEST_CASE("gonio check: alike, shifted, and wrong in one direction") {
   const checked_files files;
   const std::string good = files.write("good.csv", 1, gonio::rgb::Ones()) + " --noise 0.02";
   check_says(files.write("same.csv", 2, gonio::rgb::Ones()) + " --reference " + good, 0,
-             {"no difference found", "false alarms 1 %", "in all directions: red", "known materials explain the part"});
-  check_says(files.write("red.csv", 3, {1.15, 1.0, 1.0}) + " --reference " + good, 1, {"differs (p = ", "red +1"});
+             {"GO: no difference found", "false alarms 1 %", "all directions together: red", "worst: theta_i"});
+  check_says(files.write("red.csv", 3, {1.15, 1.0, 1.0}) + " --reference " + good, 1,
+             {"NO-GO: the part differs (p = ", "red +1"});
   const std::string spot = files.write("spot.csv", 4, gonio::rgb::Ones(), 1, 0.0, 0.02, 3);
-  check_says(spot + " --reference " + good, 1, {"differs most at sample 4 (theta_i ", "the reference says "});
-  check_says(spot + " --reference " + good + " --tolerance 0.7", 0, {"no difference found", "tolerance 70 %"});
+  check_says(spot + " --reference " + good, 1, {"worst: theta_i ", " (line 5): ", " instead of "});
+  check_says(spot + " --reference " + good + " --tolerance 0.7", 0, {"GO: no difference found", "tolerance 70 %"});
+  check_says(spot + " --verbose --reference " + good, 1, {"known materials explain the part"});
 
   const auto result = gonio_tool("check " + spot + " --json --reference " + good);
   REQUIRE(result.exit_code == 1);
   const auto told = read_json(result.output);
   CHECK(told["conforms"] == false);
   CHECK(told["worst_sample"] == 4);
+  CHECK(told["verdict"] == "NO-GO");
+  CHECK(told["directions"][3]["line"] == 5);
+  CHECK(told["directions"][3]["delta_e"].get<double>() > 1.0);
   CHECK(told["predicted"] == 0);
   CHECK(told["noise_degrees_of_freedom"].is_null());
   REQUIRE(told["directions"].size() == 6);
@@ -79,13 +85,67 @@ TEST_CASE("gonio check: repeats tell the noise, and other directions are predict
   const std::string good = files.write("good.csv", 1, gonio::rgb::Ones(), 3);
   check_says(files.write("same.csv", 2, gonio::rgb::Ones()) + " --reference " + good, 0,
              {"no difference found", "estimated from repeats with 36 degrees of freedom"});
-  check_says(files.write("red.csv", 3, {1.2, 1.0, 1.0}, 3) + " --reference " + good, 1, {"differs"});
+  check_says(files.write("red.csv", 3, {1.2, 1.0, 1.0}, 3) + " --reference " + good, 1, {"NO-GO"});
   const std::string turned = files.write("turned.csv", 4, gonio::rgb::Ones(), 1, 0.02);
   check_says(turned + " --noise 0.02 --reference " + good, 0,
-             {"6 of 6 directions are not in the reference, which predicts them", "the reference predicts "});
+             {"6 of 6 directions are not in the reference, which predicts them", ", which the reference predicts"});
   const std::string nudged = files.write("nudged.csv", 5, gonio::rgb::Ones(), 1, 0.0005);
-  check_says(nudged + " --noise 0.02 --reference " + good, 0, {"the reference predicts "});
-  check_says(nudged + " --noise 0.02 --same-within 0.1 --reference " + good, 0, {"the reference says "});
+  check_says(nudged + " --noise 0.02 --reference " + good, 0, {", which the reference predicts"});
+  const auto within = gonio_tool("check " + nudged + " --noise 0.02 --same-within 0.1 --reference " + good);
+  CHECK(within.output.find("predicts") == std::string::npos);
+}
+
+TEST_CASE("gonio check: a verdict has at most five lines, and many parts are a table") {
+  const checked_files files;
+  const std::string reference = " --noise 0.02 --reference " + files.write("good.csv", 1, gonio::rgb::Ones());
+  const std::string same = files.write("same.csv", 2, gonio::rgb::Ones());
+  const std::string brighter = files.write("brighter.csv", 3, gonio::rgb::Constant(1.5));
+  const auto result = gonio_tool("check " + brighter + reference);
+  CHECK(result.exit_code == 1);
+  CHECK(std::ranges::count(result.output, '\n') <= 5);
+  CHECK(result.output.find("other directions differ (--verbose lists them)") != std::string::npos);
+  const auto verbose = gonio_tool("check --verbose " + brighter + reference);
+  CHECK(std::ranges::count(verbose.output, '\n') > 6);
+  CHECK(verbose.output.find("differs: theta_i") != std::string::npos);
+
+  const auto table = gonio_tool("check " + same + " " + brighter + reference);
+  CHECK(table.exit_code == 1);
+  CHECK(table.output.find("same.csv | GO | ") != std::string::npos);
+  CHECK(table.output.find("brighter.csv | NO-GO | ") != std::string::npos);
+  CHECK(gonio_tool("check " + same + " " + same + reference).exit_code == 0);
+  const auto told = read_json(gonio_tool("check --json " + same + " " + brighter + reference).output);
+  REQUIRE(told.size() == 2);
+  CHECK(told[0]["verdict"] == "GO");
+  CHECK(told[1]["verdict"] == "NO-GO");
+  check_says(same + " " + brighter + reference + " --report " + (files.folder / "p.html").string(), 2,
+             {"--report needs one part, not 2"});
+}
+
+TEST_CASE("gonio check: tolerances of channels, of the highlight and of Delta E") {
+  const checked_files files;
+  const std::string reference =
+      " --noise 0.005 --reference " + files.write("good.csv", 1, gonio::rgb::Ones(), 1, 0.0, 0.005);
+  const std::string red = files.write("red.csv", 3, {1.15, 1.0, 1.0}, 1, 0.0, 0.005);
+  check_says(red + reference, 1, {"NO-GO", "Delta E "});
+  check_says(red + reference + " --tolerance 0.2 0.01 0.01", 0, {"GO: ", "tolerance 20 %, 1 %, 1 %"});
+  check_says(red + reference + " --tolerance 0.01 0.2 0.2", 1, {"NO-GO"});
+  check_says(red + reference + " --delta-e 10", 0, {"GO: ", "tolerance Delta E of 10"});
+  check_says(red + reference + " --delta-e 0.5", 1, {"NO-GO"});
+  check_says(red + reference + " --peak-tolerance 0.5", 1, {"NO-GO", "tolerance 50 % near the mirror direction"});
+  check_says(red + reference + " --delta-e 2 --tolerance 0.1", 2, {"Delta E stands alone"});
+  check_says(red + reference + " --tolerance 0.1 0.2", 2, {"one, or one for each of 3 channels, not 2"});
+}
+
+TEST_CASE("gonio check: angles are signed in the plane of incidence") {
+  const scratch::folder folder;
+  const auto scan = [&](const char* name, double factor) {
+    std::string text = "theta_i;theta_o;brdf\n45;-45;" + std::to_string(0.9 * factor) + "\n";
+    for (const int theta_o : {-60, -30, 0, 30}) text += "45;" + std::to_string(theta_o) + ";0.1\n";
+    scratch::put(folder / name, text);
+    return (folder / name).string();
+  };
+  check_says(scan("part.csv", 1.5) + " --noise 0.02 --theta-o-sign light --reference " + scan("good.csv", 1.0), 1,
+             {"worst: theta_i 45.0, theta_o -45.0 (line 2): value 1.350 instead of 0.900"});
 }
 
 TEST_CASE("gonio check: what is wrong is exit code 2, and a sentence") {

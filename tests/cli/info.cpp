@@ -20,11 +20,12 @@ struct folder_of_files {
   [[nodiscard]] std::string at(const std::string& name) const { return (folder / name).string(); }
 };
 
-auto facts_of_file(const std::string& path) {
-  const auto result = gonio_tool("info --json " + path);
+/// The facts about a file, without the warnings above them.
+auto facts_of_file(const std::string& path, const std::string& options = "") {
+  const auto result = gonio_tool("info --json " + path + options);
   CAPTURE(result.output);
   REQUIRE(result.exit_code == 0);
-  return read_json(result.output);
+  return read_json(result.output.substr(result.output.find('{')));
 }
 
 const std::string zemax_file =
@@ -138,6 +139,32 @@ TEST_CASE("info says ranges of angles, repeats, weights, and what is suspicious"
   CHECK(suspicions.find("1 of 4 samples has a negative value") != std::string::npos);
   CHECK(suspicions.find("1 sample is beyond 85 degrees") != std::string::npos);
   CHECK(facts_of_file(GONIO_SOURCE_DIR "/examples/data/measurements.csv")["suspicious"].empty());
+}
+
+TEST_CASE("info says how it read a file of samples, with the options that say the same") {
+  const folder_of_files given;
+  const std::string scan = given.put("scan.csv",
+                                     "theta_i;theta_o;percent\n0;30;11,87\n0;-30;11,87\n30;-30;80,5\n30;0;11,9\n"
+                                     "60;-60;90,1\n60;90;0\n");
+  const auto facts = facts_of_file(scan);
+  CHECK(facts["read_as"] ==
+        "5 samples in the plane of incidence; theta_i 0, 30, 60 degrees; theta_o -60 to 30 degrees, negative on the "
+        "mirror direction's side; one channel, percent of a white diffuser; semicolon-separated with decimal commas; 1 "
+        "row without a reading left out");
+  CHECK(facts["options"] == "--quantity percent --theta-o-sign light");
+  REQUIRE(facts["unsure_of"].size() == 1);
+  CHECK(facts["unsure_of"][0].get<std::string>().find("--theta-o-sign mirror") != std::string::npos);
+  CHECK(gonio_tool("info " + scan).output.find("read_as: 5 samples in the plane") != std::string::npos);
+  // What the options say is no longer unsure.
+  const auto stated = facts_of_file(scan, " --theta-o-sign light");
+  CHECK(stated["options"] == "--quantity percent --theta-o-sign light");
+  CHECK(stated["unsure_of"].empty());
+
+  const auto colours = facts_of_file(
+      given.put("rgb.csv", "theta_i,phi_i,theta_o,phi_o,r,g,b\n10,0,20,90,1,1,1\n30,0,40,180,.2,.2,.3\n"));
+  CHECK(colours["read_as"] ==
+        "2 samples; theta_i 10, 30 degrees; theta_o up to 40 degrees; red, green and blue, BRDF in "
+        "sr^-1; comma-separated with decimal points");
 }
 
 TEST_CASE("info knows each other kind of file that gonio reads or writes") {

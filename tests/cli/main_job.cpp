@@ -61,6 +61,8 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
   CHECK(self["mapped_rms"] == 0.0);
   CHECK(self["delta_e_env"] == 0.0);
   CHECK(self["peak_ratio"] == 1.0);
+  CHECK(self["readings"]["estimate"] == self["readings"]["truth"]);
+  CHECK(compared.output.find("\"gloss\"") != std::string::npos);
   CHECK_FALSE(self.contains("delta_e_natural"));
 
   // Under an even sky, whose colour does not matter to what is alike.

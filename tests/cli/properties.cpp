@@ -49,6 +49,12 @@ TEST_CASE("a table that keeps all, and one that breaks what a table can break") 
   CHECK(kept["tails"]["largest_rise"].get<double>() < 1e-3);
   CHECK(kept["reciprocity"]["kept_by"] == "the format");
   CHECK(says(file.string(), "| energy | kept: an albedo of up to 0.50"));
+  // A grey diffuser reflects the same in all directions.
+  CHECK(kept["readings"]["luminous_reflectance_8"].get<double>() == doctest::Approx(0.5).epsilon(0.01));
+  CHECK(kept["readings"]["gloss"]["60"].get<double>() == doctest::Approx(1.2426).epsilon(0.005));
+  for (const auto& each : kept["readings"]["colours"])
+    CHECK(each["L"].get<double>() == doctest::Approx(76.07).epsilon(1e-3));
+  CHECK(says(file.string(), "| gloss at 20, 60, 85 degrees (ISO 2813) | 0.6, 1.2, 0.0 |"));
 
   table = grey_table(1.1);
   const gonio::grid& over = table.cells().grid();

@@ -5,6 +5,7 @@
 #include <gonio/evaluate/simulated_measurement.hpp>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -144,7 +145,7 @@ TEST_CASE("a shift of one channel is found and told, and a direction that differ
 
 TEST_CASE("what is within the tolerance is no difference, what is well beyond is") {
   gonio::conformity_options options = noise_of(0.02);
-  options.tolerance = 0.06;
+  options.tolerance = {0.06};
   const auto cells = some_cells(8, 5);
   CHECK(alarms(cells, 200, 0.05, options) == 0.0);
   CHECK(alarms(cells, 500, 0.05, options, {1.05, 0.95, 1.05}) < 0.05 + 3.0 * std::sqrt(0.05 * 0.95 / 500));
@@ -173,6 +174,77 @@ TEST_CASE("the least within a tolerance is below that of any allowed difference,
       const Eigen::VectorXd left = residuals - Eigen::VectorXd::NullaryExpr(6, [&] { return 0.4 * uniform(random); });
       CHECK(least <= left.dot(matrix * left) * (1.0 + 1e-6) + 1e-9);
     }
+  }
+}
+
+TEST_CASE("tolerances of each channel, and of the highlight") {
+  const auto cells = some_cells(8, 5);
+  gonio::conformity_options options = noise_of(0.02);
+  options.tolerance = {0.3, 0.0, 0.0};
+  CHECK(alarms(cells, 100, 0.05, options, {1.2, 1.0, 1.0}) < 0.12);  // by green and blue
+  CHECK(alarms(cells, 100, 0.05, options, {1.0, 1.2, 1.0}) > 0.95);
+  // Only cells below 5 degrees have the tolerance of the peak.
+  options.tolerance = {0.0};
+  options.peak_tolerance = 0.3;
+  CHECK(alarms(cells, 100, 0.05, options, gonio::rgb::Constant(1.2)) > 0.95);
+  std::vector<Eigen::Index> peak;
+  for (Eigen::Index cell = 0; cell < conformity_cells().size() && peak.size() < 8; cell += 7)
+    if (conformity_cells().angles(cell).theta_h < gonio::radians(5.0)) peak.push_back(cell);
+  REQUIRE(peak.size() == 8);
+  CHECK(alarms(peak, 100, 0.05, options, gonio::rgb::Constant(1.2)) == 0.0);
+}
+
+TEST_CASE("a tolerance of Delta E: colours within it conform, others do not") {
+  const auto cells = some_cells(8, 5);
+  gonio::conformity_options options = noise_of(0.005);
+  const gonio::rgb redder{1.1, 1.0, 1.0};
+  const auto found = gonio::check_conformity(conformity_estimator(), noisy(checked_material(), cells, 0.0, 1, redder),
+                                             noisy(checked_material(), cells, 0.0, 2), options);
+  double least = 1e9, most = 0.0;
+  for (const auto& each : found.directions) {
+    const gonio::rgb one = each.expected, other = one * redder;
+    CHECK(each.delta_e == doctest::Approx(gonio::detail::delta_e_of(one, other)).epsilon(0.02));
+    least = std::min(least, each.delta_e);
+    most = std::max(most, each.delta_e);
+  }
+  const auto share = [&](double tolerance) {
+    options.delta_e = tolerance;
+    int said = 0;
+    for (int t = 0; t < 60; ++t)
+      said += gonio::check_conformity(conformity_estimator(), noisy(checked_material(), cells, 0.005, 2 * t, redder),
+                                      noisy(checked_material(), cells, 0.005, 2 * t + 1), options)
+                      .conforms()
+                  ? 0
+                  : 1;
+    return said / 60.0;
+  };
+  CHECK(share(1.1 * most) < 0.05);
+  CHECK(share(0.5 * most) > 0.9);
+  CHECK(least < most);
+}
+
+TEST_CASE("the least within an ellipsoid is that of the nearest allowed difference") {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return normal(random); };
+  for (int t = 0; t < 20; ++t) {
+    const Eigen::Matrix3d half = Eigen::Matrix3d::NullaryExpr(draw);
+    const Eigen::Matrix3d matrix = half * half.transpose() + 0.1 * Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d jacobian = Eigen::Matrix3d::NullaryExpr(draw) + 3.0 * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d residuals = 3.0 * Eigen::Vector3d::NullaryExpr(draw);
+    const double reach = 0.5 * (jacobian * residuals).norm();
+    CHECK(gonio::detail::least_within(matrix, residuals, jacobian, 2.001 * reach) == 0.0);
+    CHECK(gonio::detail::least_within(matrix, residuals, jacobian, 1e-9) ==
+          doctest::Approx(residuals.dot(matrix * residuals)).epsilon(1e-6));
+    const double least = gonio::detail::least_within(matrix, residuals, jacobian, reach);
+    double found = 1e300;
+    for (int draws = 0; draws < 20000; ++draws) {
+      const Eigen::Vector3d u = reach * Eigen::Vector3d::NullaryExpr(draw).normalized();
+      const Eigen::Vector3d left = residuals - jacobian.inverse() * u;
+      found = std::min(found, left.dot(matrix * left));
+    }
+    CHECK(least <= found * (1.0 + 1e-9));
+    CHECK(least > 0.97 * found - 1e-9);
   }
 }
 
@@ -296,8 +368,16 @@ TEST_CASE("impossible options and samples are refused") {
   refused({.part = {.relative = 0.1, .dark = -1.0}}, {"noise"});
   refused({.reference = {0.1}}, {"noise of its measurement", "above 0"});
   refused({.part = {.relative = 0.1, .degrees_of_freedom = 0.0}}, {"degrees of freedom above 0"});
-  refused({.part = {0.1}, .tolerance = -1.0}, {"tolerance", "not negative"});
+  refused({.part = {0.1}, .tolerance = {-1.0}}, {"tolerance", "not negative"});
+  refused({.part = {0.1}, .tolerance = {0.1, 0.2}}, {"tolerances are one, or one for each of 3 channels, not 2"});
+  refused({.part = {0.1}, .peak_tolerance = -0.1}, {"tolerance", "not negative"});
+  refused({.part = {0.1}, .tolerance = {0.1}, .delta_e = 1.0}, {"Delta E stands alone"});
   refused({.part = {0.1}, .same_direction = 1.0}, {"radians"});
+  gonio::located_samples grey = samples;
+  grey.values.colwise() = samples.values.col(0).eval();
+  scratch::check_refused(
+      [&] { return gonio::check_conformity(conformity_estimator(), grey, grey, {.part = {0.1}, .delta_e = 1.0}); },
+      {"Delta E needs red, green and blue"});
   const auto many = noisy(checked_material(), std::vector<Eigen::Index>(2501, 77), 0.0, 0);
   scratch::check_refused([&] { return gonio::check_conformity(conformity_estimator(), many, samples, noise_of(0.1)); },
                          {"at most 2500", "2501"});

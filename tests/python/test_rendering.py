@@ -68,6 +68,21 @@ class CompareTest(unittest.TestCase):
         errors = gonio.compare(darker, table)
         np.testing.assert_allclose(errors["peak_ratio"], [0.8] * 3, rtol=1e-6)
         self.assertGreater(errors["delta_e_lights"], 1)
+        readings = errors["readings"]
+        self.assertAlmostEqual(readings["estimate"]["gloss"]["60"] / readings["truth"]["gloss"]["60"], 0.8, 5)
+        self.assertEqual(readings["truth"], gonio.instrument_readings(table))
+
+    def test_readings_of_a_grey_diffuser(self):
+        grey = gonio.formula_material("red-paint").tabulate()
+        grey.values[:] = 0.5 / np.pi
+        readings = gonio.instrument_readings(grey)
+        self.assertAlmostEqual(readings["luminous_reflectance_8"], 0.5, 2)
+        self.assertAlmostEqual(readings["gloss"]["60"], 1.2426, 2)
+        self.assertEqual([each["aspecular"] for each in readings["colours"]], [15, 25, 45, 75, 110])
+        for each in readings["colours"]:
+            self.assertAlmostEqual(each["L"], 76.07, 1)
+        with self.assertRaisesRegex(gonio.Error, "brdf is 'paint': expected a BRDF"):
+            gonio.instrument_readings("paint")
 
 
 if __name__ == "__main__":

@@ -140,7 +140,7 @@ class conformity_experiment {
                                              Eigen::Index times, double tolerance = 0.0, bool stated = true) {
     return repeated(times, [&](std::uint64_t first, std::uint64_t second) {
       const gonio::sample_set a = measure(part, where, noise, first), b = measure(reference, where, noise, second);
-      gonio::conformity_options options{.part = {noise}, .reference = {noise}, .tolerance = tolerance};
+      gonio::conformity_options options{.part = {noise}, .reference = {noise}, .tolerance = {tolerance}};
       if (!stated) {
         const auto& cells = known.prior().cells();
         const auto of_part = gonio::noise_of_repeats(known.prior().metric(), gonio::locate_samples(cells, a, {1}));

@@ -12,7 +12,7 @@ namespace python {
 
 namespace {
 
-/// "values[2, 1]", where that number of an array in C order stands.
+/// Returns "values[2, 1]" for the index `number` in C order.
 std::string element_name(const py::array& array, const std::string& name, py::ssize_t number) {
   std::string indices;
   for (py::ssize_t axis = array.ndim() - 1; axis >= 0; --axis) {
@@ -24,7 +24,7 @@ std::string element_name(const py::array& array, const std::string& name, py::ss
 
 std::string given_as(double value) { return py::str(py::float_(value)); }
 
-/// Half and difference angles in radians.
+/// Converts half and difference angles in radians.
 gonio::sample_directions directions_of_angles(const double* angles, const std::string& row) {
   constexpr double right_angle = std::numbers::pi / 2.0;
   for (int i = 0; i < 2; ++i)
@@ -148,7 +148,7 @@ std::vector<py::ssize_t> rows_of(const py::object& given, py::ssize_t count) {
   const char kind = array.dtype().kind();
   if (kind == 'b') return rows_of_mask(array, count);
   if (kind == 'i' || kind == 'u') return rows_of_numbers(array, count);
-  if (array.ndim() == 1 && array.size() == 0) return {};  // an empty list has no whole numbers for numpy, either
+  if (array.ndim() == 1 && array.size() == 0) return {};  // for numpy, even an empty list is not of integers
   gonio::refuse({"rows is of type ", std::string(py::str(array.dtype())),
                  ": expected whole numbers, True and False for each sample, or a slice"});
 }

@@ -1,8 +1,8 @@
 #pragma once
-/// Arrays of numpy, as the library reads them and makes them.
+/// numpy arrays as the library's input and output.
 ///
-/// Numbers in: an array of float64 in C order is read where it is, any other is converted once. Values out: a view of
-/// what an object holds, which keeps the object alive, or an array that was made for the caller.
+/// Input: a float64 array in C order is read in place, any other array is converted once. Output: a view of memory that
+/// an object owns, which keeps the object alive, or a new array.
 
 #include <gonio/core/arrays.hpp>
 #include <gonio/core/direction.hpp>
@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-PYBIND11_MAKE_OPAQUE(gonio::sample_set)  // a class of its own, never a list
+PYBIND11_MAKE_OPAQUE(gonio::sample_set)  // a class of its own, not a list
 
 namespace python {
 
@@ -27,23 +27,23 @@ namespace py = pybind11;
 using doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using extents = std::vector<py::ssize_t>;
 
-/// Whatever numpy takes for an array of numbers, all of them finite. Throws gonio::error that calls it `name`.
+/// Returns any array of numbers that numpy accepts. Throws gonio::error with `name` unless all are finite.
 [[nodiscard]] doubles finite_numbers(const py::object& given, const std::string& name);
 
-/// The same of shape (n, one of `columns`); 0 among these stands for shape (n).
+/// The same for shape (n, one of `columns`); a 0 in `columns` stands for shape (n).
 [[nodiscard]] doubles finite_rows(const py::object& given, const std::string& name, std::initializer_list<int> columns);
 
-/// "(20, 6)".
+/// Returns "(20, 6)".
 [[nodiscard]] std::string shape_of(const py::array& array);
 
-/// Unit vectors along the last axis of an array. A length that is off 1 by a thousandth is mended, more is refused.
+/// Unit vectors along the last axis of an array. Lengths within 0.001 of 1 are normalised, others refused.
 class direction_array {
  public:
   direction_array(const py::object& given, const std::string& name);
 
   /// The number of vectors.
   [[nodiscard]] Eigen::Index size() const noexcept { return array_.size() / 3; }
-  /// Without the last axis, the three coordinates.
+  /// Returns the shape without the last axis, the three coordinates.
   [[nodiscard]] extents shape() const { return {array_.shape(), array_.shape() + array_.ndim() - 1}; }
   [[nodiscard]] gonio::direction operator[](Eigen::Index i) const noexcept {
     return gonio::normalised({data_[3 * i], data_[3 * i + 1], data_[3 * i + 2]});
@@ -70,28 +70,28 @@ class direction_pairs {
   extents shape_;
 };
 
-/// Pairs from an array of shape (n, 6), wi and wo, or (n, 3): theta_h, theta_d and phi_d in radians. Throws
+/// Returns pairs from an array of shape (n, 6), wi and wo, or (n, 3): theta_h, theta_d and phi_d in radians. Throws
 /// gonio::error for directions at or below the horizon.
 [[nodiscard]] std::vector<gonio::sample_directions> sample_directions_of(const py::object& given,
                                                                          const std::string& name);
 
-/// Which of `count` rows are chosen, as numpy understands it: by a slice, by a mask of `count` values of True and
-/// False, or by whole numbers, of which negative ones count from the end. Throws gonio::error for anything else.
+/// Returns the rows that numpy would choose of `count` rows: by a slice, by a mask of `count` values of True and False,
+/// or by whole numbers; negative ones count from the end. Throws gonio::error for anything else.
 [[nodiscard]] std::vector<py::ssize_t> rows_of(const py::object& given, py::ssize_t count);
 
-/// The pairs as an array of shape (n, 6).
+/// Returns the pairs as an array of shape (n, 6).
 [[nodiscard]] py::array_t<double> array_of(const std::vector<gonio::direction_pair>& pairs);
 
-/// An array for one number, or as many as `channels`, of each pair.
+/// Returns an array for one number, or `channels` numbers, per pair.
 [[nodiscard]] py::array_t<double> results_for(const direction_pairs& pairs, py::ssize_t channels);
 
-/// A view of numbers that `owner` holds.
+/// Returns a view of numbers that `owner` holds.
 template <class Number>
 [[nodiscard]] py::array_t<Number> view_of(Number* data, extents shape, extents strides, const py::object& owner) {
   return py::array_t<Number>(std::move(shape), std::move(strides), data, owner);
 }
 
-/// The same, which cannot be written to.
+/// The same, read-only.
 template <class Number>
 [[nodiscard]] py::array_t<Number> read_only(const Number* data, extents shape, extents strides,
                                             const py::object& owner) {
@@ -100,7 +100,7 @@ template <class Number>
   return view;
 }
 
-/// An array that takes over what a tensor holds.
+/// Returns an array that takes ownership of a tensor's numbers.
 template <std::size_t Rank>
 [[nodiscard]] py::array_t<float> array_of(xt::xtensor<float, Rank>&& tensor) {
   auto held = std::make_unique<xt::xtensor<float, Rank>>(std::move(tensor));
@@ -111,7 +111,7 @@ template <std::size_t Rank>
   return py::array_t<float>(shape, data, owner);
 }
 
-/// An image of shape (rows, columns, 3) from an array.
+/// Returns an image from an array of shape (rows, columns, 3).
 [[nodiscard]] xt::xtensor<float, 3> image_of(const py::object& given, const std::string& name);
 
 }  // namespace python

@@ -1,5 +1,5 @@
 #pragma once
-/// What Python's BRDFs have in common, whatever they are.
+/// The common methods of Python's BRDFs.
 
 #include "arrays.hpp"
 #include "subjects.hpp"
@@ -18,8 +18,7 @@
 
 namespace python {
 
-/// A table over some cells, by default those of a MERL file: of a fit by the way that it knows, of anything else value
-/// by value.
+/// Returns a table over some cells, by default those of a MERL file: by the BRDF's own `tabulate`, else value by value.
 template <gonio::brdf Brdf>
 [[nodiscard]] gonio::brdf_table table_of(const Brdf& f, gonio::thread_count threads,
                                          const gonio::valid_cells& cells = gonio::valid_cells()) {
@@ -35,7 +34,7 @@ template <gonio::brdf Brdf>
     return gonio::tabulate(f, cells, threads);
 }
 
-/// Any BRDF behind a function pointer, for what need not be compiled for each.
+/// Any BRDF behind a function pointer, for code that is compiled once for all BRDFs.
 struct brdf_by_pointer {
   const void* f;
   gonio::rgb (*value)(const void*, const gonio::direction&, const gonio::direction&) noexcept;
@@ -52,11 +51,11 @@ template <gonio::brdf Brdf>
           }};
 }
 
-/// A material of the RGL database; its own tables if it is one.
+/// Writes a material of the RGL database, with its own tables if it has some.
 void write_rgl(const std::filesystem::path& path, const gonio::model::adaptive_brdf& f);
 void write_rgl(const std::filesystem::path& path, const brdf_by_pointer& f);
 
-/// Adds files that renderers read to the module.
+/// Adds the functions that write files for renderers to the module.
 template <gonio::brdf Brdf>
 void add_brdf_files(py::module_& m) {
   m.def(
@@ -68,7 +67,7 @@ void add_brdf_files(py::module_& m) {
           gonio::io::write_merl(path, table_of(f, {}));
       },
       py::arg("path"), py::arg("brdf"), py::call_guard<py::gil_scoped_release>(),
-      "Writes a MERL file, which renderers read. An existing file is replaced once the new one is complete.");
+      "Writes a MERL file, which renderers read. An existing file is replaced only when the new one is complete.");
   m.def(
       "write_rgl",
       [](const std::filesystem::path& path, const Brdf& f) {
@@ -79,11 +78,11 @@ void add_brdf_files(py::module_& m) {
       },
       py::arg("path"), py::arg("brdf"), py::call_guard<py::gil_scoped_release>(),
       "Writes a file of the RGL database (.bsdf) in RGB, which Mitsuba's `measured` reads: values over a\n"
-      "parameterisation that follows the highlight. Negative values become 0. An existing file is replaced once the\n"
-      "new one is complete.");
+      "parameterisation that follows the highlight. Negative values become 0. An existing file is replaced only\n"
+      "when the new one is complete.");
 }
 
-/// Wherever a table is taken, so is a BRDF of this class: over the cells of a MERL file.
+/// Makes every function that takes a table accept a BRDF of this class, tabulated over the cells of a MERL file.
 template <gonio::brdf Brdf>
 void add_conversion_to_table() {
   auto table = py::reinterpret_borrow<py::class_<gonio::brdf_table>>(py::type::of<gonio::brdf_table>());
@@ -94,11 +93,11 @@ void add_conversion_to_table() {
                 return table_of(f, {});
             }),
             py::prepend(), py::arg("brdf"),
-            "Of another BRDF, over the 90 x 90 x 180 cells of a MERL file; of a table a copy.");
+            "Tabulates another BRDF over the 90 x 90 x 180 cells of a MERL file; copies a table.");
   if constexpr (!std::same_as<Brdf, gonio::brdf_table>) py::implicitly_convertible<Brdf, gonio::brdf_table>();
 }
 
-/// Values in sr^-1 of many pairs.
+/// Returns values in sr^-1 for many pairs.
 template <gonio::brdf Brdf>
 [[nodiscard]] py::array_t<double> evaluate(const Brdf& f, const py::object& wi, const py::object& wo,
                                            unsigned threads) {
@@ -116,22 +115,24 @@ template <gonio::brdf Brdf>
   return values;
 }
 
-/// Adds what every BRDF has to a class, and files of its objects to the module.
+/// Adds the methods of every BRDF to a class, and functions for files of its objects to the module.
 template <gonio::brdf Brdf, class... Extra>
 void add_brdf_methods(py::module_& m, py::class_<Brdf, Extra...>& type) {
   type.def("__call__", &evaluate<Brdf>, py::arg("wi"), py::arg("wo"), py::arg("threads") = 0,
-           "Reflectance in sr^-1, without the cosine, for the directions to the light and to the viewer: arrays of\n"
-           "shape (..., 3) of unit vectors, normal +z. The result has the same shape; it is zero below the horizon.");
+           "Returns the reflectance in sr^-1, without the cosine, for directions to the light and to the viewer:\n"
+           "arrays of shape (..., 3) of unit vectors, normal +z. The result has the same shape; it is zero below\n"
+           "the horizon.");
   type.def(
       "tabulate",
       [](const Brdf& f, unsigned threads, const std::optional<gonio::valid_cells>& cells) {
         return table_of(f, gonio::thread_count{threads}, cells ? *cells : gonio::valid_cells());
       },
       py::arg("threads") = 0, py::kw_only(), py::arg("cells") = py::none(), py::call_guard<py::gil_scoped_release>(),
-      "A table over cells such as another table's `cells`; by default the 90 x 90 x 180 of a MERL file.");
+      "Returns a table over some cells, such as another table's `cells`; by default over the 90 x 90 x 180 cells of\n"
+      "a MERL file.");
   type.def(
       "_repr_html_", [](const py::object& self) { return sphere_as_html(self, self); },
-      "For notebooks: a small sphere, and what repr says.");
+      "Returns HTML for notebooks: a small sphere and the repr.");
   add_brdf_files<Brdf>(m);
   add_conversion_to_table<Brdf>();
 }

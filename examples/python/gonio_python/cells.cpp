@@ -1,4 +1,4 @@
-/// The cells of tables and priors.
+/// Cells of tables and priors.
 
 #include "cells.hpp"
 
@@ -21,7 +21,7 @@ py::tuple shape_of_grid(const gonio::valid_cells& cells) {
   return py::make_tuple(theta_h, theta_d, phi_d);
 }
 
-/// For each cell of the grid the number of the one that a look-up reads there.
+/// Returns for each cell of the grid the index of the cell that a look-up reads there.
 py::array_t<std::int32_t> numbers_of(const gonio::valid_cells& cells) {
   const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
   py::array_t<std::int32_t> numbers(extents{theta_h, theta_d, phi_d});
@@ -94,21 +94,23 @@ void add_cells(py::module_& m) {
   type.def("__eq__", [](const gonio::valid_cells& a, const gonio::valid_cells& b) { return a == b; });
   type.def("__repr__", [](const gonio::valid_cells& cells) { return "<gonio.Cells: " + sentence_of(cells) + '>'; });
   type.def_property_readonly("shape", &shape_of_grid,
-                             "Along theta_h, theta_d and phi_d, those below the horizon included.");
+                             "The number of cells along theta_h, theta_d and phi_d, including those below the\n"
+                             "horizon.");
   type.def_property_readonly(
       "anchor", [](const gonio::valid_cells& cells) { return word_of(cells.grid().anchor()); },
-      "Where in its cell a value was taken: 'centre' or 'lower_corner'.");
+      "The position of a value in its cell: 'centre' or 'lower_corner'.");
   type.def_property_readonly("minimum_cosine", &gonio::valid_cells::minimum_cosine,
-                             "There are values where both cosines are larger; 0 down to the horizon.");
+                             "Cells have values if both cosines are larger than this; 0: down to the horizon.");
   type.def(
       "directions", [](const gonio::valid_cells& cells) { return directions_of(cells); },
-      "At which the values were taken: shape (cells, 6), wi and wo.");
+      "Returns the directions of the values: shape (cells, 6), wi and wo.");
   type.def(
       "angles", [](const gonio::valid_cells& cells) { return angles_of(cells); },
-      "The same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
+      "Returns the same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
   type.def("numbers", &numbers_of,
-           "For each cell of the grid the number of the one that is read there, int32 of its shape: below the horizon\n"
-           "that of the cell above. `prior.mean[prior.cells.numbers()]` is the mean over the whole grid.");
+           "Returns for each cell of the grid the number of the cell that a look-up reads there, int32 of the\n"
+           "grid's shape: below the horizon, that of the cell above. `prior.mean[prior.cells.numbers()]` is the\n"
+           "mean over the whole grid.");
   add_copies(
       type, [](const gonio::valid_cells& cells) { return state_of(cells); },
       [](const py::tuple& state) { return cells_of_state(state); });

@@ -1,5 +1,5 @@
 #pragma once
-/// Cells of grids: Python's words for where in them values were taken, and what a pickle holds of them.
+/// Cells of grids: Python's words for the anchor of their values, and their state in a pickle.
 
 #include "arrays.hpp"
 #include <gonio/table/valid_cells.hpp>
@@ -8,25 +8,25 @@
 
 namespace python {
 
-/// "centre" or "lower_corner".
+/// Returns "centre" or "lower_corner".
 [[nodiscard]] const char* word_of(gonio::cell_anchor anchor);
 
-/// Throws gonio::error for other words than these.
+/// Throws gonio::error for other words.
 [[nodiscard]] gonio::cell_anchor anchor_of(const std::string& word);
 
-/// The cells of a grid at which both cosines are larger than a smallest one. Throws gonio::error unless that is from 0
-/// to 1.
+/// Returns the cells of a grid at which both cosines are larger than `minimum_cosine`. Throws gonio::error unless it is
+/// at least 0 and less than 1.
 [[nodiscard]] gonio::valid_cells cells_of(const gonio::grid_extents& shape, const std::string& anchor,
                                           double minimum_cosine);
 
-/// For a pickle, and back.
+/// To a pickle's state, and back.
 [[nodiscard]] py::tuple state_of(const gonio::valid_cells& cells);
 [[nodiscard]] gonio::valid_cells cells_of_state(const py::tuple& state);
 
-/// "90 x 90 x 180 cells, values at their centre".
+/// Returns "90 x 90 x 180 cells, values at their centre".
 [[nodiscard]] std::string sentence_of(const gonio::valid_cells& cells);
 
-/// The directions of the nodes, shape (cells, 6), and their angles, shape (cells, 3).
+/// Return the directions of the nodes, shape (cells, 6), and their angles, shape (cells, 3).
 [[nodiscard]] py::array_t<double> directions_of(const gonio::valid_cells& cells);
 [[nodiscard]] py::array_t<double> angles_of(const gonio::valid_cells& cells);
 

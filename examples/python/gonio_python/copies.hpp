@@ -1,6 +1,6 @@
 #pragma once
-/// Python's ways to copy an object: copy.copy and copy.deepcopy, and pickle, by which processes hand objects on. A
-/// pickle is read by the version of gonio that wrote it.
+/// Python's ways to copy an object: copy.copy, copy.deepcopy, and pickle, by which processes exchange objects. A pickle
+/// can be read only by the version of gonio that wrote it.
 
 #include "arrays.hpp"
 #include <gonio/core/error.hpp>
@@ -14,13 +14,13 @@
 
 namespace python {
 
-/// Throws gonio::error unless a pickle holds as many things as this version writes.
+/// Throws gonio::error unless a pickle has as many parts as this version writes.
 inline void require_state(const py::tuple& state, std::size_t size) {
   if (state.size() != size)
     gonio::refuse({"a pickle of another version of gonio has ", state.size(), " parts: expected ", size});
 }
 
-/// Adds both copies to a class whose copies share no memory that can be written to.
+/// Adds both copies to a class whose copies share no writable memory.
 template <class Type, class... Extra>
 void add_copies(py::class_<Type, Extra...>& type) {
   type.def("__copy__", [](const Type& self) { return self; });
@@ -28,14 +28,14 @@ void add_copies(py::class_<Type, Extra...>& type) {
       "__deepcopy__", [](const Type& self, const py::dict&) { return self; }, py::arg("memo"));
 }
 
-/// Adds both copies and pickle: `state(object)` is a tuple, of which `from_state(tuple)` makes the object.
+/// Adds both copies and pickle: `state(object)` returns a tuple, `from_state(tuple)` restores the object.
 template <class Type, class... Extra, class State, class FromState>
 void add_copies(py::class_<Type, Extra...>& type, State&& state, FromState&& from_state) {
   add_copies(type);
   type.def(py::pickle(std::forward<State>(state), std::forward<FromState>(from_state)));
 }
 
-/// A copy of a matrix, of vectors of shape (n, 1).
+/// Returns a copy of a matrix; a vector gets shape (n, 1).
 template <class Matrix>
 [[nodiscard]] py::array_t<typename Matrix::Scalar> copy_of(const Matrix& matrix) {
   using number = typename Matrix::Scalar;
@@ -45,7 +45,7 @@ template <class Matrix>
   return array;
 }
 
-/// And back.
+/// Returns the matrix of such an array.
 template <class Matrix>
 [[nodiscard]] Matrix matrix_of(const py::handle& given) {
   using number = typename Matrix::Scalar;
@@ -57,14 +57,14 @@ template <class Matrix>
   return matrix;
 }
 
-/// Copies of numbers that stand one after the other.
+/// Returns a copy of contiguous numbers.
 template <class Numbers>
 [[nodiscard]] auto array_of_numbers(const Numbers& numbers) {
   using number = std::remove_cvref_t<decltype(*numbers.data())>;
   return py::array_t<number>(extents{static_cast<py::ssize_t>(numbers.size())}, numbers.data());
 }
 
-/// And back, as many as are expected. Throws gonio::error for others.
+/// Copies them back. Throws gonio::error unless there are `count`.
 template <class Number>
 void copy_numbers(const py::handle& given, Number* to, Eigen::Index count) {
   const auto array = given.cast<py::array_t<Number, py::array::c_style | py::array::forcecast>>();

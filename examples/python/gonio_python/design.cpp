@@ -1,4 +1,4 @@
-/// Where to measure.
+/// Design of measurements.
 
 #include "arrays.hpp"
 #include "copies.hpp"
@@ -25,7 +25,7 @@ namespace python {
 
 namespace {
 
-/// Directions to measure, and what they are worth.
+/// Directions to measure, and their quality.
 struct found_design {
   std::vector<gonio::direction_pair> directions;
   double value = 0.0;
@@ -43,7 +43,7 @@ std::vector<gonio::direction_pair> pairs_of(const py::object& directions, const 
   return pairs;
 }
 
-/// The usual one, or that of a file, but for what is said beside it.
+/// Returns the usual apparatus or that of a file, with noise and angular error replaced if given.
 gonio::design::apparatus apparatus_of(const std::optional<std::filesystem::path>& constraint,
                                       const std::optional<double>& noise,
                                       const std::optional<double>& misplaced_degrees) {
@@ -80,7 +80,7 @@ found_design design_for(const gonio::log_relative_pca& prior, Eigen::Index count
   return {found.poses, found.value, cli::quality_of(prior, options, found)};
 }
 
-/// Of points that someone else chose.
+/// Returns the quality of given directions.
 found_design quality_for(const gonio::log_relative_pca& prior, const py::object& directions, double eta, double noise,
                          bool in_sample) {
   cli::design_options options;
@@ -143,7 +143,7 @@ found_design design_of_state(const py::tuple& state) {
 }  // namespace
 
 void add_design(py::module_& m) {
-  py::class_<found_design> type(m, "Design", "Directions to measure, and what is expected of them.");
+  py::class_<found_design> type(m, "Design", "Directions to measure, and the expected error.");
   type.def("__repr__", [](const found_design& d) {
     return "<gonio.Design: " + std::to_string(d.directions.size()) + " directions>";
   });
@@ -152,37 +152,35 @@ void add_design(py::module_& m) {
       [](const py::tuple& state) { return design_of_state(state); });
   type.def_property_readonly(
       "directions", [](const found_design& d) { return array_of(d.directions); },
-      "Light and viewer of each measurement, of an image its centre: shape (n, 6), wi and wo.");
-  type.def_readonly("value", &found_design::value, "Of the criterion.");
+      "Light and viewer of each measurement (of an image: at its centre): shape (n, 6), wi and wo.");
+  type.def_readonly("value", &found_design::value, "The value of the criterion.");
   type.def_property_readonly(
       "expected_error", [](const found_design& d) { return d.quality.expected_error; },
-      "Root mean square over the cells, of the reflectance's logarithm.");
+      "Expected root mean square error of the logarithm of reflectance, over all cells.");
   type.def_property_readonly(
       "unknown_share", [](const found_design& d) { return d.quality.unknown_share; },
-      "The same as a share of what it is with nothing measured.");
+      "`expected_error` as a fraction of the error without measurements.");
 
   const cli::design_options standard;
-  m.def(
-      "design", &design_for, py::arg("prior"), py::arg("count") = standard.count, py::kw_only(),
-      py::arg("geometry") = standard.geometry, py::arg("criterion") = standard.criterion,
-      py::arg("search") = standard.search, py::arg("eta") = standard.eta, py::arg("noise") = py::none(),
-      py::arg("common_shift") = standard.common_shift, py::arg("in_sample") = standard.in_sample,
-      py::arg("misplaced_degrees") = py::none(), py::arg("start") = py::none(), py::arg("constraint") = py::none(),
-      py::arg("seed") = standard.seed, py::arg("threads") = 0,
-      "Directions that tell a prior's materials apart best, as `gonio design` finds them. start: directions that are\n"
-      "measured anyway. constraint: a file that describes an apparatus; by default light and viewer go to 80 degrees,\n"
-      "5 degrees apart, and noise is 2 %. Ctrl-C ends the search.");
+  m.def("design", &design_for, py::arg("prior"), py::arg("count") = standard.count, py::kw_only(),
+        py::arg("geometry") = standard.geometry, py::arg("criterion") = standard.criterion,
+        py::arg("search") = standard.search, py::arg("eta") = standard.eta, py::arg("noise") = py::none(),
+        py::arg("common_shift") = standard.common_shift, py::arg("in_sample") = standard.in_sample,
+        py::arg("misplaced_degrees") = py::none(), py::arg("start") = py::none(), py::arg("constraint") = py::none(),
+        py::arg("seed") = standard.seed, py::arg("threads") = 0,
+        "Returns the directions that best distinguish a prior's materials, found as by `gonio design`. start:\n"
+        "directions that are measured in addition. constraint: a file that describes an apparatus; by default light\n"
+        "and viewer reach 80 degrees, are at least 5 degrees apart, and noise is 2 %. Ctrl-C ends the search.");
   m.def("expected_error", &quality_for, py::arg("prior"), py::arg("directions"), py::kw_only(),
         py::arg("eta") = standard.eta, py::arg("noise") = standard.apparatus.noise,
         py::arg("in_sample") = standard.in_sample,
-        "What is expected of directions of one's own: shape (n, 6) or (n, 3), as `Samples` takes them.");
-  m.def(
-      "next_directions", &next_for, py::arg("prior"), py::arg("samples"), py::arg("count") = 1, py::kw_only(),
-      py::arg("noise") = py::none(), py::arg("constraint") = py::none(), py::arg("threads") = 0,
-      "The best measurements beside some that were made, by what these read: directions of shape (count, 6), and the\n"
-      "Delta E of spheres that is expected to remain.");
+        "Returns the expected error for your own directions: shape (n, 6) or (n, 3), as for `Samples`.");
+  m.def("next_directions", &next_for, py::arg("prior"), py::arg("samples"), py::arg("count") = 1, py::kw_only(),
+        py::arg("noise") = py::none(), py::arg("constraint") = py::none(), py::arg("threads") = 0,
+        "Returns the best additional measurements, given the samples already measured: directions of shape (count,\n"
+        "6), and the expected remaining Delta E of spheres.");
   m.def("published_directions", &published, py::arg("count") = 20,
-        "The directions of Nielsen et al. 2015: 1, 2, 5, 10 or 20 of them, shape (count, 6).");
+        "Returns the directions of Nielsen et al. 2015: 1, 2, 5, 10 or 20 of them, shape (count, 6).");
 }
 
 }  // namespace python

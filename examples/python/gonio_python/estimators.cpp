@@ -1,4 +1,4 @@
-/// Priors, and estimators as the library has them: one fit, and how sure it is.
+/// Priors and the library's estimators: a fit, and its uncertainty.
 
 #include "brdf_methods.hpp"
 #include "cells.hpp"
@@ -28,8 +28,8 @@ namespace {
 using fitted_pca = gonio::fitted_brdf<gonio::log_relative_pca>;
 using estimator_type = gonio::reconstruction<gonio::log_relative>;
 
-/// What makes an estimator. It is pickled by these, and its results by these and their samples, of which the same fit
-/// is made again.
+/// The arguments of an estimator. An estimator is pickled by its arguments; its result by these and its samples, which
+/// are then fitted again.
 struct estimator_arguments {
   gonio::log_relative_pca prior;
   double variance = 0.0, noise = 0.0;
@@ -46,7 +46,7 @@ struct reconstructed_brdf : estimator_type::result_type {
   gonio::sample_set samples;
 };
 
-/// A matrix of Eigen, column by column in memory.
+/// Returns a view of an Eigen matrix, which is column-major.
 template <class Matrix>
 py::array_t<typename Matrix::Scalar> matrix_view(const Matrix& matrix, const py::object& owner) {
   constexpr py::ssize_t step = sizeof(typename Matrix::Scalar);
@@ -82,17 +82,17 @@ gonio::log_relative_pca prior_of_state(const py::tuple& state) {
                                   state[9].cast<std::string>(), wavelengths});
 }
 
-/// What a cell of the prior is, for whoever evaluates one without gonio.
+/// Adds the properties needed to evaluate a prior's cell without gonio.
 void add_domain(py::class_<gonio::log_relative_pca>& prior) {
   prior.def_property_readonly("cells", &gonio::log_relative_pca::cells,
-                              "Where components, mean and reference have their values.");
+                              "The cells over which components, mean and reference have their values.");
   prior.def_property_readonly(
       "reference",
       [](const py::object& self) {
         const auto reference = self.cast<gonio::log_relative_pca&>().metric().reference();
         return read_only(reference.data(), {static_cast<py::ssize_t>(reference.size())}, {sizeof(float)}, self);
       },
-      "The median material, sr^-1, that the metric is relative to: shape (cells,).");
+      "The median material, sr^-1, to which the metric is relative: shape (cells,).");
   prior.def_property_readonly(
       "cosine_weight",
       [](const py::object& self) {
@@ -102,27 +102,29 @@ void add_domain(py::class_<gonio::log_relative_pca>& prior) {
           weights.mutable_at(cell) = f.metric().cosine_weight(gonio::cosines(f.cells().angles(cell)));
         return weights;
       },
-      "c of each cell, by which reflectance is weighted: shape (cells,). The mapped value of a fit's weights w is\n"
-      "y = components @ w + mean, and its reflectance (exp(y) (reference c + .001) - .001) / c in sr^-1, at least 0.");
+      "c of each cell, the weight of reflectance in the metric: shape (cells,). The mapped value for a fit's\n"
+      "weights w is y = components @ w + mean, and its reflectance (exp(y) (reference c + .001) - .001) / c in\n"
+      "sr^-1, at least 0.");
 }
 
 void add_prior(py::module_& m) {
   py::class_<gonio::log_relative_pca> prior(
       m, "Prior",
-      "What measured materials have in common: principal components in the logarithm of the reflectance relative to a\n"
-      "median material (Nielsen et al. 2015). Copies share their memory; the arrays are views of it, to be read.");
+      "The prior of measured materials: principal components of the logarithm of reflectance relative to a median\n"
+      "material (Nielsen et al. 2015). Copies share their memory; the arrays are read-only views of it.");
   prior.def("__len__", &gonio::log_relative_pca::size, "The number of components.");
   prior.def_property_readonly("names", &gonio::log_relative_pca::names, "The materials that it was learned from.");
-  prior.def_property_readonly("source", &gonio::log_relative_pca::source, "What it was learned from, for people.");
+  prior.def_property_readonly("source", &gonio::log_relative_pca::source,
+                              "A description of the data that it was learned from.");
   prior.def_property_readonly(
       "wavelengths",
       [](const py::object& self) {
         const auto& wavelengths = self.cast<gonio::log_relative_pca&>().wavelengths();
         return read_only(wavelengths.data(), {static_cast<py::ssize_t>(wavelengths.size())}, {sizeof(double)}, self);
       },
-      "The materials' channels in nanometres, ascending: shape (channels,). Colours have none.");
+      "The channels of the materials in nanometres, ascending: shape (channels,). Empty for RGB.");
   prior.def_property_readonly("explained_variance", &gonio::log_relative_pca::explained_variance,
-                              "Share of the materials' variance that the components keep.");
+                              "The fraction of the materials' variance that the components explain.");
   prior.def_property_readonly(
       "components",
       [](const py::object& self) { return matrix_view(self.cast<gonio::log_relative_pca&>().components(), self); },
@@ -140,7 +142,7 @@ void add_prior(py::module_& m) {
         const auto& values = self.cast<gonio::log_relative_pca&>().singular_values();
         return read_only(values.data(), {values.size()}, {sizeof(double)}, self);
       },
-      "Largest first: shape (k,).");
+      "The singular values, largest first: shape (k,).");
   prior.def("__repr__", [](const gonio::log_relative_pca& f) {
     return gonio::message_of(
         {"<gonio.Prior: ", f.size(), " components of ", f.names().size(), " materials, ", sentence_of(f.cells()), ">"});
@@ -148,7 +150,7 @@ void add_prior(py::module_& m) {
   add_domain(prior);
   add_copies(prior, &state_of_prior, &prior_of_state);
   prior.def("weights_of", &weights_of_material, py::arg("name"),
-            "The weights that expand to one of the materials: shape (k, channels).");
+            "Returns the weights that expand to one of the materials: shape (k, channels).");
   m.def(
       "read_prior",
       [](const std::optional<std::filesystem::path>& path) {
@@ -176,7 +178,7 @@ py::object report_of(const fitted_pca& fit) {
   return report;
 }
 
-/// The report's numbers, as `report_of` names them.
+/// Reads the report's numbers from the keys of `report_of`.
 std::optional<gonio::solve_report> report_of_state(const py::handle& state) {
   if (state.is_none()) return std::nullopt;
   const auto channels = [&](const char* name) -> Eigen::VectorXd {
@@ -197,7 +199,7 @@ void add_fit_copies(py::class_<fitted_pca>& fit) {
       });
 }
 
-/// Of the first components.
+/// Returns the BRDF for weights of the first components.
 fitted_pca brdf_of_weights(const gonio::log_relative_pca& prior, const py::object& given) {
   const doubles weights = finite_rows(given, "weights", {3});
   if (weights.shape(0) > prior.size())
@@ -230,7 +232,7 @@ py::array_t<double> gradients(const fitted_pca& fit, const py::object& wi, const
 
 using decomposition_type = gonio::decomposition<gonio::log_relative_pca, gonio::tikhonov>;
 
-/// A decomposition, and what it was made of.
+/// A decomposition and its arguments.
 struct configured_decomposition : decomposition_type {
   gonio::log_relative_pca prior;
   double eta = 0.0;
@@ -245,13 +247,12 @@ void add_decomposition(py::module_& m) {
   py::class_<fitted_pca> fit(m, "Fit", "A BRDF as a combination of a prior's components.");
   fit.def_property_readonly(
       "weights", [](const py::object& self) { return matrix_view(self.cast<fitted_pca&>().weights(), self); },
-      "One column for each channel: shape (k, 3). A view, to be read.");
-  fit.def(
-      "gradient", &gradients, py::arg("wi"), py::arg("wo"), py::arg("threads") = 0,
-      "How the values change with the weights, for arrays of directions of shape (..., 3): shape (..., 3, k), the\n"
-      "derivative of each channel by that channel's weights. `np.einsum('nc,nck->kc', slopes_of_loss, gradient)` is\n"
-      "the gradient of a loss of n values.");
-  fit.def_property_readonly("report", &report_of, "What the solver says of the weights, by channel.");
+      "The weights, one column per channel: shape (k, 3). A read-only view.");
+  fit.def("gradient", &gradients, py::arg("wi"), py::arg("wo"), py::arg("threads") = 0,
+          "Returns the derivatives of the values by the weights, for arrays of directions of shape (..., 3): shape\n"
+          "(..., 3, k), the derivative of each channel by that channel's weights. `np.einsum('nc,nck->kc',\n"
+          "slopes_of_loss, gradient)` is the gradient of a loss of n values.");
+  fit.def_property_readonly("report", &report_of, "The solver's report on the weights, by channel.");
   fit.def("__repr__", [](const fitted_pca& f) {
     return gonio::message_of({"<gonio.Fit: ", f.weights().rows(), " components>"});
   });
@@ -259,12 +260,11 @@ void add_decomposition(py::module_& m) {
   add_brdf_methods(m, fit);
   auto prior = py::reinterpret_borrow<py::class_<gonio::log_relative_pca>>(py::type::of<gonio::log_relative_pca>());
   prior.def("brdf", &brdf_of_weights, py::arg("weights"),
-            "The BRDF of weights of the first components, red, green and blue: shape (up to k, 3).");
+            "Returns the BRDF for weights of the first components, red, green and blue: shape (up to k, 3).");
 
   py::class_<configured_decomposition> type(
       m, "Decomposition",
-      "Fits a prior's components with a penalty on the squares of their weights (Nielsen et al.\n"
-      "2015, Eq. 12).");
+      "Fits a prior's components with a penalty on the squares of their weights (Nielsen et al. 2015, Eq. 12).");
   type.def(py::init(&decomposition_of), py::arg("prior"), py::arg("eta") = gonio::default_eta, py::arg("threads") = 0);
   type.def("__repr__", [](const configured_decomposition& self) {
     return "<gonio.Decomposition: eta " + std::string(py::str(py::float_(self.eta))) + '>';
@@ -277,7 +277,8 @@ void add_decomposition(py::module_& m) {
                                 state[2].cast<unsigned>());
       });
   type.def("fit", &configured_decomposition::fit<gonio::sample_set>, py::arg("samples"),
-           py::call_guard<py::gil_scoped_release>(), "The BRDF that the samples, or all cells of a table, are of.");
+           py::call_guard<py::gil_scoped_release>(),
+           "Returns the BRDF fitted to the samples, or to all cells of a table.");
   type.def("fit", &configured_decomposition::fit<gonio::brdf_table>, py::arg("samples"),
            py::call_guard<py::gil_scoped_release>());
 }
@@ -289,7 +290,7 @@ gonio::confidence_level level_of(double probability) {
                  std::string(py::str(py::float_(probability)))});
 }
 
-/// Intervals and deviations are of directions above the horizon.
+/// Returns pairs above the horizon, for which intervals and deviations exist; throws gonio::error for others.
 direction_pairs pairs_above_horizon(const py::object& wi, const py::object& wo) {
   direction_pairs pairs(wi, wo);
   for (Eigen::Index i = 0; i < pairs.size(); ++i)
@@ -336,19 +337,20 @@ std::string sentence_of(const gonio::outlying_sample& each) {
 
 void add_outlying_sample(py::module_& m) {
   using outlying = gonio::outlying_sample;
-  py::class_<outlying> type(m, "OutlyingSample", "A sample that the others contradict.");
-  type.def_readonly("row", &outlying::number, "Of the samples, counted from 0.");
+  py::class_<outlying> type(m, "OutlyingSample", "A sample that contradicts the others.");
+  type.def_readonly("row", &outlying::number, "The row of the samples, counted from 0.");
   type.def_property_readonly(
-      "measured", [](const outlying& each) { return channels_of(each.measured); }, "sr^-1, by channel.");
+      "measured", [](const outlying& each) { return channels_of(each.measured); },
+      "The measured value, sr^-1, by channel.");
   type.def_property_readonly(
       "predicted", [](const outlying& each) { return channels_of(each.predicted); },
-      "sr^-1, by channel: from the others.");
-  type.def_readonly("deviation", &outlying::deviation, "Of the logarithm of that prediction.");
-  type.def_readonly("probability", &outlying::probability, "That the sample is wrong.");
+      "The prediction from the other samples, sr^-1, by channel.");
+  type.def_readonly("deviation", &outlying::deviation, "The standard deviation of the logarithm of the prediction.");
+  type.def_readonly("probability", &outlying::probability, "The probability that the sample is wrong.");
   type.def("__repr__", &sentence_of);
 }
 
-/// Throws gonio::error for an impossible model.
+/// Throws gonio::error for invalid arguments.
 configured_estimator estimator_of(const estimator_arguments& given) {
   if (!(given.variance > 0.0 && given.variance <= 10.0))
     gonio::refuse({"variance is ", given.variance, ": expected more than 0, at most 10"});
@@ -381,9 +383,9 @@ std::string sentence_of(const reconstructed_brdf& fit) {
 void add_estimator(py::module_& m) {
   py::class_<configured_estimator> type(
       m, "Estimator",
-      "What `gonio reconstruct` does: a prior's components and what they cannot say are fitted together. variance: of\n"
-      "what the components cannot say, in squared logarithms. noise: of the values, relative to them (0.02 is 2 %).\n"
-      "reject: leave out samples that the others contradict.");
+      "Reconstructs a BRDF as `gonio reconstruct` does: fits a prior's components together with a model of what\n"
+      "they cannot represent. variance: of that part, in squared logarithms. noise: of the values, relative (0.02\n"
+      "is 2 %). reject: leave out samples that contradict the others.");
   type.def(
       py::init([](const gonio::log_relative_pca& prior, double variance, double noise, bool reject, unsigned threads) {
         return estimator_of({prior, variance, noise, reject, threads});
@@ -396,29 +398,31 @@ void add_estimator(py::module_& m) {
   add_copies(
       type, [](const configured_estimator& self) { return state_of_arguments(self.arguments); }, &estimator_of_state);
   type.def("fit", &fit_of, py::arg("samples"), py::call_guard<py::gil_scoped_release>(),
-           "The BRDF that the samples are of, and how sure that is.");
+           "Returns the BRDF fitted to the samples, with its uncertainty.");
 }
 
 void add_reconstruction(py::module_& m) {
   add_outlying_sample(m);
   py::class_<reconstructed_brdf> fit(m, "ReconstructedBrdf",
-                                     "A BRDF that says how sure it is, and which samples disagree with it.");
+                                     "A reconstructed BRDF with its uncertainty and the samples that contradict it.");
   add_brdf_methods(m, fit);
   fit.def("interval", &intervals, py::arg("wi"), py::arg("wo"), py::arg("probability") = 0.68,
-          "Two arrays of shape (..., 3), sr^-1: a value lies between them with a probability of 0.68 or 0.95.");
+          "Returns two arrays of shape (..., 3), sr^-1: the value lies between them with a probability of 0.68 or\n"
+          "0.95.");
   fit.def("known_to", &known_to, py::arg("wi"), py::arg("wo"),
-          "By how much values are known, relative to them, with a probability of 68 %: 0.06 is to 6 %. Shape (...).");
+          "Returns the relative uncertainty of values with a probability of 68 %: 0.06 is 6 %. Shape (...).");
   fit.def_property_readonly(
       "highlight_known_to_factor", [](const reconstructed_brdf& f) { return f.certainty().highlight_factor; },
-      "To which factor the highlight is known, with a probability of 95 %.");
+      "The factor to which the highlight is known, with a probability of 95 %.");
   fit.def_property_readonly(
       "rejected", [](const reconstructed_brdf& f) { return f.rejected(); },
-      "Rows of the samples that count less than half, or not at all, the worst first.");
+      "Rows of the samples whose weight is below one half or zero, the worst first.");
   fit.def_property_readonly(
       "contradicted", [](const reconstructed_brdf& f) { return f.contradicted(); },
-      "Samples that the others contradict, the worst first; twenty of them at most.");
+      "Samples that contradict the others, the worst first; at most twenty.");
   fit.def_property_readonly(
-      "outlier_share", [](const reconstructed_brdf& f) { return f.outlier_share(); }, "Of all samples.");
+      "outlier_share", [](const reconstructed_brdf& f) { return f.outlier_share(); },
+      "The estimated fraction of outliers among all samples.");
   fit.def("__repr__", [](const reconstructed_brdf& f) { return sentence_of(f); });
   add_copies(
       fit, [](const reconstructed_brdf& f) { return py::make_tuple(state_of_arguments(f.arguments), f.samples); },

@@ -1,5 +1,5 @@
 #pragma once
-/// What the tool prints as JSON, as Python's dictionaries and lists.
+/// Converts the tool's JSON to Python's dictionaries and lists.
 
 #include "tool/files/json.hpp"
 

@@ -1,4 +1,4 @@
-/// Maps of spatially varying BRDFs, which `gonio svbrdf` writes.
+/// Maps of spatially varying BRDFs, written by `gonio svbrdf`.
 
 #include "arrays.hpp"
 #include "copies.hpp"
@@ -25,17 +25,17 @@ namespace python {
 
 namespace {
 
-/// A whole map in memory.
+/// A complete map in memory.
 struct texel_map {
   gonio::io::svbrdf_header header;
   gonio::log_relative_pca prior;
   py::array weights, uncertainty, disagreement;  ///< half floats: (rows, columns, 3, r), (rows, columns) twice
 };
 
-/// An array of half floats, to be filled.
+/// Returns an uninitialised array of half floats.
 py::array halves(extents shape) { return py::array(py::dtype("float16"), std::move(shape)); }
 
-/// Copies numbers into such an array from one of them on.
+/// Copies numbers into such an array from index `first` on.
 void put(py::array& to, Eigen::Index first, std::span<const std::uint16_t> numbers) {
   std::memcpy(static_cast<std::uint16_t*>(to.mutable_data()) + first, numbers.data(), numbers.size_bytes());
 }
@@ -78,26 +78,28 @@ void add_maps(py::module_& m) {
       "shape", [](const texel_map& self) { return py::make_tuple(self.header.rows, self.header.columns); },
       "Rows and columns of texels.");
   map.def_property_readonly(
-      "prior", [](const texel_map& self) { return self.prior; }, "What the functions are combinations of.");
+      "prior", [](const texel_map& self) { return self.prior; }, "The prior whose components the functions combine.");
   map.def_property_readonly(
       "functions", [](const texel_map& self) { return copy_of(self.header.functions); },
       "V: shape (k, r). `functions @ weights[row, column].T` are the weights of the prior's k components.");
   map.def_property_readonly(
       "directions", [](const texel_map& self) { return array_of(self.header.directions); },
-      "In which the texels were measured, wi and wo: shape (images, 6).");
-  map.def_readonly("weights", &texel_map::weights, "float16 of shape (rows, columns, 3, r), of red, green and blue.");
+      "The directions in which the texels were measured, wi and wo: shape (images, 6).");
+  map.def_readonly("weights", &texel_map::weights,
+                   "float16 of shape (rows, columns, 3, r): the weights for red, green and blue.");
   map.def_readonly("uncertainty", &texel_map::uncertainty,
-                   "float16 of shape (rows, columns); 0 where a texel is not of the sample.");
+                   "float16 of shape (rows, columns); 0 for texels outside the sample.");
   map.def_readonly("disagreement", &texel_map::disagreement, "float16 of shape (rows, columns).");
   map.def("brdf", &brdf_of, py::arg("row"), py::arg("column"),
-          "The BRDF of a texel. Raises IndexError outside of the map, and Error where no sample is.");
+          "Returns the BRDF of a texel. Raises IndexError outside the map, and Error for a texel outside the\n"
+          "sample.");
   map.def("__repr__", [](const texel_map& self) {
     return gonio::message_of({"<gonio.Map: ", self.header.rows, " x ", self.header.columns, " texels of ",
                               self.header.functions.cols(), " functions>"});
   });
   m.def("read_map", &read_map, py::arg("path"), py::arg("prior") = py::none(),
-        "Reads a map of `gonio svbrdf` (.gsv) whole. prior: the one that it was made with, by default the one that\n"
-        "ships with the package. Raises Error for another prior, and for a damaged file.");
+        "Reads a complete map of `gonio svbrdf` (.gsv). prior: the prior that it was made with, by default the one\n"
+        "that ships with the package. Raises Error for another prior, and for a damaged file.");
 }
 
 }  // namespace python

@@ -1,4 +1,4 @@
-/// Analytic models: fits of them, formula materials, and what renderers read.
+/// Analytic models: their fits, formula materials, and texts for renderers.
 
 #include "brdf_methods.hpp"
 #include "copies.hpp"
@@ -22,7 +22,7 @@ namespace {
 using gonio::model::cell_weighting;
 using gonio::model::fit_norm;
 
-/// What a word stands for.
+/// Returns the value of a word.
 template <class Value>
 Value named(const std::string& word, const char* name, const std::map<std::string, Value>& known) {
   if (const auto found = known.find(word); found != known.end()) return found->second;
@@ -69,7 +69,7 @@ gonio::model::model_fit fit_table(const gonio::brdf_table& table, const std::str
   return cli::fit_chosen(choice, gonio::model::fit_observations(table, choice.fit.threads, weighting));
 }
 
-/// The kind, the colour and the parameters of each lobe.
+/// Returns the kind, the colour and the parameters of each lobe.
 py::tuple state_of_lobes(const gonio::model::analytic_brdf& f) {
   py::list lobes;
   for (const gonio::model::analytic_lobe& lobe : f.lobes())
@@ -114,7 +114,7 @@ void add_model_copies(py::class_<gonio::model::model_fit>& type) {
       });
 }
 
-/// A formula that knows its name.
+/// A formula with its name.
 struct named_formula : gonio::model::formula_brdf {
   std::string name;
 };
@@ -122,8 +122,8 @@ struct named_formula : gonio::model::formula_brdf {
 named_formula formula_named(const std::string& name) { return {gonio::model::formula_material(name), name}; }
 
 void add_formulas(py::module_& m) {
-  py::class_<named_formula> formula(
-      m, "FormulaBrdf", "A material given by a formula: it is in no database, and its true values are known.");
+  py::class_<named_formula> formula(m, "FormulaBrdf",
+                                    "A material given by a formula: in no database, with known true values.");
   formula.def("__repr__", [](const named_formula& f) { return "<gonio.FormulaBrdf: " + f.name + '>'; });
   add_copies(
       formula, [](const named_formula& f) { return py::make_tuple(f.name); },
@@ -132,33 +132,32 @@ void add_formulas(py::module_& m) {
         return formula_named(state[0].cast<std::string>());
       });
   add_brdf_methods(m, formula);
-  m.def("formula_material", &formula_named, py::arg("name"), "A formula material by its name.");
+  m.def("formula_material", &formula_named, py::arg("name"), "Returns a formula material by its name.");
   m.def("formula_material_names", &gonio::model::formula_material_names);
 }
 
 void add_fit_function(py::module_& m) {
   using gonio::model::model_fit;
-  py::class_<model_fit> type(m, "ModelFit", "A fitted model, and what is known of its minimum.");
+  py::class_<model_fit> type(m, "ModelFit", "A fitted model, and information on its minimum.");
   type.def_readonly("model", &model_fit::model, "The fitted BRDF.");
   type.def_readonly("loss", &model_fit::loss, "The weighted mean of the norm of the residual.");
-  type.def_readonly("evaluations", &model_fit::evaluations, "Of the loss.");
+  type.def_readonly("evaluations", &model_fit::evaluations, "The number of evaluations of the loss.");
   type.def_readonly("converged", &model_fit::converged, "Did the fit reach a minimum?");
-  type.def_readonly("promised_gain", &model_fit::promised_gain, "What one more step promises.");
+  type.def_readonly("promised_gain", &model_fit::promised_gain, "The predicted gain of one more step.");
   type.def("__repr__", [](const model_fit& fit) {
     return "<gonio.ModelFit: " + sentence_of(fit.model) + (fit.converged ? ", converged>" : ", not converged>");
   });
   add_model_copies(type);
   const cli::model_choice standard;
-  m.def(
-      "fit_model", &fit_samples, py::arg("measurements"), py::arg("model") = standard.model, py::kw_only(),
-      py::arg("metric") = standard.metric, py::arg("loss") = "huber",
-      py::arg("cosine_weighted") = standard.fit.cosine_weighted, py::arg("fresnel") = standard.fresnel,
-      py::arg("largest_albedo") = standard.fit.largest_albedo, py::arg("starts") = standard.fit.random_starts,
-      py::arg("seed") = standard.fit.seed, py::arg("threads") = 0, py::call_guard<py::gil_scoped_release>(),
-      "Fits an analytic model as `gonio fit` does: a lobe beside a Lambertian one, or with 'sum:ward+ggx' the lobes\n"
-      "that are named. measurements: samples, or a table, whose cells count as cell_weights says (equal, solid-angle,\n"
-      "cosine). The model reflects at most largest_albedo of light that falls in at up to 88 degrees; inf bounds\n"
-      "nothing.");
+  m.def("fit_model", &fit_samples, py::arg("measurements"), py::arg("model") = standard.model, py::kw_only(),
+        py::arg("metric") = standard.metric, py::arg("loss") = "huber",
+        py::arg("cosine_weighted") = standard.fit.cosine_weighted, py::arg("fresnel") = standard.fresnel,
+        py::arg("largest_albedo") = standard.fit.largest_albedo, py::arg("starts") = standard.fit.random_starts,
+        py::arg("seed") = standard.fit.seed, py::arg("threads") = 0, py::call_guard<py::gil_scoped_release>(),
+        "Fits an analytic model as `gonio fit` does: a lobe and a Lambertian one, or with 'sum:ward+ggx' the named\n"
+        "lobes. measurements: samples or a table, whose cells are weighted by cell_weights (equal, solid-angle,\n"
+        "cosine). The model reflects at most the fraction largest_albedo of light incident at up to 88 degrees; inf:\n"
+        "no limit.");
   m.def("fit_model", &fit_table, py::arg("measurements"), py::arg("model") = standard.model, py::kw_only(),
         py::arg("metric") = standard.metric, py::arg("loss") = "huber",
         py::arg("cosine_weighted") = standard.fit.cosine_weighted, py::arg("fresnel") = standard.fresnel,
@@ -174,12 +173,12 @@ void add_models(py::module_& m) {
   analytic.def_property_readonly(
       "lobes", [](const gonio::model::analytic_brdf& f) { return to_python(cli::to_json(f)); },
       "Each lobe's name, colour and parameters.");
-  analytic.def("mitsuba", &gonio::io::mitsuba_material, "The material as XML of Mitsuba 3.");
-  analytic.def("pbrt", &gonio::io::pbrt_material, "The material as text of pbrt-v4.");
+  analytic.def("mitsuba", &gonio::io::mitsuba_material, "Returns the material as XML of Mitsuba 3.");
+  analytic.def("pbrt", &gonio::io::pbrt_material, "Returns the material as text of pbrt-v4.");
   analytic.def("materialx", &gonio::io::materialx_material, py::arg("name") = "material",
-               "The material as a document of MaterialX.");
-  analytic.def("gltf", &gonio::io::gltf_material, "A sphere of the material as a glTF file.");
-  analytic.def("osl", &gonio::io::osl_shader, "A shader for Blender's Cycles in the Open Shading Language.");
+               "Returns the material as a document of MaterialX.");
+  analytic.def("gltf", &gonio::io::gltf_material, "Returns a sphere of the material as a glTF file.");
+  analytic.def("osl", &gonio::io::osl_shader, "Returns a shader for Blender's Cycles in the Open Shading Language.");
   analytic.def("__repr__", [](const gonio::model::analytic_brdf& f) { return sentence_of(f); });
   add_copies(analytic, &state_of_lobes, &brdf_of_lobes);
   add_brdf_methods(m, analytic);

@@ -1,4 +1,4 @@
-/// The Python module: it says what went wrong, and has its subjects.
+/// The Python module: its exception and its subjects.
 
 #include "subjects.hpp"
 #include "words.hpp"
@@ -25,11 +25,11 @@ gonio::progress interruption() {
   };
 }
 
-/// What the library and the tool refuse, in Python's words.
+/// Adds the exception for refusals of library and tool, whose messages are in Python's terms.
 void add_error(py::module_& m) {
   static const py::handle type = py::exception<gonio::error>(m, "Error", PyExc_ValueError).release();
   type.attr("__module__") = "gonio";
-  type.attr("__doc__") = "Bad input. The message is one sentence: what is wrong, where, and what was expected.";
+  type.attr("__doc__") = "Bad input. The message is one sentence: the fault, its place, and the expected input.";
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

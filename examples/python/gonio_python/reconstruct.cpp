@@ -1,4 +1,4 @@
-/// What `gonio reconstruct` does, by the same code: methods by name, with the tool's defaults.
+/// `gonio reconstruct` in Python, with the same code: methods by name, with the tool's defaults.
 
 #include "arrays.hpp"
 #include "copies.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 using paths = std::vector<std::filesystem::path>;
 
-/// Python's arguments on their way to the tool's options: those that are not None are given.
+/// Converts Python's arguments to the tool's options; None means not given.
 class given_options {
  public:
   template <class Option, class Value>
@@ -32,7 +32,7 @@ class given_options {
     option = *value;
     names_.insert(name);
   }
-  /// The same for numbers, whose bounds the command line checks by itself.
+  /// The same for numbers; checks the bounds that the command line checks itself.
   template <class Option, class Value>
   void take(const char* name, Option& option, const std::optional<Value>& value, double lowest,
             double highest = std::numeric_limits<double>::max()) {
@@ -57,14 +57,14 @@ class given_options {
   std::set<std::string> names_;
 };
 
-/// A number, gcv or loo.
+/// Returns the text of a number, or gcv or loo.
 std::optional<std::string> eta_text(const py::object& eta) {
   if (eta.is_none()) return std::nullopt;
   if (py::isinstance<py::str>(eta)) return eta.cast<std::string>();
   return std::string(py::repr(py::float_(eta)));
 }
 
-/// A file or what was read of one.
+/// A file, or a prior that was read.
 using given_prior = std::optional<std::variant<std::filesystem::path, gonio::log_relative_pca>>;
 
 void take_prior(const given_prior& prior, cli::material_source& materials, given_options& given) {
@@ -136,21 +136,22 @@ reconstructed reconstruct_from(const gonio::sample_set& samples, const std::stri
 }  // namespace
 
 void add_reconstruct(py::module_& m) {
-  py::class_<reconstructed> type(m, "Reconstruction", "What `gonio reconstruct` finds.");
+  py::class_<reconstructed> type(m, "Reconstruction", "The result of `gonio reconstruct`.");
   type.def_property_readonly(
       "table", [](reconstructed& r) -> gonio::brdf_table& { return r.table; },
       py::return_value_policy::reference_internal, "The BRDF.");
   type.def_property_readonly(
       "uncertainty", [](reconstructed& r) { return r.uncertainty ? &*r.uncertainty : nullptr; },
       py::return_value_policy::reference_internal,
-      "If it was asked for: by how much each direction is known, relative to its value, with a probability of 68 %.");
-  type.def_readonly("details", &reconstructed::details, "What the tool prints with --json.");
-  type.def_readonly("sentence", &reconstructed::sentence, "The same for people.");
-  type.def_readonly("warnings", &reconstructed::warnings, "What Python's warnings have been told, too.");
+      "The relative uncertainty of each direction with a probability of 68 %, if requested.");
+  type.def_readonly("details", &reconstructed::details, "The details that the tool prints with --json.");
+  type.def_readonly("sentence", &reconstructed::sentence, "The result as a sentence.");
+  type.def_readonly("warnings", &reconstructed::warnings,
+                    "The warnings that were also issued through Python's warnings.");
 
   type.def(
       "_repr_html_", [](const py::object& self) { return sphere_as_html(self.attr("table"), self); },
-      "For notebooks: a small sphere, and what repr says.");
+      "Returns HTML for notebooks: a small sphere and the repr.");
   type.def("__repr__", [](const reconstructed& r) { return "<gonio.Reconstruction: " + r.sentence + '>'; });
   add_copies(
       type,

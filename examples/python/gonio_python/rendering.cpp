@@ -1,4 +1,4 @@
-/// Spheres, images as files, and how tables differ.
+/// Spheres, image files, and comparison of tables.
 
 #include "brdf_methods.hpp"
 #include "json_to_python.hpp"
@@ -11,6 +11,7 @@
 #include <gonio/model/adaptive_brdf.hpp>
 #include <gonio/model/analytic_brdf.hpp>
 #include <gonio/model/formula_materials.hpp>
+#include <gonio/model/instrument_readings.hpp>
 #include <gonio/render/environment_sampler.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
@@ -32,7 +33,7 @@ void require_between(const char* name, int value, int lowest, int highest) {
   if (value < lowest || value > highest) gonio::refuse({name, " is ", value, ": expected ", lowest, " to ", highest});
 }
 
-/// In linear light, as `gonio render` draws it before it is exposed.
+/// Returns a sphere in linear light, as `gonio render` draws it before exposure.
 py::array_t<float> sphere_under_lights(const gonio::brdf_table& table, int size, unsigned threads) {
   require_between("size", size, 8, 4096);
   std::optional<gonio::image> drawn;
@@ -61,7 +62,7 @@ py::array_t<float> sphere_in_environment(const gonio::brdf_table& table, const p
   return array_of(std::move(*drawn));
 }
 
-/// A table as it is, another BRDF over some cells.
+/// Returns a table unchanged, and tabulates any other BRDF over some cells.
 gonio::brdf_table tabulated(const py::object& brdf, const char* name, const gonio::valid_cells& cells) {
   if (py::isinstance<gonio::brdf_table>(brdf)) return brdf.cast<gonio::brdf_table>();
   if (!py::hasattr(brdf, "tabulate"))
@@ -69,7 +70,7 @@ gonio::brdf_table tabulated(const py::object& brdf, const char* name, const goni
   return brdf.attr("tabulate")(py::arg("cells") = cells).cast<gonio::brdf_table>();
 }
 
-/// Where two BRDFs are compared: at the truth's cells if it has some, else at the estimate's.
+/// Returns the cells for a comparison: the truth's if it is a table, else the estimate's.
 gonio::valid_cells common_cells(const py::object& estimate, const py::object& truth) {
   for (const py::object& each : {truth, estimate})
     if (py::isinstance<gonio::brdf_table>(each)) return each.cast<const gonio::brdf_table&>().cells();
@@ -82,16 +83,31 @@ py::object compare_brdfs(const py::object& estimate, const py::object& truth,
   const gonio::valid_cells cells = common_cells(estimate, truth);
   const gonio::brdf_table found = tabulated(estimate, "estimate", cells), expected = tabulated(truth, "truth", cells);
   gonio::comparison errors;
+  gonio::model::instrument_readings of_estimate, of_truth;
   {
     const py::gil_scoped_release released;
     const gonio::log_relative metric = prior ? prior->metric() : gonio::io::read_prior(shipped).metric();
     const gonio::appearance_metric appearance(cells, 36, gonio::thread_count{threads});
     errors = gonio::compare(found, expected, metric, appearance, gonio::thread_count{threads});
+    of_estimate = gonio::model::read_instruments(found);
+    of_truth = gonio::model::read_instruments(expected);
   }
-  return to_python(cli::to_json(errors));
+  cli::json all = cli::to_json(errors);
+  all["readings"] = {{"estimate", cli::to_json(of_estimate)}, {"truth", cli::to_json(of_truth)}};
+  return to_python(all);
 }
 
-/// As the tool exposes it.
+py::object instrument_readings(const py::object& brdf) {
+  const gonio::brdf_table table = tabulated(brdf, "brdf", gonio::valid_cells());
+  gonio::model::instrument_readings readings;
+  {
+    const py::gil_scoped_release released;
+    readings = gonio::model::read_instruments(table);
+  }
+  return to_python(cli::to_json(readings));
+}
+
+/// Returns a sphere with the tool's exposure.
 py::bytes sphere_png(const gonio::brdf_table& table, int size) {
   std::vector<gonio::image> sphere{cli::sphere_image(table, {.size = size, .exposure = {}}, {})};
   cli::expose_spheres(sphere, {});
@@ -113,18 +129,16 @@ std::string sphere_as_html(const py::object& brdf, const py::object& described) 
 }
 
 void add_rendering(py::module_& m) {
-  m.def(
-      "render_sphere", &sphere_under_lights, py::arg("table"), py::kw_only(), py::arg("size") = 256,
-      py::arg("threads") = 0,
-      "A sphere of a table, or of any other BRDF, under two lights in linear light: float32 of shape (size, size, 3),\n"
-      "which nobody else holds. A white Lambertian sphere has the mean luminance 1.");
-  m.def(
-      "render_sphere_in", &sphere_in_environment, py::arg("table"), py::arg("environment"), py::kw_only(),
-      py::arg("size") = 256, py::arg("quality") = 64, py::arg("white") = 0.4, py::arg("seed") = 1,
-      py::arg("threads") = 0,
-      "A sphere in light from all around: a latitude-longitude image of shape (n, 2 n, 3), linear radiance. quality:\n"
-      "samples of the BRDF, and as many of the environment, for each pixel. white: the mean luminance that a white\n"
-      "Lambertian sphere would have. Ctrl-C ends it.");
+  m.def("render_sphere", &sphere_under_lights, py::arg("table"), py::kw_only(), py::arg("size") = 256,
+        py::arg("threads") = 0,
+        "Returns an image of a sphere of a table, or of any other BRDF, under two lights in linear light: a new\n"
+        "float32 array of shape (size, size, 3). A white Lambertian sphere has the mean luminance 1.");
+  m.def("render_sphere_in", &sphere_in_environment, py::arg("table"), py::arg("environment"), py::kw_only(),
+        py::arg("size") = 256, py::arg("quality") = 64, py::arg("white") = 0.4, py::arg("seed") = 1,
+        py::arg("threads") = 0,
+        "Returns an image of a sphere in an environment: a latitude-longitude image of shape (n, 2 n, 3), linear\n"
+        "radiance. quality: samples of the BRDF, and as many of the environment, per pixel. white: the mean luminance\n"
+        "of a white Lambertian sphere. Ctrl-C ends it.");
   m.def(
       "write_png",
       [](const std::filesystem::path& path, const py::object& image) {
@@ -135,12 +149,16 @@ void add_rendering(py::module_& m) {
   m.def(
       "read_hdr", [](const std::filesystem::path& path) { return array_of(gonio::io::read_hdr(path)); },
       py::arg("path"), "Reads a Radiance HDR image: float32 of shape (rows, columns, 3).");
-  m.def(
-      "compare", &compare_brdfs, py::arg("estimate"), py::arg("truth"), py::arg("prior") = py::none(),
-      py::arg("threads") = 0,
-      "How an estimate differs from the truth, both BRDFs of any kind: what `gonio compare --json` prints. They are\n"
-      "compared over the cells of the truth if it is a Table, else of the estimate, else of a MERL file. prior: whose\n"
-      "metric maps reflectance; without one that of the prior that ships with the package.");
+  m.def("compare", &compare_brdfs, py::arg("estimate"), py::arg("truth"), py::arg("prior") = py::none(),
+        py::arg("threads") = 0,
+        "Returns the errors of an estimate against the truth, both BRDFs of any kind, as `gonio compare --json`\n"
+        "prints them. They are compared over the cells of the truth if it is a Table, else of the estimate, else of a\n"
+        "MERL file. prior: its metric maps reflectance; by default that of the prior that ships with the package.");
+  m.def("instrument_readings", &instrument_readings, py::arg("brdf"),
+        "Returns what instruments would read on a BRDF, as a dictionary: gloss at 20, 60 and 85 degrees (ISO 2813) and "
+        "haze at\n"
+        "20 (ISO 13803) in gloss units, the haze index (ASTM D4039), the reflectance of light at 8 degrees with and\n"
+        "without the specular part, the total integrated scatter, and L*, a*, b* (D65) at aspecular angles.");
 }
 
 }  // namespace python

@@ -1,4 +1,4 @@
-/// Measurements: arrays in, views of the library's memory out, and their files.
+/// Measurements: arrays as input, views of the library's memory as output, and their files.
 
 #include "arrays.hpp"
 #include "copies.hpp"
@@ -21,7 +21,7 @@ namespace python {
 
 namespace {
 
-/// One number for a sample, or one for each channel; the same for all samples if there is one alone.
+/// One number per sample, or one per channel.
 class channel_numbers {
  public:
   channel_numbers(const py::object& given, const std::string& name, py::ssize_t samples)
@@ -61,7 +61,7 @@ gonio::sample_set chosen(const gonio::sample_set& samples, const py::object& row
   return samples.subset(rows_of(rows, static_cast<py::ssize_t>(samples.size())));
 }
 
-/// A single number chooses one sample; IndexError behind the last one ends a loop over all.
+/// A single number chooses one sample. IndexError after the last one ends a loop over all.
 gonio::sample_set indexed(const gonio::sample_set& samples, const py::object& index) {
   if (py::isinstance<py::ellipsis>(index)) return samples;
   if (py::isinstance<py::tuple>(index))
@@ -79,7 +79,7 @@ gonio::sample_set indexed(const gonio::sample_set& samples, const py::object& in
 
 constexpr py::ssize_t from_sample_to_sample = sizeof(gonio::sample), from_number_to_number = sizeof(double);
 
-/// Numbers that stand at the same place in each sample, without their data if there is no sample.
+/// Returns a view of the same numbers in each sample; an empty array if there is no sample.
 template <class Place>
 py::array_t<double> column_view(const py::object& self, py::ssize_t columns, bool writable, const Place& place) {
   auto& samples = self.cast<gonio::sample_set&>();
@@ -98,28 +98,28 @@ void add_columns(py::class_<gonio::sample_set>& type) {
       [](const py::object& self) {
         return column_view(self, 6, false, [](const gonio::sample& s) { return s.directions.pair().wi.data(); });
       },
-      "Unit vectors to light and viewer, wi and wo: a view of shape (n, 6), to be read.");
+      "Unit vectors to light and viewer, wi and wo: a read-only view of shape (n, 6).");
   type.def_property_readonly(
       "angles",
       [](const py::object& self) {
         return column_view(self, 3, false, [](const gonio::sample& s) { return &s.angles().theta_h; });
       },
-      "theta_h, theta_d and phi_d in radians: a view of shape (n, 3), to be read.");
+      "theta_h, theta_d and phi_d in radians: a read-only view of shape (n, 3).");
   type.def_property_readonly(
       "values",
       [](const py::object& self) {
         return column_view(self, 3, true, [](const gonio::sample& s) { return s.value.data(); });
       },
-      "Reflectance in sr^-1: a view of shape (n, 3). What is written there is in the samples.");
+      "Reflectance in sr^-1: a view of shape (n, 3). Writing to it changes the samples.");
   type.def_property_readonly(
       "weights",
       [](const py::object& self) {
         return column_view(self, 3, true, [](const gonio::sample& s) { return s.weight.of_each().data(); });
       },
-      "How much each sample counts in each channel: a view of shape (n, 3), which may be written to.");
+      "The weight of each sample in each channel: a writable view of shape (n, 3).");
 }
 
-/// Rows of directions, angles, values, weights and apertures. Directions are kept as they were given, to the last bit.
+/// Returns rows of directions, angles, values, weights and apertures. Directions are kept exactly as given.
 py::tuple state_of(const gonio::sample_set& samples) {
   constexpr Eigen::Index columns = 6 + 3 + 3 + 3 + 2;
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(samples.size()), columns);
@@ -173,12 +173,13 @@ gonio::sample_set read_samples(const std::filesystem::path& path, const std::opt
 }  // namespace
 
 void add_samples(py::module_& m) {
-  py::class_<gonio::sample_set> type(
-      m, "Samples", "Measurements: directions, reflectance in sr^-1 without the cosine, and how much each counts.");
+  py::class_<gonio::sample_set> type(m, "Samples",
+                                     "Measurements: directions, reflectance in sr^-1 without the cosine, and weights.");
   type.def(
       py::init(&samples_from_arrays), py::arg("directions"), py::arg("values"), py::arg("weights") = py::none(),
-      "From arrays. directions: shape (n, 6), unit vectors wi and wo, normal +z, or (n, 3), theta_h, theta_d and\n"
-      "phi_d in radians. values: (n, 3), or (n,) for grey. weights: (n, 3), (n,) or none. The samples keep copies.");
+      "Makes samples from arrays. directions: shape (n, 6), unit vectors wi and wo, normal +z, or (n, 3), theta_h,\n"
+      "theta_d and phi_d in radians. values: (n, 3), or (n,) for grey. weights: (n, 3), (n,) or none. The samples\n"
+      "keep copies.");
   type.def("__len__", [](const gonio::sample_set& samples) { return samples.size(); });
   type.def("__repr__", [](const gonio::sample_set& samples) { return sentence_of(samples); });
   add_copies(
@@ -187,30 +188,28 @@ void add_samples(py::module_& m) {
   add_columns(type);
   type.def(
       "subset", &chosen, py::arg("rows"),
-      "Copies of some of the samples. rows: a mask of shape (n,) of True and False, a slice, or numbers of samples in\n"
-      "the order in which they are wanted; negative ones count from the end. Raises Error for rows that are not "
-      "there.");
+      "Returns copies of some of the samples. rows: a mask of shape (n,) of True and False, a slice, or row numbers\n"
+      "in the desired order; negative ones count from the end. Raises Error for rows that do not exist.");
   type.def(
       "__iter__", [](const py::object& self) { return py::reinterpret_steal<py::iterator>(PySeqIter_New(self.ptr())); },
-      "Each sample as samples with one row.");
+      "Yields each sample as samples with one row.");
   type.def("__getitem__", &indexed, py::arg("index"),
-           "The same by an index; of a single number samples with one row. Raises IndexError if it is not there.");
-  m.def(
-      "read_samples", &read_samples, py::arg("path"), py::arg("quantity") = py::none(),
-      py::arg("columns") = std::map<std::string, std::string>(), py::arg("side") = "", py::arg("band") = "",
-      py::call_guard<py::gil_scoped_release>(),
-      "Reads samples as the tool does: CSV, or a format of instruments. quantity: what the values of a CSV file are,\n"
-      "'brdf', 'brdf-cosine', 'reflectance-factor' or 'percent', if it does not say so. columns: what it calls its\n"
-      "columns, {'theta_o': 'Winkel'}. side and band: which block of a Klems matrix or a tensor tree is read, 'front' "
-      "or\n"
-      "'back', and 'Visible' or 'Solar'.");
+           "Returns the same by an index; for a single number, samples with one row. Raises IndexError if it does\n"
+           "not exist.");
+  m.def("read_samples", &read_samples, py::arg("path"), py::arg("quantity") = py::none(),
+        py::arg("columns") = std::map<std::string, std::string>(), py::arg("side") = "", py::arg("band") = "",
+        py::call_guard<py::gil_scoped_release>(),
+        "Reads samples as the tool does: CSV, or a format of instruments. quantity: the quantity of the values of a\n"
+        "CSV file that does not state it, 'brdf', 'brdf-cosine', 'reflectance-factor' or 'percent'. columns: the\n"
+        "file's names of columns, {'theta_o': 'Winkel'}. side and band: the block of a Klems matrix or a tensor tree,\n"
+        "'front' or 'back', and 'Visible' or 'Solar'.");
   m.def(
       "write_samples",
       [](const std::filesystem::path& path, const gonio::sample_set& samples) {
         gonio::io::write_samples(path, samples);
       },
       py::arg("path"), py::arg("samples"), py::call_guard<py::gil_scoped_release>(),
-      "Writes samples as CSV. An existing file is replaced once the new one is complete.");
+      "Writes samples as CSV. An existing file is replaced only when the new one is complete.");
 }
 
 }  // namespace python

@@ -1,5 +1,5 @@
 #pragma once
-/// The subjects of the module, one file each. The order is that of who needs whose classes.
+/// The module's subjects, one file each. A subject comes after those whose classes it uses.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>
@@ -23,16 +23,16 @@ void add_models(pybind11::module_& m);
 void add_rendering(pybind11::module_& m);
 void add_maps(pybind11::module_& m);
 
-/// The prior that ships with the package, unless another is given.
+/// Returns the given prior file, by default the one that ships with the package.
 [[nodiscard]] std::filesystem::path prior_file(const std::optional<std::filesystem::path>& given);
 
-/// What long work calls now and then: it ends with KeyboardInterrupt after Ctrl-C.
+/// Returns a callback for long computations: ends them with KeyboardInterrupt after Ctrl-C.
 [[nodiscard]] gonio::progress interruption();
 
-/// What notebooks show: a small sphere of a BRDF under two lights, and what `repr` says of an object.
+/// Returns HTML for notebooks: a small sphere of a BRDF under two lights, and an object's `repr`.
 [[nodiscard]] std::string sphere_as_html(const pybind11::object& brdf, const pybind11::object& described);
 
-/// Through Python's own `warnings`.
+/// Issues Python's own `warnings`.
 void warn(const std::vector<std::string>& sentences);
 
 }  // namespace python

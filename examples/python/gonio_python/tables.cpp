@@ -21,7 +21,7 @@ namespace python {
 
 namespace {
 
-/// Cells below the horizon, or below `minimum_cosine`, are not looked at.
+/// Ignores cells below the horizon or not above `minimum_cosine`.
 gonio::brdf_table table_from_dense(const py::object& given, const std::string& anchor, double minimum_cosine) {
   const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(given);
   if (!array) gonio::refuse("values is no array of numbers");
@@ -49,7 +49,7 @@ py::array_t<float> values_of(const py::object& self) {
   return view_of(table.values().data(), {table.cells().size(), 3}, {3 * step, step}, self);
 }
 
-/// Cells below the horizon continue those above, as a look-up reads them.
+/// Cells below the horizon get the values that a look-up reads there, those of the cells above.
 py::array_t<float> filled_array(const gonio::brdf_table& table) {
   const gonio::valid_cells& cells = table.cells();
   const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
@@ -62,7 +62,7 @@ py::array_t<float> filled_array(const gonio::brdf_table& table) {
 
 py::array_t<float> dense_array(const gonio::brdf_table& table) { return array_of(gonio::dense_tensor(table)); }
 
-/// What numpy asks for.
+/// The array that numpy asks for.
 py::object as_array(const gonio::brdf_table& table, const py::object& dtype, const py::object& copy) {
   if (!copy.is_none() && !copy.cast<bool>()) gonio::refuse("a table as an array is a copy: copy=False cannot be had");
   const py::array_t<float> array = dense_array(table);
@@ -83,60 +83,60 @@ gonio::brdf_table table_of_state(const py::tuple& state) {
 void add_table_class(py::module_& m) {
   py::class_<gonio::brdf_table> table(
       m, "Table",
-      "A BRDF in sr^-1 over the cells of a grid in half and difference angles, as MERL files have it.\n\n"
+      "A BRDF in sr^-1 over the cells of a grid in half and difference angles, as in MERL files.\n\n"
       "Only cells with both directions above the horizon are kept. Values are as measured and may be negative.");
   table.def(py::init([] { return gonio::brdf_table(gonio::valid_cells()); }),
-            "A table of zeros over the 90 x 90 x 180 cells of a MERL file.");
+            "Makes a table of zeros over the 90 x 90 x 180 cells of a MERL file.");
   table.def(py::init([](const gonio::valid_cells& cells) { return gonio::brdf_table(cells); }), py::arg("cells"),
-            "A table of zeros over some cells.");
+            "Makes a table of zeros over some cells.");
   table.def(
       py::init(&table_from_dense), py::arg("values"), py::kw_only(), py::arg("anchor") = "centre",
       py::arg("minimum_cosine") = 0.0,
-      "From an array of shape (theta_h, theta_d, phi_d, 3), sr^-1. anchor: where in its cell each value was taken,\n"
-      "'centre' or 'lower_corner'. minimum_cosine: cells at which that of a direction is not larger are not looked\n"
-      "at, nor are those below the horizon.");
+      "Makes a table from an array of shape (theta_h, theta_d, phi_d, 3), sr^-1. anchor: the position of each value\n"
+      "in its cell, 'centre' or 'lower_corner'. minimum_cosine: ignores cells at which the cosine of a direction is\n"
+      "not larger; cells below the horizon are always ignored.");
   table.def_property_readonly("values", &values_of,
-                              "The table's own memory as an array of float32, shape (cells, 3): what is written there\n"
-                              "is in the table.");
+                              "The table's own memory as an array of float32, shape (cells, 3): writing to it\n"
+                              "changes the table.");
   table.def("__len__", [](const gonio::brdf_table& t) { return t.cells().size(); });
-  table.def_property_readonly("cells", &gonio::brdf_table::cells, "Where the values were taken.");
+  table.def_property_readonly("cells", &gonio::brdf_table::cells, "The cells of the values.");
   table.def_property_readonly(
       "shape", [](const py::object& self) { return py::object(self.attr("cells").attr("shape")); },
-      "Cells of the grid along theta_h, theta_d and phi_d, those below the horizon included.");
+      "The number of cells along theta_h, theta_d and phi_d, including those below the horizon.");
   table.def_property_readonly(
       "anchor", [](const gonio::brdf_table& t) { return word_of(t.cells().grid().anchor()); },
-      "Where in its cell each value was taken: 'centre' or 'lower_corner', of a file as its cells without a value "
-      "tell.");
+      "The position of each value in its cell: 'centre' or 'lower_corner'. For a file it is inferred from the cells\n"
+      "without a value.");
   table.def_property_readonly(
       "minimum_cosine", [](const gonio::brdf_table& t) { return t.cells().minimum_cosine(); },
-      "There are values where both cosines are larger; 0 down to the horizon.");
+      "Cells have values if both cosines are larger than this; 0: down to the horizon.");
   table.def(
       "directions", [](const gonio::brdf_table& t) { return directions_of(t.cells()); },
-      "The directions at which the values were taken: shape (cells, 6), wi and wo.");
+      "Returns the directions of the values: shape (cells, 6), wi and wo.");
   table.def(
       "angles", [](const gonio::brdf_table& t) { return angles_of(t.cells()); },
-      "The same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
+      "Returns the same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
   table.def(
       "dense",
       [](const gonio::brdf_table& t, bool fill) { return fill ? filled_array(t) : array_of(gonio::dense_tensor(t)); },
       py::arg("fill") = false,
-      "A copy of shape (theta_h, theta_d, phi_d, 3). Cells below the horizon are NaN or, with fill, continue those\n"
-      "above as a look-up reads them.");
+      "Returns a copy of shape (theta_h, theta_d, phi_d, 3). Cells below the horizon are NaN or, with fill, have\n"
+      "the value of the cell above, which a look-up reads.");
   table.def("__array__", &as_array, py::arg("dtype") = py::none(), py::arg("copy") = py::none(),
             "numpy.asarray(table) is table.dense().");
   table.def(
       "__getitem__",
       [](const gonio::brdf_table& t, const py::object& index) { return dense_array(t).attr("__getitem__")(index); },
       py::arg("index"),
-      "As of numpy.asarray(table), which is made for it: table[theta_h, theta_d, phi_d] is red, green and blue. Make\n"
-      "the array once for many of these.");
+      "Indexes numpy.asarray(table), which is made on each call: table[theta_h, theta_d, phi_d] is red, green and\n"
+      "blue. For many look-ups make the array once.");
   table.def("copy", [](const gonio::brdf_table& t) { return t; });
   table.def("__repr__", [](const gonio::brdf_table& t) { return "<gonio.Table: " + sentence_of(t.cells()) + '>'; });
   add_copies(table, &state_of_table, &table_of_state);
   add_brdf_methods(m, table);
 }
 
-/// The bytes of a file.
+/// Returns the bytes of a file.
 py::tuple state_of_adaptive(const gonio::model::adaptive_brdf& material) {
   const std::vector<std::byte> bytes = gonio::io::write_rgl(gonio::io::rgl_material{material, "", {}});
   return py::make_tuple(py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
@@ -164,22 +164,21 @@ void add_tables(py::module_& m) {
   py::class_<gonio::model::adaptive_brdf> adaptive(
       m, "AdaptiveBrdf",
       "A material of the RGL database: values over a parameterisation that follows its highlight (Dupuy and Jakob\n"
-      "2018). The mean of both orders of the directions, as measurements are not reciprocal.");
+      "2018). It averages over both orders of the directions, because measurements are not reciprocal.");
   adaptive.def("__repr__", [](const gonio::model::adaptive_brdf&) { return "<gonio.AdaptiveBrdf>"; });
   add_copies(adaptive, &state_of_adaptive, &adaptive_of_state);
   add_brdf_methods(m, adaptive);
   m.def(
       "read_merl", [](const std::filesystem::path& path) { return gonio::io::read_merl_any(path); }, py::arg("path"),
-      py::call_guard<py::gil_scoped_release>(), "Reads a MERL file (.binary), also one that gzip compressed.");
+      py::call_guard<py::gil_scoped_release>(), "Reads a MERL file (.binary), plain or compressed by gzip.");
   m.def(
       "read_rgl",
       [](const std::filesystem::path& path) { return gonio::io::colours_of(gonio::io::read_rgl(path), path); },
       py::arg("path"), py::call_guard<py::gil_scoped_release>(), "Reads a material of the RGL database (.bsdf).");
-  m.def(
-      "write_npy", &gonio::io::write_table_npy, py::arg("path"), py::arg("table"),
-      py::call_guard<py::gil_scoped_release>(),
-      "Writes a table as numpy's own file: float32, shape (theta_h, theta_d, phi_d, 3), values at the cells' centres,\n"
-      "cells below the horizon filled with the value above.");
+  m.def("write_npy", &gonio::io::write_table_npy, py::arg("path"), py::arg("table"),
+        py::call_guard<py::gil_scoped_release>(),
+        "Writes a table as a numpy file: float32, shape (theta_h, theta_d, phi_d, 3), values at the cells' centres; a\n"
+        "cell below the horizon has the value of the cell above.");
 }
 
 }  // namespace python

@@ -10,7 +10,7 @@ namespace python {
 
 namespace {
 
-/// Options whose arguments have another name, or stand for one value of it.
+/// Options whose argument has another name, or that stand for one value of it.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> renamed{{{"lambda", "lambda_share="},
                                                                                 {"misplaced", "misplaced_degrees="},
                                                                                 {"no-reject", "reject=False"},
@@ -19,17 +19,17 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> renamed{{
                                                                                 {"in-sample", "in_sample=True"},
                                                                                 {"fresnel", "fresnel=True"}}};
 
-/// Those that have the same name but for hyphens.
+/// Options whose argument has the same name, except for hyphens.
 constexpr std::array<std::string_view, 27> same{
     "prior",  "networks",     "merl",      "exclude",    "metric",   "root",     "solver",     "eta",  "variance",
     "noise",  "discrepancy",  "gamma",     "method",     "geometry", "search",   "iterations", "seed", "start",
     "starts", "common-shift", "criterion", "neighbours", "rgl",      "quantity", "columns",    "side", "band"};
 
-/// Those of `same` whose value is a word.
+/// Options of `same` whose value is a word.
 constexpr std::array<std::string_view, 6> chosen_by_word{"method",   "metric",    "solver",
                                                          "geometry", "criterion", "search"};
 
-/// Words of a sentence that are no value of an option.
+/// Words of a sentence that are never the value of an option.
 constexpr std::array<std::string_view, 9> plain_words{"and", "or", "not", "need", "needs", "goes", "was", "to", "of"};
 
 template <class Words>
@@ -40,13 +40,13 @@ bool contains(const Words& words, std::string_view word) {
 bool is_lower_case(char c) { return c >= 'a' && c <= 'z'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The lower-case word with hyphens inside at the beginning of a text.
+/// Returns the lower-case word, which may contain hyphens, at the beginning of a text.
 std::string_view word_at(std::string_view text) {
   const auto end = std::ranges::find_if_not(text, [](char c) { return is_lower_case(c) || is_digit(c) || c == '-'; });
   return text.substr(0, static_cast<std::size_t>(end - text.begin()));
 }
 
-/// "eta=" of "eta"; nothing of what is no argument.
+/// Returns "eta=" for "eta"; nothing if the option is not an argument.
 std::string argument_of(std::string_view option) {
   for (const auto& [name, argument] : renamed)
     if (name == option) return std::string(argument);
@@ -56,11 +56,11 @@ std::string argument_of(std::string_view option) {
   return argument + '=';
 }
 
-/// How much of the text behind an option is its value, a space included, and the value as Python writes it.
+/// Returns the length of an option's value in the text after it, with a leading space, and the value in Python.
 std::pair<std::size_t, std::string> value_behind(std::string_view option, std::string_view text) {
   if (text.size() < 2 || text.front() != ' ') return {0, ""};
   const std::string_view word = word_at(text.substr(1));
-  if (is_digit(text[1])) return {1, ""};  // the number follows as it is
+  if (is_digit(text[1])) return {1, ""};  // the number follows unchanged
   if (!contains(chosen_by_word, option) || word.empty() || !is_lower_case(word.front()) || contains(plain_words, word))
     return {0, ""};
   return {1 + word.size(), '\'' + std::string(word) + '\''};

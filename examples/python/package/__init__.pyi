@@ -1,4 +1,4 @@
-"""What the compiled module has, for type checkers; tests/python/test_stub.py compares the two."""
+"""The compiled module's interface for type checkers; tests/python/test_stub.py compares the two."""
 
 import os
 from typing import Any, Iterator, Mapping, Optional, Sequence, Tuple, TypedDict, Union, overload
@@ -320,6 +320,7 @@ def render_sphere_in(
 def write_png(path: _Path, image: npt.ArrayLike) -> None: ...
 def read_hdr(path: _Path) -> _Floats: ...
 def compare(estimate: _Brdf, truth: _Brdf, prior: Optional[Prior] = None, threads: int = 0) -> dict[str, Any]: ...
+def instrument_readings(brdf: _Brdf) -> dict[str, Any]: ...
 
 class Map:
     @property

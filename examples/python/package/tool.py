@@ -1,4 +1,4 @@
-"""Runs the tool that the wheel brings."""
+"""Runs the tool that the wheel contains."""
 
 import os
 import pathlib

@@ -58,7 +58,7 @@ std::optional<gonio::direction_pair> adaptive_choice::next(
               << gonio::io::shortest(options_.until) << " was reached\n";
     return std::nullopt;
   }
-  // A pose that failed is tried again, but not chosen again.
+  // A failed pose is tried again, but not chosen again.
   const auto is_new = [&](const gonio::direction_pair& pair) {
     return std::ranges::none_of(scan.poses, [&](const gonio::direction_pair& known) {
       return gonio::angle_between(known.wi, pair.wi) < 1e-6 && gonio::angle_between(known.wo, pair.wo) < 1e-6;

@@ -1,5 +1,5 @@
 #pragma once
-/// Which pose a scan measures next, by what it has read so far.
+/// Chooses the next pose of a scan from its readings so far.
 
 #include "tool/options/calibration_options.hpp"
 #include <gonio/basis/pca.hpp>
@@ -16,19 +16,19 @@ namespace cli {
 
 struct adaptive_options {
   std::filesystem::path prior, reference;
-  double until = 0.1;      ///< enough is measured when half of all directions are known to this, relative
+  double until = 0.1;      ///< stop when half of all directions are known to this relative deviation
   Eigen::Index most = 40;  ///< poses
 };
 
-/// The choice of the next pose of a scan. Prints how well the material is known before each.
+/// Chooses the next pose of a scan. Prints beforehand how well the material is known.
 class adaptive_choice {
  public:
   /// Reads the prior and the scan of the reference. Throws gonio::error if one cannot be used, or if the reference was
   /// measured by another camera.
   adaptive_choice(const adaptive_options& options, const calibration_options& calibration, std::uint16_t largest_count);
 
-  /// The pose after those of a scan; nothing if the material is known well enough, or all poses are measured that may
-  /// be. Throws gonio::error if no reading can be used, or nothing is left that can be reached.
+  /// Returns the pose after those of a scan; nothing if the material is known well enough or the limit of poses is
+  /// reached. Throws gonio::error if no reading can be used, or if no reachable direction is left.
   [[nodiscard]] std::optional<gonio::direction_pair> next(
       const gonio::io::recorded_scan& scan,
       const std::function<bool(const gonio::direction_pair&)>& is_reachable) const;

@@ -1,5 +1,5 @@
 #pragma once
-/// The subcommands of the `gonio` tool. Each file of this folder holds one and registers it here.
+/// The subcommands of the `gonio` tool. Each file of this folder registers one.
 
 #include "tool/options/command.hpp"
 #include "tool/options/team.hpp"
@@ -14,8 +14,7 @@ void add_plan(command& app);
 void add_sample(command& app);
 void add_near_field(command& app);
 void add_sphere(command& app);
-/// `words` is the whole command line, which the pages for people repeat. `processes` must live until the program has
-/// run.
+/// `words` is the whole command line, repeated on pages for people. `processes` must outlive the program's run.
 void add_reconstruct(command& app, const std::vector<std::string>& words);
 void add_report(command& app, const std::vector<std::string>& words);
 void add_check(command& app, const std::vector<std::string>& words);

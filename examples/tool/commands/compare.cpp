@@ -10,11 +10,15 @@
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/sphere_delta_e.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
+#include <gonio/model/instrument_readings.hpp>
 #include <gonio/render/environment_map.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace cli {
 
@@ -26,7 +30,7 @@ struct compare_options {
   gonio::thread_count threads;
 };
 
-/// The mean difference that is seen under an environment, at the truth's own exposure, over the truth's cells.
+/// Returns the mean visible difference in an environment, at the truth's exposure, over the truth's cells.
 double delta_e_under(const std::filesystem::path& environment, const gonio::brdf_table& estimate,
                      const gonio::brdf_table& truth, gonio::thread_count threads) {
   const gonio::render::environment_map map(read_radiance(environment));
@@ -34,6 +38,24 @@ double delta_e_under(const std::filesystem::path& environment, const gonio::brdf
                                       gonio::sphere_delta_e::middle_grey, threads);
   if (estimate.cells() == truth.cells()) return delta_e.difference(estimate, truth, threads);
   return delta_e.difference(resample(estimate, truth.cells(), threads), truth, threads);
+}
+
+/// What instruments read on both.
+void print(const gonio::model::instrument_readings& estimate, const gonio::model::instrument_readings& truth) {
+  const auto line = [](const char* what, double of_estimate, double of_truth, int digits, const std::string& unit) {
+    std::cout << what << fixed(of_estimate, digits) << " instead of " << fixed(of_truth, digits) << unit << '\n';
+  };
+  for (std::size_t i = 0; i < truth.gloss.size(); ++i)
+    line("gloss             ", estimate.gloss[i], truth.gloss[i], 1,
+         " units at " + std::to_string(gonio::model::gloss_angles[i]) + " degrees, ISO 2813");
+  line("haze              ", estimate.haze, truth.haze, 1, " units at 20 degrees, ISO 13803");
+  line("reflectance       ", gonio::luminance(estimate.total), gonio::luminance(truth.total), 3,
+       " of light at 8 degrees, specular included");
+  double largest = 0.0;
+  for (std::size_t i = 0; i < truth.colours.size(); ++i)
+    largest = std::max(largest, std::sqrt((estimate.colours[i].lab - truth.colours[i].lab).square().sum()));
+  std::cout << "multi-angle       " << fixed(largest, 2)
+            << "   the largest Delta E at 15 to 110 degrees from the mirror direction, light at 45\n";
 }
 
 void print(const gonio::comparison& errors, std::optional<double> natural) {
@@ -59,8 +81,13 @@ void compare_tables(const compare_options& options) {
   const auto errors = gonio::compare(estimate, truth, prior.metric(), appearance, options.threads);
   std::optional<double> natural;
   if (!options.environment.empty()) natural = delta_e_under(options.environment, estimate, truth, options.threads);
-  if (!options.print_json) return print(errors, natural);
+  const auto of_estimate = gonio::model::read_instruments(estimate), of_truth = gonio::model::read_instruments(truth);
+  if (!options.print_json) {
+    print(errors, natural);
+    return print(of_estimate, of_truth);
+  }
   json printed = to_json(errors);
+  printed["readings"] = {{"estimate", to_json(of_estimate)}, {"truth", to_json(of_truth)}};
   if (natural) printed["delta_e_natural"] = *natural;
   std::cout << printed.dump(2) << '\n';
 }

@@ -1,4 +1,4 @@
-/// gonio convert: a file of one kind as one of another.
+/// gonio convert: writes a file as another kind of file.
 
 #include "commands.hpp"
 #include "tool/files/file_kinds.hpp"
@@ -25,7 +25,7 @@ struct convert_options {
 };
 
 void convert(const convert_options& options) {
-  // Refused before hours of reading.
+  // Refuse before reading, which may take hours.
   const file_kind& kind = written_kind(options.output);
   const auto needs = [&](bool asked, const char* option, std::initializer_list<std::string_view> endings) {
     if (!asked || std::ranges::find(endings, kind.extensions.front()) != endings.end()) return;

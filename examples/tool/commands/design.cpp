@@ -1,4 +1,4 @@
-/// `gonio design`: what to measure, so that a prior's materials are told apart best.
+/// `gonio design`: finds the measurements that best distinguish a prior's materials.
 
 #include "commands.hpp"
 #include "tool/files/json.hpp"
@@ -30,19 +30,19 @@ namespace {
 
 struct design_command {
   std::filesystem::path prior, constraint, start, given, output;
-  std::string apparatus;  ///< its name
-  /// What replaces the apparatus' own: degrees, and deviations.
+  std::string apparatus;  ///< name of a shipped apparatus
+  /// These replace the apparatus' own values: degrees, and standard deviations.
   std::optional<double> largest_polar_angle, separation, noise, dark_signal, misplaced;
-  std::optional<double> until;  ///< of --given: known to this is enough
+  std::optional<double> until;  ///< for --given: stop when known to this
   page_option report;
-  measurement_options reading;  ///< of --given
+  measurement_options reading;  ///< for --given
   design_options design;
   double field_of_view = 25.0, step = 5.0;
-  Eigen::Index published = 0;  ///< of how many measurements; 0: none
+  Eigen::Index published = 0;  ///< number of measurements; 0: none
   bool industry = false, print_json = false;
 };
 
-/// --given replaces the criterion and the search.
+/// With --given, criterion and search do not apply.
 void require_given_alone(const design_command& command) {
   const design_options standard, &design = command.design;
   if (design.geometry != standard.geometry)
@@ -56,7 +56,7 @@ void require_given_alone(const design_command& command) {
         "of the reconstruction from its samples");
 }
 
-/// The page for people. `samples` are those that were measured already.
+/// Writes the page for people. `samples` are those already measured.
 void write_report(const design_command& command, const std::vector<gonio::direction_pair>& poses,
                   const std::string& sentence, const gonio::sample_set& samples) {
   json directions = json::array(), given = json::array();
@@ -83,7 +83,7 @@ void write_report(const design_command& command, const std::vector<gonio::direct
   write_report_page(command.report, data);
 }
 
-/// The next measurements beside samples that were made, by what these read.
+/// Finds the next measurements, given the samples already measured.
 void run_given(const design_command& command) {
   require_given_alone(command);
   const gonio::io::sample_file measured = read_colour_file(command.given, command.reading);
@@ -124,7 +124,7 @@ void run_given(const design_command& command) {
     std::cout << "measure sample " << number << " again: it disagrees with the others and does not count\n";
 }
 
-/// The literature's sets are not searched for.
+/// Published sets need no search.
 void require_no_search(const design_command& command) {
   const design_options standard, &design = command.design;
   const std::string asked = command.industry ? "--industry" : "--published";
@@ -139,8 +139,7 @@ void require_no_search(const design_command& command) {
                   "--search");
 }
 
-/// A set of the literature, as it is printed; of images, the samples are those of the images that a grid of the prior's
-/// cells has.
+/// Returns a published set as printed; for images, the samples are those of images with a grid of the prior's cells.
 designed set_of_the_literature(const gonio::log_relative_pca& prior, const design_command& command) {
   const bool is_of_spheres = command.design.geometry == "sphere";
   designed found;
@@ -152,7 +151,7 @@ designed set_of_the_literature(const gonio::log_relative_pca& prior, const desig
   return found;
 }
 
-/// Writes what was found, and says what it is worth.
+/// Writes the result and prints its quality.
 void finish(const design_command& command, const gonio::log_relative_pca& prior, const designed& found,
             bool is_published) {
   gonio::io::write_direction_pairs(command.output, found.poses);
@@ -182,7 +181,7 @@ void finish(const design_command& command, const gonio::log_relative_pca& prior,
   std::cout << sentence << '\n';
 }
 
-/// Of all that a search's result depends on.
+/// Returns the checksum of all inputs of a search.
 std::uint32_t checksum_of(const design_command& command) {
   const design_options& design = command.design;
   std::vector<std::string> words{json{design.count, design.geometry, design.criterion, design.search, design.eta,
@@ -196,7 +195,7 @@ std::uint32_t checksum_of(const design_command& command) {
   return cli::checksum_of(words);
 }
 
-/// Goes on with what an earlier run has left, and leaves nothing once the directions are written.
+/// Resumes an earlier run from its record, and removes the record once the directions are written.
 void search(const design_command& command, const gonio::log_relative_pca& prior, progress_bar& bar,
             const team& processes) {
   sweep_record record(command.output, checksum_of(command), processes);
@@ -208,7 +207,7 @@ void search(const design_command& command, const gonio::log_relative_pca& prior,
   record.remove();
 }
 
-/// The usual one, or that of --apparatus or --constraint, but for what other options say.
+/// Returns the usual apparatus or that of --apparatus or --constraint, modified by other options.
 gonio::design::apparatus apparatus_of(const design_command& command) {
   if (!command.constraint.empty() && !command.apparatus.empty())
     gonio::refuse("--constraint and --apparatus both say what is measured with: choose one");
@@ -222,13 +221,13 @@ gonio::design::apparatus apparatus_of(const design_command& command) {
   chosen.noise = command.noise.value_or(chosen.noise);
   chosen.dark_signal = command.dark_signal.value_or(chosen.dark_signal);
   if (command.misplaced) chosen.angular_error = gonio::radians(*command.misplaced);
-  // Images and other criteria do not expect that directions are missed: of an apparatus that says so they ignore it.
+  // Images and other criteria cannot include angular errors: an apparatus' own are ignored.
   const bool expects_errors = command.design.criterion == "expected-error" || command.design.criterion == "perceived";
   if (!command.misplaced && !(command.design.geometry == "point" && expects_errors)) chosen.angular_error = 0.0;
   return chosen;
 }
 
-/// Searches, or takes what was published; each process knows the result.
+/// Searches, or takes a published set; every process knows the result.
 void run(design_command command, const team& processes) {
   progress_bar bar;
   const bool is_published = command.published > 0 || command.industry;
@@ -265,7 +264,7 @@ void add_design(command& app, const std::vector<std::string>& words, const team&
   auto command = app.add_subcommand("design", "Find what to measure");
   const auto options = std::make_shared<design_command>();
   design_options& design = options->design;
-  // Declare the prior, and what is measured.
+  // Declare the prior and the measurements.
   add_prior_option(command, options->prior);
   command.add_option("-n,--count", design.count, "Number of measurements").capture_default_str();
   command
@@ -274,7 +273,7 @@ void add_design(command& app, const std::vector<std::string>& words, const team&
                   "a close camera; fixed-camera, fixed-light: such images with one camera, or one light")
       .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
       .capture_default_str();
-  // Declare what a set is worth, and how sets are searched for.
+  // Declare the criterion and the search.
   command
       .add_option(
           "--criterion", design.criterion,
@@ -338,7 +337,7 @@ void add_design(command& app, const std::vector<std::string>& words, const team&
                   "With --given: nothing is written once half of all directions are known to this (0.1 is 10 %)")
       .check(check::range(0.0, 1.0));
   add_measurement_options(command, options->reading);
-  // Declare what needs no search.
+  // Declare the sets that need no search.
   command
       .add_option("--published", options->published,
                   "No search: the set of Nielsen et al. 2015 of so many points (1, 2, 5, 10, 20) or, with --geometry "

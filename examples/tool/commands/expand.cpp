@@ -32,12 +32,12 @@ namespace {
 struct expand_options {
   std::filesystem::path networks, prior, output;
   std::string name, formula;
-  std::vector<std::string> weights;  ///< lists of numbers: one for all channels (or wavelengths), or one for each
+  std::vector<std::string> weights;  ///< lists of numbers: one for all channels (or wavelengths), or one per channel
   bool in_deviations = false;
   writing how;
 };
 
-/// The numbers of a list, as 0.5,-1,2.
+/// Returns the numbers of a list such as 0.5,-1,2.
 std::vector<double> numbers_of(std::string_view list) {
   std::vector<std::string_view> fields;
   gonio::io::split_fields(list, fields);
@@ -48,7 +48,7 @@ std::vector<double> numbers_of(std::string_view list) {
   return numbers;
 }
 
-/// The weights that --weights gives, components x channels: zero where it gives none.
+/// Returns the weights from --weights, components x channels; zeros where none is given.
 Eigen::MatrixXd given_weights(const expand_options& options, const gonio::log_relative_pca& prior) {
   const Eigen::Index channels = prior.channels(), lists = std::ssize(options.weights);
   if (lists != 1 && lists != channels && prior.wavelengths().empty())
@@ -73,7 +73,7 @@ void require_finite(const expand_options& options, std::span<const float> values
     gonio::refuse("--weights are too large: their table is not finite (gonio info --components has the deviations)");
 }
 
-/// Spectra where the format holds them, else their colours.
+/// Writes spectra if the format holds them, else their colours.
 void write_spectra(const expand_options& options, const gonio::spectral_table& table) {
   if (lower_extension(options.output) != ".bsdf" || table.bands() == 1)
     return write_file(options.output, table.colours(gonio::illuminant::d65, options.how.threads), options.how);
@@ -81,8 +81,7 @@ void write_spectra(const expand_options& options, const gonio::spectral_table& t
                 options.how);
 }
 
-/// One of the materials a prior was learned from, by the coefficients that it stores, or its mean; and what the weights
-/// given add.
+/// Writes one of the prior's own materials from its stored coefficients, or the mean, plus the given weights.
 void write_of_prior(const expand_options& options, const gonio::valid_cells& cells) {
   const auto prior = read_prior(options.prior);
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), prior.channels());

@@ -1,4 +1,4 @@
-/// gonio fit: an analytic model of measurements.
+/// gonio fit: fits an analytic model to measurements.
 
 #include "commands.hpp"
 #include "tool/files/file_start.hpp"
@@ -24,7 +24,7 @@ namespace cli {
 
 namespace {
 
-/// How a fitted model is written for renderers.
+/// A renderer's format for a fitted model.
 struct renderer_format {
   const char* option;
   const char* extension;
@@ -75,7 +75,7 @@ void print(const gonio::model::model_fit& fit, const gonio::model::largest_albed
             << " degrees" << (albedo.value > 1.0 ? ": more than falls in" : "") << '\n';
 }
 
-/// The page for people. `samples` are those that were fitted, or some values of the table.
+/// Writes the page for people. `samples` are the fitted ones, or some values of the table.
 void write_report(const fit_command_options& options, const gonio::model::analytic_brdf& model,
                   const gonio::sample_set& samples, const json& details) {
   json data =
@@ -100,13 +100,13 @@ void fit(const fit_command_options& options) {
             : gonio::model::fit_observations(measured.samples);
   const gonio::model::model_fit found = fit_chosen(options.choice, observations);
 
-  // Describe the material before a file is written: what a renderer cannot have leaves nothing behind.
+  // Describe the material before any file is written, so that a refusal leaves no files.
   std::array<std::string, renderer_formats.size()> materials;
   for (std::size_t i = 0; i < materials.size(); ++i)
     if (!options.for_renderers[i].empty()) materials[i] = renderer_formats[i].text(found.model);
   for (std::size_t i = 0; i < materials.size(); ++i)
     if (!materials[i].empty()) gonio::io::write_renderer_material(options.for_renderers[i], materials[i]);
-  // Tabulate the fit, and draw it beside the table that was measured.
+  // Tabulate the fit, and draw it beside the measured table.
   if (!options.output.empty() || !options.image.empty()) {
     const gonio::valid_cells cells = table ? table->cells() : gonio::valid_cells();
     const gonio::brdf_table fitted = gonio::tabulate(found.model, cells, options.choice.fit.threads);
@@ -115,7 +115,7 @@ void fit(const fit_command_options& options) {
       std::vector<gonio::image> images;
       if (table) images.push_back(sphere_image(*table, options.how, options.choice.fit.threads));
       images.push_back(sphere_image(fitted, options.how, options.choice.fit.threads));
-      expose_spheres(images, std::span(images).first(1), options.how);  // by what was measured
+      expose_spheres(images, std::span(images).first(1), options.how);  // with the exposure of the measurement
       gonio::io::write_png(options.image, gonio::render::side_by_side(images, 8));
     }
   }
@@ -153,7 +153,7 @@ void add_fit(command& app, const std::vector<std::string>& words) {
       .add_option("--model", options->choice.model,
                   "A lobe beside a Lambertian one, or with sum:ward+ggx the lobes that are named: " + names)
       .capture_default_str();
-  // Declare how they are compared.
+  // Declare the comparison.
   command
       .add_option("--metric", options->choice.metric,
                   "Reflectance is compared as it is (lin), as log (ln(1 + x)) or as cubic root")
@@ -165,7 +165,7 @@ void add_fit(command& app, const std::vector<std::string>& words) {
   command.add_flag("--no-cosine-weight", options->no_cosine_weight,
                    "Compare reflectance without the cosine of the light");
   add_cell_weights_option(command, options->cell_weights);
-  // Declare what is written.
+  // Declare the output.
   command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
                      "The model as a table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)");
   auto image = command.add_output("--image", options->image, {".png"},

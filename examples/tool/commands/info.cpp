@@ -1,4 +1,4 @@
-/// gonio info: what a file holds.
+/// gonio info: describes the content of a file.
 
 #include "commands.hpp"
 #include "tool/files/described_files.hpp"
@@ -29,7 +29,7 @@ struct info_options {
   bool print_json = false;
   gonio::thread_count threads;
 
-  /// What only a prior has.
+  /// Do the options need a prior?
   [[nodiscard]] bool asks_for_prior() const {
     return !components.empty() || !component_spheres.empty() || !weights_of.empty();
   }
@@ -37,7 +37,7 @@ struct info_options {
 
 json array_of(const Eigen::VectorXd& values) { return std::vector<double>(values.begin(), values.end()); }
 
-/// The weights of one of its materials, as --weights of gonio expand takes them.
+/// Returns the weights of one of the prior's materials, in the form of --weights of gonio expand.
 json weights_of(const gonio::log_relative_pca& prior, const info_options& options) {
   const Eigen::MatrixXd weights = prior.weights_of(material_number(prior, options.weights_of, options.file));
   if (prior.wavelengths().empty())
@@ -48,10 +48,10 @@ json weights_of(const gonio::log_relative_pca& prior, const info_options& option
   return all;
 }
 
-/// To four decimals, for people.
+/// Rounds to four decimals, for people.
 json rounded(const Eigen::VectorXd& values) { return array_of((1e4 * values).array().round() / 1e4); }
 
-/// Draws the components of a prior, and adds what the images mean.
+/// Draws the components of a prior, and adds the meaning of the images.
 json describe_components(const gonio::log_relative_pca& prior, const info_options& options) {
   if (options.count > prior.size())
     gonio::refuse({"--count ", options.count, ": ", options.file.native(), " has ", prior.size(), " components"});

@@ -1,4 +1,4 @@
-/// gonio lab: from directions to samples, step by step, in a simulated laboratory or with the frames of a real one.
+/// gonio lab: from directions to samples, step by step, in a simulated laboratory or with recorded frames.
 
 #include "lab.hpp"
 

@@ -1,4 +1,4 @@
-/// gonio lab calibrate: scans of a material and of the white reference as samples of the material's BRDF.
+/// gonio lab calibrate: converts scans of a material and of the white reference to samples of the material's BRDF.
 
 #include "lab.hpp"
 #include "tool/options/calibration_options.hpp"
@@ -22,11 +22,11 @@ namespace {
 struct calibrate_command {
   std::filesystem::path material, reference, response, output;
   calibration_options calibration;
-  bool nearest = false;   ///< reading of the reference, which was not measured at the same poses
-  bool brighter = false;  ///< the material than the reference
+  bool nearest = false;   ///< use the nearest reading of the reference, not measured at the same poses
+  bool brighter = false;  ///< the material may be brighter than the reference
 };
 
-/// With the response that both scans show together.
+/// Returns the calibration with the response estimated from both scans.
 gonio::capture::calibration calibration_of(const calibrate_command& options, const gonio::io::recorded_scan& material,
                                            const gonio::io::recorded_scan& reference) {
   std::vector<gonio::capture::reading> all = readings_of(reference);
@@ -34,7 +34,7 @@ gonio::capture::calibration calibration_of(const calibrate_command& options, con
   return calibration_of(options.calibration, all, material.largest_count);
 }
 
-/// A line for each value of the responses.
+/// Writes a line for each value of the responses.
 void write_responses(const std::filesystem::path& path, const gonio::capture::calibration& known) {
   std::string text = "count,log_exposure_r,log_exposure_g,log_exposure_b\n";
   const auto& responses = known.responses;
@@ -59,8 +59,8 @@ void require_comparable(const calibrate_command& options, const gonio::io::recor
                   "the nearest light");
 }
 
-/// A material's reflectance at a pose, beside the reference at the same pose or, if wanted, under the nearest light.
-/// What cannot be measured says why.
+/// Returns a material's reflectance at a pose, relative to the reference at the same pose or, if requested, under the
+/// nearest light. If it cannot be measured, gives the reason.
 gonio::capture::measured_reflectance measured_at(std::size_t pose, const gonio::io::recorded_scan& material,
                                                  const gonio::io::recorded_scan& reference,
                                                  const std::optional<gonio::capture::reference_readings>& nearest,
@@ -94,7 +94,7 @@ void run(const calibrate_command& options) {
   const auto material = gonio::io::read_scan(options.material), reference = gonio::io::read_scan(options.reference);
   require_comparable(options, material, reference);
   const gonio::capture::calibration known = calibration_of(options, material, reference);
-  // Measure the reflectance of each pose, and say which poses are left out.
+  // Measure the reflectance of each pose, and print which poses are left out.
   std::vector<gonio::capture::measured_reflectance> usable;
   std::optional<gonio::capture::reference_readings> nearest;
   if (options.nearest) nearest = reference_readings_of(reference);
@@ -107,7 +107,7 @@ void run(const calibrate_command& options) {
   }
   if (usable.empty()) gonio::refuse(options.material.string() + ": no pose can be used");
   require_reference(options, usable, known.reflectance);
-  // Write the samples, and say how well they are known.
+  // Write the samples, and print their uncertainty.
   gonio::sample_set samples;
   std::vector<double> deviations;
   for (const auto& each : usable) {

@@ -1,5 +1,5 @@
-/// gonio lab photograph, gonio lab merge: a scene as photographs of several exposure times, and these as one radiance
-/// image.
+/// gonio lab photograph, gonio lab merge: photographs a scene at several exposure times, and merges such photographs to
+/// a radiance image.
 
 #include "lab.hpp"
 #include "lab/photographs.hpp"
@@ -38,7 +38,7 @@ struct photograph_command {
 
 struct merge_command {
   std::filesystem::path frames, times, dark, output, deviation, mask;
-  double gamma = 0.0, level = 0.0, saturation = 0.98;  ///< gamma of a camera that is known; 0: find its response
+  double gamma = 0.0, level = 0.0, saturation = 0.98;  ///< known gamma of the camera; 0: estimate its response
   gonio::capture::merge_options merging{.noise = {.read = 1.6, .shot = 0.2, .relative = 0.0}};
 };
 
@@ -46,19 +46,19 @@ lab::photograph_settings settings_of(const std::string& camera) {
   if (camera == "linear") return lab::photograph_settings::usual();
   const auto curve = camera == "gamma" ? lab::response_curve::gamma : lab::response_curve::s_shaped;
   lab::photograph_settings settings = lab::photograph_settings::usual(curve);
-  // Such cameras have taken off what is dark.
+  // Such cameras have subtracted the dark signal.
   settings.pedestal = settings.dark_current = settings.hot_pixels = 0.0;
   return settings;
 }
 
-/// Without a power of ten.
+/// Returns decimal text without an exponent.
 std::string decimal(double seconds) {
   std::array<char, 400> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), seconds, std::chars_format::fixed).ptr;
   return {text.data(), end};
 }
 
-/// A file for each frame, whose name ends in its exposure time.
+/// Writes a file for each frame; its name ends in the exposure time.
 void write_frames(const std::filesystem::path& folder, std::span<const gonio::capture::exposed_frame> frames) {
   std::filesystem::create_directories(folder);
   int number = 0;
@@ -78,7 +78,7 @@ void run(const photograph_command& options) {
     write_frames(options.output / "dark", lab::photograph_dark(scene.shape(0), scene.shape(1), times,
                                                                options.dark_frames, settings, options.seed));
   }
-  // What merging is to find, in its unit.
+  // The true result of merging, in its unit.
   gonio::image truth = lab::through_lens(scene, settings);
   for (float& value : truth) value = static_cast<float>(lab::merged_unit(settings) * double{value});
   gonio::io::write_npy(options.output / "truth.npy", truth);
@@ -87,7 +87,7 @@ void run(const photograph_command& options) {
             << " --shot-noise " << fixed(noise.shot, 4) << " --flicker " << fixed(noise.relative, 4) << '\n';
 }
 
-/// Each pixel in the colour of its state: black is usable.
+/// Returns each pixel's state as a colour: black is usable.
 gonio::image mask_of(const gonio::capture::merged_frames& merged) {
   gonio::image mask = gonio::uniform_image(merged.radiance.shape(0), merged.radiance.shape(1));
   const std::array<gonio::rgb, 5> colours{gonio::rgb(0, 0, 0), gonio::rgb(0, 0, 1), gonio::rgb(1, 1, 0),
@@ -119,7 +119,7 @@ void report(const gonio::capture::merged_frames& merged, const gonio::capture::d
 }
 
 void run(merge_command options) {
-  // Read the frames, and what the camera counts without light.
+  // Read the frames and the dark signal.
   if (!options.dark.empty() && options.gamma != 1.0)
     gonio::refuse("--dark needs --gamma 1: the counts of dark frames add up in a linear camera alone");
   const auto frames = read_frames(options.frames, options.times);
@@ -148,7 +148,7 @@ void run(merge_command options) {
       gonio::refuse({options.frames.string(), ": ", refusal.what()});
     }
   }();
-  // Write what came out.
+  // Write the result.
   write_radiance(options.output, merged.radiance);
   if (!options.deviation.empty()) write_radiance(options.deviation, merged.deviation);
   if (!options.mask.empty()) gonio::io::write_png(options.mask, mask_of(merged));
@@ -186,7 +186,7 @@ void add_lab_photograph(command& lab) {
 void add_lab_merge(command& lab) {
   auto command = lab.add_subcommand("merge", "Merge photographs of several exposure times to radiance");
   const auto options = std::make_shared<merge_command>();
-  // Declare what is read.
+  // Declare the input.
   command
       .add_input_folder("frames", options->frames, {".png", ".tif", ".tiff", ".ppm", ".pgm"},
                         "Folder of photographs of one scene (.png, .tif, .ppm or .pgm); their names end in their "
@@ -196,7 +196,7 @@ void add_lab_merge(command& lab) {
                     "Exposure times, if neither names nor EXIF data have them (.csv: file,seconds)");
   auto dark = command.add_input_folder("--dark", options->dark, {".png", ".tif", ".tiff", ".ppm", ".pgm"},
                                        "Folder of dark frames, whose names end in their exposure times");
-  // Declare what is known of the camera.
+  // Declare the known properties of the camera.
   command.add_option("--dark-level", options->level, "Counts without light, if there are no dark frames")
       .check(check::non_negative_number())
       .excludes(dark);
@@ -216,7 +216,7 @@ void add_lab_merge(command& lab) {
   command.add_option("--flicker", options->merging.noise.relative, "Relative deviation of each exposure")
       .check(check::non_negative_number())
       .capture_default_str();
-  // Declare what is written.
+  // Declare the output.
   command.add_output("--deviation", options->deviation, {".npy", ".exr"},
                      std::string("Standard deviation of each value, to write (.npy") + (has_exr ? " or .exr)" : ")"));
   command.add_output("--mask", options->mask, {".png"},

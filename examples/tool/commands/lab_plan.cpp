@@ -1,4 +1,4 @@
-/// gonio lab plan: which directions a machine can measure, in which order, and how long that takes.
+/// gonio lab plan: plans which directions a machine can measure, their order, and the duration.
 
 #include "lab.hpp"
 #include "tool/files/measurement_files.hpp"
@@ -28,13 +28,13 @@ struct plan_command {
   bool whole = false;
 };
 
-/// A plan, and how many lamps burn one after the other at each stop.
+/// A plan, and the number of lamps that are switched on in turn at each stop.
 struct timed_plan {
   gonio::capture::scan_plan plan;
   Eigen::Index stops = 0, lamps = 1;
 };
 
-/// The note's whole scan: the camera at every pose of the half hemisphere, under every lamp.
+/// Returns the complete scan of Nielsen's note: the camera at every pose of the half hemisphere, under every lamp.
 timed_plan whole_hemisphere(const lab::robot& machine) {
   const auto seen = gonio::capture::half_hemisphere();
   const auto order = gonio::capture::short_way(seen);
@@ -68,7 +68,7 @@ timed_plan plan_of(const plan_command& options) {
   return result;
 }
 
-/// A line for each reading: where each tool is, and which lamp burns where the machine has more than one.
+/// Returns a line for each reading: the pose of each tool, and the lamp if the machine has several.
 template <class Machine>
 std::string pose_table(const Machine& machine, const std::vector<gonio::direction_pair>& pairs) {
   std::string text = "pose";

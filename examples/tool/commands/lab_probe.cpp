@@ -1,4 +1,4 @@
-/// gonio lab probe, gonio lab unwrap: an environment's image in a mirror sphere, and back.
+/// gonio lab probe, gonio lab unwrap: images an environment in a mirror sphere, and unwraps such an image.
 
 #include "lab.hpp"
 #include "lab/mirror_sphere_lab.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 struct probe_command {
   std::filesystem::path input, output, truth, image;
-  double distance = 0.0;  ///< in radii of the sphere; 0: far away
+  double distance = 0.0;  ///< in radii of the sphere; 0: infinite
   std::size_t pixels = 1024;
   gonio::capture::unwrap_options unwrapping;
   gonio::thread_count threads;
@@ -38,7 +38,7 @@ void photograph(const probe_command& options) {
   write_radiance(options.output, lab::photograph(sphere_of(options), radiance, options.pixels));
 }
 
-/// An image of fewer rows, each pixel the mean of those that it stands for.
+/// Returns an image with fewer rows, each pixel the mean of those it replaces.
 gonio::image averaged(const gonio::image& image, std::size_t rows, const std::filesystem::path& file) {
   const std::size_t factor = image.shape(0) / rows;
   if (factor * rows != image.shape(0) || image.shape(1) % factor != 0)
@@ -55,7 +55,7 @@ gonio::image averaged(const gonio::image& image, std::size_t rows, const std::fi
   return means;
 }
 
-/// The probe beside the map, exposed so that the map's mean is a middle grey; highlights are clipped.
+/// Returns the probe beside the map, exposed so that the map's mean is middle grey; highlights are clipped.
 gonio::image image_of(const gonio::image& probe, const gonio::image& map, const std::filesystem::path& file) {
   const std::array both{averaged(probe, map.shape(0), file), map};
   gonio::image image = gonio::render::side_by_side(both, 4);
@@ -66,8 +66,8 @@ gonio::image image_of(const gonio::image& probe, const gonio::image& map, const 
   return image;
 }
 
-/// The mean relative error of a map, by solid angle, of all but the 10 degrees around what the sphere hides. Pixels in
-/// which the truth is black do not count.
+/// Returns the mean relative error of a map, weighted by solid angle, except within 10 degrees of the part that the
+/// sphere hides. Pixels whose truth is black are ignored.
 double relative_error(const gonio::image& map, const gonio::render::environment_map& truth,
                       double largest_polar_angle) {
   double sum = 0.0, weights = 0.0;

@@ -1,5 +1,4 @@
-/// gonio lab scan, gonio lab replay: readings of a machine, or of frames recorded earlier, kept one by one in a
-/// journal.
+/// gonio lab scan, gonio lab replay: readings of a machine or of recorded frames, saved one by one in a journal.
 
 #include "adaptive_scan.hpp"
 #include "lab.hpp"
@@ -52,7 +51,7 @@ lab::surface surface_of(const scan_command& options) {
   };
 }
 
-/// The laboratory that the options describe.
+/// Returns the laboratory that the options describe.
 lab::dark_room room_of(const scan_command& options) {
   lab::sensor chip{.curve = curve_named(options.camera)};
   lab::defects wrong;
@@ -65,13 +64,13 @@ lab::dark_room room_of(const scan_command& options) {
     wrong.misalignment = gonio::radians(options.misalignment);
   }
   wrong.outliers = options.outliers;
-  // The reference and the material are laid down apart.
+  // Reference and material have different seeds for their alignment.
   return {surface_of(options), chip, wrong, options.room_seed, 2 * options.seed + (options.white ? 1 : 0)};
 }
 
 using gonio::io::shortest;
 
-/// What the journal says that it is of. Options that change no count are left out.
+/// Returns the journal's subject. Options that do not affect the counts are left out.
 gonio::io::scan_subject subject_of(const scan_command& options) {
   gonio::io::scan_subject subject;
   subject.seed = options.seed;
@@ -97,7 +96,7 @@ gonio::io::scan_subject subject_of(const scan_command& options) {
   return subject;
 }
 
-/// The list of frames, and the folder that it lies in: lists of two materials may be the same.
+/// Returns the subject of a list of frames, including its folder's name: lists of two materials may be identical.
 gonio::io::scan_subject subject_of(const replay_command& options) {
   const auto folder = std::filesystem::absolute(options.manifest).lexically_normal().parent_path().filename();
   return {.sample = options.label.empty() ? (folder / options.manifest.filename()).string() : options.label,
@@ -105,7 +104,7 @@ gonio::io::scan_subject subject_of(const replay_command& options) {
           .setup = "recorded frames"};
 }
 
-/// Measures what a journal does not have yet, and names what cannot be measured.
+/// Measures the poses missing in a journal, and prints those that cannot be measured.
 template <class Machine>
 gonio::capture::scan_outcome measure_missing(gonio::io::scan_journal& journal, Machine& machine) {
   const std::vector<gonio::direction_pair>& poses = journal.scan().poses;
@@ -118,14 +117,14 @@ gonio::capture::scan_outcome measure_missing(gonio::io::scan_journal& journal, M
   return outcome;
 }
 
-/// Throws where poses stay missing.
+/// Throws if poses remain missing.
 void require_complete(const std::filesystem::path& output, const gonio::io::recorded_scan& scan) {
   if (scan.measured() == scan.poses.size()) return;
   throw std::runtime_error(output.string() + ": " + std::to_string(scan.poses.size() - scan.measured()) + " of " +
                            std::to_string(scan.poses.size()) + " poses are missing: the same command tries them again");
 }
 
-/// Scans what the journal does not have yet.
+/// Scans the poses missing in the journal.
 template <class Machine>
 void scan_into(const std::filesystem::path& output, const gonio::io::scan_subject& subject, Machine& machine,
                const std::vector<gonio::direction_pair>& poses) {
@@ -135,7 +134,7 @@ void scan_into(const std::filesystem::path& output, const gonio::io::scan_subjec
   require_complete(output, journal.scan());
 }
 
-/// Goes on with poses that the readings ask for, until the material is known well enough.
+/// Continues with poses chosen from the readings, until the material is known well enough.
 template <class Machine>
 void scan_adaptively(const scan_command& options, Machine& machine, const std::vector<gonio::direction_pair>& poses) {
   const adaptive_choice choice(options.choice, {.reflectance = options.reflectance}, machine.largest_count());
@@ -185,7 +184,7 @@ void add_label_option(command& to, std::string& label) {
 void add_lab_scan(command& lab) {
   auto command = lab.add_subcommand("scan", "Measure poses in a simulated laboratory; goes on where it was stopped");
   const auto options = std::make_shared<scan_command>();
-  // Declare the plan and what lies in the machine.
+  // Declare the plan and the sample in the machine.
   command.add_input("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)").required();
   auto what = command.add_option_group("what", "What lies in the machine (one of)");
   what.add_input("--material", options->material, "A material's table (.binary or .binary.gz)");
@@ -198,7 +197,7 @@ void add_lab_scan(command& lab) {
   command.add_option("--camera", options->camera, "The camera's response")
       .check(check::one_of({"linear", "gamma", "s-shaped"}))
       .capture_default_str();
-  // Declare what is wrong with it.
+  // Declare the defects.
   command.add_flag("--ideal", options->ideal,
                    "Nothing is wrong: no noise, points for lamp and sample, all in its place, 16 bits instead of 12");
   command.add_option("--noise", options->noise, "Factor of all noise")

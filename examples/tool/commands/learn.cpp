@@ -1,4 +1,4 @@
-/// gonio learn: principal components of many materials, as a file.
+/// gonio learn: learns principal components of many materials and writes them to a file.
 
 #include "commands.hpp"
 #include "tool/options/materials.hpp"
@@ -73,7 +73,7 @@ gonio::cosine_weighting weighting_of(const learn_options& options) {
   return options.cosine_weight == "larger" ? gonio::cosine_weighting::larger : gonio::cosine_weighting::product;
 }
 
-/// Materials that are read once into a scratch file beside the prior if they do not fit into a quarter of the memory.
+/// Reads the materials once, into a scratch file beside the prior if they do not fit into a quarter of the memory.
 gonio::material_rows stream(const learn_options& options, const std::optional<gonio::valid_cells>& cells,
                             const gonio::progress& listener, const team& processes) {
   const auto bytes = static_cast<std::uint64_t>(options.memory * 0x1p30);
@@ -82,7 +82,7 @@ gonio::material_rows stream(const learn_options& options, const std::optional<go
                           listener, processes);
 }
 
-/// One prior for the soft and one for the specular materials. Processes do not share it.
+/// Learns one prior for soft and one for specular materials. Not distributed over processes.
 void learn_split(const learn_options& options, const gonio::streaming_options& streaming) {
   progress_bar bar;
   const auto materials = stream(options, {}, bar.listener(), alone());

@@ -1,5 +1,5 @@
-/// gonio near-field: images of a flat sample, taken from close by, as measurements: of one material, or of each of
-/// several that clusters of colours tell apart.
+/// gonio near-field: converts images of a flat sample, taken from a short distance, to measurements of one material, or
+/// of several materials that are separated by clustering colours.
 
 #include "commands.hpp"
 #include "tool/files/photograph_files.hpp"
@@ -28,9 +28,9 @@ namespace {
 
 struct near_field_command {
   photograph_files files;
-  std::string clusters;  ///< a number, auto, or empty: one material
+  std::string clusters;  ///< a number, auto, or empty for one material
   std::filesystem::path labels, prior, output;
-  double angular_error = 0.0;  ///< degrees; 0: light and cameras are in their places
+  double angular_error = 0.0;  ///< degrees; 0: light and cameras are exactly placed
   bool reference_in_place = false;
   std::uint64_t seed = 0;
   gonio::thread_count threads;
@@ -48,7 +48,7 @@ gonio::sample_set samples_of(const taken_image& image) {
   return image.naming_files([&] { return gonio::capture::near_field_samples(image.pixels, image.setup, image.white); });
 }
 
-/// Was the light measured where the sample lies? Then it is the same for both, wherever it stands.
+/// Was the reference in the sample's place? Then it received the same light, whatever the position of the light.
 bool has_reference_in_place(const std::vector<taken_image>& images, const near_field_command& options) {
   return options.reference_in_place ||
          std::ranges::all_of(images, [](const taken_image& each) { return each.white && !each.white->surface; });
@@ -56,11 +56,10 @@ bool has_reference_in_place(const std::vector<taken_image>& images, const near_f
 
 std::string angle_of(const Eigen::Vector3d& turn) { return fixed(gonio::degrees(turn.norm()), 2); }
 
-/// The samples of each image, for each of some materials.
+/// The samples of each image, for each material.
 using samples_of_materials = std::vector<std::vector<gonio::sample_set>>;
 
-/// Each material's samples where light and cameras are found to be, which all of them share; says by how much these
-/// were off.
+/// Returns each material's samples with refined poses of light and cameras, which they share; prints the corrections.
 std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, samples_of_materials samples,
                                        const near_field_command& options) {
   gonio::pose_refinement refinement(
@@ -78,7 +77,7 @@ std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, s
   return all;
 }
 
-/// Each material's samples of all images.
+/// Returns each material's samples from all images.
 std::vector<gonio::sample_set> joined(const std::vector<taken_image>& images, samples_of_materials samples,
                                       const near_field_command& options) {
   if (options.angular_error != 0.0) return refined(images, std::move(samples), options);
@@ -88,7 +87,7 @@ std::vector<gonio::sample_set> joined(const std::vector<taken_image>& images, sa
   return all;
 }
 
-/// How many samples each image has, a line each.
+/// Returns the number of samples of each image, one line per image.
 std::string counts_of(const std::vector<taken_image>& images, const std::vector<gonio::sample_set>& samples) {
   std::string lines;
   for (Eigen::Index i = 0; i < std::ssize(images); ++i)
@@ -96,7 +95,7 @@ std::string counts_of(const std::vector<taken_image>& images, const std::vector<
   return lines;
 }
 
-/// All images' samples in one file; prints how many each has.
+/// Writes the samples of all images to one file; prints their number for each image.
 void write_samples_of_one(const std::vector<taken_image>& images, const near_field_command& options) {
   std::vector<gonio::sample_set> samples;
   for (const taken_image& image : images) samples.push_back(samples_of(image));
@@ -107,7 +106,7 @@ void write_samples_of_one(const std::vector<taken_image>& images, const near_fie
 
 // ---- several materials -------------------------------------------------------------------------
 
-/// Pixels are the same points of the sample only if the camera stood still.
+/// Pixels correspond to the same sample points only if the camera is fixed.
 void require_fixed_camera(const std::vector<taken_image>& images) {
   const gonio::pinhole_camera& first = images.front().setup.camera.pinhole();
   for (const taken_image& image : images) {
@@ -121,9 +120,9 @@ void require_fixed_camera(const std::vector<taken_image>& images) {
   }
 }
 
-/// Clusters of the pixels of an image's region by their reflectance.
+/// Clusters the pixels of an image's region by their reflectance.
 gonio::capture::colour_clusters clusters_of(const taken_image& image, const near_field_command& options) {
-  static_cast<void>(samples_of(image));  // refuses what is no image of the sample
+  static_cast<void>(samples_of(image));  // refuses an unusable image
   const std::vector<gonio::rgb> values = gonio::capture::region_reflectance(image.pixels, image.setup, image.white);
   gonio::capture::point_matrix colours(std::ssize(values), 3);
   for (Eigen::Index i = 0; i < colours.rows(); ++i) colours.row(i) = values[i].matrix().transpose();
@@ -138,14 +137,14 @@ gonio::capture::colour_clusters clusters_of(const taken_image& image, const near
   return gonio::capture::cluster_colours(colours, count, options.seed, options.threads);
 }
 
-/// FILE.csv of material 2 is FILE-2.csv.
+/// Returns FILE-2.csv for FILE.csv and material 2.
 std::filesystem::path path_of_material(const std::filesystem::path& output, Eigen::Index material) {
   std::filesystem::path path = output;
   path.replace_filename(output.stem().string() + '-' + std::to_string(material + 1) + output.extension().string());
   return path;
 }
 
-/// Each material's pixels in its mean colour, the brightest channel of all of them white; black around.
+/// Returns a map of each material's pixels in its mean colour, scaled so that the brightest is 1; black outside.
 gonio::image label_map(const gonio::capture::colour_clusters& clusters, const std::vector<Eigen::Index>& region,
                        const gonio::camera_intrinsics& size) {
   gonio::image map = gonio::uniform_image(size.rows, size.columns);
@@ -156,7 +155,7 @@ gonio::image label_map(const gonio::capture::colour_clusters& clusters, const st
   return map;
 }
 
-/// A file of samples for each material. Its pixels are those of its cluster in the last image.
+/// Writes a file of samples for each material. Its pixels are those of its cluster in the last image.
 void write_samples_of_each(std::vector<taken_image> images, const command& given, const near_field_command& options) {
   require_fixed_camera(images);
   const taken_image& diffuse = images.back();

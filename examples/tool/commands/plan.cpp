@@ -1,4 +1,4 @@
-/// `gonio plan`: directions as the poses of a goniometer, and a drawing of them.
+/// `gonio plan`: prints directions as poses of a goniometer, and draws them.
 
 #include "commands.hpp"
 #include "tool/files/json.hpp"
@@ -39,7 +39,7 @@ struct pose {
 
 double polar_degrees(const gonio::direction& w) { return gonio::degrees(gonio::polar_angle(w)); }
 
-/// The material is isotropic: the sample is turned so that the light is in the half plane of positive x.
+/// Since the material is isotropic, the sample is rotated so that the light is in the half plane of positive x.
 pose to_pose(const gonio::direction_pair& pair) {
   pose at;
   at.theta_i = polar_degrees(pair.wi);
@@ -81,7 +81,7 @@ void print_json(const std::vector<pose>& poses) {
 
 constexpr int hemisphere_radius = 240, hemisphere_margin = 20;
 
-/// Colours that differ, one for each pose in turn.
+/// Returns distinct colours, one per pose in turn.
 gonio::rgb colour_of(std::size_t number) {
   constexpr std::array<std::array<double, 3>, 6> colours{
       {{0.7, 0.02, 0.02}, {0.02, 0.1, 0.7}, {0.02, 0.4, 0.05}, {0.5, 0.05, 0.5}, {0.7, 0.25, 0.0}, {0.0, 0.35, 0.4}}};
@@ -102,14 +102,14 @@ void paint_ring(gonio::image& image, const Eigen::Vector2d& at, double inner, do
     }
 }
 
-/// Where a direction is drawn: the polar angle is the distance from the middle.
+/// Returns the position of a direction in the drawing: the polar angle is the distance from the centre.
 Eigen::Vector2d place_of(const gonio::direction& w) {
   const double radius = hemisphere_radius * polar_degrees(w) / 90.0, azimuth = gonio::azimuth(w);
   return {hemisphere_radius + hemisphere_margin + radius * std::cos(azimuth),
           hemisphere_radius + hemisphere_margin - radius * std::sin(azimuth)};
 }
 
-/// Numbers beside what they belong to, none over another.
+/// Draws numbers beside their points, without overlaps.
 class number_labels {
  public:
   explicit number_labels(gonio::image& image)
@@ -118,8 +118,7 @@ class number_labels {
                 Eigen::Vector2d(static_cast<double>(image.shape(1)) - 1.0, static_cast<double>(image.shape(0)) - 1.0)) {
   }
 
-  /// Near a place, on the side that looks away from another place or else on the next one with room; where there is
-  /// none, nowhere.
+  /// Draws a number near a point, on the side away from `other` or on the next with room; omits it if there is none.
   void add(const Eigen::Vector2d& at, const Eigen::Vector2d& other, std::size_t number, const gonio::rgb& colour) {
     const std::string text = std::to_string(number);
     const text_extent size = extent_of(text, scale_);
@@ -135,7 +134,7 @@ class number_labels {
         continue;
       taken_.push_back(box);
       const auto row = static_cast<std::size_t>(box.min().y()), column = static_cast<std::size_t>(box.min().x());
-      // White below, so that no line runs through the number.
+      // White background, so that no line crosses the number.
       const gonio::image paper = gonio::uniform_image(static_cast<Eigen::Index>(size.rows),
                                                       static_cast<Eigen::Index>(size.columns), gonio::rgb::Ones());
       gonio::render::paste(image_, paper, row, column);
@@ -144,7 +143,7 @@ class number_labels {
     }
   }
 
-  /// Keeps numbers away from a place.
+  /// Keeps numbers away from a point.
   void keep_free(const Eigen::Vector2d& at, double radius) {
     taken_.emplace_back(at - Eigen::Vector2d::Constant(radius), at + Eigen::Vector2d::Constant(radius));
   }
@@ -156,8 +155,8 @@ class number_labels {
   std::vector<Eigen::AlignedBox2d> taken_;
 };
 
-/// The numbers of the poses at their viewers, in the order of the file, and the degrees of the circles. Of more than 40
-/// poses every second is numbered, or every third, and so on.
+/// Draws the numbers of the poses at their viewers, in the order of the file, and the degrees of the circles. With more
+/// than 40 poses only every second, third, ... pose is numbered.
 void draw_numbers(gonio::image& image, const std::vector<pose>& poses) {
   const Eigen::Vector2d middle(hemisphere_radius + hemisphere_margin, hemisphere_radius + hemisphere_margin);
   for (const int theta : {30, 60, 90}) {
@@ -175,7 +174,7 @@ void draw_numbers(gonio::image& image, const std::vector<pose>& poses) {
     labels.add(place_of(poses[i].wo), place_of(poses[i].wi), i + 1, colour_of(i));
 }
 
-/// Each pose a line from its light (a disc) to its viewer (a ring) with its number; circles every 30 degrees.
+/// Draws each pose as a line from its light (a disc) to its viewer (a ring) with its number; circles every 30 degrees.
 gonio::image drawing_of(const std::vector<pose>& poses) {
   const auto size = static_cast<Eigen::Index>(2 * (hemisphere_radius + hemisphere_margin));
   gonio::image image = gonio::uniform_image(size, size, gonio::rgb::Ones());

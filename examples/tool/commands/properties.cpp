@@ -1,4 +1,4 @@
-/// gonio properties: does a measurement keep what a physical BRDF keeps?
+/// gonio properties: checks the properties of a physical BRDF.
 
 #include "commands.hpp"
 #include "tool/files/file_start.hpp"
@@ -10,6 +10,7 @@
 #include <gonio/core/printable.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/rgl.hpp>
+#include <gonio/model/instrument_readings.hpp>
 #include <gonio/model/measured_properties.hpp>
 #include <gonio/model/physical_properties.hpp>
 
@@ -29,7 +30,7 @@ struct properties_options {
   gonio::thread_count threads;
 };
 
-/// The quadrature's own error.
+/// 1 plus the quadrature error.
 constexpr double largest_possible_albedo = 1.005;
 
 constexpr std::array channel_names{"red", "green", "blue"};
@@ -40,7 +41,7 @@ json to_json(const gonio::half_difference& angles) {
           {"phi_d", gonio::degrees(angles.phi_d)}};
 }
 
-/// The largest share of the light is what tells; the others are for a figure.
+/// The largest albedo decides; the others are for a figure.
 template <gonio::brdf Brdf>
 json energy_of(const Brdf& f) {
   const auto albedos = gonio::model::albedo_by_angle(f);
@@ -54,7 +55,7 @@ json energy_of(const Brdf& f) {
           {"by_angle", all}};
 }
 
-/// What tables of any kind have.
+/// Returns the properties of a table of any kind.
 json properties_of(const gonio::brdf_table& table) {
   const gonio::model::table_values values = gonio::model::summarise(table);
   const gonio::model::tail_rise rise = gonio::model::largest_tail_rise(table);
@@ -76,18 +77,19 @@ json to_json(const gonio::model::worst_pair& worst) {
   return found;
 }
 
-/// A MERL file has no place for what breaks reciprocity or isotropy.
+/// A MERL file cannot represent violations of reciprocity or isotropy.
 json properties_of_merl(const std::filesystem::path& path) {
   const gonio::brdf_table table = gonio::io::read_merl_any(path);
   json all{{"kind", "MERL table"}, {"energy", energy_of(table)}};
   all.update(properties_of(table));
+  all["readings"] = cli::to_json(gonio::model::read_instruments(table));
   all["reciprocity"] = {{"kept_by", "the format"}};
   all["isotropy"] = {{"kept_by", "the format"}};
   return all;
 }
 
-/// Not the mean with what was measured the other way round, which the BRDF is. `directional_albedo` has the viewer
-/// fixed where this has the light.
+/// The measured values, not averaged with the reverse directions as in the BRDF. Swapped, because `directional_albedo`
+/// fixes the viewer where the light is fixed here.
 struct light_and_viewer_swapped {
   gonio::model::adaptive_brdf material;
 
@@ -101,6 +103,7 @@ json properties_of_rgl(const std::filesystem::path& path, gonio::thread_count th
   const light_and_viewer_swapped as_measured{material};
   json all{{"kind", "RGL material"}, {"energy", energy_of(as_measured)}};
   all.update(properties_of(gonio::tabulate(material, gonio::valid_cells(), threads)));
+  all["readings"] = cli::to_json(gonio::model::read_instruments(as_measured));
   all["reciprocity"] = to_json(gonio::model::worst_asymmetry(as_measured));
   all["isotropy"] = {{"kept_by", "the format"}};
   return all;
@@ -115,7 +118,7 @@ json to_json(const gonio::model::equal_samples& equal) {
   return found;
 }
 
-/// Samples have no integral; what they have is pairs that ought to be equal.
+/// Samples have no integral; pairs that should be equal are compared.
 json properties_of_samples(const properties_options& options) {
   const gonio::io::sample_file measured = read_colour_file(options.file, options.reading);
   const gonio::sample_set& samples = measured.samples;
@@ -164,7 +167,7 @@ std::string negative_sentence(const json& negative, bool of_samples) {
          (of_samples ? "sample " + negative["sample"].dump() : "at " + where(negative["at"]));
 }
 
-/// Of a format, of a worst pair of directions, or of pairs of samples.
+/// Returns a sentence on a format, on the worst pair of directions, or on pairs of samples.
 std::string symmetry_sentence(const json& symmetry, const char* what) {
   if (symmetry.contains("kept_by")) return "kept by " + symmetry["kept_by"].text();
   if (symmetry.contains("pairs") && symmetry["pairs"].number() == 0.0) return std::string("no samples ") + what;
@@ -176,12 +179,31 @@ std::string symmetry_sentence(const json& symmetry, const char* what) {
 }
 
 std::string tails_sentence(const json& tails) {
-  if (tails["largest_rise"].number() < 5e-4) return "monotone";  // up to the rounding of stored values
+  if (tails["largest_rise"].number() < 5e-4) return "monotone";  // within the rounding of stored values
   return "rise by up to " + percent(tails["largest_rise"]) + " (" + tails["channel"].text() + "), at theta_h " +
          fixed(tails["theta_h"], 1) + ", theta_d " + fixed(tails["theta_d"], 1);
 }
 
-/// As Markdown, as `gonio plan` does.
+void print_readings(const json& readings) {
+  const auto row = [](const char* instrument, const std::string& reading) {
+    std::cout << "| " << instrument << " | " << reading << " |\n";
+  };
+  const json& gloss = readings["gloss"];
+  std::cout << "\n| instrument | reading |\n|---|---|\n";
+  row("gloss at 20, 60, 85 degrees (ISO 2813)",
+      fixed(gloss["20"], 1) + ", " + fixed(gloss["60"], 1) + ", " + fixed(gloss["85"], 1));
+  row("haze at 20 degrees (ISO 13803)", fixed(readings["haze_20"], 1));
+  row("haze index (ASTM D4039)", fixed(readings["haze_index"], 1));
+  row("reflectance at 8 degrees, specular included", percent(readings["luminous_reflectance_8"]));
+  row("the same, specular excluded (4 degrees)", percent(readings["luminous_reflectance_8_specular_excluded"]));
+  row("total integrated scatter (outside 2.5 degrees)", percent(readings["total_integrated_scatter"]));
+  std::cout << "\n| degrees from the mirror direction, light at 45 | L* | a* | b* |\n|---|---|---|---|\n";
+  for (const json& each : readings["colours"].elements())
+    std::cout << "| " << fixed(each["aspecular"], 0) << " | " << fixed(each["L"], 1) << " | " << fixed(each["a"], 1)
+              << " | " << fixed(each["b"], 1) << " |\n";
+}
+
+/// Prints Markdown, like `gonio plan`.
 void print(const std::filesystem::path& file, const json& all) {
   const auto row = [](const char* what, const std::string& sentence) {
     std::cout << "| " << what << " | " << sentence << " |\n";
@@ -196,6 +218,7 @@ void print(const std::filesystem::path& file, const json& all) {
   row("isotropy", symmetry_sentence(all["isotropy"], "turned about the normal"));
   if (of_samples) return row("repeats", symmetry_sentence(all["repeats"], "of the same directions"));
   row("tails", tails_sentence(all["tails"]));
+  print_readings(all["readings"]);
   std::cout << "\n| theta_i | albedo, red | green | blue |\n|---|---|---|---|\n";
   for (const json& at : all["energy"]["by_angle"].elements()) {
     std::cout << "| " << fixed(at["theta_i"], 0);
@@ -208,7 +231,9 @@ void print(const std::filesystem::path& file, const json& all) {
 
 void add_properties(command& app) {
   auto command = app.add_subcommand(
-      "properties", "Measure whether a table or samples keep what a physical BRDF keeps (docs/learn/properties.md)");
+      "properties",
+      "Say whether a table or samples are physical, and what a gloss meter, an integrating sphere and a multi-angle "
+      "instrument read on a table (docs/learn/properties.md)");
   const auto options = std::make_shared<properties_options>();
   command
       .add_input("file", options->file,

@@ -1,4 +1,4 @@
-/// gonio reconstruct: samples in, a table over all directions out.
+/// gonio reconstruct: completes samples to a table over all directions.
 
 #include "commands.hpp"
 #include "tool/files/file_kinds.hpp"
@@ -30,7 +30,7 @@ namespace cli {
 
 namespace {
 
-/// A line for each round; docs/reference/formats.md has the columns.
+/// Writes a line for each round; docs/reference/formats.md describes the columns.
 void write_history(const std::filesystem::path& path, std::span<const gonio::correction_round> rounds) {
   std::string text = "round,error,change,down_weighted\n";
   const auto append = [&](double value, char separator) {
@@ -66,7 +66,7 @@ void write_sphere(const reconstruct_options& options, const gonio::brdf_table& t
   gonio::io::write_png(options.image, spheres.front());
 }
 
-/// Spectra where the format holds them, else the table.
+/// Writes spectra if the format holds them, else the table.
 void write_result(const reconstruct_options& options, const reconstruction& result) {
   const writing how{.albedo_tolerance = options.albedo_tolerance, .threads = options.threads};
   if (lower_extension(options.output) != ".bsdf" || !result.spectra)
@@ -74,8 +74,7 @@ void write_result(const reconstruct_options& options, const reconstruction& resu
   write_spectra(options.output, *result.spectra, options.output.stem().string(), how);
 }
 
-/// The samples in the channels that are fitted: wavelengths stay what they are if that is asked for, or where the
-/// output can hold them.
+/// Returns the samples in the channels to fit. Keeps wavelengths if requested, or if the output can hold them.
 gonio::io::sample_file read_fitted(reconstruct_options& options) {
   gonio::io::sample_file measured = read_measurement_file(options.samples, options.reading);
   const gonio::channels& kinds = measured.samples.channels();
@@ -215,7 +214,7 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
                   "How many samples around each direction scattered takes the mean of; 1: the nearest")
       .check(check::range(1, static_cast<int>(gonio::scattered_options::most_neighbours)))
       .capture_default_str();
-  // Declare what is written.
+  // Declare the output.
   command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
                      "Table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)");
   add_albedo_tolerance_option(command, options->albedo_tolerance);

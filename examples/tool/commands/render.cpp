@@ -1,4 +1,4 @@
-/// gonio render: images of tables, side by side.
+/// gonio render: draws tables side by side.
 
 #include "commands.hpp"
 #include "tool/files/exr_files.hpp"
@@ -34,7 +34,7 @@ namespace cli {
 
 namespace {
 
-/// In light from all around no highlight is much brighter than what is around it.
+/// In an environment no highlight is much brighter than its surroundings.
 constexpr double exposure_in_environment = 0.4;
 
 struct render_options {
@@ -51,14 +51,14 @@ struct render_options {
 
 bool is_exr(const std::filesystem::path& path) { return lower_extension(path) == ".exr"; }
 
-/// The colours of Delta E from 0 to 20, over the lowest rows, where a sphere is narrow.
+/// Returns the colours of Delta E from 0 to 20, drawn over the lowest rows, where a sphere is narrow.
 colour_scale delta_e_scale() {
   return {[](double share) { return gonio::render::false_colour(20.0 * share); },
           {{0.0, "0"}, {0.25, "5"}, {0.5, "10"}, {0.75, "15"}, {1.0, "20+"}}};
 }
 
 /// CIELAB's Delta E of each pixel of two images as a colour, as in Noell et al. 2014, Fig. 3, and its mean over the
-/// pixels that are not black in both: those are beside the sphere, or not lit.
+/// pixels that are not black in both images (beside the sphere or unlit).
 struct image_difference {
   gonio::image image;
   double mean = 0.0;
@@ -81,7 +81,7 @@ image_difference difference_of(const gonio::image& one, const gonio::image& othe
   return found;
 }
 
-/// Refuses what --compare cannot draw, before anything is drawn.
+/// Refuses inputs that --compare cannot draw, before drawing.
 void require_comparable(const render_options& options) {
   if (options.tables.size() != 2)
     gonio::refuse("--compare needs two tables, not " + std::to_string(options.tables.size()));
@@ -91,7 +91,7 @@ void require_comparable(const render_options& options) {
                   ", for the numbers of its scale");
 }
 
-/// The tables' names without folders and extensions, where they are asked for.
+/// Returns the tables' names without folders and extensions, if labels are requested.
 sheet_text text_of(const render_options& options) {
   sheet_text text{{}, options.caption};
   if (!options.labels) return text;
@@ -104,13 +104,13 @@ sheet_text text_of(const render_options& options) {
   return text;
 }
 
-/// Refuses text in an image whose numbers are radiance.
+/// Refuses text in an image of radiance.
 void require_no_text(const render_options& options) {
   if (is_exr(options.output) && (options.labels || !options.caption.empty()))
     gonio::refuse("--labels and --caption draw text for people: their -o needs the extension .png");
 }
 
-/// The flat sample of a map, alone in its image.
+/// Draws the flat sample of a map, alone in its image.
 void render_flat_sample(const render_options& options) {
   if (options.tables.size() != 1 || options.slices || options.compares || !options.environment.empty() ||
       options.labels || !options.caption.empty())

@@ -1,10 +1,11 @@
-/// gonio report: samples in, a page for people out.
+/// gonio report: completes samples and writes a page for people.
 
 #include "commands.hpp"
 #include "tool/files/measurement_files.hpp"
 #include "tool/options/reconstruct_choice.hpp"
 #include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
+#include "tool/pages/elapsed_time.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/report_data.hpp"
 #include "tool/pages/report_page.hpp"
@@ -32,9 +33,11 @@ void write_report(const report_options& options) {
   if (!options.truth.empty()) truth = gonio::io::read_merl_any(options.truth);
   const reconstruction found = reconstruct(options.fit, measured.samples);
   const reported_fit fit{options.fit, measured, found, truth ? &*truth : nullptr};
+  auto waiting = std::make_unique<elapsed_time>("drawing " + options.page.path.string());
   json data = report_data(fit);
   if (!options.title.empty()) data["name"] = options.title;
   write_report_page(options.page, data);
+  waiting.reset();
   for (const std::string& sentence : found.warnings) warn(sentence);
   std::cout << counted(std::ssize(measured.samples), "sample") << ", " << found.sentence << '\n';
 }

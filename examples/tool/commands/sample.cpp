@@ -1,4 +1,4 @@
-/// gonio sample: a simulated measurement of a table.
+/// gonio sample: simulates a measurement of a table.
 
 #include "commands.hpp"
 #include "tool/files/measurement_files.hpp"

@@ -1,4 +1,4 @@
-/// gonio sphere: photographs of a sphere, or of another surface whose normals are known, as measurements.
+/// gonio sphere: converts photographs of a sphere, or of another surface with known normals, to measurements.
 
 #include "commands.hpp"
 #include "tool/files/photograph_files.hpp"
@@ -41,11 +41,11 @@ std::vector<sphere_photograph> photographs_of(const sphere_command& options) {
   });
 }
 
-/// Where the sphere of one photograph is: said by the set-up, drawn by hand, or found; the last two are printed.
+/// Returns the sphere of a photograph: given by the set-up, drawn by hand, or found; the last two are printed.
 gonio::capture::fitted_outline sphere_of(const sphere_photograph& taken) {
   const gonio::io::sphere_setup& setup = taken.setup;
   if (setup.centre) return {{*setup.centre, *setup.radius}};
-  // A white reference of the same shape and place has the clearer outline: it has no highlight at grazing angles.
+  // A white sphere in the same place has the clearer outline, without highlights at grazing angles.
   const bool has_white_sphere = taken.white && !taken.white->surface;
   const gonio::image& outlined = has_white_sphere ? taken.white->photograph : taken.pixels;
   return taken.naming_files([&] {
@@ -64,8 +64,8 @@ void require_fixed(const std::vector<sphere_photograph>& taken) {
                     taken.front().setup_file);
 }
 
-/// The sphere of each photograph; with --fixed the one that has the most of its outline, for all. It is no error there
-/// if another shows too little of it.
+/// Returns the sphere of each photograph. With --fixed, all get the sphere whose outline is the most complete; other
+/// photographs may then show too little of theirs.
 std::vector<gonio::capture::fitted_outline> spheres_of(const std::vector<sphere_photograph>& taken, bool fixed) {
   std::vector<gonio::capture::fitted_outline> all;
   if (!fixed) {
@@ -77,7 +77,7 @@ std::vector<gonio::capture::fitted_outline> spheres_of(const std::vector<sphere_
                                        std::ssize(taken), [&](Eigen::Index i) { return sphere_of(taken[i]); }));
 }
 
-/// The surface of each photograph, and what is to be said of it.
+/// The surface of each photograph, and a text to print about it.
 using known_surfaces = std::vector<std::pair<gonio::surface_image, std::string>>;
 
 known_surfaces surfaces_of(const std::vector<sphere_photograph>& taken, const sphere_command& options) {
@@ -106,7 +106,7 @@ known_surfaces surfaces_of(const std::vector<sphere_photograph>& taken, const sp
   return all;
 }
 
-/// Nothing where no cell has enough pixels to tell.
+/// Returns nothing if no cell has enough pixels.
 std::string noise_of(const gonio::capture::photograph_samples& found) {
   const double noise = 100.0 * found.pixel_deviation.mean();
   return noise > 0.0 ? ", noise of a pixel about " + fixed(noise, 1) + " %" : "";

@@ -1,4 +1,4 @@
-/// gonio svbrdf: registered images of a flat sample in, a BRDF for each texel out.
+/// gonio svbrdf: completes registered images of a flat sample to a BRDF for each texel.
 
 #include "commands.hpp"
 #include "tool/files/image_stack.hpp"
@@ -35,14 +35,14 @@ struct svbrdf_command {
   gonio::thread_count threads;
 };
 
-/// The directions of the images as samples, whose values do not matter.
+/// Returns the directions of the images as samples with dummy values.
 gonio::sample_set samples_of(const image_list& list) {
   gonio::sample_set samples;
   for (const listed_image& image : list.images) samples.push_back({image.at, gonio::rgb::Zero(), 1.0});
   return samples;
 }
 
-/// The bands of a map, computed from the images.
+/// Computes the bands of a map from the images.
 class svbrdf_job {
  public:
   explicit svbrdf_job(const svbrdf_command& options)
@@ -67,7 +67,7 @@ class svbrdf_job {
     return header;
   }
 
-  /// A band as the map has it.
+  /// Returns a band's bytes in the map.
   [[nodiscard]] std::vector<std::byte> band(const gonio::io::svbrdf_header& header, Eigen::Index number) const {
     const texel_values values = images_.read(rows_of(header, number), options_.threads);
     images_.will_read(rows_of(header, number + 1));
@@ -76,7 +76,7 @@ class svbrdf_job {
     return gonio::io::write_band(header, number, gonio::io::as_halves(found, options_.threads));
   }
 
-  /// Of a few rows of all images.
+  /// Returns a checksum of a few rows of all images.
   [[nodiscard]] std::uint32_t checksum_of_images() const {
     constexpr Eigen::Index most = 16;
     std::vector<std::uint32_t> each;
@@ -88,7 +88,7 @@ class svbrdf_job {
   }
 
  private:
-  /// None behind the last band.
+  /// Returns an empty block after the last band.
   static gonio::block rows_of(const gonio::io::svbrdf_header& header, Eigen::Index band) {
     const Eigen::Index first = std::min(band * header.band_rows, header.rows);
     return {first, std::min(first + header.band_rows, header.rows)};
@@ -110,7 +110,7 @@ class svbrdf_job {
   image_stack images_;
 };
 
-/// What is asked for of a whole map.
+/// Writes the requested arrays of a complete map.
 void write_arrays(const svbrdf_command& options) {
   const gonio::io::svbrdf_map map(options.output);
   const Eigen::MatrixXf& functions = map.header().functions;
@@ -127,7 +127,7 @@ void write_arrays(const svbrdf_command& options) {
   gonio::io::write_npy(options.functions, columns);
 }
 
-/// Begins or goes on with a map of a job. How many bands it has.
+/// Begins or resumes the map of a job. Returns the number of bands it already has.
 Eigen::Index open_map(std::optional<gonio::io::svbrdf_writer>& map, const svbrdf_job& job,
                       const std::filesystem::path& output) {
   const auto header = job.header();

@@ -17,7 +17,7 @@ namespace {
 
 constexpr Eigen::Index looked_at = 16384;
 
-/// The weights of some texels of a band, 3r x texels.
+/// Returns the weights of some texels of a band, 3r x texels.
 Eigen::MatrixXf weights_of(const gonio::io::svbrdf_band& band, const std::vector<Eigen::Index>& texels,
                            Eigen::Index own) {
   Eigen::MatrixXf weights(own, std::ssize(texels));
@@ -28,7 +28,7 @@ Eigen::MatrixXf weights_of(const gonio::io::svbrdf_band& band, const std::vector
   return weights;
 }
 
-/// Where texels are compared, a row each.
+/// Returns texels as points whose distances are compared, one per row.
 gonio::capture::point_matrix points_of(const Eigen::MatrixXf& metric, const Eigen::MatrixXf& weights) {
   const Eigen::Index r = metric.cols();
   const Eigen::Map<const Eigen::MatrixXf> channels(weights.data(), r, weights.size() / r);
@@ -36,7 +36,7 @@ gonio::capture::point_matrix points_of(const Eigen::MatrixXf& metric, const Eige
   return Eigen::Map<const Eigen::MatrixXf>(moved.data(), weights.rows(), weights.cols()).transpose().cast<double>();
 }
 
-/// One texel at random of each of `looked_at` equal stretches, or all if there are not more, in order.
+/// Returns one random texel from each of `looked_at` equal ranges, in order, or all texels if there are fewer.
 std::vector<Eigen::Index> some_texels(Eigen::Index all, std::uint64_t seed) {
   const Eigen::Index count = std::min(all, looked_at);
   std::mt19937_64 generator(seed);
@@ -102,7 +102,7 @@ std::vector<std::uint8_t> texel_clusters::assign(const gonio::io::svbrdf_band& b
   for (Eigen::Index i = 0; i < weights.cols(); ++i)
     labels[static_cast<std::size_t>(material[static_cast<std::size_t>(i)])] =
         static_cast<std::uint8_t>(nearest.labels[i] + 1);
-  // Each cluster by itself: the same sums for any number of threads.
+  // One task per cluster, so that sums do not depend on the number of threads.
   gonio::for_each_index(
       count(), 1,
       [&](Eigen::Index k) {

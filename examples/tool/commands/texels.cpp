@@ -1,4 +1,4 @@
-/// gonio texels: what a map of gonio svbrdf says of its texels, as images, arrays and materials.
+/// gonio texels: writes the texels of a map of gonio svbrdf as images, arrays and materials.
 
 #include "commands.hpp"
 #include "texel_clusters.hpp"
@@ -46,7 +46,7 @@ using band = gonio::io::svbrdf_band;
 
 bool is_png(const std::filesystem::path& path) { return lower_extension(path) == ".png"; }
 
-/// Writes an image of the map whose texels of the sample have colours; the others are black.
+/// Writes an image of the map; texels outside the sample are black.
 void write_texel_image(const std::filesystem::path& path, const gonio::io::svbrdf_map& map,
                        const std::function<std::vector<gonio::rgb>(const band&, Eigen::Index)>& colours_of,
                        const colour_scale* scale) {
@@ -64,7 +64,7 @@ void write_texel_image(const std::filesystem::path& path, const gonio::io::svbrd
   gonio::io::write_png(path, picture);
 }
 
-/// A part of the map, as an array or as an image of a scale, on which `share_of` a number stands.
+/// Writes a part of the map as an array, or as an image with a scale on which `share_of` gives a number's position.
 void write_part(const std::filesystem::path& path, const gonio::io::svbrdf_map& map,
                 std::vector<std::uint16_t> band::*part, const colour_scale& scale,
                 const std::function<double(double)>& share_of) {
@@ -78,8 +78,8 @@ void write_part(const std::filesystem::path& path, const gonio::io::svbrdf_map& 
   write_texel_image(path, map, colours_of, &scale);
 }
 
-/// Up to 5, because texels are known less well than most of their directions, by a factor of e where there are 20
-/// images: it is the root mean square over all of them.
+/// Reaches up to 5: with 20 images, texels are known less well than most of their directions, by a factor of e, because
+/// their uncertainty is the root mean square over all directions.
 double place_of_uncertainty(double uncertainty) { return gonio::render::place_by_factors(uncertainty, 0.1, 5.0); }
 
 colour_scale scale_of_uncertainty() {
@@ -90,7 +90,7 @@ colour_scale scale_of_uncertainty() {
 
 // ---- clusters ----------------------------------------------------------------------------------
 
-/// K x 3 x k: the mean weights of the prior's components.
+/// Writes K x 3 x k: the mean weights of the prior's components.
 void write_materials(const std::filesystem::path& path, const texel_clusters& clusters, Eigen::Index components) {
   xt::xtensor<float, 3> means(
       std::array<std::size_t, 3>{static_cast<std::size_t>(clusters.count()), 3, static_cast<std::size_t>(components)});
@@ -110,7 +110,7 @@ void write_tables(const std::filesystem::path& folder, const texel_clusters& clu
                           gonio::fitted_brdf(prior, clusters.mean_weights(k)).tabulate(gonio::valid_cells(), threads));
 }
 
-/// Assigns all bands, and writes the labels where they are asked for.
+/// Assigns all bands, and writes the labels if requested.
 void write_labels(const std::filesystem::path& path, const gonio::io::svbrdf_map& map, texel_clusters& clusters) {
   if (path.empty()) {
     for (Eigen::Index number = 0; number < map.header().bands(); ++number)
@@ -155,7 +155,7 @@ void cluster(const texels_options& options, const gonio::io::svbrdf_map& map, co
 
 // ---- two maps ----------------------------------------------------------------------------------
 
-/// Delta E of each texel of two maps under some lights, as bright as the first needs it unless an exposure is given.
+/// Returns Delta E of each texel of two maps under some lights, with the first map's exposure unless one is given.
 std::vector<float> differences_of(const flat_sample& one, const flat_sample& other,
                                   const std::optional<double>& given_exposure, gonio::thread_count threads) {
   const gonio::image radiance = one.radiance(threads);
@@ -166,7 +166,7 @@ std::vector<float> differences_of(const flat_sample& one, const flat_sample& oth
   std::vector<float> found(radiance.size() / 3);
   const gonio::io::svbrdf_header& header = one.header();
   for (Eigen::Index first = 0; first < header.rows; first += header.band_rows) {
-    // Rows of this band, which may lie in several bands of the other.
+    // The rows of this band, which may lie in several bands of the other map.
     const gonio::block rows{first, std::min(first + header.band_rows, header.rows)};
     const std::vector<float> others = other.radiance(rows, threads);
     gonio::for_each_index(

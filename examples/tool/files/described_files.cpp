@@ -5,9 +5,10 @@
 #include "lab/recorded_frames.hpp"
 #include "measurement_kinds.hpp"
 #include "tiff_files.hpp"
-#include "tool/pages/measures_as_json.hpp"
-#include "tool/pages/sample_facts.hpp"
 #include "tool/options/shipped_data.hpp"
+#include "tool/pages/measures_as_json.hpp"
+#include "tool/pages/read_as.hpp"
+#include "tool/pages/sample_facts.hpp"
 #include <gonio/io/bytes/npy.hpp>
 #include <gonio/io/images/exposure_times.hpp>
 #include <gonio/io/images/image.hpp>
@@ -40,21 +41,21 @@ namespace {
 
 using path_type = std::filesystem::path;
 
-/// What a file is recognised by.
+/// The properties by which a file is recognised.
 struct file_look {
   explicit file_look(const path_type& of) : path(of), extension(lower_extension(of)), start(file_start(of)) {
     std::error_code ignored;
-    if (start.empty()) static_cast<void>(gonio::io::read_bytes(of));  // which says why it cannot be read
+    if (start.empty()) static_cast<void>(gonio::io::read_bytes(of));  // its error says why the file cannot be read
     size = std::filesystem::file_size(of, ignored);
   }
 
   path_type path;
   std::string extension;  ///< with the dot, in lower case
-  std::string start;      ///< `file_start`
+  std::string start;      ///< from `file_start`
   std::uintmax_t size = 0;
 };
 
-/// A kind of file: how it is recognised, and what is said of it, with or without what a user says of samples.
+/// A kind of file: how it is recognised and described, with or without the user's options for samples.
 struct described_kind {
   bool (*recognises)(const file_look& file);
   json (*describe)(const path_type& path);
@@ -81,7 +82,7 @@ json describe_table(const path_type& path) {
   return facts;
 }
 
-/// Three int32, and as many float64 as they say: a table, whatever its name.
+/// A table under any name: three int32, and the float64 values that they require.
 bool is_table(const file_look& file) {
   if (file.extension == ".binary") return true;
   if (file.start.starts_with("\x1F\x8B")) return true;
@@ -111,7 +112,7 @@ json describe_soft_specular_prior(const path_type& path) {
   return facts;
 }
 
-/// Reads all bands, and so checks them.
+/// Reads all bands, which also checks them.
 json describe_svbrdf(const path_type& path) {
   const gonio::io::svbrdf_map map(path);
   const gonio::io::svbrdf_header& header = map.header();
@@ -143,7 +144,7 @@ json describe_svbrdf(const path_type& path) {
           {"share_of_disagreement_above_3", contradicted / divisor}};
 }
 
-/// The least and the largest, degrees.
+/// Returns the smallest and the largest, degrees.
 json half_angles_of(const gonio::sample_set& samples, double gonio::aperture::*half_angle) {
   double least = gonio::largest_half_angle, most = 0.0;
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
@@ -157,6 +158,7 @@ json describe_samples(const path_type& path, const measurement_options& reading)
   const gonio::io::sample_file file = read_measurement_file(path, reading);
   json facts{{"kind", "samples"}};
   if (const measurement_kind* kind = measurement_kind_of(path)) facts["format"] = kind->name;
+  facts.update(read_as(file));
   facts.update(facts_of(file.samples.in_three_channels()));
   facts.update(facts_of(file));
   if (file.samples.have_apertures())
@@ -243,7 +245,7 @@ bool has_keyword(const file_look& file, std::initializer_list<std::string_view> 
   return false;
 }
 
-/// Is there a line that begins with a number within what was read of a text?
+/// Does a line in the start of the file begin with a number?
 bool is_list_of_numbers(const file_look& file) {
   std::string_view text = file.start;
   gonio::io::text_place place;
@@ -316,7 +318,7 @@ json describe_calibration(const path_type& path) {
   return {{"kind", "calibration of a camera"}};
 }
 
-/// The first that recognises a file describes it: what begins in a way of its own comes first.
+/// The first kind that recognises a file describes it; kinds with a distinctive beginning come first.
 constexpr std::array kinds{
     described_kind{[](const file_look& file) { return gonio::io::is_prior(file.path); },
                    [](const path_type& path) { return describe(gonio::io::read_prior(path)); }},

@@ -1,5 +1,5 @@
 #pragma once
-/// What `gonio info` says of each kind of file that the tool reads or writes.
+/// The descriptions of `gonio info` for each kind of file that the tool reads or writes.
 
 #include "json.hpp"
 #include "measurement_files.hpp"
@@ -9,11 +9,11 @@
 
 namespace cli {
 
-/// The key `kind`, and what else there is to say; samples are read as the options say. Throws gonio::error for a kind
-/// that is not known, and for what a kind's reader refuses.
+/// Returns the key `kind` and other facts; reads samples with the given options. Throws gonio::error for an unknown
+/// kind, and if the kind's reader refuses the file.
 [[nodiscard]] json describe_file(const std::filesystem::path& path, const measurement_options& reading);
 
-/// The same of a prior that has been read.
+/// Describes a prior that has been read.
 [[nodiscard]] json describe(const gonio::log_relative_pca& prior);
 
 }  // namespace cli

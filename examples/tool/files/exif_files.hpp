@@ -1,5 +1,5 @@
 #pragma once
-/// EXIF data of JPEG files where the tool was built with libexif; elsewhere a refusal that says so.
+/// EXIF data of JPEG files if the tool was built with libexif; otherwise throws gonio::error.
 
 #include <filesystem>
 #include <optional>

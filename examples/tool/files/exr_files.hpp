@@ -1,5 +1,5 @@
 #pragma once
-/// OpenEXR images where the tool was built with OpenEXR; elsewhere a refusal that says so.
+/// OpenEXR images if the tool was built with OpenEXR; otherwise throws gonio::error.
 
 #include "image_rows.hpp"
 #include <gonio/table/image.hpp>
@@ -9,11 +9,11 @@
 
 namespace cli {
 
-/// Was it?
+/// Was the tool built with OpenEXR?
 extern const bool has_exr;
 
 [[nodiscard]] gonio::image read_exr(const std::filesystem::path& path);
-/// Read some rows at a time.
+/// Opens an image to read some rows at a time.
 [[nodiscard]] std::unique_ptr<image_rows> open_exr(const std::filesystem::path& path);
 void write_exr(const std::filesystem::path& path, const gonio::image& picture);
 

@@ -1,6 +1,7 @@
 #include "file_kinds.hpp"
 
 #include "file_start.hpp"
+#include "tool/pages/elapsed_time.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/warning.hpp"
 #include <gonio/core/error.hpp>
@@ -28,7 +29,7 @@ using bytes = std::span<const std::byte>;
   gonio::refuse({path.native(), ": is a whole material, and samples are not one: 'gonio reconstruct' completes them"});
 }
 
-/// Calls `use` with the BRDF of a whole material.
+/// Calls `use` with the BRDF of a complete material.
 template <class Use>
 auto with_brdf(const fs::path& path, const file_content& content, Use&& use) {
   if (std::holds_alternative<gonio::sample_set>(content)) refuse_samples(path);
@@ -42,13 +43,13 @@ gonio::brdf_table as_table(const fs::path& path, const file_content& content, go
   return with_brdf(path, content, [&](const auto& f) { return gonio::tabulate(f, gonio::valid_cells(), threads); });
 }
 
-/// The cells at which negative values are counted.
+/// Returns the cells at which negative values are counted.
 gonio::valid_cells cells_of(const file_content& content) {
   const auto* table = std::get_if<gonio::brdf_table>(&content);
   return table != nullptr ? table->cells() : gonio::valid_cells();
 }
 
-/// Whether a BRDF has negative values that a renderer's file must not have. Tells the user.
+/// Does the BRDF have negative values although the renderer's file must have none? If so, warns the user.
 template <gonio::brdf Brdf>
 bool must_be_clipped(const fs::path& path, const Brdf& f, const gonio::valid_cells& cells, const writing& how) {
   if (how.keeps_negative) return false;
@@ -61,7 +62,7 @@ bool must_be_clipped(const fs::path& path, const Brdf& f, const gonio::valid_cel
   return true;
 }
 
-/// Calls `use` with the BRDF of a whole material as a renderer needs it: without negative values.
+/// Calls `use` with the BRDF of a complete material as a renderer needs it: without negative values.
 template <class Use>
 auto with_clipped_brdf(const fs::path& path, const file_content& content, const writing& how, Use&& use) {
   return with_brdf(path, content, [&](const auto& f) {
@@ -80,7 +81,7 @@ io::rgl_material as_rgl(const fs::path& path, const file_content& content, const
   });
 }
 
-/// As many cells as are asked for; else those of difference angles that a table has, or the usual ones.
+/// Returns the requested number of cells; else that of a table's difference angles, or the default.
 gonio::model::polar_grid polar_grid_of(const file_content& content, const writing& how) {
   if (how.polar_steps != 0) return {how.polar_steps, 2 * how.polar_steps};
   if (const auto* material = std::get_if<io::mbsdf_material>(&content)) return material->reflection.grid();
@@ -120,7 +121,7 @@ void write_rgl(const fs::path& path, const file_content& content, const writing&
     if (megabytes > large)
       warn(path.native() + ": " + std::to_string(given->spectra->wavelengths.size()) + " wavelengths take " +
            fixed(megabytes, 0) + " MB");
-    return io::write_rgl(path, *given);  // not a copy of it
+    return io::write_rgl(path, *given);  // avoids a copy
   }
   io::rgl_material material = as_rgl(path, content, how);
   if (how.as_spectra) material.spectra = io::upsampled_spectra(material.material);
@@ -156,7 +157,7 @@ bool begins_as(bytes content, const file_kind& kind) {
   return !kind.magic.empty() && io::as_text(content).starts_with(kind.magic);
 }
 
-/// "MERL table (.binary, .gz), ..." of those that are written, or of all.
+/// Returns "MERL table (.binary, .gz), ..." for the kinds that can be written, or for all.
 std::string listed(bool only_written) {
   std::string all;
   for (const file_kind& kind : file_kinds()) {
@@ -228,11 +229,13 @@ const file_kind& written_kind(const fs::path& path) {
 }
 
 void write_file(const fs::path& path, const file_content& content, const writing& how) {
+  const elapsed_time waiting("writing " + path.string());
   written_kind(path).write(path, content, how);
 }
 
 void write_spectra(const fs::path& path, const gonio::spectral_table& table, const std::string& description,
                    const writing& how) {
+  const elapsed_time waiting("writing " + path.string());
   const file_content content = io::tabulate_adaptively(table, how.albedo_tolerance, description, how.threads);
   const std::size_t written = std::get<io::rgl_material>(content).spectra->wavelengths.size();
   if (written < table.wavelengths().size())

@@ -21,7 +21,7 @@ namespace {
 
 std::string shown(const json& value) { return gonio::printable(value.dump().substr(0, 120)); }
 
-/// Refuses what stands in a list beside what it may say: a misspelt entry would be lost without a word.
+/// Refuses unknown keys: a misspelt entry would be silently lost.
 void require_known(const json& object, std::initializer_list<std::string_view> known, const std::string& name) {
   for (const auto& [key, value] : object.items()) {
     if (std::ranges::find(known, key) == known.end())
@@ -30,7 +30,7 @@ void require_known(const json& object, std::initializer_list<std::string_view> k
   }
 }
 
-/// The degrees of some keys in radians, or nothing if the image has none of them.
+/// Returns the angles of some keys, given in degrees, in radians; nothing if the image has none of them.
 template <std::size_t Count>
 std::optional<std::array<double, Count>> radians_of(const json& image, const std::array<const char*, Count>& keys,
                                                     const std::string& name) {
@@ -58,7 +58,7 @@ gonio::direction_pair directions_of(const json& image, const std::string& name) 
   return pair;
 }
 
-/// What a list says of texels that are not of the sample.
+/// Reads the entries on texels outside the sample.
 void read_outside(const json& text, const std::filesystem::path& path, image_list& list) {
   if (text.contains("mask")) {
     if (!text["mask"].is_string())

@@ -14,15 +14,15 @@ struct listed_image {
   gonio::direction_pair at;
 };
 
-/// What a list of images says (JSON; docs/reference/formats.md).
+/// The content of a list of images (JSON; docs/reference/formats.md).
 struct image_list {
   gonio::io::sample_quantity quantity = gonio::io::sample_quantity::brdf;
   std::vector<listed_image> images;
-  std::filesystem::path mask;  ///< a PNG, black where texels are not of the sample; none if empty
-  bool skips_invalid = false;  ///< texels that have a value that is not finite in an image are not of the sample
+  std::filesystem::path mask;  ///< a PNG, black outside the sample; empty: none
+  bool skips_invalid = false;  ///< texels with a value that is not finite in an image are outside the sample
 };
 
-/// Throws gonio::error naming the list and the image of it that is not what it should be.
+/// Throws gonio::error naming the list and its invalid image.
 [[nodiscard]] image_list read_image_list(const std::filesystem::path& path);
 
 }  // namespace cli

@@ -19,7 +19,7 @@ namespace cli {
 
 namespace {
 
-/// An array of numbers, read from its place.
+/// An array of numbers, read from its file on demand.
 class npy_rows : public image_rows {
  public:
   explicit npy_rows(const std::filesystem::path& path) : name_(path.string()), file_(gonio::io::open_to_read(path)) {
@@ -73,7 +73,7 @@ class npy_rows : public image_rows {
   std::string name_;
   gonio::io::descriptor file_;
   gonio::io::npy_layout layout_;
-  std::uint64_t offset_ = 0;  ///< of the first number
+  std::uint64_t offset_ = 0;  ///< position of the first number
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// Images of linear radiance that are read some rows at a time: no more than these is in memory.
+/// Images of linear radiance, read some rows at a time; only these are in memory.
 
 #include <gonio/core/parallel.hpp>
 
@@ -22,14 +22,14 @@ class image_rows {
   [[nodiscard]] virtual Eigen::Index rows() const = 0;
   [[nodiscard]] virtual Eigen::Index columns() const = 0;
 
-  /// Says that a range of rows is read next: the system reads it from the disk meanwhile, where it knows where it is.
+  /// Announces the range of rows to be read next: if its position is known, the system reads it ahead.
   virtual void will_read(gonio::block rows) const noexcept { static_cast<void>(rows); }
-  /// Red, green and blue of each pixel of a range of rows; `out` has 3 x columns x rows numbers. One thread at a time.
+  /// Reads red, green and blue of each pixel of a range of rows; `out` has 3 x columns x rows numbers. Not thread-safe.
   /// Throws gonio::error naming the image.
   virtual void read(gonio::block rows, std::span<float> out) const = 0;
 };
 
-/// Of a reader that has `rows()`, `columns()` and `read(rows, out)`.
+/// Adapts a reader with `rows()`, `columns()` and `read(rows, out)`.
 template <class Reader>
 class image_rows_of : public image_rows {
  public:

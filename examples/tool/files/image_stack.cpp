@@ -19,7 +19,7 @@ namespace cli {
 
 namespace {
 
-/// A file that vanishes with its process.
+/// Opens a file that vanishes with its process.
 gonio::io::descriptor unnamed_file(const std::filesystem::path& folder) {
   gonio::io::descriptor file;
 #if defined(O_TMPFILE)
@@ -41,7 +41,7 @@ void keep_decoded(const gonio::io::descriptor& file, std::span<const std::byte> 
         folder, {"the decoded ", name, " cannot be written into this folder: ", gonio::io::system_reason(errno)});
 }
 
-/// All of the bytes, or a refusal.
+/// Reads all bytes; throws gonio::error if the file is shorter.
 void read_exactly(const gonio::io::descriptor& file, std::uint64_t offset, std::span<std::byte> bytes,
                   const std::string& name) {
   if (gonio::io::read_at(file, offset, bytes, name) != bytes.size()) gonio::refuse({name, ": is truncated"});

@@ -1,6 +1,6 @@
 #pragma once
-/// Registered images of a flat sample, one for each pair of directions, read in bands of rows: no more than a band of
-/// all of them is in memory.
+/// Registered images of a flat sample, one for each pair of directions, read in bands of rows; only one band of all
+/// images is in memory.
 
 #include "image_list.hpp"
 #include "image_rows.hpp"
@@ -18,32 +18,32 @@
 
 namespace cli {
 
-/// Reflectance in sr^-1 of a range of texels: a column for each image, red, green and blue of a texel after another.
+/// Reflectance in sr^-1 of a range of texels: a column per image, with red, green and blue texel by texel.
 struct texel_values {
   Eigen::MatrixXf reflectance;
-  std::vector<Eigen::Index> outside;  ///< the texels of the range that are not of the sample, whose values are zeros
+  std::vector<Eigen::Index> outside;  ///< the texels outside the sample, whose values are zeros
 };
 
 class image_stack {
  public:
   /// Opens all images (`open_image`), and decodes a mask, a byte for each texel, into a file without a name in
-  /// `folder`. Throws gonio::error naming the image that cannot be read, or has another size than the first.
+  /// `folder`. Throws gonio::error naming the image that cannot be read or whose size differs from the first.
   image_stack(const image_list& list, const std::filesystem::path& folder);
 
   [[nodiscard]] Eigen::Index rows() const noexcept { return rows_; }
   [[nodiscard]] Eigen::Index columns() const noexcept { return columns_; }
 
-  /// Says that a range of rows is read next: the system reads it from the disk meanwhile.
+  /// Announces the range of rows to be read next: the system reads it ahead.
   void will_read(gonio::block rows) const noexcept;
-  /// The texels of a range of rows. Throws gonio::error naming the image and the texel of the sample whose value is not
-  /// finite, unless such texels are skipped.
+  /// Returns the texels of a range of rows. Throws gonio::error naming the image and the texel of the sample whose
+  /// value is not finite, unless such texels are skipped.
   [[nodiscard]] texel_values read(gonio::block rows, gonio::thread_count threads) const;
 
  private:
   struct source {
     std::string name;
     std::unique_ptr<image_rows> image;
-    float factor = 1.0f;  ///< what makes it sr^-1
+    float factor = 1.0f;  ///< converts its numbers to sr^-1
   };
   struct decoded_mask {
     std::string name;
@@ -51,9 +51,9 @@ class image_stack {
   };
 
   [[nodiscard]] decoded_mask read_mask(const std::filesystem::path& path, const std::filesystem::path& folder) const;
-  /// A byte for each texel, zero if it is of the sample as far as the mask says.
+  /// Returns a byte for each texel, zero inside the sample according to the mask.
   [[nodiscard]] std::vector<std::uint8_t> masked(gonio::block rows) const;
-  /// Marks the texels that have a value that is not finite in an image, or refuses the first.
+  /// Marks the texels with a value that is not finite in an image, or refuses the first.
   void mark_invalid(const source& image, const Eigen::Ref<const Eigen::VectorXf>& values, Eigen::Index first_row,
                     std::vector<std::uint8_t>& outside) const;
   void require_size(const std::string& name, Eigen::Index rows, Eigen::Index columns) const;

@@ -128,7 +128,7 @@ bool operator==(const json& one, const json& other) {
 
 namespace {
 
-/// Builds a value from what the library's parser, which does not recurse, finds one after the other; false ends it.
+/// Builds a value from the events of the library's parser, which does not recurse; false stops it.
 class json_reader {
  public:
   using number_integer_t = nlohmann::json::number_integer_t;
@@ -162,7 +162,7 @@ class json_reader {
  private:
   struct opened {
     json value;
-    std::string key;  ///< of the member that comes next
+    std::string key;  ///< of the next member
   };
 
   bool add(json value) {
@@ -188,7 +188,7 @@ class json_reader {
     return add(std::move(value));
   }
 
-  /// A key that is there twice has its first place and its last value, as the library's ordered objects have it.
+  /// A repeated key keeps its first position and its last value, as in the library's ordered objects.
   static void keep_last_of_each_key(std::vector<json::member>& members) {
     std::vector<std::size_t> by_key(members.size());
     std::iota(by_key.begin(), by_key.end(), std::size_t{0});
@@ -215,7 +215,7 @@ class json_reader {
 
 }  // namespace
 
-/// To the library that writes.
+/// Converts a value for the library's writer.
 struct json_text {
   static nlohmann::ordered_json library_form(const json& from) {
     return std::visit(
@@ -227,7 +227,7 @@ struct json_text {
             return values;
           } else if constexpr (std::is_same_v<held_type, std::vector<json::member>>) {
             auto members = nlohmann::ordered_json::object();
-            // Its own ways to add one look through all the others.
+            // The library's own insertion searches all members.
             auto& list = members.get_ref<nlohmann::ordered_json::object_t&>();
             for (const auto& [key, each] : value) list.emplace_back(key, library_form(each));
             return members;

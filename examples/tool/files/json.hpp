@@ -1,6 +1,6 @@
 #pragma once
-/// Results as JSON: objects keep the order of their keys. Only json.cpp knows nlohmann's library, which takes seconds
-/// to parse; the text is that of its ordered_json.
+/// Results as JSON; objects keep the order of their keys. Only json.cpp includes nlohmann's library, which takes
+/// seconds to compile. The text equals that of its ordered_json.
 
 #include <cstddef>
 #include <cstdint>
@@ -38,7 +38,7 @@ class json {
   json(const std::vector<std::string>& values);
   json(std::initializer_list<json> values);
   template <class T>
-  json(T*) = delete;  // which would be true or false
+  json(T*) = delete;  // a pointer would become true or false
 
   json(const json& other);
   json(json&& other) noexcept;
@@ -48,9 +48,9 @@ class json {
 
   [[nodiscard]] static json array(std::initializer_list<json> values = {});
   [[nodiscard]] static json object();
-  /// Arrays and objects in one another that `parse` reads, and values in all: what destroys or prints a value recurses.
+  /// The nesting and the number of values that `read` accepts: destroying or printing a value recurses.
   static constexpr std::size_t deepest = 100, most_values = 1 << 18;
-  /// Null where the text is no JSON, or more than these.
+  /// Returns null if the text is not JSON or exceeds these limits.
   [[nodiscard]] static json read(const std::string& text);
 
   [[nodiscard]] bool is_null() const noexcept;
@@ -60,7 +60,7 @@ class json {
   [[nodiscard]] bool is_array() const noexcept;
   [[nodiscard]] bool is_object() const noexcept;
 
-  // What it holds. Of anything else these throw std::logic_error.
+  // The content. These throw std::logic_error if the value is of another type.
   [[nodiscard]] bool truth() const;
   [[nodiscard]] double number() const;
   [[nodiscard]] const std::string& text() const;
@@ -69,26 +69,26 @@ class json {
   [[nodiscard]] const std::vector<member>& items() const;
   [[nodiscard]] std::vector<member>& items();
 
-  /// Of arrays; null becomes one.
+  /// For arrays; null becomes an array.
   void push_back(json value);
   [[nodiscard]] const json& operator[](std::size_t index) const;
   [[nodiscard]] json& operator[](std::size_t index);
 
-  /// Of objects; null becomes one, and a key that is not there is added. The other throws std::logic_error.
+  /// For objects; null becomes an object, and a missing key is added. The const version throws std::logic_error.
   [[nodiscard]] json& operator[](const std::string& key);
   [[nodiscard]] const json& operator[](const std::string& key) const;
   [[nodiscard]] bool contains(const std::string& key) const;
-  /// Takes over all members of another object.
+  /// Adds or replaces members by those of another object.
   void update(const json& other);
 
-  /// Elements of an array, members of an object.
+  /// Returns the number of elements of an array or members of an object.
   [[nodiscard]] std::size_t size() const noexcept;
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
 
-  /// On one line, or indented. Bytes that are no UTF-8 are replaced.
+  /// Returns the text on one line, or indented. Bytes that are not UTF-8 are replaced.
   [[nodiscard]] std::string dump(int indent = -1) const;
 
-  /// Numbers of any kind are compared by their values.
+  /// Numbers of different types are compared by value.
   friend bool operator==(const json& one, const json& other);
 
  private:

@@ -3,6 +3,7 @@
 #include "file_kinds.hpp"
 #include "file_start.hpp"
 #include "measurement_kinds.hpp"
+#include "tool/pages/elapsed_time.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/sample_warnings.hpp"
 #include "tool/pages/warning.hpp"
@@ -22,7 +23,7 @@ namespace cli {
 
 namespace {
 
-/// The light's azimuth to a tenth of a degree, where it has one.
+/// Returns the light's azimuth to a tenth of a degree; nothing near the normal, where it has none.
 std::optional<double> rotation_of(const gonio::direction_pair& pair) {
   constexpr double least_incidence = 0.1;
   if (gonio::degrees(gonio::polar_angle(pair.wi)) < least_incidence) return {};
@@ -42,7 +43,7 @@ void add_columns(const std::string& list, std::vector<gonio::io::column_name>& c
   }
 }
 
-/// The light's azimuths in degrees, ascending, where they are few: the rotations of a sample.
+/// Returns the light's azimuths in degrees, ascending, if they are few: the rotations of a sample.
 std::vector<double> rotations_of(const gonio::sample_set& samples) {
   constexpr std::size_t most = 36;
   std::vector<double> all;
@@ -61,7 +62,7 @@ std::string listed(const std::vector<double>& rotations) {
   return text;
 }
 
-/// One rotation of the samples, if one is asked for. Refuses samples that differ from rotation to rotation.
+/// Returns the samples of one rotation if requested. Refuses samples that differ between rotations.
 gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::filesystem::path& path,
                                   const measurement_options& options) {
   constexpr double noticeable = 0.1, anisotropic = 0.25;
@@ -89,7 +90,7 @@ gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::f
   return samples;
 }
 
-/// Samples whose values are of this quantity, where their format says that they are a BRDF.
+/// Returns samples whose values are of this quantity, although their format states a BRDF.
 gonio::sample_set of_quantity(const gonio::sample_set& samples, gonio::io::sample_quantity quantity) {
   gonio::sample_set changed(samples.channels());
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
@@ -185,6 +186,7 @@ gonio::sample_set read_kind(const measurement_kind& kind, const std::filesystem:
 }  // namespace
 
 gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, const measurement_options& options) {
+  const elapsed_time waiting("reading " + path.string());
   gonio::io::sample_file file;
   if (const measurement_kind* kind = measurement_kind_of(path)) {
     if (!options.columns.empty())
@@ -213,8 +215,7 @@ gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, 
                      "--receiver-half-angle"});
     file.samples = file.samples.through(aperture);
   }
-  const gonio::io::sample_file seen{file.samples.in_three_channels(), file.quantity, file.sign, file.provenance};
-  for (const std::string& sentence : doubts_of(seen)) warn(path.native() + ": " + sentence);
+  for (const std::string& sentence : doubts_of(file)) warn(path.native() + ": " + sentence);
   return file;
 }
 

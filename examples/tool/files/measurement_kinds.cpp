@@ -25,7 +25,7 @@ namespace cli {
 
 namespace {
 
-/// Geometry may stand above what says that a file has a tree, which its first bytes then do not show.
+/// Geometry may come before the tree's data structure, which is then not in the file's first bytes.
 gonio::sample_set read_window_block(const std::filesystem::path& path, const gonio::io::window_block& wanted) {
   const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
   const std::string_view text = gonio::io::as_text(bytes);

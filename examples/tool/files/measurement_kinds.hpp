@@ -1,5 +1,5 @@
 #pragma once
-/// The kinds of files that hold samples, and what each is recognised by.
+/// The kinds of files that hold samples, and how each is recognised.
 
 #include <gonio/io/measurements/klems_xml.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -12,15 +12,15 @@ namespace cli {
 /// A kind of file of samples other than CSV.
 struct measurement_kind {
   std::string_view name;
-  /// By the name's extension, in lower case, and the first 65,536 bytes.
+  /// From the name's extension, in lower case, and the first 65,536 bytes.
   bool (*recognises)(std::string_view extension, std::string_view start);
   gonio::sample_set (*read)(const std::filesystem::path& path);
-  /// Of files that have several blocks, each of a side and a band of wavelengths.
+  /// For files with several blocks, each of a side and a band of wavelengths.
   gonio::sample_set (*read_block)(const std::filesystem::path& path, const gonio::io::window_block& wanted) = nullptr;
 };
 
-/// Of which kind a file is; null where none recognises it: samples as CSV, or something else. Throws gonio::error if
-/// the file cannot be read.
+/// Returns the kind of a file; nullptr if no kind recognises it: samples as CSV, or something else. Throws gonio::error
+/// if the file cannot be read.
 [[nodiscard]] const measurement_kind* measurement_kind_of(const std::filesystem::path& path);
 
 }  // namespace cli

@@ -18,18 +18,18 @@
 
 namespace cli {
 
-/// What is given on the command line.
+/// The files given on the command line.
 struct photograph_files {
   std::vector<std::pair<std::string, std::string>> photographs;  ///< each with its set-up
   std::vector<std::filesystem::path> white;
   std::filesystem::path calibration;
 };
 
-/// Adds the photographs as arguments, `--white` and `--calibration`. `described` says what is read.
+/// Adds the photographs as arguments, `--white` and `--calibration`. `described` is the help of the arguments.
 void add_photograph_options(command& to, photograph_files& files, const std::string& name,
                             const std::string& described);
 
-/// A photograph and how it was taken.
+/// A photograph and its set-up.
 template <class Setup>
 struct taken_photograph {
   std::string file, setup_file;
@@ -37,7 +37,7 @@ struct taken_photograph {
   Setup setup;
   std::optional<gonio::capture::white_reference> white;
 
-  /// Calls what knows nothing of files, and names them where that refuses something.
+  /// Calls `act` and adds the files' names to its errors.
   template <class Act>
   auto naming_files(Act&& act) const {
     try {
@@ -48,12 +48,12 @@ struct taken_photograph {
   }
 };
 
-/// The white image of photograph number `i`, by what its set-up says.
+/// Returns the white image of photograph number `i`, according to its set-up.
 [[nodiscard]] std::optional<gonio::capture::white_reference> read_white(
     const photograph_files& files, std::size_t i, const std::optional<double>& reflectance,
     const std::optional<gonio::capture::placed_plane>& plane, const gonio::lens_camera& camera);
 
-/// All photographs; `read_setup(path, calibration)` reads a set-up.
+/// Reads all photographs; `read_setup(path, calibration)` reads a set-up.
 template <class ReadSetup>
 [[nodiscard]] auto read_photographs(const photograph_files& files, const ReadSetup& read_setup) {
   if (!files.white.empty() && files.white.size() != files.photographs.size())

@@ -14,7 +14,8 @@ std::string radiance_format(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == ".npy" || extension == ".exr" || extension == ".hdr") return extension;
   const std::string start = file_start(path);
-  if (start.empty() || start.starts_with("#?")) return ".hdr";  // whose reader says why there is nothing to read
+  if (start.empty() || start.starts_with("#?"))
+    return ".hdr";  // the reader gives the reason if there is nothing to read
   gonio::refuse({path.string(), ": is no image of linear light, ", radiance_formats(),
                  " (gonio lab merge makes one of photographs)"});
 }

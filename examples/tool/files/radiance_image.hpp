@@ -1,5 +1,5 @@
 #pragma once
-/// Images of linear light, as all commands read and write them: .hdr, .npy or .exr.
+/// Images of linear light, read and written by all commands: .hdr, .npy or .exr.
 
 #include <gonio/table/image.hpp>
 
@@ -8,17 +8,17 @@
 
 namespace cli {
 
-/// What a help calls such files: ".hdr, .npy or .exr", where this build has OpenEXR.
+/// Returns the formats for help texts: ".hdr, .npy or .exr", the latter if this build has OpenEXR.
 [[nodiscard]] std::string radiance_formats();
 
-/// How a file is to be read: as ".npy", ".exr" or ".hdr", which is what begins as Radiance's files do, whatever its
-/// name. Throws gonio::error naming the file if it is none of them, as photographs that a camera wrote.
+/// Returns the format for reading a file: ".npy", ".exr" or ".hdr"; a file that starts as Radiance's files do is ".hdr"
+/// under any name. Throws gonio::error naming the file if it is none of them, for example a photograph.
 [[nodiscard]] std::string radiance_format(const std::filesystem::path& path);
 
-/// Reads one. Throws gonio::error naming the file.
+/// Reads an image. Throws gonio::error naming the file.
 [[nodiscard]] gonio::image read_radiance(const std::filesystem::path& path);
 
-/// Writes one as its extension says, of any other an .hdr.
+/// Writes an image in the format of its extension; .hdr for any other.
 void write_radiance(const std::filesystem::path& path, const gonio::image& picture);
 
 }  // namespace cli

@@ -14,14 +14,14 @@ namespace cli {
 
 namespace {
 
-/// Whole lines; a run that was killed may have left half of one.
+/// Returns the complete lines; a killed run may have left half a line.
 std::string whole_lines(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string all{std::istreambuf_iterator<char>(file), {}};
   return all.substr(0, all.rfind('\n') + 1);
 }
 
-/// Nothing unless a text is lines of numbers.
+/// Returns nothing unless the text is lines of numbers.
 std::vector<Eigen::Index> numbers_in(std::string_view text) {
   std::vector<Eigen::Index> numbers;
   while (!text.empty()) {
@@ -63,7 +63,7 @@ Eigen::Index sweep_record::next(const std::function<Eigen::Index()>& sweep) {
 
 void sweep_record::append(Eigen::Index best) {
   if (!file_.is_open()) {
-    file_.open(path_, std::ios::binary | std::ios::trunc);  // what was read of it is written again
+    file_.open(path_, std::ios::binary | std::ios::trunc);  // the content read before is written again
     file_ << head_;
     for (const Eigen::Index number : earlier_) file_ << number << '\n';
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a search has found so far, in a file beside its output, so that the next run goes on from it.
+/// A search's results so far, in a file beside its output, so that the next run resumes from them.
 
 #include "tool/options/team.hpp"
 
@@ -14,27 +14,27 @@
 
 namespace cli {
 
-/// The best candidate of each sweep of a search, in order. A search is determined by these: with those of an earlier
-/// run it comes to where that was, without its sweeps. The file is text: a line of what is searched for, and a line
+/// The best candidate of each sweep of a search, in order. They determine the search: with those of an earlier run it
+/// reaches the same state without repeating its sweeps. The file is text: a line that identifies the search, and a line
 /// for each sweep.
 class sweep_record {
  public:
-  /// Of a search that writes `output`, in its folder: output.part. `checksum` is of all that the result depends on.
-  /// Throws gonio::error in all processes if the file was begun with another one. There is no file where the output is
-  /// none, a pipe say, and until the first sweep.
+  /// The record of a search that writes `output`: the file `output`.part. `checksum` covers all inputs of the result.
+  /// Throws gonio::error in all processes if the file was begun with another one. There is no file before the first
+  /// sweep, nor if the output is not a regular file, such as a pipe.
   sweep_record(const std::filesystem::path& output, std::uint32_t checksum, const team& processes);
 
-  /// What the next sweep has found, in an earlier run or now.
+  /// Returns the result of the next sweep, from an earlier run or computed now.
   [[nodiscard]] Eigen::Index next(const std::function<Eigen::Index()>& sweep);
-  /// Sweeps of earlier runs.
+  /// Returns the number of sweeps of earlier runs.
   [[nodiscard]] std::size_t earlier() const noexcept { return earlier_.size(); }
-  /// Once the output is written.
+  /// Removes the file, once the output is written.
   void remove();
 
  private:
   void append(Eigen::Index best);
 
-  std::filesystem::path path_;  ///< empty where there is none
+  std::filesystem::path path_;  ///< empty if there is no file
   std::string head_;
   std::vector<Eigen::Index> earlier_;
   std::size_t done_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// TIFF frames where the tool was built with libtiff; elsewhere a refusal that says so.
+/// TIFF frames if the tool was built with libtiff; otherwise throws gonio::error.
 
 #include <gonio/table/stored_codes.hpp>
 

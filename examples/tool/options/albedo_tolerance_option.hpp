@@ -1,5 +1,5 @@
 #pragma once
-/// How far materials for renderers may be off what they are made of.
+/// The option for the accuracy of materials for renderers.
 
 #include "command.hpp"
 #include "tool/files/file_start.hpp"
@@ -20,7 +20,7 @@ inline void add_albedo_tolerance_option(command& to, double& tolerance) {
       .capture_default_str();
 }
 
-/// Throws gonio::error if a tolerance is asked for, and the output is no .bsdf file.
+/// Throws gonio::error if a tolerance is given and the output is not a .bsdf file.
 inline void require_bsdf(double tolerance, const std::filesystem::path& output) {
   if (tolerance != gonio::model::usual_albedo_tolerance && lower_extension(output) != ".bsdf")
     gonio::refuse({"--albedo-tolerance needs an output that ends in .bsdf, not ", output.native()});

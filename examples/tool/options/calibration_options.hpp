@@ -1,5 +1,5 @@
 #pragma once
-/// How readings of a camera become reflectances: what is known of the camera and of the white reference.
+/// The known properties of camera and white reference, by which readings become reflectances.
 
 #include "command.hpp"
 #include <gonio/capture/calibration.hpp>
@@ -15,7 +15,7 @@
 namespace cli {
 
 struct calibration_options {
-  double gamma = 0.0;                          ///< of a camera that is known; 0: find its response
+  double gamma = 0.0;                          ///< known gamma of the camera; 0: estimate its response
   std::filesystem::path reflectance = "0.99";  ///< of the white reference: a number, or a table's file
   double saturation = 0.98;
   gonio::capture::sensor_noise noise{.read = 1.6, .shot = 0.2};
@@ -24,24 +24,24 @@ struct calibration_options {
 /// Adds `--reflectance`, a number or a file.
 void add_reflectance_option(command& to, std::filesystem::path& given);
 
-/// What was given with it as a number, if it is one. Throws gonio::error unless that is from 0.01 to 1.
+/// Returns the given reflectance as a number, if it is one. Throws gonio::error unless the number is from 0.01 to 1.
 [[nodiscard]] std::optional<double> number_of_reflectance(const std::filesystem::path& given);
 
-/// The number, or the table that the file has (docs/reference/formats.md).
+/// Returns the number, or the table in the file (docs/reference/formats.md).
 [[nodiscard]] gonio::capture::reference_reflectance reflectance_of(const std::filesystem::path& given);
 
 /// Adds `--reflectance`, `--gamma`, `--saturation`, `--read-noise`, `--shot-noise` and `--flicker`.
 void add_calibration_options(command& to, calibration_options& options);
 
-/// The readings of a scan that are there.
+/// Returns the existing readings of a scan.
 [[nodiscard]] std::vector<gonio::capture::reading> readings_of(const gonio::io::recorded_scan& scan);
 
-/// The calibration of a camera, whose response is found from these readings unless it is known.
+/// Returns the calibration of a camera; estimates its response from these readings unless it is known.
 [[nodiscard]] gonio::capture::calibration calibration_of(const calibration_options& options,
                                                          std::span<const gonio::capture::reading> readings,
                                                          std::uint16_t largest_count);
 
-/// What was measured of a reference, for poses at which it was not. Throws gonio::error if nothing was.
+/// Returns the readings of a reference, for poses without a reading of their own. Throws gonio::error if there is none.
 [[nodiscard]] gonio::capture::reference_readings reference_readings_of(const gonio::io::recorded_scan& scan);
 
 }  // namespace cli

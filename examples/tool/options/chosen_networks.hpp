@@ -1,5 +1,5 @@
 #pragma once
-/// Some networks of a file.
+/// Selection of networks from a file.
 
 #include <gonio/io/materials/networks.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace cli {
 
-/// The networks whose names are (or are not) in a list. Throws gonio::error if a listed name does not exist.
+/// Return the networks whose names are (or are not) in a list. Throw gonio::error if a listed name does not exist.
 [[nodiscard]] gonio::model::named_networks networks_in(const gonio::model::named_networks& all,
                                                        const std::vector<std::string>& names);
 [[nodiscard]] gonio::model::named_networks networks_except(const gonio::model::named_networks& all,

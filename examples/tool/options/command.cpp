@@ -26,7 +26,7 @@ constexpr int bad_input = 2;
 constexpr int failure = 1;
 constexpr int no = 1;
 
-/// The number of a word. CLI11 knows an enumeration's values by their numbers and does not print them.
+/// The number of a word. CLI11 handles an enumeration's values as numbers and does not print them.
 enum class word_number : int {};
 
 }  // namespace
@@ -35,7 +35,7 @@ enum class word_number : int {};
 
 namespace {
 
-/// A check with a sentence of its own: CLI11 prints the largest double, in 309 digits, as the end of the range.
+/// Returns a check with its own message: CLI11 would print the range's end, the largest double, in 309 digits.
 CLI::Validator saying(const CLI::Validator& known, const std::string& complaint) {
   return CLI::Validator(
       [known, complaint](std::string& text) { return known(text).empty() ? "" : text + " " + complaint; },
@@ -120,7 +120,7 @@ option command::add_option(const std::string& names, unsigned long long& value, 
 
 namespace {
 
-/// An integer that must not be negative, with the name that the help has for those.
+/// Sets up an integer that must not be negative, with the type name that the help uses for such integers.
 CLI::Option& counting(CLI::Option& added) {
   return *added.type_name("UINT")->check(saying(CLI::NonNegativeNumber, not_of_zero_or_more).description(""));
 }
@@ -212,7 +212,7 @@ declared_files::paths paths_in(const std::vector<std::filesystem::path>& values)
 
 std::vector<std::string> strings(std::initializer_list<const char*> words) { return {words.begin(), words.end()}; }
 
-/// A build without OpenEXR offers no .exr.
+/// Returns the extensions; without .exr in a build without OpenEXR.
 std::vector<std::string> offered(std::initializer_list<const char*> extensions) {
   std::vector<std::string> all = strings(extensions);
   if (!has_exr) std::erase(all, ".exr");
@@ -286,14 +286,14 @@ namespace {
 
 extern "C" void end_by_signal(int signal) {
   gonio::io::remove_unfinished_files();
-  ::raise(signal);  // its handler is the system's again
+  ::raise(signal);  // the default action is restored
 }
 
-/// A program that is told to end leaves no half-written file.
+/// Removes half-written files if a signal ends the program.
 void clean_up_on_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction known {};
-    if (::sigaction(signal, nullptr, &known) != 0 || known.sa_handler != SIG_DFL) continue;  // nohup ignores one
+    if (::sigaction(signal, nullptr, &known) != 0 || known.sa_handler != SIG_DFL) continue;  // nohup ignores SIGHUP
     known = {};
     known.sa_handler = end_by_signal;
     known.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
@@ -301,10 +301,10 @@ void clean_up_on_signals() {
   }
 }
 
-/// Where a file may grow no further (ulimit -f), writing fails, which is said in a sentence, as on a full disk.
+/// At a limit of file size (ulimit -f), writing then fails with an error message, as on a full disk.
 void go_on_at_size_limits() { ::signal(SIGXFSZ, SIG_IGN); }
 
-/// The options of a subcommand, those of its groups, too: --output, and -o.
+/// Returns the options of a subcommand and of its groups: --output, and -o.
 std::vector<std::string> option_names(const CLI::App& known) {
   std::vector<std::string> names;
   for (const CLI::Option* each : known.get_options()) {
@@ -324,25 +324,25 @@ std::vector<std::string> subcommand_names(const CLI::App& known) {
   return names;
 }
 
-/// The program, or a subcommand of it, as in `gonio lab scan`.
+/// Returns the name of the program or a subcommand with its parents, such as `gonio lab scan`.
 std::string path_of(const CLI::App& at) {
   return at.get_parent() == nullptr ? at.get_name() : path_of(*at.get_parent()) + " " + at.get_name();
 }
 
-/// The subcommand that was called, however deep.
+/// Returns the innermost subcommand that was called.
 const CLI::App& called(const CLI::App& all) {
   const std::vector<CLI::App*> below = all.get_subcommands();
   return below.empty() ? all : called(*below.front());
 }
 
-/// --output, or a letter as in -o; -1 is a number.
+/// Is it --output, or a letter as in -o? -1 is a number.
 bool is_option(const std::string& word) {
   return word.starts_with("--") ||
          (word.size() == 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0);
 }
 
-/// The first word that is no subcommand or option where it stands, as a sentence with the nearest one that is; nothing
-/// if all words are known.
+/// Returns a sentence on the first word that is not a known subcommand or option in its position, with the nearest
+/// known word; empty if all words are known.
 std::string unknown_word(const CLI::App& all, int argc, char** argv) {
   const CLI::App* at = &all;
   const auto sentence = [&](const std::string& word, const char* kind, const std::vector<std::string>& known) {

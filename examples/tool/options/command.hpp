@@ -1,7 +1,7 @@
 #pragma once
-/// The command line's commands, options and checks, and a program that runs them. They stand before CLI11, which takes
-/// seconds to parse: only command.cpp includes it. Everything here but `program` is a handle, cheap to copy, of what
-/// the program owns.
+/// The command line's commands, options and checks, and a program that runs them. They hide CLI11, which takes seconds
+/// to compile: only command.cpp includes it. Everything here except `program` is a handle, cheap to copy, to objects
+/// that the program owns.
 
 #include <cstddef>
 #include <filesystem>
@@ -21,18 +21,18 @@ class Validator;
 
 namespace cli {
 
-/// What the values of an option must fulfil. Both of two: `first & second`.
+/// A condition on the values of an option. Both of two: `first & second`.
 class check {
  public:
   [[nodiscard]] static check positive_number();
   [[nodiscard]] static check non_negative_number();
-  /// Bounds included; what is written must be a number of the bounds' type.
+  /// Bounds included; the value must be a number of the bounds' type.
   [[nodiscard]] static check range(double lowest, double highest);
   [[nodiscard]] static check range(int lowest, int highest);
   [[nodiscard]] static check range(unsigned lowest, unsigned highest);
   [[nodiscard]] static check one_of(std::vector<std::string> words);
   [[nodiscard]] static check one_of(std::initializer_list<int> numbers);
-  /// `complaint` says what is wrong with a value, nothing if all is well; `type` is what help calls it.
+  /// `complaint` returns the fault of a value, empty if there is none; `type` is its name in the help.
   [[nodiscard]] static check without(std::function<std::string(const std::string&)> complaint, const std::string& type);
 
   friend check operator&(const check& first, const check& second);
@@ -44,16 +44,16 @@ class check {
   std::shared_ptr<const CLI::Validator> known_;
 };
 
-/// All return the option, for the next.
+/// A handle to an option. All functions return the option, for chaining.
 class option {
  public:
   option required();
   option check(const cli::check& wanted);
-  /// Shows the value that the variable has now as the default.
+  /// Shows the variable's current value as the default.
   option capture_default_str();
   option default_str(const std::string& text);
   option type_name(const std::string& name);
-  /// One value each time, of which all are kept.
+  /// Takes one value per use, and keeps all values.
   option repeatable();
   option needs(option other);
   option excludes(option other);
@@ -68,17 +68,17 @@ class option {
 class option_group;
 class declared_files;
 
-/// A subcommand. The variables of its options must live until the program has run.
+/// A subcommand. The variables of its options must outlive the program's run.
 class command {
  public:
   command add_subcommand(const std::string& name, const std::string& description);
-  /// For the subcommands that are added from now on: `added` may give each an option, and `around(work)` is called
-  /// instead of its work, which it calls itself.
+  /// For subcommands added from now on: `added` may add options to each, and `around(work)` is called instead of its
+  /// work and calls `work` itself.
   void extend_subcommands(std::function<void(command&)> added,
                           std::function<void(const std::function<void()>&)> around);
   option_group add_option_group(const std::string& name, const std::string& description);
   void require_subcommand();
-  /// Words that are no option of it are no error.
+  /// Accepts words that are not options.
   void allow_extras();
 
   option add_option(const std::string& names, std::string& value, const std::string& description);
@@ -86,7 +86,7 @@ class command {
   option add_option(const std::string& names, unsigned& value, const std::string& description);
   option add_option(const std::string& names, unsigned long& value, const std::string& description);
   option add_option(const std::string& names, unsigned long long& value, const std::string& description);
-  /// Counts and positions, `Eigen::Index`; negative numbers are refused.
+  /// Counts and positions, `Eigen::Index`; refuses negative numbers.
   option add_option(const std::string& names, std::ptrdiff_t& value, const std::string& description);
   option add_option(const std::string& names, std::vector<std::ptrdiff_t>& values, const std::string& description);
   option add_option(const std::string& names, double& value, const std::string& description);
@@ -97,39 +97,39 @@ class command {
   option add_option(const std::string& names, std::vector<unsigned long long>& values, const std::string& description);
   option add_option(const std::string& names, std::vector<double>& values, const std::string& description);
   option add_option(const std::string& names, std::pair<int, int>& values, const std::string& description);
-  /// A file is read or written, and says which: these are compared before the command does anything, so that nothing
-  /// is written over what is read.
+  /// Deleted: files must be declared as inputs or outputs. They are compared before the command runs, so that no output
+  /// overwrites an input.
   option add_option(const std::string& names, std::filesystem::path& value, const std::string& description) = delete;
   option add_option(const std::string& names, std::vector<std::filesystem::path>& values,
                     const std::string& description) = delete;
   option add_input(const std::string& names, std::filesystem::path& value, const std::string& description);
   option add_input(const std::string& names, std::vector<std::filesystem::path>& values,
                    const std::string& description);
-  /// Files two by two.
+  /// Files in pairs.
   option add_input(const std::string& names, std::vector<std::pair<std::string, std::string>>& values,
                    const std::string& description);
-  /// A folder of which the files with these extensions are read.
+  /// A folder whose files with these extensions are read.
   option add_input_folder(const std::string& names, std::filesystem::path& value,
                           std::initializer_list<const char*> extensions, const std::string& description);
   option add_input_folders(const std::string& names, std::vector<std::filesystem::path>& values,
                            std::initializer_list<const char*> extensions, const std::string& description);
-  /// The name must end in one of the extensions; without any it may be any.
+  /// The name must end in one of the extensions; any name if there are none.
   option add_output(const std::string& names, std::filesystem::path& value,
                     std::initializer_list<const char*> extensions, const std::string& description);
-  /// A folder into which files of these names are written.
+  /// A folder into which files with these names are written.
   option add_output_folder(const std::string& names, std::filesystem::path& value,
                            std::initializer_list<const char*> files, const std::string& description);
-  /// For a file whose name is made from that of an output: throws gonio::error if it is one that is read.
+  /// For a file whose name is derived from an output's: throws gonio::error if it is an input.
   void require_writable(const std::filesystem::path& derived) const;
 
-  /// One of some words, in small letters or capitals; `choose` is given the number of the word.
+  /// One of some words, in any case; `choose` receives the number of the word.
   option add_choice(const std::string& names, std::function<void(int)> choose,
                     std::initializer_list<std::pair<const char*, int>> words, const std::string& description);
   option add_flag(const std::string& names, bool& value, const std::string& description);
 
-  /// What is done when the command line has been read and its files have been compared.
+  /// Sets the command's work, done after the command line is read and its files are compared.
   void callback(std::function<void()> work);
-  /// How often an option was given.
+  /// Returns how often an option was given.
   [[nodiscard]] std::size_t count(const std::string& name) const;
 
  protected:
@@ -141,11 +141,11 @@ class command {
 
  private:
   CLI::App* known_;
-  std::shared_ptr<declared_files> files_;      ///< of the subcommand, and of its groups
-  std::shared_ptr<const extension> extended_;  ///< by the command that this one is a part of; may be nothing
+  std::shared_ptr<declared_files> files_;      ///< of the subcommand and its groups
+  std::shared_ptr<const extension> extended_;  ///< by the parent command; may be null
 };
 
-/// Options of which some number must be given.
+/// A group of options of which a certain number must be given.
 class option_group : public command {
  public:
   void require_option(std::size_t number);
@@ -164,7 +164,7 @@ class program : public command {
   program& operator=(const program&) = delete;
   ~program();
 
-  /// Reads the command line and does what it says. The exit code: 2 for bad input, 1 for any other failure.
+  /// Reads and executes the command line. Returns the exit code: 2 for bad input, 1 for any other failure.
   [[nodiscard]] int run(int argc, char** argv);
 
  private:

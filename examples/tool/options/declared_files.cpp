@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a path leads, be there a file or not.
+/// Returns the path with links resolved, whether or not the file exists.
 fs::path resolved(const fs::path& path) {
   std::error_code failed;
   const fs::path whole = fs::absolute(gonio::io::follow_links(path), failed);
@@ -27,7 +27,7 @@ bool is_same_file(const fs::path& one, const fs::path& other) {
   return fs::equivalent(one, other, absent) || resolved(one) == resolved(other);
 }
 
-/// Letters of either case.
+/// Ignores case.
 bool has_extension(const fs::path& path, const std::vector<std::string>& extensions) {
   return std::ranges::find(extensions, lower_extension(path)) != extensions.end();
 }
@@ -38,7 +38,7 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-/// What can be known before hours of work.
+/// Checks before hours of work what can be known.
 void require_place(const std::string& option, const fs::path& path) {
   const fs::path folder = gonio::io::follow_links(path).parent_path();
   std::error_code failed;

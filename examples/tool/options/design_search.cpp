@@ -31,7 +31,7 @@ gonio::design::expected_error expected_error_of(const prior_t& prior, const desi
   return gonio::design::expected_error(prior, expectation_of(options));
 }
 
-/// The one that a search is to make small.
+/// Returns the criterion that a search minimises.
 gonio::design::expected_error criterion_of(const prior_t& prior, const design_options& options) {
   if (options.criterion == "expected-error") return expected_error_of(prior, options);
   return gonio::design::expected_error(prior, expectation_of(options), gonio::perceived_norm(prior, options.threads));
@@ -58,17 +58,17 @@ capture_plan start_of(const Geometry& geometry, const design_options& options) {
   return plan;
 }
 
-/// Who shares the sweeps of a search, and what is kept of them, if anything is.
+/// The processes that share the sweeps of a search, and the record of the sweeps (may be null).
 struct sweeping {
   const team& processes;
   sweep_record* record;
 };
 
-/// An objective whose sweeps several processes share, and an interrupted search does not do again.
+/// An objective whose sweeps are shared by several processes, and are not repeated after an interruption.
 template <gonio::design::sweeping_objective Objective>
 class shared_sweeps {
  public:
-  /// Both must outlive it.
+  /// Both arguments must outlive it.
   shared_sweeps(const Objective& whole, const sweeping& how) : whole_(whole), how_(how) {}
 
   [[nodiscard]] const auto& geometry() const noexcept { return whole_.geometry(); }
@@ -132,14 +132,14 @@ designed finished(const Geometry& geometry, const capture_plan& plan) {
   return found;
 }
 
-/// Searches in the way that the options say.
+/// Searches as the options state.
 template <gonio::design::sweeping_objective Objective>
 capture_plan search(const Objective& objective, const design_options& options, const gonio::progress& listener,
                     const sweeping& how) {
   return options.search == "descent" ? slide(objective, options, listener) : sweep(objective, options, listener, how);
 }
 
-/// Of each cell, for what the criterion's noise is not.
+/// Returns penalties for each cell, for noise that the criterion does not include.
 std::vector<double> sample_noise_penalties(const prior_t& prior, const design_options& options) {
   gonio::design::apparatus other = options.apparatus;
   other.noise = 0.0;
@@ -152,7 +152,7 @@ std::vector<double> sample_noise_penalties(const prior_t& prior, const design_op
   return {penalties.begin(), penalties.end()};
 }
 
-/// Samples by what is seen of the reconstruction that `gonio reconstruct` makes of them.
+/// Chooses samples by the visible error of the reconstruction that `gonio reconstruct` makes from them.
 designed by_perception(const prior_t& prior, const design_options& options, const gonio::progress& listener,
                        const sweeping& how) {
   const gonio::reconstruction estimator(prior, {.noise = options.apparatus.noise}, options.threads);
@@ -184,7 +184,7 @@ designed with(const prior_t& prior, const Geometry& geometry, const design_optio
     return finished(geometry, slide(gonio::design::criterion_of_plan{prior, geometry, criterion}, options, listener));
   };
   if (options.criterion == "condition") return by(gonio::design::condition_number{});
-  // Independent noise is a larger penalty of every row: eta / m is the variance of its error.
+  // Independent noise acts as a larger penalty on every row: eta / m is the variance of its error.
   const double eta = options.eta + expected_error_of(prior, options).noise_eta();
   if (options.criterion == "d-optimal") return by(gonio::design::d_optimality(eta));
   if (options.criterion == "a-optimal")
@@ -192,7 +192,7 @@ designed with(const prior_t& prior, const Geometry& geometry, const design_optio
   return by_expected_error(prior, geometry, options, listener, how);
 }
 
-/// The best of all cameras (or lights) that stand still, each with its own best lights (or cameras).
+/// Returns the best design over all fixed cameras (or lights), each with its own best lights (or cameras).
 designed with_one_fixed(const prior_t& prior, const design_options& options,
                         std::optional<double> gonio::design::near_field_options::*fixed,
                         const gonio::progress& listener, const sweeping& how) {
@@ -212,7 +212,7 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
   return best;
 }
 
-/// Points that are measured already stay where they are, not at the candidates beside them.
+/// Points measured already keep their directions; they are not moved to the nearest candidates.
 designed keeping_start(designed found, const design_options& options) {
   for (std::size_t i = 0; i < options.start.size(); ++i) {
     found.poses[i] = options.start[i];
@@ -221,7 +221,7 @@ designed keeping_start(designed found, const design_options& options) {
   return found;
 }
 
-/// Refuses what a criterion does not take.
+/// Refuses options that the criterion does not support.
 void require_criterion(const design_options& options) {
   const bool expects_errors = options.criterion == "expected-error" || options.criterion.starts_with("perceived");
   const double angular_error = options.apparatus.angular_error;
@@ -275,7 +275,7 @@ design_quality quality_of(const gonio::log_relative_pca& prior, const design_opt
   const auto few = gonio::design::compressed(gonio::design::rows_at(prior, found.samples), 1e-3 * options.eta);
   const double error = criterion(criterion.prepare(few.components, few.noise));
   const double nothing = criterion(gonio::design::expected_error::rows(0, criterion.coefficients().rows()));
-  // A prior may have been learned on more cells than it keeps; its singular values are of all of them.
+  // A prior may have been learned on more cells than it keeps; its singular values refer to all of them.
   const double kept = prior.components().cast<double>().squaredNorm() / prior.singular_values().squaredNorm();
   return {error * std::sqrt(kept / static_cast<double>(prior.cells().size())), error / nothing};
 }

@@ -13,7 +13,7 @@ namespace cli {
 
 namespace {
 
-/// The light of a text such as 45,35: degrees to the right of the camera, and above it.
+/// Returns the light of a text such as 45,35: degrees to the right of the camera, and above it.
 gonio::direction light_of(const std::string& text) {
   std::vector<std::string_view> fields;
   gonio::io::split_fields(text, fields);

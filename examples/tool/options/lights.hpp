@@ -1,5 +1,5 @@
 #pragma once
-/// Distant lights as the command line gives them.
+/// Distant lights on the command line.
 
 #include "command.hpp"
 #include <gonio/render/lighting.hpp>
@@ -9,11 +9,11 @@
 
 namespace cli {
 
-/// Adds `--light`: degrees to the right of the camera and above it, any number of times.
+/// Adds `--light`, repeatable: degrees to the right of the camera and above it.
 option add_light_option(command& to, std::vector<std::string>& lights);
 
-/// The lights that were given, or the two lights of Nielsen et al. 2015, Figure 2. Throws gonio::error naming what is
-/// no pair of angles.
+/// Returns the given lights, or the two lights of Nielsen et al. 2015, Figure 2. Throws gonio::error naming the text
+/// that is not a pair of angles.
 [[nodiscard]] gonio::render::directional_lighting lighting_of(const std::vector<std::string>& lights);
 
 }  // namespace cli

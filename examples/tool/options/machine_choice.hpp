@@ -1,5 +1,5 @@
 #pragma once
-/// Which machine of the simulated laboratory measures.
+/// Choice of the simulated laboratory's machine.
 
 #include "command.hpp"
 #include "lab/gantry.hpp"
@@ -10,10 +10,10 @@
 
 namespace cli {
 
-/// Which machine stands in the laboratory.
+/// The machine in the laboratory.
 struct machine_choice {
   std::string name = "gantry";
-  double tolerance = 0.5;  ///< degrees by which one may miss the robot's nearest lamp
+  double tolerance = 0.5;  ///< degrees within which robot uses its nearest lamp
 };
 
 /// Adds `--machine` and `--lamp-tolerance`.
@@ -28,7 +28,7 @@ inline void add_machine_options(command& to, machine_choice& machine) {
       .capture_default_str();
 }
 
-/// Calls `use(machine)` with the machine in a room.
+/// Calls `use(machine)` with the chosen machine in a room.
 template <class Use>
 auto with_machine(const machine_choice& choice, lab::dark_room& room, Use&& use) {
   if (choice.name == "robot") {
@@ -39,7 +39,7 @@ auto with_machine(const machine_choice& choice, lab::dark_room& room, Use&& use)
   return use(machine);
 }
 
-/// Pairs of directions as lines for people, counted from 1.
+/// Returns a pair of directions as text for people.
 [[nodiscard]] inline std::string in_degrees(const gonio::direction_pair& pair) {
   const auto angles = [](const gonio::direction& w) {
     return fixed(gonio::degrees(gonio::polar_angle(w)), 1) + ", " + fixed(gonio::degrees(gonio::azimuth(w)), 1);

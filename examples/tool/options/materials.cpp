@@ -23,7 +23,7 @@ namespace cli {
 
 namespace {
 
-/// A material by its name, and what has its values over given cells: all channels of a cell, then those of the next.
+/// A material's name, and a function that returns its values over given cells: all channels of a cell, then the next.
 struct named_table {
   std::string name;
   std::function<std::vector<float>(const gonio::valid_cells&)> tabulate;
@@ -31,7 +31,7 @@ struct named_table {
 
 std::vector<float> values_of(const gonio::brdf_table& table) { return {table.values().begin(), table.values().end()}; }
 
-/// Those of all sources, none of them read yet but the networks.
+/// Returns the materials of all sources; only networks are read already.
 std::vector<named_table> tables_of(const material_source& source, gonio::thread_count threads) {
   std::vector<named_table> all;
   for (const std::filesystem::path& file : source.networks) {
@@ -57,7 +57,7 @@ std::vector<named_table> tables_of(const material_source& source, gonio::thread_
   return all;
 }
 
-/// 400, 410, ... 700 of 400:10:700.
+/// Returns 400, 410, ... 700 for 400:10:700.
 std::vector<double> wavelengths_in(const std::string& text) {
   std::array<double, 3> numbers{};
   std::string_view left = text;
@@ -83,7 +83,7 @@ gonio::io::rgl_material read_spectral_material(const std::filesystem::path& path
   return material;
 }
 
-/// The spectra of a file over cells, at the wavelengths that are asked for.
+/// Returns the spectra of a file over cells, at the requested wavelengths.
 std::vector<float> spectra_over(const gonio::valid_cells& cells, const std::filesystem::path& path,
                                 const std::vector<double>& wavelengths, bool resampled, gonio::thread_count threads) {
   gonio::io::rgl_material material = read_spectral_material(path);
@@ -101,7 +101,7 @@ std::vector<float> spectra_over(const gonio::valid_cells& cells, const std::file
   return {table.values().data(), table.values().data() + table.values().size()};
 }
 
-/// Those of folders of spectra, none of them read yet.
+/// Returns the materials of folders of spectra, none of them read yet.
 std::vector<named_table> spectra_of(const material_source& source, const std::vector<double>& wavelengths,
                                     gonio::thread_count threads) {
   std::vector<named_table> all;
@@ -116,7 +116,7 @@ std::vector<named_table> spectra_of(const material_source& source, const std::ve
 
 [[noreturn]] void refuse_all_excluded() { gonio::refuse("--exclude leaves no material of the sources"); }
 
-/// The wavelengths that are asked for, or those of the first material; none of colours.
+/// Returns the requested wavelengths, or those of the first material; none for colours.
 std::vector<double> wavelengths_of(const material_source& source) {
   if (!source.as_spectra) return {};
   if (!source.networks.empty() || !source.tables.empty())
@@ -141,7 +141,7 @@ void require_different(const std::vector<named_table>& all) {
     if (++seen[each.name] > 1) gonio::refuse("two materials of the sources are named '" + each.name + "'");
 }
 
-/// In colours, or at some wavelengths.
+/// Returns the materials in colours, or at some wavelengths.
 std::vector<named_table> chosen_tables(const material_source& source, const std::vector<double>& wavelengths,
                                        gonio::thread_count threads) {
   std::vector<named_table> all =
@@ -176,7 +176,7 @@ void agree_on_names(const team& processes, const std::vector<std::string>& names
   processes.agree_on(checksum_of(names), "list of materials");
 }
 
-/// Of a few cells of materials that each process has read.
+/// Returns the checksum of a few cells of materials that each process has read.
 std::uint32_t checksum_of(const gonio::material_rows& materials) {
   const Eigen::Index cells = materials.cells.size(), most = std::min<Eigen::Index>(cells, 64);
   gonio::cell_matrix rows(most, materials.columns());
@@ -185,7 +185,7 @@ std::uint32_t checksum_of(const gonio::material_rows& materials) {
   return gonio::io::checksum(std::as_bytes(std::span(rows.data(), static_cast<std::size_t>(rows.size()))));
 }
 
-/// A folder of MERL tables alone, over their own cells.
+/// Reads a single folder of MERL tables over their own cells.
 gonio::material_rows stream_folder(const material_source& source, gonio::io::scratch_materials& scratch,
                                    const gonio::progress& listener, const team& processes) {
   std::optional<gonio::material_rows> materials;

@@ -1,5 +1,5 @@
 #pragma once
-/// Analytic models as options name them, and how they are printed.
+/// Analytic models as options, and their printed form.
 
 #include "command.hpp"
 #include "tool/files/json.hpp"
@@ -12,7 +12,7 @@
 
 namespace cli {
 
-/// A model, and what is compared to fit it. The defaults are those that are nearest on measured materials:
+/// A model, and the comparison by which it is fitted. The defaults come nearest on measured materials:
 /// docs/results/models.md.
 struct model_choice {
   std::string model = "ggx", metric = "log";
@@ -21,10 +21,10 @@ struct model_choice {
       .norm = gonio::model::fit_norm::huber, .cosine_weighted = true, .largest_albedo = 1.0};
 };
 
-/// The lobes of `ggx` (beside a Lambertian one), or of `sum:ggx+ward` (as they stand). Throws gonio::error.
+/// Returns the lobes of `ggx` (with a Lambertian one), or of `sum:ggx+ward` (as named). Throws gonio::error for others.
 [[nodiscard]] std::vector<const gonio::model::lobe_kind*> lobes_named(const std::string& model);
 
-/// A kind with Fresnel's factor: phong becomes phong-fresnel. Throws gonio::error for a kind that has none.
+/// Returns the kind with Fresnel's factor: phong-fresnel for phong. Throws gonio::error for a kind that has none.
 [[nodiscard]] const gonio::model::lobe_kind& with_fresnel_factor(const gonio::model::lobe_kind& kind);
 
 /// Adds `--loss`, `--cosine-weighted`, `--largest-albedo`, `--starts` and `--seed`.
@@ -33,17 +33,17 @@ void add_fit_options(command& to, gonio::model::model_fit_options& options);
 /// Adds `--cell-weights`.
 void add_cell_weights_option(command& to, gonio::model::cell_weighting& weighting);
 
-/// Fits by one of the metrics lin, log and cubic.
+/// Fits with one of the metrics lin, log and cubic.
 [[nodiscard]] gonio::model::model_fit fit_by_metric(const std::string& metric,
                                                     const std::vector<const gonio::model::lobe_kind*>& kinds,
                                                     std::span<const gonio::model::fit_observation> observations,
                                                     const gonio::model::model_fit_options& options);
 
-/// Fits the model that is chosen. Throws gonio::error where `lobes_named` or `with_fresnel_factor` does.
+/// Fits the chosen model. Throws gonio::error as `lobes_named` and `with_fresnel_factor` do.
 [[nodiscard]] gonio::model::model_fit fit_chosen(const model_choice& choice,
                                                  std::span<const gonio::model::fit_observation> observations);
 
-/// The lobes with their colours and parameters.
+/// Returns the lobes with their colours and parameters.
 [[nodiscard]] json to_json(const gonio::model::analytic_brdf& model);
 
 }  // namespace cli

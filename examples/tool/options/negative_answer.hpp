@@ -1,11 +1,11 @@
 #pragma once
-/// How a subcommand that answers a question says no.
+/// The negative answer of a subcommand that answers a question.
 
 namespace cli {
 
-/// Thrown by the work of a subcommand after it has printed its answer: the program ends with exit code 1, as those of
-/// grep and diff do, and prints nothing more. Such a subcommand has to throw whatever else fails as gonio::error, whose
-/// exit code is 2, so that 1 means no and nothing else.
+/// Thrown by a subcommand after it has printed its answer: the program ends with exit code 1, like grep and diff, and
+/// prints nothing more. Such a subcommand must throw every failure as gonio::error, whose exit code is 2, so that 1
+/// only means no.
 struct negative_answer {};
 
 }  // namespace cli

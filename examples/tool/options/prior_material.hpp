@@ -1,5 +1,5 @@
 #pragma once
-/// A material that a prior was learned from, by its name.
+/// A material from which a prior was learned, by name.
 
 #include <gonio/basis/pca.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace cli {
 
-/// The number of the material of that name. Throws gonio::error, which names the file, if a prior has none.
+/// Returns the number of the material of that name. Throws gonio::error naming the file if there is none.
 [[nodiscard]] Eigen::Index material_number(const gonio::log_relative_pca& prior, const std::string& name,
                                            const std::filesystem::path& file);
 

@@ -23,7 +23,7 @@ const reconstruct_method& method_named(const std::string& name) {
   gonio::refuse("there is no method '" + name + "': expected one of " + names);
 }
 
-/// Samples may be such that what they are completed to is no number; it is they that are to blame, not the output.
+/// Some samples lead to values that are not finite; the error then names the samples, not the output.
 void require_finite(const gonio::brdf_table& table, const gonio::sample_set& samples,
                     const reconstruct_options& options) {
   if (gonio::all_finite(table.values())) return;
@@ -36,7 +36,7 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
                  " sr^-1, complete to a table that is not finite by the method ", options.method});
 }
 
-/// Of a material that reflects nothing but less than nothing, nothing can be said.
+/// Refuses samples that are all zero or negative: nothing can be inferred from them.
 void require_light(const gonio::sample_set& samples, const reconstruct_options& options) {
   double largest = 0.0, least = 0.0;
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
@@ -51,7 +51,7 @@ void require_light(const gonio::sample_set& samples, const reconstruct_options& 
                  "subtracted as the dark signal?"});
 }
 
-/// What is told of every fit, which is refused if it is not finite.
+/// Adds the warnings that every method gives; refuses a fit that is not finite.
 reconstruction with_warnings(reconstruction result, const reconstruct_options& options,
                              const gonio::sample_set& samples) {
   std::ranges::move(warnings_of(samples, options.noise.value_or(0.0)), std::back_inserter(result.warnings));
@@ -65,7 +65,7 @@ reconstruction with_warnings(reconstruction result, const reconstruct_options& o
   return result;
 }
 
-/// Refuses options of a solver or a metric that is not the one that is taken.
+/// Refuses options of a solver or a metric that is not used.
 void require_taken(const reconstruct_options& options, const std::function<bool(const std::string&)>& is_given) {
   const std::string own = options.method == "linear" ? "nnls" : "tikhonov";
   const std::string& solver = options.solver.name.empty() ? own : options.solver.name;
@@ -105,7 +105,7 @@ const std::vector<reconstruct_method>& reconstruct_methods() {
         "--uncertainty-image",
         "--report",
         "--source-half-angle",
-        "--receiver-half-angle"}},  // refuses some of them itself, and says why
+        "--receiver-half-angle"}},  // refuses some of them itself, with the reason
       {"soft-specular",
        "the components of soft or those of specular materials, whichever the contrast of the samples' highlight "
        "chooses, from a prior of gonio learn --split, with a penalty --eta of 40 shared out by their numbers (Nielsen "

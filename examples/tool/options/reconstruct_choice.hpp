@@ -1,5 +1,5 @@
 #pragma once
-/// The methods of `gonio reconstruct` by name: which options each takes, and what all of them do after the fit.
+/// The methods of `gonio reconstruct` by name, their options, and the steps after every fit.
 
 #include "reconstruct_methods.hpp"
 
@@ -14,20 +14,19 @@ struct reconstruct_method {
   const char* name;
   const char* description;
   reconstruction (*reconstruct)(const reconstruct_options&, const gonio::sample_set&);
-  /// Those options that not all methods take.
+  /// The options that only some methods take.
   std::vector<std::string_view> takes;
 };
 
 [[nodiscard]] const std::vector<reconstruct_method>& reconstruct_methods();
 
-/// Refuses options that the method of `options` would ignore, naming the methods that would not, and notes whether it
-/// has options of its own. `is_given` is asked for options such as "--noise". Throws gonio::error for these, and for a
-/// method that does not exist.
+/// Refuses options that the method of `options` would ignore, naming the methods that take them, and notes whether any
+/// of the method's own options is given. `is_given` is called with options such as "--noise". Throws gonio::error for
+/// such options, and for an unknown method.
 void take_given(reconstruct_options& options, const std::function<bool(const std::string&)>& is_given);
 
-/// Reconstructs by the method of `options`, each wavelength as a grey material where they are kept, and warns of
-/// samples and methods that are likely to disappoint. Throws gonio::error for unusable samples, and if the table is not
-/// finite.
+/// Reconstructs with the method of `options`; if wavelengths are kept, each is a grey material. Warns of samples and
+/// methods with likely poor results. Throws gonio::error for unusable samples, and if the table is not finite.
 [[nodiscard]] reconstruction reconstruct(const reconstruct_options& options, const gonio::sample_set& samples);
 
 }  // namespace cli

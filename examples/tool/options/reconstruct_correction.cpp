@@ -20,7 +20,7 @@ namespace cli {
 
 namespace {
 
-/// Nothing for auto, else the number that --gamma gives; the paper has no auto.
+/// Returns nothing for auto, else the number of --gamma; the paper has no auto.
 std::optional<double> gamma_of(const reconstruct_options& options) {
   constexpr double usual = 3.0;
   const std::string& text = options.gamma;
@@ -31,7 +31,7 @@ std::optional<double> gamma_of(const reconstruct_options& options) {
   return gamma;
 }
 
-/// Made before the work, of which nothing would be left.
+/// Makes the folder before the work, whose result would otherwise be lost.
 void make_folder(const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
@@ -51,7 +51,7 @@ void describe(const Run& run, bool converged, bool automatic, reconstruction& re
   result.sentence = counted(rounds, "round") + ", relative error before the last " + fixed(last.error, 3) + ", " +
                     fixed(100.0 * last.down_weighted, 1) + " % down-weighted";
   if (!automatic) return;
-  // Few samples do not support any share.
+  // Few samples limit the fraction of outliers that can be claimed.
   const Eigen::Index samples = run.measured().cols();
   double outliers = 1.0 - gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).inlier_fraction;
   if (samples < fewest_corrected_samples) outliers = std::min(outliers, gonio::largest_outlier_share(samples));
@@ -59,7 +59,7 @@ void describe(const Run& run, bool converged, bool automatic, reconstruction& re
   result.sentence += ", about " + fixed(100.0 * outliers, 1) + " % outliers";
 }
 
-/// Steps until the run ends, for a story to watch if there is one.
+/// Steps until the run ends, observed by a figure if there is one.
 template <class Run>
 reconstruction iterate(Run run, const reconstruct_options& options, bool automatic, iteration_figure* watcher,
                        progress_bar& bar) {
@@ -74,7 +74,7 @@ reconstruction iterate(Run run, const reconstruct_options& options, bool automat
   return result;
 }
 
-/// The method chosen by --gamma, from materials under a metric.
+/// Runs the method chosen by --gamma, with materials under a metric.
 reconstruction correct(const gonio::measured<gonio::any_metric>& materials, const reconstruct_options& options,
                        const gonio::sample_set& samples, std::optional<gonio::brdf_table> truth, progress_bar& bar) {
   // Make the correction functions.
@@ -120,7 +120,7 @@ reconstruction correct(const gonio::measured<gonio::any_metric>& materials, cons
 }  // namespace
 
 reconstruction reconstruct_by_corrections(const reconstruct_options& options, const gonio::sample_set& samples) {
-  static_cast<void>(gamma_of(options));  // refused before the work
+  static_cast<void>(gamma_of(options));  // refuse before the work
   const Eigen::Index counting = std::ssize(gonio::counting_positions(samples));
   if (counting < fewest_corrected_samples && !options.has_own_options) {
     reconstruction result = reconstruct_with_discrepancy(options, prior_of(options.materials), samples);

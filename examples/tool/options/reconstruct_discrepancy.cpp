@@ -1,7 +1,8 @@
-/// gonio reconstruct --method pca: what the library's `reconstruction` finds, told to people.
+/// gonio reconstruct --method pca: describes the result of the library's `reconstruction` for people.
 
 #include "reconstruct_methods.hpp"
 #include "tool/files/measurement_files.hpp"
+#include "tool/pages/elapsed_time.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/measures_as_json.hpp"
 #include "tool/pages/sample_warnings.hpp"
@@ -24,8 +25,8 @@ namespace {
 
 using reconstructed_brdf = gonio::reconstructed<gonio::log_relative>;
 
-/// Of the one value, or of the channel that disagrees most: "sample 6 disagrees, left out: measured 2.09, the others
-/// say 0.140 (0.110 to 0.170, red)".
+/// Describes the one value, or the channel that disagrees most: "sample 6 disagrees, left out: measured 2.09, the
+/// others say 0.140 (0.110 to 0.170, red)".
 std::string told(const gonio::outlying_sample& out, const std::string& what_is_done) {
   const Eigen::Index channel = out.worst_channel();
   const double predicted = out.predicted[channel];
@@ -35,7 +36,7 @@ std::string told(const gonio::outlying_sample& out, const std::string& what_is_d
          (is_grey(out.measured) ? "" : ", " + gonio::channels().name(channel)) + ")";
 }
 
-/// docs/reference/formats.md has the columns.
+/// docs/reference/formats.md describes the columns.
 void write_residuals(const reconstruct_options& options, const std::vector<gonio::sample_residual>& residuals) {
   std::string text = gonio::io::comment_lines(options.provenance);
   text += "sample,r,g,b,others_r,others_g,others_b,relative_deviation,disagreement,left_out\n";
@@ -55,9 +56,9 @@ void write_residuals(const reconstruct_options& options, const std::vector<gonio
   gonio::io::write_atomically(options.residuals, std::as_bytes(std::span(text)));
 }
 
-/// "half of all directions are known to 6 %, half of those beyond 80 degrees to 40 %".
+/// Adds "half of all directions are known to 6 %, half of those beyond 80 degrees to 40 %".
 void describe(const gonio::certainty& known, reconstruction& result) {
-  // A highlight that may be four times too bright or too dark is no result.
+  // A highlight uncertain by a factor of more than four needs a warning.
   const double factor = known.highlight_factor;
   result.details["highlight_known_to_factor"] = factor;
   constexpr double unknown = 100.0;
@@ -79,7 +80,7 @@ void describe(const gonio::certainty& known, reconstruction& result) {
                      " %, half of those beyond 80 degrees to " + fixed(100.0 * known.known_to_at_grazing, 0) + " %";
 }
 
-/// The relative deviation in all directions as a table, the same in all channels.
+/// Returns the relative deviation in all directions as a table, the same in all channels.
 gonio::brdf_table uncertainty_table(const reconstructed_brdf& paint, gonio::thread_count threads) {
   gonio::brdf_table coarse(gonio::valid_cells(gonio::grid({30, 15, 18})));
   const std::vector<double> all = paint.known_to(coarse.cells());
@@ -87,7 +88,7 @@ gonio::brdf_table uncertainty_table(const reconstructed_brdf& paint, gonio::thre
   return gonio::resample(coarse, gonio::valid_cells(), threads);
 }
 
-/// Which samples were rejected; `samples` count.
+/// Describes the rejected samples; `samples` is the number with nonzero weight.
 void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, reconstruction& result) {
   json contradicted = json::array();
   for (const gonio::outlying_sample& out : paint.contradicted()) {
@@ -126,7 +127,7 @@ gonio::reconstruction<gonio::log_relative> estimator_of(const reconstruct_option
   return options.keeps_all ? estimator.keeping_all() : estimator;
 }
 
-/// Some samples, each as much as a reconstruction says that it counts.
+/// Returns the samples, weighted by a reconstruction's inlier weights.
 gonio::sample_set as_much_as_they_count(const gonio::sample_set& samples, const std::vector<Eigen::Index>& counting,
                                         const Eigen::VectorXd& inlier_weights) {
   gonio::sample_set agreeing(samples.channels());
@@ -138,7 +139,7 @@ gonio::sample_set as_much_as_they_count(const gonio::sample_set& samples, const 
   return agreeing;
 }
 
-/// Says what is known beside the fit.
+/// Adds residuals, rejected samples and uncertainty to the result.
 reconstruction described(reconstruction result, const reconstructed_brdf& paint, Eigen::Index samples,
                          const reconstruct_options& options) {
   if (!options.residuals.empty() || (options.tells_residuals() && samples <= most_residuals))
@@ -155,6 +156,7 @@ reconstruction described(reconstruction result, const reconstructed_brdf& paint,
 
 reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, const gonio::log_relative_pca& prior,
                                             const gonio::sample_set& samples) {
+  const elapsed_time waiting("reconstructing");
   const Eigen::Index count = std::ssize(gonio::counting_positions(samples));
   const auto paint = estimator_of(options, prior, count).fit(samples);
   reconstruction result =
@@ -168,9 +170,10 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
 reconstruction reconstruct_misplaced(const reconstruct_options& options, const gonio::log_relative_pca& prior,
                                      const gonio::sample_set& samples) {
   const std::string& stated = options.solver.eta;
+  const elapsed_time waiting("reconstructing");
   if ((!options.solver.name.empty() && options.solver.name != "tikhonov") || stated == "gcv" || stated == "loo")
     gonio::refuse("--misplaced needs --solver tikhonov, and --noise or a number as its --eta");
-  // How sure it is, and which samples disagree, is asked of a reconstruction that knows of the angle.
+  // A reconstruction that knows the angular error gives the uncertainty and the disagreeing samples.
   const double angle = gonio::radians(options.angular_error);
   const std::vector<Eigen::Index> counting = gonio::counting_positions(samples);
   const auto estimator = estimator_of(options, prior, std::ssize(counting));

@@ -30,11 +30,11 @@ namespace {
 /// The penalty of Nielsen et al. 2015, section 6.
 constexpr double published_eta = 40.0;
 
-/// What `--method pca` fits, once what it cannot do is refused.
+/// The prior and the solver for `--method pca`, after unsupported options are refused.
 struct component_choice {
   gonio::log_relative_pca prior;
   gonio::any_solver solver;
-  bool has_discrepancy = false, is_penalised = false;  ///< the latter: by Tikhonov's eta, which is chosen or given
+  bool has_discrepancy = false, is_penalised = false;  ///< is_penalised: by Tikhonov's eta, chosen or given
 };
 
 template <class Fit>
@@ -83,7 +83,7 @@ component_choice choose_components(const reconstruct_options& options) {
   return chosen;
 }
 
-/// Tikhonov's penalty where none is given.
+/// Returns Tikhonov's penalty if none is given.
 double chosen_eta(const reconstruct_options& options, const gonio::log_relative_pca& prior,
                   const gonio::sample_set& samples) {
   return options.noise ? gonio::eta_of_noise(prior, samples, *options.noise, options.threads)
@@ -116,7 +116,7 @@ reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& option
   if (stated == "gcv" || stated == "loo")
     gonio::refuse("--method soft-specular needs a number as its --eta, not " + stated);
   const auto penalties = gonio::penalties_in_proportion(prior, stated.empty() ? published_eta : number_of_eta(stated));
-  // The contrast of the colours' highlight chooses.
+  // The contrast of the highlight in RGB chooses.
   const auto chosen =
       gonio::soft_specular_decomposition(prior, penalties, options.threads).fit(samples.in_three_channels());
   const bool is_soft = chosen.kind() == gonio::material_kind::soft;

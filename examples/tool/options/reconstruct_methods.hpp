@@ -1,5 +1,5 @@
 #pragma once
-/// The methods of `gonio reconstruct`, one function each, and what they have in common.
+/// The methods of `gonio reconstruct`, one function each, and their common parts.
 
 #include "materials.hpp"
 #include "solver_choice.hpp"
@@ -32,7 +32,7 @@ namespace cli {
 struct reconstruct_options {
   std::filesystem::path samples, output, image, history, iteration_figure, truth;
   measurement_options reading;
-  gonio::io::sample_provenance provenance = {};  ///< of the samples: stands above the residuals
+  gonio::io::sample_provenance provenance = {};  ///< of the samples; written above the residuals
   std::string method = "pca", metric, gamma = "auto";
   double root = 2.0, angular_error = 0.0;
   std::optional<double> noise;
@@ -40,27 +40,27 @@ struct reconstruct_options {
   bool keeps_all = false;
   std::filesystem::path residuals, uncertainty, uncertainty_image;
   page_option report;
-  bool keeps_uncertainty = false;  ///< beside those that are written: in the result
-  bool keeps_residuals = false;    ///< the same of at most `most_residuals` samples
-  bool fits_spectra = false;       ///< each wavelength instead of colours
-  bool has_own_options = false;    ///< the method was asked for something beside what all methods have
-  bool as_printed = false;         ///< correction as Noell et al. 2014 print it
+  bool keeps_uncertainty = false;  ///< keep it in the result, not only in files
+  bool keeps_residuals = false;    ///< the same, for at most `most_residuals` samples
+  bool fits_spectra = false;       ///< fit each wavelength instead of colours
+  bool has_own_options = false;    ///< an option of the method's own was given
+  bool as_printed = false;         ///< correction as printed in Noell et al. 2014
   int iterations = 10;
   std::uint64_t seed = 0;
   Eigen::Index neighbours = gonio::scattered_options{}.neighbours;
   material_source materials;
   solver_choice solver;
   bool print_json = false;
-  double albedo_tolerance = gonio::model::usual_albedo_tolerance;  ///< of a .bsdf
+  double albedo_tolerance = gonio::model::usual_albedo_tolerance;  ///< for a .bsdf
   gonio::thread_count threads;
 
-  /// Is nothing written that shows colours?
+  /// Does no output show colours?
   [[nodiscard]] bool holds_spectra_alone() const {
     return (output.empty() || lower_extension(output) == ".bsdf") && image.empty() && uncertainty_image.empty() &&
            !report.is_given();
   }
-  /// Over which spectra are tabulated: the basis's own have all that it knows, and take a fifteenth of the memory,
-  /// which is enough for a .bsdf; other files have the cells of MERL's tables.
+  /// Returns the cells over which spectra are tabulated. The basis' own cells hold all its information in a fifteenth
+  /// of the memory, enough for a .bsdf; other files have the cells of MERL's tables.
   [[nodiscard]] gonio::valid_cells cells_of_spectra(const gonio::valid_cells& of_basis) const {
     return holds_spectra_alone() ? of_basis : gonio::valid_cells();
   }
@@ -70,70 +70,69 @@ struct reconstruct_options {
   }
 };
 
-/// What all others say of each sample is told of so many.
+/// The largest number of samples for which residuals are listed.
 inline constexpr Eigen::Index most_residuals = 1000;
 
-/// A fit on its way to the user.
+/// The result of a method.
 struct reconstruction {
   gonio::brdf_table table;
-  json details = json::object();                    ///< what --json prints beside the number of samples
+  json details = json::object();                    ///< printed by --json together with the number of samples
   std::string sentence{};                           ///< the same for people
-  std::vector<std::string> warnings{};              ///< sentences, for people: on standard error
-  std::optional<gonio::brdf_table> uncertainty{};   ///< relative, if it is asked for
-  std::vector<gonio::sample_residual> residuals{};  ///< of the samples that count, if it is asked for
-  std::vector<Eigen::Index> rejected{};             ///< positions in the file, the worst first: of pca
+  std::vector<std::string> warnings{};              ///< sentences for people, on standard error
+  std::optional<gonio::brdf_table> uncertainty{};   ///< relative, if requested
+  std::vector<gonio::sample_residual> residuals{};  ///< of the samples with nonzero weight, if requested
+  std::vector<Eigen::Index> rejected{};             ///< positions in the file, the worst first; only pca
   std::vector<gonio::correction_round> history{};
   std::optional<gonio::image> iteration_figure{};
-  std::optional<gonio::spectral_table> spectra{};  ///< if each wavelength is fitted; `table` is its colours
+  std::optional<gonio::spectral_table> spectra{};  ///< if each wavelength is fitted; `table` has its colours
 };
 
-/// Principal components under the metric that they were learned with.
+/// Fits principal components under the metric with which they were learned.
 [[nodiscard]] reconstruction reconstruct_by_components(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
-/// The same components and a discrepancy beside them, of samples that count as much as they are likely to be right.
+/// Fits the same components and a model discrepancy; each sample is weighted by its probability of being an inlier.
 [[nodiscard]] reconstruction reconstruct_with_discrepancy(const reconstruct_options& options,
                                                           const gonio::log_relative_pca& prior,
                                                           const gonio::sample_set& samples);
 
-/// The components alone, of samples whose light and viewer may be off their directions, without those that a
-/// reconstruction rejects, which knows of it; that one says how sure it is. Noise that is not stated is taken for none:
-/// cross-validation would take what is misplaced for noise.
+/// Fits only the components, with angular errors of light and viewer, without the samples rejected by a reconstruction
+/// that knows the angular error and gives the uncertainty. Noise that is not stated is taken as zero: cross-validation
+/// would mistake angular errors for noise.
 [[nodiscard]] reconstruction reconstruct_misplaced(const reconstruct_options& options,
                                                    const gonio::log_relative_pca& prior,
                                                    const gonio::sample_set& samples);
 
-/// The components of soft or of specular materials, whichever the samples choose (Nielsen et al. 2015, section 8).
+/// Fits the components of soft or of specular materials, chosen by the samples (Nielsen et al. 2015, section 8).
 [[nodiscard]] reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options,
                                                              const gonio::sample_set& samples);
 
-/// The materials themselves under any metric (Noell et al. 2014, section 2.2).
+/// Combines the materials themselves under any metric (Noell et al. 2014, section 2.2).
 [[nodiscard]] reconstruction reconstruct_by_materials(const reconstruct_options& options,
                                                       const gonio::sample_set& samples);
 
-/// A combination of the materials, corrected until it agrees with the samples that are no outliers (Noell et al. 2014,
-/// section 2.4).
+/// Combines the materials and corrects the result until it agrees with the inliers (Noell et al. 2014, section 2.4).
 [[nodiscard]] reconstruction reconstruct_by_corrections(const reconstruct_options& options,
                                                         const gonio::sample_set& samples);
 
-/// Radial basis functions under any metric (Noell et al. 2014, section 3.1).
+/// Fits radial basis functions under any metric (Noell et al. 2014, section 3.1).
 [[nodiscard]] reconstruction reconstruct_by_radial_functions(const reconstruct_options& options,
                                                              const gonio::sample_set& samples);
 
-/// Scattered-data interpolation (Gortler et al. 1996).
+/// Interpolates scattered data (Gortler et al. 1996).
 [[nodiscard]] reconstruction reconstruct_by_pull_push(const reconstruct_options& options,
                                                       const gonio::sample_set& samples);
 
-/// The mean of the samples nearest to each direction.
+/// Averages the samples nearest to each direction.
 [[nodiscard]] reconstruction reconstruct_by_neighbours(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
-/// Can a method fit each wavelength? Correction weighs samples by all three channels of their colours.
+/// Can the method fit each wavelength? Correction weights samples by all three channels.
 [[nodiscard]] inline bool takes_spectra(const std::string& method) { return method != "correction"; }
 
-/// A fit of spectra, and its colours.
+/// Returns a fit of spectra with its colours.
 [[nodiscard]] reconstruction described_spectra(gonio::spectral_table spectra, const reconstruct_options& options);
-/// A fit as its table, and its wavelengths if they are kept.
+/// Returns a fit as a table, and as spectra if wavelengths are kept.
 template <class Fit>
 [[nodiscard]] reconstruction tabulated(const Fit& fitted, const reconstruct_options& options) {
   if constexpr (requires { fitted.tabulate_spectra(gonio::valid_cells(), options.threads); })
@@ -142,16 +141,16 @@ template <class Fit>
           fitted.tabulate_spectra(options.cells_of_spectra(fitted.functions().cells()), options.threads), options);
   return {fitted.tabulate(gonio::valid_cells(), options.threads)};
 }
-/// What a method for colours makes of samples, three wavelengths at a time taking the places of red, green and blue.
+/// Applies a method for colours to spectra: to three wavelengths at a time, in the places of red, green and blue.
 [[nodiscard]] reconstruction by_threes(const reconstruct_options& options, const gonio::sample_set& samples,
                                        const std::function<gonio::brdf_table(const gonio::sample_set&)>& complete);
-/// What the solver of a fit of `samples` samples says.
+/// Adds the solver's report on a fit of `samples` samples.
 void describe_residuals(const gonio::solve_report& report, Eigen::Index samples, reconstruction& result);
-/// A number for each channel: "0.1 0.2 0.3", of more than three "0.1 to 0.3".
+/// Returns a number for each channel: "0.1 0.2 0.3"; for more than three, "0.1 to 0.3".
 [[nodiscard]] std::string in_words(const Eigen::ArrayXd& numbers, int digits);
 [[nodiscard]] json listed(const Eigen::ArrayXd& numbers);
 
-/// The metric chosen, log if none is; `relative()` makes the one that needs a reference.
+/// Returns the chosen metric, log by default; `relative()` makes the metric that needs a reference.
 template <class Relative>
 [[nodiscard]] gonio::any_metric chosen_metric(const reconstruct_options& options, Relative&& relative) {
   if (options.metric == "lin") return gonio::lin();
@@ -160,7 +159,7 @@ template <class Relative>
   return gonio::log();
 }
 
-/// The materials chosen under the metric chosen, without those that are excluded.
+/// Returns the chosen materials without the excluded ones, under the chosen metric.
 [[nodiscard]] gonio::measured<gonio::any_metric> chosen_materials(const reconstruct_options& options,
                                                                   const gonio::progress& listener);
 

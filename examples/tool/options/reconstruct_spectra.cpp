@@ -1,4 +1,4 @@
-/// What gonio reconstruct makes of a fit: its table, and its wavelengths if they are kept.
+/// The outputs of gonio reconstruct from a fit: its table, and its spectra if wavelengths are kept.
 
 #include "reconstruct_methods.hpp"
 #include "tool/pages/fixed.hpp"

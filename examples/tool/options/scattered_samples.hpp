@@ -1,6 +1,6 @@
 #pragma once
-/// Samples interpolated between their nearest neighbours where the programs were built with nanoflann; elsewhere a
-/// refusal that says so.
+/// Samples interpolated between their nearest neighbours if the programs were built with nanoflann; otherwise throws
+/// gonio::error.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/interpolate/scattered_options.hpp>
@@ -10,7 +10,7 @@
 
 namespace cli {
 
-/// A `gonio::scattered_brdf` whose type nobody here knows.
+/// A `gonio::scattered_brdf` behind a type-erased function.
 struct interpolated_samples {
   std::function<gonio::rgb(const gonio::direction& wi, const gonio::direction& wo)> value;
 

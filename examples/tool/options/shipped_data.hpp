@@ -1,11 +1,11 @@
 #pragma once
-/// What is shipped with the tool: the learned prior, sets of directions, and files of apparatus. They are installed beside
-/// the tool, are in the source tree that it was built from, or are in the program itself (GONIO_EMBED_DATA). Whoever names
-/// a prior or directions may write `shipped:` and a file's path in examples/data.
+/// Files shipped with gonio: the learned prior, sets of directions, descriptions of apparatus. They are installed
+/// beside the tool, are in the source tree that it was built from, or are in the program itself (GONIO_EMBED_DATA).
+/// Whoever names a prior or directions may write `shipped:` and a file's path in examples/data.
 
 #include "command.hpp"
 #include <gonio/basis/pca.hpp>
-#include <gonio/core/half_difference.hpp>
+#include <gonio/core/direction.hpp>
 #include <gonio/design/apparatus.hpp>
 #include <gonio/io/measurements/samples.hpp>
 
@@ -36,7 +36,7 @@ namespace cli {
 /// Adds `--prior FILE` with the shipped prior as the default.
 void add_prior_option(command& to, std::filesystem::path& prior);
 
-/// What --apparatus takes.
+/// Returns the names for --apparatus.
 [[nodiscard]] const std::vector<std::string_view>& shipped_apparatus_names();
 [[nodiscard]] gonio::design::apparatus shipped_apparatus(const std::string& name);
 

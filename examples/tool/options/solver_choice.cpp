@@ -13,7 +13,7 @@ namespace cli {
 
 namespace {
 
-/// A penalty that is a share of the one at which all weights vanish, which every channel has its own of.
+/// Lasso whose penalty is a fraction of the channel's own penalty at which all weights vanish.
 struct relative_lasso {
   double share = 0.0;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The command line's choice of a solver: `--solver` and the options that each takes.
+/// The command line's choice of a solver: `--solver` and each solver's options.
 
 #include "command.hpp"
 #include <gonio/solve/any_solver.hpp>
@@ -18,10 +18,10 @@ struct solver_choice {
 /// Adds `--solver`, `--eta`, `--lambda` and `--variance`.
 void add_solver_options(command& to, solver_choice& choice);
 
-/// `--eta` as a number. Throws gonio::error unless it is one.
+/// Returns `--eta` as a number. Throws gonio::error unless it is a number.
 [[nodiscard]] double number_of_eta(const std::string& text);
 
-/// The solver chosen, where `own` has what is not said. Throws gonio::error if an option's value is impossible.
+/// Returns the chosen solver; `own` has the defaults. Throws gonio::error if an option's value is impossible.
 [[nodiscard]] gonio::any_solver make_solver(solver_choice choice, const solver_choice& own);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 #pragma once
-/// Fewer cells than a grid has, as options ask for them.
+/// Options that reduce the cells of a grid.
 
 #include "command.hpp"
 #include <gonio/table/valid_cells.hpp>
@@ -8,12 +8,11 @@
 
 namespace cli {
 
-/// Which cells of a grid are kept: every n-th theta_d and every m-th phi_d.
+/// The cells to keep: every n-th theta_d and every m-th phi_d.
 struct thinning {
   std::pair<int, int> steps{1, 1};  ///< n and m
 
-  /// Throws gonio::error if the numbers do not divide those of the grid. An odd step of cell centres is a grid of cell
-  /// centres again.
+  /// Throws gonio::error if the numbers do not divide those of the grid. Odd steps keep cell centres.
   [[nodiscard]] gonio::valid_cells of(const gonio::valid_cells& cells) const;
 };
 

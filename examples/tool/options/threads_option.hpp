@@ -1,5 +1,5 @@
 #pragma once
-/// How many threads work.
+/// The number of threads.
 
 #include "command.hpp"
 #include <gonio/core/parallel.hpp>

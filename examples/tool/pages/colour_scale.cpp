@@ -8,7 +8,7 @@ namespace cli {
 
 namespace {
 
-/// Pixels of a point of the font.
+/// Returns the pixels per point of the font.
 std::size_t unit_of(std::size_t columns) noexcept { return std::max<std::size_t>(columns / 200, 1); }
 
 }  // namespace

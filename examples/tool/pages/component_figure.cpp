@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t margin = 6;
 const gonio::rgb paper = gonio::rgb::Constant(0.35);
 
-/// An image whose pixels are `colour(i)`, row by row from the top.
+/// Returns an image with pixels `colour(i)`, row by row from the top.
 template <class Colour>
 gonio::image square_image(int size, const Colour& colour) {
   const std::size_t side = size;

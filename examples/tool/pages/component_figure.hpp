@@ -1,6 +1,6 @@
 #pragma once
 /// Principal components as images: slices as in Nielsen et al. 2015, Fig. 3 and 4, and Nielsen's thesis, Fig. 4.6, and
-/// spheres of what a component changes.
+/// spheres that show the effect of a component.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/component_variance.hpp>
@@ -18,20 +18,20 @@ namespace cli {
 /// A figure of components side by side.
 struct component_figure {
   gonio::image image;
-  std::vector<double> limits;  ///< what pure red stands for in each slice, in the metric's domain
+  std::vector<double> limits;  ///< value of pure red in each slice, in the metric's domain
 };
 
 namespace detail {
 
-/// Values at the pixels of slices, row by row from the top: a column for each component, and one in front.
+/// Colours the values at the pixels of slices, row by row from the top: a column for the BRDF, then one per component.
 [[nodiscard]] component_figure colour_slices(const Eigen::MatrixXd& values, int size);
 
 }  // namespace detail
 
-/// Slices at phi_d = 90 degrees, theta_h to the right as sqrt(theta_h), theta_d upwards: the BRDF that the metric is
-/// relative to, or else the mean, times pi; then what one standard deviation of each of the first components adds in
-/// the metric's domain, white where it is nothing, red where it is positive and blue where it is negative, each in a
-/// scale of its own from minus to plus its largest value in the slice.
+/// Draws slices at phi_d = 90 degrees, theta_h to the right as sqrt(theta_h), theta_d upwards. The first is the BRDF to
+/// which the metric is relative, or else the mean, times pi. The others show one standard deviation of each of the
+/// first components in the metric's domain: white is zero, red positive, blue negative, each scaled by its largest
+/// absolute value in the slice.
 template <gonio::error_metric Metric>
 [[nodiscard]] component_figure draw_component_slices(const gonio::pca<Metric>& prior, Eigen::Index count, int size,
                                                      gonio::thread_count threads) {
@@ -55,9 +55,9 @@ template <gonio::error_metric Metric>
   return detail::colour_slices(values, size);
 }
 
-/// Spheres under the two lights: a column for each of the first components, with weights of -2, -1, 0, 1 and 2 standard
-/// deviations from the top to the bottom, all other weights being zero. All are exposed alike, such that the sphere of
-/// the mean is white at its 99th percentile.
+/// Draws spheres under the two lights: a column for each of the first components, with weights of -2, -1, 0, 1 and 2
+/// standard deviations from top to bottom, all other weights zero. All have the exposure for which the sphere of the
+/// mean is white at its 99th percentile.
 [[nodiscard]] gonio::image draw_component_spheres(const gonio::log_relative_pca& prior, Eigen::Index count, int size,
                                                   gonio::thread_count threads);
 

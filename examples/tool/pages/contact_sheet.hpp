@@ -1,5 +1,5 @@
 #pragma once
-/// Images of one size in rows, with a label under each and a caption under all.
+/// Images of one size in rows, with a label under each and a caption at the bottom.
 
 #include <gonio/render/image.hpp>
 
@@ -10,13 +10,13 @@
 
 namespace cli {
 
-/// What is written on a contact sheet, grey on black.
+/// The text on a contact sheet, grey on black.
 struct sheet_text {
   std::vector<std::string> labels;  ///< one for each image, or none
-  std::string caption;              ///< broken into lines where a line is full
+  std::string caption;              ///< broken into lines
 };
 
-/// The images row by row, `columns` in each row. A label that is wider than its image ends in "...".
+/// Draws the images row by row, `columns` per row. A label wider than its image is shortened and ends in "...".
 [[nodiscard]] gonio::image contact_sheet(std::span<const gonio::image> images, std::size_t columns,
                                          const sheet_text& text = {});
 

@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t margin = 6;
 const gonio::rgb background = gonio::rgb::Constant(0.35);
 
-/// Each pixel as a square of 2 x 2.
+/// Returns each pixel as a square of 2 x 2.
 gonio::image doubled(const gonio::image& image) {
   gonio::image large({2 * image.shape(0), 2 * image.shape(1), std::size_t{3}});
   for (std::size_t row = 0; row < large.shape(0); ++row)
@@ -18,13 +18,13 @@ gonio::image doubled(const gonio::image& image) {
   return large;
 }
 
-/// How far a sample is from the slice at phi_d = 90 degrees, in radians.
+/// Returns the distance of a sample from the slice at phi_d = 90 degrees, in radians.
 double distance_to_slice(const gonio::sample& s) {
   const double turns = s.angles().phi_d / std::numbers::pi;
   return std::abs(turns - std::floor(turns) - 0.5) * std::numbers::pi;
 }
 
-/// The samples that a slice shows, the nearest last.
+/// Returns the samples that a slice shows, the nearest last.
 std::vector<Eigen::Index> samples_near_slice(const gonio::sample_set& samples) {
   constexpr std::size_t enough = 400;
   std::vector<Eigen::Index> order(samples.size());

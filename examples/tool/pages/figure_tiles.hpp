@@ -1,6 +1,6 @@
 #pragma once
-/// The tiles that figures after Noell, Koehler and Stricker 2014 are made of: slices at phi_d = 90 degrees, spheres,
-/// and images of their differences.
+/// The tiles of figures like those of Noell, Koehler and Stricker 2014: slices at phi_d = 90 degrees, spheres, and
+/// images of their differences.
 
 #include <gonio/evaluate/sphere_delta_e.hpp>
 #include <gonio/render/image.hpp>
@@ -15,7 +15,7 @@
 
 namespace cli {
 
-/// Cells of a slice along each side, and points across a sphere; a tile has twice as many pixels.
+/// Cells along each side of a slice, and points across a sphere; a tile has twice as many pixels.
 inline constexpr int cells_across_tile = 72;
 inline constexpr int tile_size = 2 * cells_across_tile;
 
@@ -24,30 +24,31 @@ template <gonio::brdf Brdf>
   return gonio::render::render_slice(f, {.rows = tile_size, .columns = tile_size}, threads);
 }
 
-/// A factor's colour: blue for a half or less, green for 1, red for 2 or more; the mean of the channels' logarithms.
+/// Returns a factor's colour, from the mean of the channels' logarithms: blue for a half or less, green for 1, red for
+/// 2 or more.
 [[nodiscard]] gonio::rgb factor_colour(const gonio::rgb& sigma);
 
-/// A slice of factors in false colour. `sigma(wi, wo)` is a factor for each channel.
+/// Draws a slice of factors in false colour. `sigma(wi, wo)` is a factor for each channel.
 template <class Sigma>
 [[nodiscard]] gonio::image factor_tile(const Sigma& sigma, gonio::thread_count threads) {
   const auto colour = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
-    return factor_colour(sigma(wi, wo)) / std::numbers::pi;  // which the slice multiplies by
+    return factor_colour(sigma(wi, wo)) / std::numbers::pi;  // the slice multiplies by pi
   };
   return slice_tile(colour, threads);
 }
 
-/// A slice of what is known at samples: a square of 2 x 2 pixels for each, and of 4 x 4 where they are few. Shown are
-/// those within half a degree or, if these are fewer than 400, the 400 nearest. `colour(i)` is that of sample i.
+/// Draws a slice of values at samples: a square of 2 x 2 pixels for each, or of 4 x 4 if they are few. Shows the
+/// samples within half a degree or, if these are fewer than 400, the 400 nearest. `colour(i)` is that of sample i.
 [[nodiscard]] gonio::image samples_tile(const gonio::sample_set& samples, const gonio::rgb& nothing,
                                         const std::function<gonio::rgb(Eigen::Index)>& colour);
 
-/// The samples' own colours, red where there are none.
+/// Draws the samples' own colours, red where there are none.
 [[nodiscard]] gonio::image measurements_tile(const gonio::sample_set& samples);
 
-/// Tiles in columns; a column may end before the others.
+/// Arranges tiles in columns, which may have different lengths.
 [[nodiscard]] gonio::image tiles_in_columns(const std::vector<std::vector<gonio::image>>& columns);
 
-/// Spheres under one lighting, all at the exposure of one of them.
+/// Spheres under one lighting, all with the exposure of the reference.
 class sphere_tiles {
  public:
   sphere_tiles(gonio::sphere_delta_e delta_e, const gonio::brdf_table& reference, gonio::thread_count threads)
@@ -59,7 +60,7 @@ class sphere_tiles {
     gonio::image image;
     double mean = 0.0;
   };
-  /// The CIELAB differences of a table's sphere to that of the reference.
+  /// Returns the CIELAB difference between the spheres of a table and of the reference.
   [[nodiscard]] verdict difference(const gonio::brdf_table& table) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers as people read them.
+/// Numbers formatted for people.
 
 #include <cstddef>
 #include <string>
@@ -8,11 +8,11 @@ namespace cli {
 
 class json;
 
-/// A number in a table for people.
+/// Returns a number with a fixed number of digits after the point.
 [[nodiscard]] std::string fixed(double value, int digits);
 [[nodiscard]] std::string fixed(const json& value, int digits);
 
-/// A reflectance in sr^-1 for people, in three or four digits: more are not known.
+/// Returns a reflectance in sr^-1 in three or four digits, the precision of measurements.
 [[nodiscard]] std::string reflectance(double value);
 
 /// "1 sample", "20 samples".

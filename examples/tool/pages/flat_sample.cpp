@@ -16,7 +16,7 @@
 
 namespace cli {
 
-/// All texels are lit and seen in the same directions: of each, a product with the functions there.
+/// All texels are lit and seen in the same directions: each is a product of its weights with one row of the functions.
 class flat_sample::lit_from_afar {
  public:
   lit_from_afar(const gonio::log_relative_pca& prior, const Eigen::MatrixXf& functions,
@@ -27,7 +27,7 @@ class flat_sample::lit_from_afar {
         offset_(gonio::offset_at(prior, at_)),
         irradiance_(light.irradiance * light.towards.z()) {}
 
-  /// Radiance times pi, of weights as the map has them.
+  /// Returns radiance times pi for the map's weights of a texel.
   [[nodiscard]] gonio::rgb operator()(const std::uint16_t* weights) const {
     gonio::rgb value;
     for (Eigen::Index c = 0; c < 3; ++c) {

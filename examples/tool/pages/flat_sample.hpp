@@ -1,5 +1,5 @@
 #pragma once
-/// Images of a flat sample whose BRDF a map has: seen from straight ahead, under distant lights.
+/// Images of a flat sample with a map's BRDF, seen along the normal, under distant lights.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/directional_light.hpp>
@@ -14,11 +14,11 @@
 
 namespace cli {
 
-/// A map under some lights, which are in the camera's axes, x to the right, y up, z towards it. Reads the map band by
-/// band; map and prior must outlive it.
+/// A map under some lights, which are given in the camera's axes: x to the right, y up, z towards the camera. Reads the
+/// map band by band; map and prior must outlive it.
 class flat_sample {
  public:
-  /// Throws gonio::error if the map is of another prior.
+  /// Throws gonio::error if the map was made with another prior.
   flat_sample(const gonio::io::svbrdf_map& map, const gonio::log_relative_pca& prior,
               std::span<const gonio::directional_light> lights);
   flat_sample(const flat_sample&) = delete;
@@ -27,22 +27,22 @@ class flat_sample {
 
   [[nodiscard]] const gonio::io::svbrdf_header& header() const noexcept { return map_.header(); }
 
-  /// Radiance times pi in a pixel for each texel. Throws gonio::error if the map is damaged.
+  /// Returns radiance times pi, one pixel per texel. Throws gonio::error if the map is damaged.
   [[nodiscard]] gonio::image radiance(gonio::thread_count threads) const;
-  /// The same of a range of rows, three numbers a texel.
+  /// The same for a range of rows, three numbers per texel.
   [[nodiscard]] std::vector<float> radiance(gonio::block rows, gonio::thread_count threads) const;
 
  private:
   class lit_from_afar;
-  /// Of a range of texels of a band.
+  /// Draws a range of texels of a band.
   void draw(const gonio::io::svbrdf_band& band, gonio::block texels, float* out, gonio::thread_count threads) const;
 
   const gonio::io::svbrdf_map& map_;
   std::vector<lit_from_afar> lit_;
 };
 
-/// The image of a map with an exposure, which is what a white Lambertian surface that faces a light of irradiance 1
-/// has; by default `render::exposure_of` it. Throws gonio::error as `flat_sample` does.
+/// Returns the exposed image of a map. Exposure 1 makes a white Lambertian surface that faces a light of irradiance 1
+/// white; by default `render::exposure_of` the image is used. Throws gonio::error as `flat_sample` does.
 [[nodiscard]] gonio::image flat_sample_image(const std::filesystem::path& map, const std::filesystem::path& prior,
                                              std::span<const gonio::directional_light> lights,
                                              std::optional<double> exposure, gonio::thread_count threads);

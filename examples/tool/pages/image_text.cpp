@@ -20,7 +20,7 @@ namespace cli {
 
 namespace {
 
-/// As stb_easy_font.h lays vertices out.
+/// The vertex layout of stb_easy_font.h.
 struct font_vertex {
   float x, y, z;
   std::array<unsigned char, 4> colour;
@@ -37,7 +37,7 @@ void draw_text(gonio::image& canvas, std::size_t row, std::size_t column, std::s
                const gonio::rgb& colour) {
   for (char& c : text)
     if (c < ' ' || c > '~') c = '?';
-  std::vector<font_vertex> vertices(4 * 32 * (text.size() + 1));  // about 270 bytes a letter, its author says
+  std::vector<font_vertex> vertices(4 * 32 * (text.size() + 1));  // about 270 bytes per letter, according to its author
   const int quads = stb_easy_font_print(0.0f, 0.0f, text.data(), nullptr, vertices.data(),
                                         static_cast<int>(vertices.size() * sizeof(font_vertex)));
   const auto pixels = [&](float points) { return scale * static_cast<std::size_t>(std::lround(points)); };

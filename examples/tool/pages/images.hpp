@@ -1,5 +1,5 @@
 #pragma once
-/// The images that the tool makes of tables, and their options.
+/// The images that the tool draws of tables, and their options.
 
 #include "tool/options/command.hpp"
 #include <gonio/io/images/image.hpp>
@@ -16,10 +16,10 @@ namespace cli {
 
 struct image_options {
   int size = 256;
-  std::optional<double> exposure;  ///< the mean luminance of a white Lambertian sphere; none: by the spheres
+  std::optional<double> exposure;  ///< the mean luminance of a white Lambertian sphere; none: from the spheres
 };
 
-/// Adds `--size` and `--exposure`. Returns both, for what they need or exclude.
+/// Adds `--size` and `--exposure`. Returns both, to add dependencies.
 inline std::pair<option, option> add_image_options_to(command& to, image_options& options,
                                                       const char* default_exposure) {
   auto size = to.add_option("--size", options.size, "Rows and columns of each image")
@@ -42,8 +42,8 @@ inline void add_image_options(command& to, image_options& options, option image)
   exposure.needs(image);
 }
 
-/// A sphere, by default under the two lights of Nielsen et al. 2015, Figure 2, in which a white Lambertian sphere has
-/// the mean luminance 1.
+/// Returns an image of a sphere, by default under the two lights of Nielsen et al. 2015, Figure 2, where a white
+/// Lambertian sphere has the mean luminance 1.
 [[nodiscard]] inline gonio::image sphere_image(
     const gonio::brdf_table& table, const image_options& options, gonio::thread_count threads,
     const gonio::render::directional_lighting& lights = gonio::render::two_lights()) {
@@ -51,7 +51,8 @@ inline void add_image_options(command& to, image_options& options, option image)
                                       {.size = options.size, .supersampling = 3}, threads);
 }
 
-/// Exposes spheres alike: as the options say, or such that the brightest of some is white at its 99th percentile.
+/// Gives spheres the same exposure: the given one, or one for which the brightest of `by` is white at its 99th
+/// percentile.
 inline void expose_spheres(std::span<gonio::image> spheres, std::span<const gonio::image> by,
                            const image_options& options) {
   const double exposure = options.exposure ? *options.exposure : gonio::render::exposure_of_spheres(by);
@@ -62,7 +63,7 @@ inline void expose_spheres(std::span<gonio::image> spheres, const image_options&
   expose_spheres(spheres, spheres, options);
 }
 
-/// A slice at phi_d = 90 degrees: theta_h to the right, theta_d upwards.
+/// Returns a slice at phi_d = 90 degrees: theta_h to the right, theta_d upwards.
 [[nodiscard]] inline gonio::image slice_image(const gonio::brdf_table& table, const image_options& options,
                                               gonio::thread_count threads) {
   return gonio::render::render_slice(table, {.rows = options.size, .columns = options.size}, threads);

@@ -11,7 +11,7 @@ iteration_figure::iteration_figure(gonio::correction corrections, gonio::sample_
   if (truth_) truth_ = gonio::resample(*truth_, gonio::valid_cells(), threads_);
 }
 
-/// Keeps the start, rounds 1 and 2, and the last two.
+/// Keeps the start, rounds 1 and 2, and the last two rounds.
 void iteration_figure::keep(moment now) {
   moments_.push_back(std::move(now));
   if (moments_.size() > 5) moments_.erase(moments_.begin() + 3);
@@ -19,7 +19,7 @@ void iteration_figure::keep(moment now) {
 
 gonio::image iteration_figure::draw_input() const { return measurements_tile(samples_); }
 
-/// From the table and not from the run, which may look at some of the samples only.
+/// Uses the table rather than the run, which may use only some of the samples.
 gonio::image iteration_figure::draw_factors(const moment& before) const {
   return samples_tile(samples_, gonio::rgb::Zero(), [&](Eigen::Index i) {
     const gonio::location at = gonio::locate(before.estimate.cells(), samples_[i].angles());
@@ -49,14 +49,14 @@ iteration_image iteration_figure::draw() const {
   iteration_image result;
   std::vector<std::vector<gonio::image>> columns;
 
-  // What is given.
+  // The given data.
   if (truth_)
     columns.push_back({slice_tile(*truth_, threads_), spheres.sphere(*truth_), draw_input()});
   else
     columns.push_back({draw_input()});
 
   for (std::size_t i = 0; i < moments_.size(); ++i) {
-    if (i > 2 && i + 1 < moments_.size()) continue;  // kept for the last, which it comes before
+    if (i > 2 && i + 1 < moments_.size()) continue;  // kept only as the predecessor of the last
     const moment& now = moments_[i];
     if (i > 0) {
       const moment& before = moments_[i - 1];

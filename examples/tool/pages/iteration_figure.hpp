@@ -13,18 +13,18 @@ namespace cli {
 
 struct iteration_image {
   gonio::image image;
-  /// For each round that is drawn, the mean CIELAB difference of its sphere to the truth's; empty without a truth.
+  /// Mean CIELAB difference between the spheres of each drawn round and of the truth; empty without a truth.
   std::vector<std::pair<Eigen::Index, double>> differences;
 };
 
-/// Watches an iteration, and draws the start, rounds 1 and 2, and the last. docs/reference/formats.md describes the
+/// Observes an iteration, and draws the start, rounds 1 and 2, and the last. docs/reference/formats.md describes the
 /// image.
 class iteration_figure {
  public:
   iteration_figure(gonio::correction corrections, gonio::sample_set samples, std::optional<gonio::brdf_table> truth,
                    gonio::thread_count threads);
 
-  /// To be called before the first round and after each, with a run that has `result()` and `estimated()`.
+  /// Call it before the first round and after each, with a run that has `result()` and `estimated()`.
   template <class Run>
   void look(const Run& run) {
     const auto result = run.result();
@@ -38,7 +38,7 @@ class iteration_figure {
   struct moment {
     std::size_t round = 0;
     gonio::brdf_table estimate;
-    Eigen::MatrixXd weights;  ///< of the round's correction functions; none before the first
+    Eigen::MatrixXd weights;  ///< of the round's correction functions; empty before the first
   };
 
   void keep(moment now);

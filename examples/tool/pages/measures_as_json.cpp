@@ -1,6 +1,9 @@
 #include "measures_as_json.hpp"
 
 #include <gonio/evaluate/comparison.hpp>
+#include <gonio/model/instrument_readings.hpp>
+
+#include <string>
 
 namespace cli {
 
@@ -16,6 +19,23 @@ json to_json(const gonio::comparison& errors) {
            {{"mapped_rms", per_channel(errors.mapped_rms)},
             {"cosine_rms", per_channel(errors.cosine_rms)},
             {"peak_ratio", per_channel(errors.peak_ratio)}}}};
+}
+
+json to_json(const gonio::model::instrument_readings& readings) {
+  json gloss, colours = json::array();
+  for (std::size_t i = 0; i < readings.gloss.size(); ++i)
+    gloss[std::to_string(gonio::model::gloss_angles[i])] = readings.gloss[i];
+  for (const auto& [aspecular, lab] : readings.colours)
+    colours.push_back({{"aspecular", aspecular}, {"L", lab.x()}, {"a", lab.y()}, {"b", lab.z()}});
+  return {{"gloss", gloss},
+          {"haze_20", readings.haze},
+          {"haze_index", readings.haze_index()},
+          {"reflectance_8", per_channel(readings.total)},
+          {"reflectance_8_specular_excluded", per_channel(readings.diffuse)},
+          {"luminous_reflectance_8", gonio::luminance(readings.total)},
+          {"luminous_reflectance_8_specular_excluded", gonio::luminance(readings.diffuse)},
+          {"total_integrated_scatter", readings.scatter},
+          {"colours", colours}};
 }
 
 }  // namespace cli

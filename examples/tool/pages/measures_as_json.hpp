@@ -1,19 +1,25 @@
 #pragma once
-/// What the library measures, with the keys that are documented.
+/// The library's measures, under their documented keys.
 
 #include "tool/files/json.hpp"
 #include <gonio/core/rgb.hpp>
 
 namespace gonio {
 struct comparison;
+namespace model {
+struct instrument_readings;
 }
+}  // namespace gonio
 
 namespace cli {
 
-/// Three numbers as an array.
+/// Returns three numbers as an array.
 [[nodiscard]] json per_channel(const gonio::rgb& values);
 
-/// The keys that `gonio compare --json` documents.
+/// Returns the keys that `gonio compare --json` documents.
 [[nodiscard]] json to_json(const gonio::comparison& errors);
+
+/// The readings of gloss meters, integrating spheres and multi-angle instruments, with their geometries in the keys.
+[[nodiscard]] json to_json(const gonio::model::instrument_readings& readings);
 
 }  // namespace cli

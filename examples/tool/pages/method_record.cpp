@@ -9,11 +9,11 @@ namespace cli {
 
 namespace {
 
-/// Of the 20 measured materials of docs/results/real-methods.md, by errors (Delta E env) from clean samples.
+/// From the 20 measured materials of docs/results/real-methods.md: errors (Delta E env) from clean samples.
 struct record {
   std::string_view method;
   Eigen::Index samples;
-  double over_pca;  ///< median of the errors over those of pca
+  double over_pca;  ///< median of the ratio of errors to those of pca
   int beyond_twice_pca, beyond_median_material;
 };
 
@@ -54,7 +54,7 @@ constexpr std::array records{record{"pca", 1, 1.0, 0, 3},
 }  // namespace
 
 std::string warning_of(const std::string& method, Eigen::Index samples) {
-  const record* nearest = nullptr;  // records of a method stand in increasing order
+  const record* nearest = nullptr;  // a method's records are in increasing order
   for (const record& each : records)
     if (each.method == method && each.samples <= samples) nearest = &each;
   if (nearest == nullptr || (nearest->beyond_twice_pca == 0 && nearest->beyond_median_material == 0)) return "";

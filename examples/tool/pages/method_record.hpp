@@ -1,5 +1,5 @@
 #pragma once
-/// How the methods of `gonio reconstruct` compare on measured materials, as warnings: docs/results/real-methods.md.
+/// Comparison of the methods of `gonio reconstruct` on measured materials, as warnings: docs/results/real-methods.md.
 
 #include <Eigen/Core>
 
@@ -7,13 +7,13 @@
 
 namespace cli {
 
-/// From so many samples correction comes nearer than pca where many samples are wrong: `gonio reconstruct` corrects
-/// fewer only if it is asked for something that no other method has.
+/// From this number of samples, correction is nearer than pca if many samples are wrong. For fewer, `gonio reconstruct`
+/// uses it only if one of its own options is given.
 constexpr Eigen::Index fewest_corrected_samples = 2000;
 
-/// A sentence for people if a method has been more than twice as far off as pca, or further off than the median
-/// material, on any of the measured materials, from the nearest number of samples that was tried and is not above this
-/// one; empty if it has not.
+/// Returns a sentence for people if, on any of the measured materials, the method was more than twice as far off as
+/// pca, or further off than the median material, at the largest tried number of samples that is not above `samples`;
+/// empty otherwise.
 [[nodiscard]] std::string warning_of(const std::string& method, Eigen::Index samples);
 
 }  // namespace cli

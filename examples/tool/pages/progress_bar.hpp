@@ -12,7 +12,7 @@
 
 namespace cli {
 
-/// Draws on standard error if that is a terminal and the work has taken over a second; wipes itself at the end.
+/// Draws on standard error if it is a terminal and the work has taken over a second; wipes itself at the end.
 class progress_bar {
  public:
   progress_bar() = default;
@@ -38,7 +38,7 @@ class progress_bar {
     std::fprintf(stderr, "\r\033[K%s %3.0f %% %s", bar.c_str(), 100.0 * fraction, gonio::printable(stage).c_str());
   }
 
-  /// What the library calls; the bar must outlive it.
+  /// Returns the library's callback; the bar must outlive it.
   [[nodiscard]] gonio::progress listener() {
     return [this](std::string_view stage, double fraction) { draw(stage, fraction); };
   }

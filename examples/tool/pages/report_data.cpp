@@ -30,7 +30,7 @@ namespace {
 
 using gonio::radians;
 
-/// Five digits: more are not known, and would only make the page longer.
+/// Rounds to five digits: more are not known, and would lengthen the page.
 double five_digits(double value) {
   if (value == 0.0 || !std::isfinite(value)) return value;
   const double unit = std::pow(10.0, 4.0 - std::floor(std::log10(std::abs(value))));
@@ -41,24 +41,24 @@ json five_digits(const gonio::rgb& value) {
   return {five_digits(value.x()), five_digits(value.y()), five_digits(value.z())};
 }
 
-/// A fit in any directions and, where that is known, how well it is known.
+/// A fit in any direction and, if known, its uncertainty.
 struct known_fit {
   using function = std::function<gonio::rgb(const gonio::direction& wi, const gonio::direction& wo)>;
-  function value, relative;  ///< the latter may be none
+  function value, relative;  ///< relative uncertainty; may be empty
 
   explicit known_fit(function model) : value(std::move(model)) {}
   explicit known_fit(const reconstruction& found)
       : value(gonio::render::horizon_lookup(found.table)),
         relative(gonio::render::horizon_lookup(*found.uncertainty)) {}
 
-  /// Adds both to what is told of a pair.
+  /// Adds both to the description of a pair.
   void describe(const gonio::direction& wi, const gonio::direction& wo, json& told) const {
     told["fit"] = five_digits(gonio::rgb(value(wi, wo).max(0.0)));
     if (relative) told["known_to"] = five_digits(relative(wi, wo).y());
   }
 };
 
-/// What the viewer shows, and how bright: as `gonio render` exposes a sphere under its first light.
+/// Returns the viewer's tables and the exposure with which `gonio render` draws a sphere under its first light.
 json viewer_of(const reported_fit& fit) {
   const reconstruction& found = fit.found;
   const gonio::render::directional_lighting light({{gonio::direction(1.0, 1.0, 1.0)}});
@@ -77,8 +77,8 @@ std::string sphere_url(const gonio::brdf_table& table, gonio::thread_count threa
   return gonio::io::data_url("image/png", gonio::io::write_png(spheres.front(), "the sphere"));
 }
 
-/// The angle of the viewer in the light's plane, radians: positive on the far side from the light. NaN if it is more
-/// than a degree off the plane.
+/// Returns the angle of the viewer in the light's plane, radians: positive on the far side from the light; NaN if the
+/// viewer is more than a degree off the plane.
 double in_plane_angle(const gonio::direction_pair& pair) {
   const double azimuth = std::hypot(pair.wi.x(), pair.wi.y()) > 1e-4 ? std::atan2(pair.wi.y(), pair.wi.x()) : 0.0;
   const gonio::direction wo = gonio::turned_about_normal(pair.wo, -azimuth);
@@ -86,7 +86,7 @@ double in_plane_angle(const gonio::direction_pair& pair) {
   return std::atan2(-wo.x(), wo.z());
 }
 
-/// Which samples of the file are shown: if they are many, some at random and the worst of those that were left out.
+/// Returns the samples of the file to show: if there are many, a random choice and the worst rejected ones.
 std::vector<Eigen::Index> shown_samples(const reported_fit& fit) {
   const std::vector<Eigen::Index> numbers = gonio::counting_positions(fit.measured.samples);
   if (std::ssize(numbers) <= most_residuals) return numbers;
@@ -97,14 +97,14 @@ std::vector<Eigen::Index> shown_samples(const reported_fit& fit) {
   return {some.begin(), some.end()};
 }
 
-/// The numbers of those that the others contradict, from 1.
+/// Returns the numbers, from 1, of samples that contradict the others.
 std::set<Eigen::Index> disagreeing(const reconstruction& found) {
   std::set<Eigen::Index> numbers;
   for (const Eigen::Index i : found.rejected) numbers.insert(i + 1);
   return numbers;
 }
 
-/// A sample with its number in the file, and what the fit is there.
+/// Returns a sample with its number in the file, and the fit in its directions.
 json told_sample(Eigen::Index number, const gonio::sample& sample, const known_fit& known) {
   const auto& [wi, wo] = sample.directions.pair();
   json told{{"sample", number}};
@@ -133,7 +133,7 @@ json samples_of(const reported_fit& fit, const known_fit& known) {
   return all;
 }
 
-/// Samples in the plane of lights that are less than half a degree apart.
+/// In-plane samples whose lights are less than half a degree apart.
 struct in_plane_scan {
   double lowest = 0.0, sum = 0.0;  ///< of theta_i, degrees
   std::vector<json> samples;       ///< their numbers
@@ -141,7 +141,8 @@ struct in_plane_scan {
   [[nodiscard]] double theta_i() const { return sum / static_cast<double>(samples.size()); }
 };
 
-/// The scans of three samples or more, at most six, those of most samples; by the angle of the light.
+/// Returns the scans with three samples or more, at most six, preferring those with most samples; ordered by the angle
+/// of the light.
 std::vector<in_plane_scan> find_scans(const json& samples) {
   std::vector<std::pair<double, json>> in_plane;
   for (const json& each : samples.elements())
@@ -165,7 +166,7 @@ std::vector<in_plane_scan> find_scans(const json& samples) {
   return all;
 }
 
-/// The fit in the plane of a light, in degrees from the normal, at -87 to 87 degrees of the viewer.
+/// Returns the fit in the plane of a light, at -87 to 87 degrees of the viewer from the normal.
 json curve_of(double theta_i, const known_fit& known) {
   const gonio::direction wi = gonio::spherical_direction(radians(theta_i), 0.0);
   json curve = json::array();
@@ -177,7 +178,7 @@ json curve_of(double theta_i, const known_fit& known) {
   return curve;
 }
 
-/// The fit in the planes of the lights that were scanned, or of three others if none was.
+/// Returns the fit in the planes of the scanned lights, or of three others if there are none.
 json scans_of(const json& samples, const known_fit& known) {
   json all = json::array();
   for (const in_plane_scan& scan : find_scans(samples))
@@ -190,8 +191,8 @@ json scans_of(const json& samples, const known_fit& known) {
   return all;
 }
 
-/// The median over phi_d of how well directions are known: columns of theta_h, denser near highlights, and rows of
-/// theta_d. Those that are below the horizon are left out.
+/// Returns the median over phi_d of the uncertainty of directions: columns of theta_h, denser near highlights, and rows
+/// of theta_d. Directions below the horizon are left out.
 json map_of(const known_fit& known) {
   constexpr int columns = 18, rows = 12, azimuths = 12;
   const auto edge = [](int column) { return 90.0 * column * column / (columns * columns); };
@@ -213,7 +214,7 @@ json map_of(const known_fit& known) {
   return all;
 }
 
-/// Albedo by angle; `known_to` is what it would be off by if all directions were off together.
+/// Returns albedo by angle; `known_to` is its error if all directions were off together.
 json albedo_of(const known_fit& known) {
   constexpr int bins = 120;
   const auto value = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
@@ -237,7 +238,7 @@ json albedo_of(const known_fit& known) {
   return all;
 }
 
-/// Numbers of the samples that were left out, or count less than half, the worst first: a dozen.
+/// Returns the numbers of samples that are rejected or weighted less than half, the worst first, at most a dozen.
 json worst_of(const reconstruction& found) {
   json numbers = json::array();
   for (const Eigen::Index i : found.rejected)
@@ -251,7 +252,7 @@ json warnings_of(const reported_fit& fit) {
   return all;
 }
 
-/// What was done, beside the command.
+/// Returns the record of the fit, in addition to the command.
 json record_of_fit(const reported_fit& fit) {
   const auto& [options, measured, found, truth] = fit;
   const gonio::log_relative_pca prior = prior_of(options.materials);

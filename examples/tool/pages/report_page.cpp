@@ -12,7 +12,7 @@ namespace cli {
 
 namespace {
 
-/// Every `from` of a text becomes `to`.
+/// Replaces every `from` in a text by `to`.
 std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
   std::string result;
   std::size_t position = 0;
@@ -25,7 +25,7 @@ std::string replaced(std::string_view text, std::string_view from, std::string_v
   }
 }
 
-/// A command line as a shell takes it.
+/// Returns a command line quoted for a shell.
 std::string as_typed(const std::vector<std::string>& words) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=,:+@%";
   std::string line = "gonio";
@@ -79,7 +79,7 @@ std::string escape_html(std::string_view text) {
 std::string escape_script(std::string_view json_text) { return replaced(json_text, "<", "\\u003c"); }
 
 std::string report_page(const std::string& title, const json& data) {
-  // What is put in is not searched for further marks.
+  // Inserted text is not searched for further marks.
   const std::pair<std::string_view, std::string> parts[] = {{"@TITLE@", escape_html(title)},
                                                             {"@STYLE@", joined(report_style())},
                                                             {"@DATA@", escape_script(data.dump())},

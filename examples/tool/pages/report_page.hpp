@@ -1,6 +1,6 @@
 #pragma once
-/// The pages of `gonio report` and of `--report` of other commands: one file, which a browser shows without asking any
-/// network. Its parts stand in examples/report/ and are compiled in.
+/// The pages of `gonio report` and of `--report` of other commands: one file, which a browser shows without network
+/// access. Its parts are in examples/report/ and are compiled in.
 
 #include "tool/files/json.hpp"
 #include "tool/options/command.hpp"
@@ -16,17 +16,17 @@
 
 namespace cli {
 
-/// Text between the tags of HTML, or in a quoted attribute.
+/// Escapes text for the content of HTML tags, or for a quoted attribute.
 [[nodiscard]] std::string escape_html(std::string_view text);
 
-/// JSON in a script of HTML: `</` becomes `<\/` and `<!` becomes `\u003c!`, so that no text in it ends the script.
-/// What is read of it is the same.
+/// Escapes JSON for a script in HTML: `</` becomes `<\/` and `<!` becomes `\u003c!`, so that no text ends the script.
+/// The parsed JSON is the same.
 [[nodiscard]] std::string escape_script(std::string_view json_text);
 
-/// The whole page. `data` is what examples/report/report.js draws; its `kind` says of which command.
+/// Returns the whole page. examples/report/report.js draws `data`; its `kind` names the command.
 [[nodiscard]] std::string report_page(const std::string& title, const json& data);
 
-/// Where a command writes its page, and the command line, which the page repeats.
+/// The page that a command writes, and the command line, which the page repeats.
 struct page_option {
   std::filesystem::path path;
   std::vector<std::string> command_line;  ///< its first word is the program
@@ -37,11 +37,11 @@ struct page_option {
 /// Adds `--report` to a command that writes a page beside its other results.
 void add_report_option(command& to, page_option& page, const std::vector<std::string>& command_line);
 
-/// What was done, as pairs of a name and a text; a pair whose text is empty is left out.
+/// Returns the record of a command: pairs of a name and a text; pairs with an empty text are left out.
 [[nodiscard]] json record_of(std::initializer_list<std::pair<const char*, std::string>> pairs);
 
-/// Writes a page beside its target and renames it. Its title is the `name` of the data, and its `record` begins with
-/// the command and the version.
+/// Writes a page beside its target and renames it. Its title is the `name` of the data; its `record` begins with the
+/// command and the version.
 void write_report_page(const page_option& page, json data);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 #pragma once
-/// The files of examples/report/ as text, in pieces of the length that all compilers take. CMake writes the source.
+/// The files of examples/report/ as text, in pieces short enough for all compilers. CMake writes the source.
 
 #include <span>
 #include <string_view>

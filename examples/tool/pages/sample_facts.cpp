@@ -16,7 +16,7 @@ namespace cli {
 
 namespace {
 
-/// The least and the greatest of some numbers.
+/// The smallest and the largest of some numbers.
 class range {
  public:
   void include(double number) {
@@ -30,7 +30,7 @@ class range {
   double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
 };
 
-/// The repeats that the samples' weights hide are counted, too.
+/// Includes repeats with zero weight.
 Eigen::Index count_repeats(gonio::sample_set samples) {
   for (gonio::sample& s : samples) s.weight = 1.0;
   return repeated_samples(samples);

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be said of measurements before anything is fitted to them.
+/// Facts about measurements, without a fit.
 
 #include "tool/files/json.hpp"
 #include <gonio/core/direction.hpp>
@@ -9,17 +9,17 @@
 
 namespace cli {
 
-/// An angle in degrees, to a thousandth.
+/// Returns an angle in degrees, to a thousandth.
 [[nodiscard]] double rounded_degrees(double radians);
 
-/// All angles of a measurement, each rounded so: theta_i, phi_i, theta_o, phi_o, theta_h, theta_d, phi_d.
+/// Returns all angles of a measurement, rounded like this: theta_i, phi_i, theta_o, phi_o, theta_h, theta_d, phi_d.
 [[nodiscard]] json angles_as_json(const gonio::sample_directions& directions);
 
-/// How many there are, the ranges of their angles (degrees), values and weights, how many repeat the half and
-/// difference angles of one before, and sentences on what is suspicious.
+/// Returns the number of samples, the ranges of their angles (degrees), values and weights, the number of repeats of
+/// earlier half and difference angles, and sentences on suspicious properties.
 [[nodiscard]] json facts_of(const gonio::sample_set& samples);
 
-/// The same of directions alone.
+/// The same for directions only.
 [[nodiscard]] json facts_of(std::span<const gonio::direction_pair> pairs);
 
 }  // namespace cli

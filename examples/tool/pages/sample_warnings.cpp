@@ -21,7 +21,7 @@ namespace cli {
 
 namespace {
 
-/// Samples of the same half and difference angles, to a thousandth of a degree.
+/// Samples with the same half and difference angles, to a thousandth of a degree.
 using repeats = std::map<std::array<std::int64_t, 3>, std::vector<Eigen::Index>>;
 
 repeats grouped(const gonio::sample_set& samples) {
@@ -35,7 +35,7 @@ repeats grouped(const gonio::sample_set& samples) {
   return groups;
 }
 
-/// The two samples whose green values are furthest apart, of the group in which these differ by the largest factor.
+/// Describes the two samples with the most different green values in the group where they differ by the largest factor.
 std::string contradiction(const gonio::sample_set& samples, double noise) {
   const auto green = [&](Eigen::Index i) { return samples[i].value.y(); };
   double largest = 1.5 * (1.0 + 6.0 * noise);
@@ -52,7 +52,7 @@ std::string contradiction(const gonio::sample_set& samples, double noise) {
   return sentence;
 }
 
-/// A detector that is saturated reads the same number again and again, and no larger one.
+/// A saturated detector reads the same number repeatedly, and none larger.
 std::string saturation(const gonio::sample_set& samples) {
   constexpr std::ptrdiff_t suspicious = 4;
   std::map<double, std::ptrdiff_t> times;
@@ -61,12 +61,12 @@ std::string saturation(const gonio::sample_set& samples) {
   const auto [largest, count] = *times.rbegin();
   times.erase(std::prev(times.end()));
   const std::ptrdiff_t usual = std::ranges::max(times | std::views::values);
-  if (count <= 2 * usual) return {};  // numbers of few digits, or repeats
+  if (count <= 2 * usual) return {};  // numbers with few digits, or repeats
   return std::to_string(count) + " samples have exactly the largest value, " + fixed(largest, 4) +
          ": was the detector saturated? The highlight may be brighter than the estimate says";
 }
 
-/// Values below zero are noise, unless they are many.
+/// Negative values are noise, unless they are many.
 std::string darkness(const gonio::sample_set& samples) {
   const auto negative = std::ranges::count_if(samples, [](const gonio::sample& s) { return s.value.maxCoeff() < 0.0; });
   if (2 * negative <= std::ssize(samples)) return {};
@@ -79,7 +79,7 @@ bool all_equal(const gonio::sample_set& samples) {
                              [&](const gonio::sample& s) { return (s.value == samples.begin()->value).all(); });
 }
 
-/// Light, viewer and normal of each sample are in one plane, to half a degree.
+/// Are light, viewer and normal of each sample in one plane, to half a degree?
 bool all_in_plane(const gonio::sample_set& samples) {
   const double tolerance = std::sin(gonio::radians(0.5));
   return std::ranges::all_of(samples, [&](const gonio::sample& s) {
@@ -90,7 +90,7 @@ bool all_in_plane(const gonio::sample_set& samples) {
 
 constexpr std::size_t fewest = 3;
 
-/// In radians no polar angle is above 1.6, and the sum of theta_h and theta_d is not above 3.2.
+/// In radians no polar angle exceeds 1.6, and the sum of theta_h and theta_d does not exceed 3.2.
 bool looks_like_radians(const gonio::sample_set& samples) {
   if (samples.size() < fewest) return false;
   const double nearest = std::cos(gonio::radians(3.2));
@@ -115,7 +115,7 @@ std::vector<dull_reading> dull_readings(const gonio::sample_set& samples) {
   return readings;
 }
 
-/// Do the values fall like the cosine, in logarithms a line of slope 1?
+/// Do the values fall like the cosine, that is, with slope 1 in logarithms?
 bool fall_like_cosine(const std::vector<dull_reading>& readings) {
   constexpr std::size_t enough = 8;
   if (readings.size() < enough) return false;
@@ -125,7 +125,7 @@ bool fall_like_cosine(const std::vector<dull_reading>& readings) {
     x[i] = std::log(readings[i].cosine);
     y[i] = std::log(readings[i].value);
   }
-  // The cosine must change by a factor of 2 for a slope to be one.
+  // The cosine must vary by a factor of 2 to determine a slope.
   if (x.maxCoeff() - x.minCoeff() < std::log(2.0)) return false;
   x -= x.mean();
   y -= y.mean();
@@ -134,7 +134,7 @@ bool fall_like_cosine(const std::vector<dull_reading>& readings) {
   return std::abs(slope - 1.0) < 0.3 && correlation > 0.9;
 }
 
-/// What half of the samples away from the highlight reflect at least, relative to a white diffuser; 0 of few samples.
+/// Returns the upper median reflectance of the samples away from the highlight, relative to white; 0 for few samples.
 double typical_reflectance_factor(const std::vector<dull_reading>& readings) {
   constexpr std::size_t enough = 5;
   if (readings.size() < enough) return 0.0;
@@ -143,10 +143,10 @@ double typical_reflectance_factor(const std::vector<dull_reading>& readings) {
   return std::numbers::pi * gonio::upper_median(values);
 }
 
-/// Values of white may be a little above 1: noise, and a reference that is not quite white.
+/// White may be slightly above 1, from noise and an imperfect reference.
 constexpr double brightest = 1.05;
 
-/// What values are that cannot be what they are read as; empty if they can.
+/// Returns the likely quantity of values that are impossible as `read_as`; empty if they are possible.
 std::string likely_quantity(double reflectance_factor, gonio::io::sample_quantity read_as) {
   using gonio::io::sample_quantity;
   if (!(reflectance_factor > brightest) || read_as == sample_quantity::percent) return "";
@@ -159,13 +159,14 @@ std::string likely_quantity(double reflectance_factor, gonio::io::sample_quantit
 }  // namespace
 
 std::vector<std::string> doubts_of(const gonio::io::sample_file& file) {
+  const gonio::sample_set samples = file.samples.in_three_channels();
   std::vector<std::string> sentences;
-  if (looks_like_radians(file.samples))
+  if (looks_like_radians(samples))
     sentences.emplace_back(
         "light and viewer of all samples are within 3.2 degrees of the normal: are the angles radians? They are read "
         "as degrees; columns like 'theta_i [rad]' are not");
   const auto read_as = file.quantity.value_or(gonio::io::sample_quantity::brdf);
-  const std::vector<dull_reading> readings = dull_readings(file.samples);
+  const std::vector<dull_reading> readings = dull_readings(samples);
   const double reflectance_factor = typical_reflectance_factor(readings);
   if (const std::string likely = likely_quantity(reflectance_factor, read_as); !likely.empty())
     sentences.push_back("away from highlights half of the samples reflect more than " + fixed(reflectance_factor, 1) +
@@ -174,7 +175,7 @@ std::vector<std::string> doubts_of(const gonio::io::sample_file& file) {
     sentences.emplace_back(
         "away from highlights the values fall like the cosine of the viewer's angle: do they contain it (--quantity "
         "brdf-cosine)?");
-  if (const double ratio = file.sign ? 0.0 : gonio::brightness_towards_light(file.samples);
+  if (const double ratio = file.sign ? 0.0 : gonio::brightness_towards_light(samples);
       ratio > gonio::implausible_brightness_towards_light)
     sentences.push_back("where light and viewer meet, it is " + fixed(ratio, 1) +
                         " times as bright as in the mirror direction: does the material reflect light back "

@@ -1,5 +1,5 @@
 #pragma once
-/// What is told of samples that are accepted, but are likely to disappoint.
+/// Warnings about samples that are accepted, but are likely to give poor results.
 
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -9,23 +9,24 @@
 
 namespace cli {
 
-/// Is it one value in all channels?
+/// Are all channels equal?
 [[nodiscard]] inline bool is_grey(const gonio::rgb& value) { return value.x() == value.y() && value.y() == value.z(); }
 
-/// A sentence for each: noise above 50 %, repeats of the same angles that contradict each other by more than the noise
-/// (relative, 0.02 is 2 %), a largest value that is read so often that the detector may be saturated, more negative
-/// values than others, one value everywhere, and directions that are all in the plane of incidence. Samples are
-/// numbered from 1. O(n log n).
+/// Returns a sentence for each of these: noise above 50 %, repeats of the same angles that contradict each other by
+/// more than the noise (relative, 0.02 is 2 %), a largest value that occurs so often that the detector may be
+/// saturated, more negative values than others, one value everywhere, and directions that are all in the plane of
+/// incidence. Samples are numbered from 1. O(n log n).
 [[nodiscard]] std::vector<std::string> warnings_of(const gonio::sample_set& samples, double noise);
 
-/// A sentence for each way in which the numbers of a file look like something else than they are read as: angles in
-/// radians (light and viewer of all samples are within 3.2 degrees of the normal), reflectance factors or percent (away
-/// from highlights, at half angles above 30 degrees, half of the samples reflect more than a white diffuser), a BRDF
-/// times the cosine of the viewer's angle (there the values fall like that cosine), the highlight on the light's side
-/// of the normal, unless it is stated. How often that is right: docs/results/implausible-samples.md. O(n log n).
+/// Returns a sentence for each sign that a file's numbers are not what they are read as: angles in radians (light and
+/// viewer of all samples are within 3.2 degrees of the normal), reflectance factors or percent (away from highlights,
+/// at half angles above 30 degrees, half of the samples reflect more than a white diffuser), a BRDF times the cosine of
+/// the viewer's angle (the values there fall like this cosine), or, unless the side is stated, the highlight on the
+/// light's side of the normal. docs/results/implausible-samples.md measures how often it is right. O(n log n).
 [[nodiscard]] std::vector<std::string> doubts_of(const gonio::io::sample_file& file);
 
-/// How many samples that count have the directions of one before, to a thousandth of a degree. O(n log n).
+/// Returns how many samples with nonzero weight repeat the directions of an earlier one, to a thousandth of a degree.
+/// O(n log n).
 [[nodiscard]] Eigen::Index repeated_samples(const gonio::sample_set& samples);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 #pragma once
-/// How well a reconstruction is known, as an image.
+/// The uncertainty of a reconstruction as an image.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/render/image.hpp>
@@ -7,9 +7,9 @@
 
 namespace cli {
 
-/// A sphere under the two lights of `sphere_image`, coloured by how well the luminance of each pixel is known: the
-/// relative uncertainties of the reflectances that it is made of, weighted by what they contribute. From light (2 % and
-/// better) to dark blue (100 % and worse), in steps of equal factors (`render::uncertainty_colour`); black around it.
+/// Draws a sphere under the two lights of `sphere_image`, coloured by the uncertainty of each pixel's luminance: the
+/// relative uncertainties of its reflectances, weighted by their contributions. From light (2 % and better) to dark
+/// blue (100 % and worse), in steps of equal factors (`render::uncertainty_colour`), on black.
 [[nodiscard]] gonio::image uncertainty_image(const gonio::brdf_table& table, const gonio::brdf_table& uncertainty,
                                              int size, gonio::thread_count threads);
 

@@ -20,13 +20,13 @@ namespace {
 
 constexpr int dropped_bits = 2;
 
-/// The bits of half floats are numbers that rise with the value: the last ones are rounded off.
+/// The bits of half floats, as integers, increase with the value: rounds off the last ones.
 int code_of(double value) {
   const auto bits = std::bit_cast<std::uint16_t>(Eigen::half(static_cast<float>(std::max(value, 0.0))));
   return (bits + (1 << (dropped_bits - 1))) >> dropped_bits;
 }
 
-/// The power of two that brings the largest value to at most 32768, which a half float can hold.
+/// Returns the power of two that brings the largest value to at most 32768, which a half float can hold.
 double scale_of(std::span<const float> values) {
   const double largest = *std::ranges::max_element(values);
   return largest > 0.0 ? std::exp2(std::ceil(std::log2(largest)) - 15.0) : 1.0;
@@ -48,7 +48,7 @@ json viewer_table(const gonio::brdf_table& table) {
   if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
     gonio::refuse("a table for the viewer has values that are not finite");
   const double scale = scale_of(values);
-  // The low bytes of all differences, then the high ones, nearly all of which are zero.
+  // The low bytes of all differences, then the high ones, which are nearly all zero.
   const std::size_t count = values.size();
   std::vector<std::byte> bytes(2 * count);
   std::size_t next = 0;
@@ -56,7 +56,7 @@ json viewer_table(const gonio::brdf_table& table) {
     int before = 0;
     for (std::size_t i = channel; i < count; i += 3, ++next) {
       const int code = code_of(values[i] / scale), difference = code - before;
-      const int folded = difference >= 0 ? 2 * difference : -2 * difference - 1;  // without a sign
+      const int folded = difference >= 0 ? 2 * difference : -2 * difference - 1;  // folds the sign
       bytes[next] = static_cast<std::byte>(folded & 255);
       bytes[count + next] = static_cast<std::byte>(folded >> 8);
       before = code;

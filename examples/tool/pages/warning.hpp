@@ -1,11 +1,11 @@
 #pragma once
-/// What a user is told of input that is accepted all the same.
+/// Warnings to the user about input that is accepted.
 
 #include <string>
 
 namespace cli {
 
-/// A line on standard error, "gonio: warning: ...", fit for a terminal whatever a file's text is in it.
+/// Prints a line on standard error, "gonio: warning: ...", safe for a terminal even if it quotes a file.
 void warn(const std::string& sentence);
 
 }  // namespace cli

@@ -15,9 +15,9 @@
 
 namespace gonio {
 
-/// What every basis has: `size()` functions over `cells()`. At a location it models a BRDF, mapped by `metric()`, as
-/// offset + row . weights; the row holds the values of all functions there. Other domains, such as vertex coordinates,
-/// work the same way.
+/// Requirements of every basis: `size()` functions over `cells()`. At a location, offset + row . weights models a BRDF
+/// mapped by `metric()`; the row has the values of all functions there. Other domains, such as vertex coordinates, work
+/// in the same way.
 template <class Basis>
 concept function_set = requires(const Basis& functions, Eigen::Index cell) {
   { functions.size() } -> std::convertible_to<Eigen::Index>;
@@ -26,11 +26,10 @@ concept function_set = requires(const Basis& functions, Eigen::Index cell) {
   requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
 };
 
-/// A basis that stores its rows: `row(cell)` is the row at a cell, and between cells rows are interpolated.
+/// A basis that stores its rows: `row(cell)` is the row at a cell. Between cells, rows are interpolated.
 ///
-/// What the compiler cannot check, and a model must keep: `row(cell)` is contiguous, has `size()` values
-/// and stays valid as long as the basis or a copy of it lives; copies are cheap (they share storage);
-/// all members are const and thread safe.
+/// Requirements that the compiler cannot check: `row(cell)` is contiguous, has `size()` values and stays valid as long
+/// as the basis or a copy of it lives; copies are cheap (they share storage); all members are const and thread safe.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -74,15 +73,15 @@ concept tabulated_basis = function_set<Basis> && requires(const Basis& functions
   { functions.row(cell) } -> std::convertible_to<std::span<const float>>;
 };
 
-/// Where a computed basis writes the values of its functions.
+/// The row into which a computed basis writes the values of its functions.
 using function_row = Eigen::Ref<Eigen::RowVectorXd>;
 
 /// A basis that computes its rows, in double precision, at any location: `read_row(at, out)` writes the row at the
 /// exact angles of a location. For functions given by a formula, whose rows at a million cells would not fit into
 /// memory.
 ///
-/// What the compiler cannot check, and a model must keep: `out`, of `size()` numbers, is written in full; `read_row`
-/// neither allocates nor throws; copies are cheap; all members are const and thread safe.
+/// Requirements that the compiler cannot check: all `size()` numbers of `out` are written; `read_row` neither allocates
+/// nor throws; copies are cheap; all members are const and thread safe.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -125,7 +124,7 @@ concept computed_basis = function_set<Basis> && !tabulated_basis<Basis> &&
   functions.read_row(at, out);
 };
 
-/// Functions that a BRDF is a combination of, with their rows stored or computed.
+/// Functions whose combinations model a BRDF, with rows stored or computed.
 template <class Basis>
 concept basis = tabulated_basis<Basis> || computed_basis<Basis>;
 
@@ -138,15 +137,15 @@ concept channelwise_basis = requires(const Basis& functions, Eigen::Index channe
   requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
 };
 
-/// What an estimator takes: one basis for all channels, or one for each of three.
+/// The basis of an estimator: one for all channels, or one for each of three.
 template <class Basis>
 concept colour_basis = basis<Basis> || channelwise_basis<Basis>;
 
-/// What the functions of a basis are functions of.
+/// The domain of the functions of a basis.
 template <colour_basis Basis>
 using domain_of = std::remove_cvref_t<decltype(std::declval<const Basis&>().cells())>;
 
-/// The basis of one colour channel: a reference to the basis itself where all channels share it, which is never copied.
+/// Returns the basis of one colour channel. If all channels share a basis, returns a reference to it, without a copy.
 template <colour_basis Basis>
 [[nodiscard]] decltype(auto) channel_of(const Basis& functions, Eigen::Index channel) {
   if constexpr (basis<Basis>)
@@ -155,8 +154,8 @@ template <colour_basis Basis>
     return functions.channel(channel);
 }
 
-/// The functions that may take part in a fit, ascending: all, unless the basis offers `columns()`, a range of the
-/// numbers of those that may. The others have weight zero.
+/// Returns the functions that may take part in a fit, ascending: all, unless the basis has `columns()`, a range of
+/// their numbers. The others have weight zero.
 template <colour_basis Basis>
 [[nodiscard]] std::vector<Eigen::Index> columns_of(const Basis& functions) {
   std::vector<Eigen::Index> columns;
@@ -169,8 +168,8 @@ template <colour_basis Basis>
   return columns;
 }
 
-/// Are the signs of the functions arbitrary, as those of principal components are? Such a basis says
-/// `static constexpr bool arbitrary_sign = true;`.
+/// True if the signs of the functions are arbitrary, like those of principal components. Such a basis declares `static
+/// constexpr bool arbitrary_sign = true;`.
 template <class Basis>
 inline constexpr bool has_arbitrary_sign = requires {
   requires bool(Basis::arbitrary_sign);
@@ -178,7 +177,7 @@ inline constexpr bool has_arbitrary_sign = requires {
 
 namespace detail {
 
-/// Adds a weight times the values of a row to `out`, or writes it there if it is the first.
+/// Adds a weight times the values of a row to `out`, or assigns it for the first row.
 inline void blend_row(double weight, std::span<const float> values, bool first, double* out) {
   if (first)
     for (Eigen::Index i = 0; i < std::ssize(values); ++i) out[i] = weight * double{values[i]};
@@ -188,8 +187,8 @@ inline void blend_row(double weight, std::span<const float> values, bool first, 
 
 }  // namespace detail
 
-/// Writes the values of all functions at a location to a row of size() contiguous numbers: interpolated in the metric's
-/// domain if the basis is tabulated, exact if it is computed.
+/// Writes the values of all functions at a location to a row of size() contiguous numbers. A tabulated basis is
+/// interpolated in the metric's domain; a computed one is exact.
 template <basis Basis>
 void read_row_at(const Basis& functions, const location& at, function_row out) {
   if constexpr (computed_basis<Basis>) {
@@ -201,8 +200,8 @@ void read_row_at(const Basis& functions, const location& at, function_row out) {
   }
 }
 
-/// The same at many locations, a row of `out` each: by the basis' own `read_rows` if it has one, because many rows at
-/// once cost it less.
+/// Writes the same at many locations, into a row of `out` for each. Uses the basis' own `read_rows` if it has one,
+/// which is faster for many rows.
 template <basis Basis>
 void read_rows_at(const Basis& functions, std::span<const location> at, row_block out) {
   if constexpr (requires { functions.read_rows(at, out); })
@@ -212,7 +211,7 @@ void read_rows_at(const Basis& functions, std::span<const location> at, row_bloc
       read_row_at(functions, at[i], Eigen::Map<Eigen::RowVectorXd>(&out(i, 0), out.cols()));
 }
 
-/// The values of all functions at a location: size() numbers. See `read_row_at`.
+/// Returns the values of all functions at a location: size() numbers. See `read_row_at`.
 template <basis Basis>
 [[nodiscard]] Eigen::RowVectorXd row_at(const Basis& functions, const location& at) {
   Eigen::RowVectorXd row(functions.size());
@@ -220,7 +219,7 @@ template <basis Basis>
   return row;
 }
 
-/// The same at many locations: locations x size().
+/// Returns the same at many locations: locations x size().
 template <basis Basis>
 [[nodiscard]] Eigen::MatrixXd rows_at(const Basis& functions, std::span<const location> at) {
   row_matrix contiguous(std::ssize(at), functions.size());
@@ -231,7 +230,7 @@ template <basis Basis>
   return rows;
 }
 
-/// The offset at a location, interpolated in the metric's domain.
+/// Returns the offset at a location, interpolated in the metric's domain.
 template <basis Basis>
 [[nodiscard]] double offset_at(const Basis& functions, const location& at) {
   return interpolate(

@@ -1,9 +1,9 @@
 #pragma once
-/// What the components of a prior cannot say of a material: a smooth random function beside them.
-/// Model discrepancy as a Gaussian process: Kennedy and O'Hagan, "Bayesian calibration of computer models", Journal of
-/// the Royal Statistical Society B 63(3), 2001 (doi:10.1111/1467-9868.00294). Its functions are those of Rasmussen and
-/// Williams, "Gaussian Processes for Machine Learning", 2006, section 8.3.1, around the places that were measured.
-/// Results on real materials: docs/results/real-materials.md.
+/// A smooth random function for everything in a material that the components of a prior cannot express. Model
+/// discrepancy as a Gaussian process: Kennedy and O'Hagan, "Bayesian calibration of computer models", Journal of the
+/// Royal Statistical Society B 63(3), 2001 (doi:10.1111/1467-9868.00294). Its functions around the measured locations
+/// are those of Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, section 8.3.1. Results on real
+/// materials: docs/results/real-materials.md.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/parallel.hpp>
@@ -22,8 +22,8 @@
 
 namespace gonio {
 
-/// Over which distances a discrepancy is correlated: the standard deviations of its squared-exponential covariance in
-/// the coordinates sqrt(theta_h / 90 degrees), theta_d / 90 degrees and sin theta_d (cos 2 phi_d, sin 2 phi_d) / 2.
+/// The correlation lengths of a discrepancy: the standard deviations of its squared-exponential covariance in the
+/// coordinates sqrt(theta_h / 90 degrees), theta_d / 90 degrees and sin theta_d (cos 2 phi_d, sin 2 phi_d) / 2.
 struct correlation_lengths {
   double theta_h = 0.1;
   double theta_d = 0.2;
@@ -32,60 +32,62 @@ struct correlation_lengths {
 
 namespace detail {
 
-/// Where angles are, in units of the lengths: the first coordinate is theta_h's, the others are of theta_d and phi_d.
+/// The coordinates of angles in units of the lengths. The first is that of theta_h, the others are of theta_d and
+/// phi_d.
 using discrepancy_place = std::array<double, 4>;
 [[nodiscard]] discrepancy_place place_of(const half_difference& angles, const correlation_lengths& lengths) noexcept;
 
 }  // namespace detail
 
-/// k of all pairs of angles, for an amplitude of 1: n x n. Throws gonio::error if an angle is not finite or a length is
-/// not positive. O(n^2).
+/// Returns the covariance k of all pairs of angles, for an amplitude of 1: n x n. Throws gonio::error if an angle is
+/// not finite or a length is not positive. O(n^2).
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
                                                      const correlation_lengths& lengths = {});
 
-/// k of angles with those of one place.
+/// Returns k of angles with one other location.
 [[nodiscard]] Eigen::VectorXd discrepancy_covariance(std::span<const half_difference> angles,
                                                      const half_difference& place,
                                                      const correlation_lengths& lengths = {});
 
-/// k of angles with others: a row for each of `angles`.
+/// Returns k of angles with others: a row for each of `angles`.
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
                                                      std::span<const half_difference> others,
                                                      const correlation_lengths& lengths);
 
-/// The covariance and the functions of a discrepancy, over any cells and for any metric. A value type whose copies
-/// share their centres.
+/// The covariance and the functions of a discrepancy, over any cells and for any metric. A value type; copies share
+/// their centres.
 ///
-/// With the covariance k(x, y) = exp(-|x - y|^2 / 2) of places in units of the lengths, the functions are
-/// phi(x) = amplitude^(1/2) L^-1 k(centres, x), L L' = k(centres, centres): weights of unit variance make a function of
-/// the variance `amplitude`, exactly so at the centres and less far from all of them.
+/// With the covariance k(x, y) = exp(-|x - y|^2 / 2) of locations in units of the lengths, the functions are phi(x) =
+/// amplitude^(1/2) L^-1 k(centres, x), L L' = k(centres, centres). Weights of unit variance give a function of the
+/// variance `amplitude` at the centres, and less far from all of them.
 ///
-/// The same span has a second basis, the covariances k(centres, x) themselves: cheaper to read, but their weights are
-/// correlated.
+/// The covariances k(centres, x) themselves are a second basis of the same span. They are faster to compute, but their
+/// weights are correlated.
 class discrepancy_functions {
  public:
-  /// phi. Throws gonio::error if there is no centre, an angle is not finite, or a length or the amplitude is not
-  /// positive.
+  /// Makes the functions phi. Throws gonio::error if there is no centre, an angle is not finite, or a length or the
+  /// amplitude is not positive.
   discrepancy_functions(std::span<const half_difference> centres, double amplitude,
                         const correlation_lengths& lengths = {});
 
-  /// k. Throws gonio::error if there is no centre, an angle is not finite, or a length is not positive.
+  /// Makes the functions k. Throws gonio::error if there is no centre, an angle is not finite, or a length is not
+  /// positive.
   [[nodiscard]] static discrepancy_functions covariances(std::span<const half_difference> centres,
                                                          const correlation_lengths& lengths = {});
 
   [[nodiscard]] Eigen::Index size() const noexcept { return std::ssize(shared_->places); }
 
-  /// The functions at some angles: size() contiguous numbers. O(size^2) for phi, O(size) for k.
+  /// Writes the functions at some angles: size() contiguous numbers. O(size^2) for phi, O(size) for k.
   void read(const half_difference& angles, double* out) const noexcept;
 
-  /// The functions at many angles, a row of `out` each: phi twenty times as fast as one by one.
+  /// Writes the functions at many angles, into a row of `out` for each. For phi, twenty times as fast as one by one.
   void read(std::span<const half_difference> angles, row_block out) const;
 
-  /// The weights of k, a column for each of those of phi.
+  /// Converts weights of phi to weights of k, column by column.
   [[nodiscard]] Eigen::MatrixXd covariance_weights(const Eigen::MatrixXd& weights) const;
 
-  /// The functions, with the weights of three channels (size() x 3), at all cells of a grid. O(size x (cells + size)):
-  /// the covariance is a product of one of theta_h and one of the other two angles.
+  /// Returns the combination of the functions with the weights of three channels (size() x 3), at all cells of a grid.
+  /// O(size x (cells + size)): the covariance is a product of one of theta_h and one of the other two angles.
   [[nodiscard]] cell_fields<3> combination(const Eigen::MatrixXd& weights, const valid_cells& cells,
                                            thread_count threads = {}) const;
 
@@ -94,7 +96,7 @@ class discrepancy_functions {
     std::vector<detail::discrepancy_place> places;  ///< of the centres
     correlation_lengths lengths;
     double amplitude = 1.0;
-    std::optional<cholesky> factors;  ///< L of phi; none of k
+    std::optional<cholesky> factors;  ///< L of phi; absent for k
   };
 
   explicit discrepancy_functions(stored parts) : shared_(std::make_shared<const stored>(std::move(parts))) {}
@@ -102,13 +104,13 @@ class discrepancy_functions {
   std::shared_ptr<const stored> shared_;
 };
 
-/// The same as a basis: a computed one, around centres, over some cells, in the domain of a metric. It stands beside
-/// components as `joined{prior, discrepancy{prior.cells(), prior.metric(), functions}}`; estimate/reconstruction.hpp
-/// has an estimator that has chosen all of it.
+/// A discrepancy as a computed basis, around centres, over some cells, in the domain of a metric. Combine it with
+/// components as `joined{prior, discrepancy{prior.cells(), prior.metric(), functions}}`. estimate/reconstruction.hpp
+/// has an estimator with chosen parameters.
 template <error_metric Metric>
 class discrepancy {
  public:
-  /// A function times -1 is as good a function: see `has_arbitrary_sign`.
+  /// The sign of a function is arbitrary: see `has_arbitrary_sign`.
   static constexpr bool arbitrary_sign = true;
 
   discrepancy(valid_cells cells, Metric metric, discrepancy_functions functions)

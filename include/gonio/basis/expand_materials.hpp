@@ -1,5 +1,5 @@
 #pragma once
-/// The materials that a learned prior remembers, as tables again.
+/// Expands the materials of a learned prior to tables.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/solve/product.hpp>
@@ -14,16 +14,16 @@ namespace gonio {
 
 namespace detail {
 
-/// What each channel of a prior's materials adds to red, green and blue under D65: 3 x channels. Throws gonio::error if
-/// none of several wavelengths is visible.
+/// Returns the contribution of each channel of a prior's materials to red, green and blue under D65: 3 x channels.
+/// Throws gonio::error if none of several wavelengths is visible.
 [[nodiscard]] Eigen::MatrixXd colours_of_channels(std::span<const double> wavelengths);
 
 }  // namespace detail
 
-/// Every material that principal components were learned from, over the components' own cells, as far as they are kept:
-/// mu + Q c mapped back, at least zero; of spectra their colours under D65, at least zero, too. Lets the small file of
-/// a prior stand in for the database wherever a `material_set` is wanted. O(cells x observations x components). Throws
-/// gonio::error if none of several wavelengths is visible.
+/// Returns every material that principal components were learned from, over the components' own cells, as approximated
+/// by the kept components: mu + Q c mapped back, at least zero. Spectra become their colours under D65, also at least
+/// zero. The small file of a prior can then replace the database wherever a `material_set` is needed. O(cells x
+/// observations x components). Throws gonio::error if none of several wavelengths is visible.
 template <error_metric Metric>
 [[nodiscard]] material_set expand(const pca<Metric>& prior, thread_count threads = {}) {
   const Eigen::Index channels = prior.channels(), count = std::ssize(prior.names());

@@ -1,5 +1,5 @@
 #pragma once
-/// Two bases side by side, as one: components and a discrepancy, components and a constant.
+/// Joins two bases into one: components and a discrepancy, or components and a constant.
 
 #include <gonio/basis/combine.hpp>
 #include <gonio/core/error.hpp>
@@ -11,7 +11,7 @@
 
 namespace gonio {
 
-/// The functions of one basis and then those of another, over the same cells and in the domain of the first one's
+/// The functions of one basis followed by those of another, over the same cells, in the domain of the first one's
 /// metric, with the sum of their offsets. A computed basis: rows are read from both.
 template <basis First, basis Second>
 class joined {

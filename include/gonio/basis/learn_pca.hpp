@@ -1,7 +1,7 @@
 #pragma once
-/// Learning principal components from tables, through the Gram matrix of the observations: with m columns
-/// of a million cells, m x m is small and cells x cells is never formed. Nielsen et al. 2015
-/// (doi:10.1145/2816795.2818085), Eq. 4-6.
+/// Learns principal components from tables, through the Gram matrix of the observations. With m columns of a million
+/// cells, m x m is small, and cells x cells is never formed. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq.
+/// 4-6.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>
@@ -16,7 +16,7 @@ namespace gonio {
 
 namespace detail {
 
-/// Maps every value by the metric and takes the mean of each row away, in place. Returns the means.
+/// Maps every value by the metric and subtracts the mean of each row, in place. Returns the means.
 template <observation_set Set, error_metric Metric>
 [[nodiscard]] std::vector<float> map_and_centre(Set& materials, const Metric& metric, thread_count threads) {
   std::vector<float> mean(materials.cells.size());
@@ -33,7 +33,7 @@ template <observation_set Set, error_metric Metric>
   return mean;
 }
 
-/// X - mu = U Sigma V' transposed, cut after the components that are kept.
+/// X - mu = U Sigma V' transposed, truncated to the kept components.
 struct component_set {
   Eigen::VectorXd singular_values;
   cell_matrix scaled;            ///< Q = V Sigma = (X - mu)' U, a row for each cell
@@ -41,20 +41,19 @@ struct component_set {
   double explained_variance = 1.0;
 };
 
-/// Of rows whose means were taken away: at most `count` components, fewer where the rest is rounding, largest first,
-/// each with the largest entry of its U positive, so that the result does not depend on the eigensolver's sign. Throws
-/// gonio::error if there is none.
+/// Returns at most `count` components of centred rows, the largest first, without those that are rounding errors. The
+/// largest entry of each column of U is positive, so that the result does not depend on the eigensolver's sign. Throws
+/// gonio::error if there is no component.
 [[nodiscard]] component_set principal_components(const cell_matrix& centred, Eigen::Index count, thread_count threads,
                                                  const progress& listener);
 
 }  // namespace detail
 
-/// Principal components of the materials under a metric over the same cells. Keeps at most `components`;
-/// fewer where the rest is rounding (centring always costs one). The set is consumed: its 4 bytes per value
-/// are mapped in place, and the result takes 4 bytes per cell and component more.
-/// O(cells m^2), deterministic for any number of threads. Throws gonio::error for fewer than two
-/// observations or a value that is not finite, before mapping or after. Other things than materials are learned from
-/// in the same way: shapes, in shape/shape_model.hpp.
+/// Returns the principal components of the materials under a metric over the same cells: at most `components`, without
+/// those that are rounding errors (centring always removes one). The set is consumed: its 4 bytes per value are mapped
+/// in place, and the result needs 4 bytes more per cell and component. O(cells m^2), deterministic for any number of
+/// threads. Throws gonio::error for fewer than two observations or a value that is not finite, before mapping or after.
+/// Other observations are learned in the same way, such as shapes in shape/shape_model.hpp.
 ///
 /// ```cpp
 /// const auto metric = gonio::log_relative::to_median_of(materials);
@@ -74,8 +73,8 @@ template <observation_set Set, error_metric Metric>
                                           std::move(found.coefficients), found.explained_variance});
 }
 
-/// The same components on other, usually fewer, cells: components and mean are interpolated in the mapped
-/// domain, or copied where the cells' nodes coincide. The metric must be able to move: `metric.on(cells)`.
+/// Returns the same components on other, usually fewer, cells. Components and mean are interpolated in the mapped
+/// domain, or copied if the cells' nodes coincide. The metric must have `metric.on(cells)`.
 template <error_metric Metric>
 [[nodiscard]] pca<Metric> thin(const pca<Metric>& basis, const valid_cells& cells) {
   cell_matrix components(cells.size(), basis.size());

@@ -1,7 +1,7 @@
 #pragma once
-/// Principal components of materials that do not fit into memory: the same as learn_pca finds, from at most three
-/// passes over blocks of cells. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 4-6; more columns than a Gram
-/// matrix can have by random vectors, Halko et al. 2011 (doi:10.1137/090771806).
+/// Learns principal components of materials that do not fit into memory, in at most three passes over blocks of cells.
+/// The result is that of learn_pca. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 4-6. If there are too many
+/// columns for a Gram matrix, uses random vectors: Halko et al. 2011 (doi:10.1137/090771806).
 
 #include <gonio/basis/mapped_materials.hpp>
 #include <gonio/basis/pca.hpp>
@@ -19,48 +19,50 @@ namespace gonio {
 struct streaming_options {
   Eigen::Index components = 60;
   cosine_weighting weighting = cosine_weighting::product;
-  /// Up to as many columns, 3 a material or one for each wavelength, have their Gram matrix decomposed; more are found
-  /// in a random subspace. From 600 to 900 columns on that takes less time (docs/results/learn.md).
+  /// Up to this many columns, 3 a material or one for each wavelength, their Gram matrix is decomposed. More are found
+  /// in a random subspace, which is faster from 600 to 900 columns on (docs/results/learn.md).
   Eigen::Index exact_columns = 1024;
   subspace_options subspace = {};
-  /// What the learner may hold, in bytes, beside the prior that it returns. With more threads than have room in it, it
-  /// uses fewer.
+  /// The memory of the learner in bytes, without the prior that it returns. It uses fewer threads if they would need
+  /// more.
   std::uint64_t memory = std::uint64_t{2} << 30;
   thread_count threads = {};
-  shared_groups share = {};  ///< with other processes: the one that writes gets the prior, others parts of it
+  shared_groups share =
+      {};  ///< with other processes: the process that writes gets the whole prior, the others get parts
 };
 
-/// A prior, and how it was found.
+/// A prior, and the accuracy of its computation.
 struct streamed_pca {
   log_relative_pca prior;
-  bool exact = true;  ///< else in a random subspace
-  /// As many squared singular values of all the columns lie within this distance of the prior's, as a share of the
+  bool exact = true;  ///< false: found in a random subspace
+  /// As many squared singular values of all columns are within this distance of the prior's, as a share of the
   /// observations' variance. 0 if exact.
   double residual = 0.0;
 };
 
 namespace detail {
 
-/// Completes what a first pass has found.
+/// Completes the results of a first pass.
 void complete_rows(const shared_groups& share, const mapped_materials& mapped);
 
-/// A = V Sigma U', cut after the components that are kept.
+/// A = V Sigma U', truncated to the kept components.
 struct streamed_components {
   leading_eigenpairs pairs;  ///< Sigma^2 and U
   cell_matrix scaled;        ///< V Sigma
   bool exact;
 };
 
-/// Of rows, the columns of which have one dependency: `first` is read in the first pass, `again` in the others. Throws
-/// gonio::error if there is no component.
+/// Returns the components of rows whose columns have one linear dependency. `first` is read in the first pass, `again`
+/// in the others. Throws gonio::error if there is no component.
 [[nodiscard]] streamed_components components_of(const row_source& first, const row_source& again,
                                                 const streaming_options& options, const progress& listener);
 
 }  // namespace detail
 
-/// Principal components of the materials under log_relative to their median. Two passes over the cells, or as many as
-/// `subspace.products`, 3 by default. O(cells m^2) for m columns, or O(cells m components). The same bytes for any
-/// number of threads. Throws gonio::error as learn_pca does, and what reading throws.
+/// Returns the principal components of the materials under log_relative to their median. Makes two passes over the
+/// cells, or `subspace.products` passes (3 by default) for a random subspace. O(cells m^2) for m columns, or O(cells m
+/// components). The same bytes for any number of threads. Throws gonio::error as learn_pca does, and anything that
+/// reading throws.
 ///
 /// ```cpp
 /// const auto learned = gonio::learn_streamed_pca(gonio::rows_of(materials), {.components = 60});
@@ -69,8 +71,8 @@ struct streamed_components {
 [[nodiscard]] streamed_pca learn_streamed_pca(material_rows materials, const streaming_options& options = {},
                                               const progress& listener = {});
 
-/// The same relative to a reference that is known, with its weighting instead of that of the options. Throws
-/// gonio::error as well unless the reference is over the materials' cells.
+/// Returns the components relative to a known reference, with its weighting instead of that of the options. Also throws
+/// gonio::error unless the reference is over the materials' cells.
 [[nodiscard]] streamed_pca learn_streamed_pca(material_rows materials, const log_relative& reference,
                                               const streaming_options& options = {}, const progress& listener = {});
 

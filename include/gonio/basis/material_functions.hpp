@@ -1,6 +1,6 @@
 #pragma once
-/// Functions that belong to materials, stored over the cells of a grid for each colour channel: what `measured` and
-/// `correction` have in common.
+/// Functions that belong to materials, stored over the cells of a grid for each colour channel: the common base of
+/// `measured` and `correction`.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/solve/gram.hpp>
@@ -21,7 +21,7 @@ namespace gonio {
 
 namespace detail {
 
-/// A Gram matrix that is computed when it is first asked for.
+/// A Gram matrix that is computed on demand.
 struct gram_on_demand {
   std::once_flag made;
   Eigen::MatrixXd matrix;
@@ -29,11 +29,11 @@ struct gram_on_demand {
 
 }  // namespace detail
 
-/// One colour channel of functions that belong to materials: function i is that of material i.
+/// One colour channel of functions that belong to materials: function i belongs to material i.
 template <error_metric Metric>
 class material_channel {
  public:
-  /// A view of `count` columns of mapped tables from `first` on, of which `columns` take part.
+  /// Makes a view of `count` columns of mapped tables, starting with `first`, of which `columns` take part in fits.
   material_channel(std::shared_ptr<const cell_matrix> mapped, Eigen::Index first, Eigen::Index count, valid_cells cells,
                    Metric metric, std::shared_ptr<const std::vector<Eigen::Index>> columns,
                    std::shared_ptr<detail::gram_on_demand> gram)
@@ -45,7 +45,7 @@ class material_channel {
         columns_(std::move(columns)),
         gram_(std::move(gram)) {}
 
-  /// Number of functions, those of materials left out included.
+  /// Returns the number of functions, including those of excluded materials.
   [[nodiscard]] Eigen::Index size() const noexcept { return count_; }
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
@@ -53,15 +53,15 @@ class material_channel {
     return std::span(mapped_->data() + cell * mapped_->cols() + first_, size());
   }
   [[nodiscard]] double offset(Eigen::Index /*cell*/) const noexcept { return 0.0; }
-  /// The functions that take part in a fit, ascending.
+  /// Returns the functions that take part in a fit, ascending.
   [[nodiscard]] std::span<const Eigen::Index> columns() const noexcept { return *columns_; }
 
-  /// All functions over all cells: cells x size, a view.
+  /// Returns all functions over all cells: cells x size, a view.
   [[nodiscard]] auto values() const { return mapped_->middleCols(first_, count_); }
 
-  /// The Gram matrix of all functions over all cells, those of materials left out included: with it, problems that
-  /// leave materials out or explain one by the others (`leave_one_out`) need no data. O(cells size^2) when it is first
-  /// asked for; all copies of the functions, whatever they leave out, remember it.
+  /// Returns the Gram matrix of all functions over all cells, including those of excluded materials. With it, problems
+  /// that exclude materials, or that explain one by the others (`leave_one_out`), need no data. O(cells size^2) the
+  /// first time; all copies of the functions, with any exclusions, share it.
   [[nodiscard]] const Eigen::MatrixXd& products(thread_count threads = {}) const {
     std::call_once(gram_->made, [&] { gram_->matrix = gram(values(), threads); });
     return gram_->matrix;
@@ -77,8 +77,8 @@ class material_channel {
 };
 
 /// Functions over the valid cells of a grid, the same number for each colour channel. The first ones belong to named
-/// materials, which can be left out; others, if there are more, take part in every fit. A value type whose copies share
-/// their storage of 12 bytes per cell and function.
+/// materials, which can be excluded. Any others take part in every fit. A value type; copies share their storage of 12
+/// bytes per cell and function.
 template <error_metric Metric>
 class material_functions {
  public:
@@ -98,15 +98,15 @@ class material_functions {
     for (auto& gram : grams_) gram = std::make_shared<detail::gram_on_demand>();
   }
 
-  /// Number of functions, those of materials left out included.
+  /// Returns the number of functions, including those of excluded materials.
   [[nodiscard]] Eigen::Index size() const noexcept { return mapped_->cols() / 3; }
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return *names_; }
-  /// The functions that take part in a fit, ascending.
+  /// Returns the functions that take part in a fit, ascending.
   [[nodiscard]] std::span<const Eigen::Index> columns() const noexcept { return *columns_; }
 
-  /// The names of the materials that take no part.
+  /// Returns the names of the excluded materials.
   [[nodiscard]] std::vector<std::string> left_out() const {
     std::vector<std::string> found;
     for (Eigen::Index i = 0; i < std::ssize(*names_); ++i)
@@ -119,9 +119,9 @@ class material_functions {
     return {mapped_, index * count, count, cells_, metric_, columns_, grams_[index]};
   }
 
-  /// All functions of all channels as one basis, for what has no colour channels: of measured materials each channel
-  /// counts as a grey material, as it does for principal components (Nielsen et al. 2015, section 3). A view of 3
-  /// size() functions: red of all, then green, then blue; of those left out none takes part.
+  /// Returns all functions of all channels as one basis, for data without colour channels. Each channel of a measured
+  /// material counts as a grey material, as for principal components (Nielsen et al. 2015, section 3). A view of 3
+  /// size() functions: red of all, then green, then blue. Excluded materials take no part.
   [[nodiscard]] material_channel<Metric> as_grey() const {
     std::vector<Eigen::Index> columns;
     for (Eigen::Index channel = 0; channel < 3; ++channel)
@@ -136,11 +136,11 @@ class material_functions {
   }
 
  protected:
-  /// All functions of all channels: cells x 3 size.
+  /// Returns all functions of all channels: cells x 3 size.
   [[nodiscard]] const cell_matrix& mapped() const noexcept { return *mapped_; }
 
-  /// The functions of these materials take no part any more. Nothing is copied. Throws gonio::error for a name that
-  /// there is not, or if no material is left.
+  /// Excludes the functions of these materials from fits, without a copy. Throws gonio::error for an unknown name, or
+  /// if no material is left.
   void leave_out(const std::vector<std::string>& excluded) {
     for (const std::string& name : excluded)
       if (std::ranges::find(*names_, name) == names_->end())

@@ -49,13 +49,13 @@ template <error_metric Metric>
 class measured : public material_functions<Metric> {
  public:
   /// Maps the tables in place: the set is consumed. O(cells x materials). Throws gonio::error if there is no material,
-  /// or naming one and the first cell where it is not finite, before mapping or after.
+  /// or if a value is not finite, before mapping or after; the message names the material and the first such cell.
   measured(material_set materials, Metric metric, thread_count threads = {})
       : material_functions<Metric>(materials.names, materials.cells, metric,
                                    detail::map_by_channel(materials, metric, threads)) {}
 
-  /// The same basis in which the materials of these names take no part. Nothing is copied. Throws gonio::error for a
-  /// name that there is not, or if none is left.
+  /// Returns the same basis with the materials of these names excluded from fits, without a copy. Throws gonio::error
+  /// for an unknown name, or if none is left.
   [[nodiscard]] measured without(const std::vector<std::string>& excluded) const {
     measured fewer(*this);
     fewer.leave_out(excluded);

@@ -18,7 +18,7 @@
 
 namespace gonio {
 
-/// What a principal component basis consists of, for those who build or store one.
+/// The parts of a principal component basis, for building or storing one.
 template <error_metric Metric, domain Places = valid_cells>
 struct pca_parts {
   Places cells;
@@ -28,18 +28,17 @@ struct pca_parts {
   cell_matrix components;                ///< Q = V Sigma, cells x k
   std::vector<float> mean;               ///< mu, one value per cell
   Eigen::MatrixXf coefficients;          ///< observations (the channels of each material) x k: j is mu + Q row(j)'
-  double explained_variance = 1.0;       ///< share of the observations' variance that the k components keep
-  std::string source = {};               ///< what it was learned from, for people
-  std::vector<double> wavelengths = {};  ///< of the channels of each material, nanometres; none: red, green and blue
+  double explained_variance = 1.0;       ///< the k components' share of the observations' variance
+  std::string source = {};               ///< origin of the data, for display
+  std::vector<double> wavelengths = {};  ///< of the channels of each material, nanometres; none for red, green and blue
 };
 
-/// Principal components over the valid cells of a grid, or another domain. A value type whose copies share their
-/// storage.
+/// Principal components over the valid cells of a grid, or another domain. A value type; copies share their storage.
 template <error_metric Metric, domain Places = valid_cells>
 class pca {
  public:
   using parts_type = pca_parts<Metric, Places>;
-  /// A component times -1 is as good a component: see `has_arbitrary_sign`.
+  /// The sign of a component is arbitrary: see `has_arbitrary_sign`.
   static constexpr bool arbitrary_sign = true;
 
   /// Throws gonio::error if the sizes of the parts do not match, and for wavelengths that do not ascend.
@@ -54,33 +53,33 @@ class pca {
               parts_->names.size(), " materials of ", channels(), " channels do not match in size"});
   }
 
-  /// Number of components k.
+  /// Returns the number of components k.
   [[nodiscard]] Eigen::Index size() const noexcept { return parts_->components.cols(); }
   [[nodiscard]] const Places& cells() const noexcept { return parts_->cells; }
   [[nodiscard]] const Metric& metric() const noexcept { return parts_->metric; }
 
-  /// The k scaled components at a cell.
+  /// Returns the k scaled components at a cell.
   [[nodiscard]] std::span<const float> row(Eigen::Index cell) const noexcept {
     return std::span(parts_->components.data() + cell * size(), size());
   }
-  /// The mean mu at a cell.
+  /// Returns the mean mu at a cell.
   [[nodiscard]] double offset(Eigen::Index cell) const noexcept { return parts_->mean[cell]; }
 
-  /// Q = V Sigma, cells x k.
+  /// Returns Q = V Sigma, cells x k.
   [[nodiscard]] const cell_matrix& components() const noexcept { return parts_->components; }
   [[nodiscard]] const std::vector<float>& mean() const noexcept { return parts_->mean; }
   [[nodiscard]] const Eigen::VectorXd& singular_values() const noexcept { return parts_->singular_values; }
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return parts_->names; }
-  /// Wavelengths that the materials were measured at, in nanometres, ascending; none of materials in colours.
+  /// Returns the wavelengths of the materials, in nanometres, ascending; none for colours.
   [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return parts_->wavelengths; }
-  /// The channels of each material, which are as many rows of `coefficients`, one after the other: its wavelengths, or
-  /// red, green and blue (or as many as the domain says).
+  /// Returns the number of channels of each material, which have consecutive rows of `coefficients`: its wavelengths,
+  /// or red, green and blue (or the number that the domain declares).
   [[nodiscard]] Eigen::Index channels() const noexcept { return channels_at<Places>(parts_->wavelengths); }
   [[nodiscard]] const Eigen::MatrixXf& coefficients() const noexcept { return parts_->coefficients; }
   [[nodiscard]] double explained_variance() const noexcept { return parts_->explained_variance; }
   [[nodiscard]] const std::string& source() const noexcept { return parts_->source; }
 
-  /// The first k components alone. Throws gonio::error unless k is from 1 to size().
+  /// Returns the first k components. Throws gonio::error unless k is from 1 to size().
   [[nodiscard]] pca truncated(Eigen::Index k) const {
     if (k < 1 || k > size()) refuse({"cannot keep ", k, " of ", size(), " components"});
     const double share = parts_->singular_values.head(k).squaredNorm() / parts_->singular_values.squaredNorm();
@@ -89,14 +88,14 @@ class pca {
                 parts_->explained_variance * share, parts_->source, parts_->wavelengths});
   }
 
-  /// The same basis that tells people where it comes from.
+  /// Returns the same basis with another `source`.
   [[nodiscard]] pca with_source(std::string source) const {
     parts_type parts = *parts_;
     parts.source = std::move(source);
     return pca(std::move(parts));
   }
 
-  /// Weights, k x channels, that expand to one of the materials the basis was learned from.
+  /// Returns the weights, k x channels, of one of the materials that the basis was learned from.
   [[nodiscard]] Eigen::MatrixXd weights_of(Eigen::Index material) const {
     return parts_->coefficients.middleRows(channels() * material, channels()).transpose().template cast<double>();
   }

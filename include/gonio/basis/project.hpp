@@ -1,5 +1,5 @@
 #pragma once
-/// The best that principal components can do: the orthogonal projection of a full table on them.
+/// The best fit by principal components: the orthogonal projection of a full table.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/table/brdf_table.hpp>
@@ -8,10 +8,9 @@
 
 namespace gonio {
 
-/// Weights, k x 3, of the projection of a table on the components: c = Sigma^-2 Q'(x - mu), because
-/// Q = V Sigma and V has orthonormal columns. Exact only for a basis over the cells it was learned on; the
-/// table must be over the basis' cells (else gonio::error). Components below 1e-5 of the first are left
-/// out. O(cells x k).
+/// Returns the weights, k x 3, of the projection of a table on the components: c = Sigma^-2 Q'(x - mu), because Q = V
+/// Sigma and V has orthonormal columns. Exact only over the cells on which the basis was learned. Throws gonio::error
+/// unless the table is over the basis' cells. Components below 1e-5 of the first get no weight. O(cells x k).
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd project(const pca<Metric>& basis, const brdf_table& table, thread_count threads = {}) {
   if (!(table.cells() == basis.cells())) refuse("only a table over the basis' own cells can be projected on it");

@@ -1,9 +1,9 @@
 #pragma once
-/// Radial basis functions: a rival with which Noell, Koehler and Stricker 2014, section 3.1, compare their estimator.
-/// 758 centres are spread over a radial re-parametrisation of the BRDF's domain, after Zickler et al., "Reflectance
+/// Radial basis functions, with which Noell, Koehler and Stricker 2014, section 3.1, compare their estimator. 758
+/// centres are spread over a radial re-parametrisation of the BRDF's domain, after Zickler et al., "Reflectance
 /// sharing", EGSR 2005, and Weistroffer et al., "Efficient basis decomposition for scattered reflectance data", EGSR
-/// 2007. They do not say more; the coordinates (`radial_coordinates`) and the kernel (`linear_kernel`) are our reading,
-/// and other kernels and centres can be passed.
+/// 2007. The paper states no more. The coordinates (`radial_coordinates`) and the kernel (`linear_kernel`) are our
+/// interpretation; other kernels and centres can be passed.
 
 #include <gonio/basis/basis.hpp>
 
@@ -25,9 +25,9 @@
 
 namespace gonio {
 
-/// The location of a direction pair in the domain of radial basis functions: sqrt(theta_h / 90 degrees), which is finer
-/// towards the highlight, and theta_d / 90 degrees as the radius of a disc with the angle 2 phi_d. The disc closes
-/// where phi_d wraps (reciprocity), and its centre is theta_d = 0, where phi_d means nothing.
+/// Returns the location of a direction pair in the domain of radial basis functions. sqrt(theta_h / 90 degrees) is
+/// finer towards the highlight. theta_d / 90 degrees is the radius on a disc with the angle 2 phi_d. The disc closes
+/// where phi_d wraps (reciprocity), and its centre is theta_d = 0, where phi_d has no meaning.
 [[nodiscard]] inline Eigen::Vector3d radial_coordinates(const half_difference& angles) noexcept {
   constexpr double right_angle = std::numbers::pi / 2.0;
   const double radius = angles.theta_d / right_angle;
@@ -35,14 +35,13 @@ namespace gonio {
           radius * std::sin(2.0 * angles.phi_d)};
 }
 
-/// Squared distances of a location to centres, to be replaced by what a kernel makes of them.
+/// Squared distances of a location to centres, which a kernel replaces by its values.
 using kernel_row = Eigen::Ref<Eigen::Array<double, 1, Eigen::Dynamic>>;
 
-/// A function of the distance to a centre: `apply(row)` takes a row of squared distances and leaves the kernel's
-/// values.
+/// A function of the distance to a centre: `apply(row)` replaces a row of squared distances by the kernel's values.
 ///
-/// What the compiler cannot check, and a model must keep: values are finite for distances from 0 to 3; `apply` neither
-/// allocates nor throws, and is thread safe.
+/// Requirements that the compiler cannot check: values are finite for distances from 0 to 3; `apply` neither allocates
+/// nor throws, and is thread safe.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -87,35 +86,35 @@ struct linear_kernel {
 
 static_assert(radial_kernel<linear_kernel>);
 
-/// Centres of Noell et al. 2014, for each colour channel.
+/// The number of centres of Noell et al. 2014, for each colour channel.
 inline constexpr Eigen::Index published_centre_count = 758;
 
-/// `count` cells such that each is the farthest, in radial coordinates, from those before it; the first is random. At
-/// most 60,000 cells, chosen at random, are candidates. O(cells + candidates x count). Throws gonio::error unless there
-/// are as many different locations.
+/// Chooses `count` cells: the first at random, and each next one farthest, in radial coordinates, from the previous
+/// ones. At most 60,000 cells, chosen at random, are candidates. O(cells + candidates x count). Throws gonio::error
+/// unless there are as many different locations.
 [[nodiscard]] std::vector<half_difference> farthest_point_centres(const valid_cells& cells,
                                                                   Eigen::Index count = published_centre_count,
                                                                   std::uint64_t seed = 0);
 
 /// Radial basis functions in the domain of a metric: one around each centre, and four that are affine in the radial
-/// coordinates. Rows are computed at the exact angles, O(centres), and never stored. A value type whose copies share
-/// the centres.
+/// coordinates. Rows are computed at the exact angles, O(centres), and never stored. A value type; copies share the
+/// centres.
 ///
 /// ```cpp
 /// const gonio::decomposition rival{gonio::rbf{cells, gonio::log{}}, gonio::tikhonov{1e-6}};  // Noell et al.'s
 /// const auto paint = rival.fit(samples);
 /// const gonio::rbf smooth{cells, gonio::root{}, gonio::farthest_point_centres(cells, 300), thin_plate_kernel{}};
 /// ```
-/// The penalty only keeps the system solvable where samples are few. Beyond that it must be tiny, as the Gram matrix
-/// has a condition number of almost 1e10: 1e-6 is 1e-11 of its mean diagonal entry for 100,000 samples.
+/// The penalty only keeps the system solvable for few samples. It must be tiny, because the Gram matrix has a condition
+/// number of almost 1e10: 1e-6 is 1e-11 of its mean diagonal entry for 100,000 samples.
 template <error_metric Metric, radial_kernel Kernel = linear_kernel>
 class rbf {
  public:
-  /// The axes of the coordinates may as well run the other way: see `has_arbitrary_sign`.
+  /// The direction of the coordinate axes is arbitrary: see `has_arbitrary_sign`.
   static constexpr bool arbitrary_sign = true;
 
-  /// `cells` are those that the metric and a fit refer to. Throws gonio::error if there is no centre, or an angle of
-  /// one is not finite.
+  /// `cells` are those of the metric and of a fit. Throws gonio::error if there is no centre, or if an angle of one is
+  /// not finite.
   rbf(valid_cells cells, Metric metric, const std::vector<half_difference>& centres, Kernel kernel = Kernel())
       : cells_(std::move(cells)), metric_(std::move(metric)), kernel_(std::move(kernel)) {
     if (centres.empty()) refuse("radial basis functions need at least one centre");
@@ -128,19 +127,19 @@ class rbf {
     centres_ = std::make_shared<const coordinate_rows>(std::move(places));
   }
 
-  /// With 758 centres, as many as Noell et al. 2014 have, that lie far from each other. Throws gonio::error if there
-  /// are fewer cells.
+  /// Takes 758 centres, like Noell et al. 2014, that are far from each other. Throws gonio::error if there are fewer
+  /// cells.
   explicit rbf(valid_cells cells, Metric metric = Metric(), Kernel kernel = Kernel())
       : rbf(cells, std::move(metric), farthest_point_centres(cells), std::move(kernel)) {}
 
-  /// Number of centres, and four more.
+  /// Returns the number of centres plus four.
   [[nodiscard]] Eigen::Index size() const noexcept { return centres_->cols() + 4; }
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
   [[nodiscard]] const Kernel& kernel() const noexcept { return kernel_; }
   [[nodiscard]] double offset(Eigen::Index /*cell*/) const noexcept { return 0.0; }
 
-  /// The kernel of the distance to each centre, then 1 and the three coordinates.
+  /// Writes the kernel of the distance to each centre, then 1 and the three coordinates.
   void read_row(const location& at, function_row out) const noexcept {
     const Eigen::Vector3d place = radial_coordinates(at.angles);
     const coordinate_rows& centres = *centres_;
@@ -152,7 +151,7 @@ class rbf {
   }
 
  private:
-  /// A coordinate of all centres is contiguous.
+  /// Each coordinate of all centres is contiguous.
   using coordinate_rows = Eigen::Array<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
 
   valid_cells cells_;

@@ -1,7 +1,7 @@
 #pragma once
-/// Two priors in one: the principal components of soft and those of specular materials, and the contrast that parts
-/// them. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), section 8. estimate/soft_specular_decomposition.hpp learns
-/// it and estimates with it; io/materials/soft_specular_prior.hpp has its file.
+/// Two priors in one: the principal components of soft and of specular materials, and the contrast that separates them.
+/// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), section 8. estimate/soft_specular_decomposition.hpp learns and
+/// uses it; io/materials/soft_specular_prior.hpp reads and writes its file.
 
 #include <gonio/basis/pca.hpp>
 
@@ -12,29 +12,29 @@
 namespace gonio {
 
 /// Components of soft and of specular materials over the same cells and relative to the same reference, that of all
-/// materials together. A value type whose copies share their storage.
+/// materials. A value type; copies share their storage.
 class soft_specular_prior {
  public:
-  /// Throws gonio::error unless both are under the same metric over the same cells, and the threshold is finite.
+  /// Throws gonio::error unless both have the same metric over the same cells, and the threshold is finite.
   soft_specular_prior(log_relative_pca soft, log_relative_pca specular, double threshold);
 
   [[nodiscard]] const log_relative_pca& soft() const noexcept { return soft_; }
   [[nodiscard]] const log_relative_pca& specular() const noexcept { return specular_; }
-  /// The highlight contrast below which a material is soft (estimate/highlight_contrast.hpp).
+  /// Returns the highlight contrast below which a material is soft (estimate/highlight_contrast.hpp).
   [[nodiscard]] double threshold() const noexcept { return threshold_; }
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return soft_.cells(); }
-  /// Of both.
+  /// Returns the metric of both.
   [[nodiscard]] const log_relative& metric() const noexcept { return soft_.metric(); }
-  /// Number of materials of both.
+  /// Returns the number of materials of both.
   [[nodiscard]] Eigen::Index materials() const noexcept {
     return std::ssize(soft_.names()) + std::ssize(specular_.names());
   }
 
-  /// The same over other, usually fewer, cells; see `thin` of basis/learn_pca.hpp.
+  /// Returns the prior over other, usually fewer, cells; see `thin` in basis/learn_pca.hpp.
   [[nodiscard]] soft_specular_prior on(const valid_cells& cells) const;
 
-  /// The same that tells people where it comes from: both priors do.
+  /// Returns the prior with another `source` in both parts.
   [[nodiscard]] soft_specular_prior with_source(const std::string& source) const;
 
  private:

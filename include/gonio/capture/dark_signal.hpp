@@ -1,7 +1,7 @@
 #pragma once
-/// What a linear camera counts without light, from frames with the lens covered: of each pixel a pedestal and a
-/// current, b + d t, fitted by least squares. Pixels whose counts stand out are hot. Model: J. Janesick, "Photon
-/// Transfer", SPIE 2007, doi:10.1117/3.725073, chapter 7.
+/// The dark counts of a linear camera, from frames with the lens covered. Fits a pedestal and a current to each pixel
+/// by least squares, b + d t. Pixels with outlying counts are hot. Model: J. Janesick, "Photon Transfer", SPIE 2007,
+/// doi:10.1117/3.725073, chapter 7.
 
 #include <gonio/table/stored_codes.hpp>
 
@@ -12,7 +12,7 @@
 
 namespace gonio::capture {
 
-/// A frame and how long it was exposed.
+/// A frame and its exposure time.
 struct exposed_frame {
   double seconds = 0.0;
   stored_codes codes;
@@ -20,39 +20,38 @@ struct exposed_frame {
 
 namespace detail {
 
-/// Throws gonio::error unless frames have one size and largest count, and times that are positive and finite; there
-/// must be one at least. `what` names them: "a photograph".
+/// Throws gonio::error unless there is at least one frame, all have the same size and largest count, and all times are
+/// positive and finite. `what` names a frame in messages: "a photograph".
 void require_alike(std::span<const exposed_frame> frames, const char* what);
 
 }  // namespace detail
 
-/// The dark counts of all pixels and channels, and how well they are known. Without frames they are a level that is
-/// given, the same everywhere, with no error.
+/// The dark counts of all pixels and channels, and their uncertainty. Without frames, one given level without error.
 class dark_signal {
  public:
   dark_signal() = default;
   explicit dark_signal(double level) : level_(level) {}
 
-  /// Fits each value of the frames. Frames of one exposure time say nothing of others: all photographs then need that
-  /// time, and the level holds the current too. Throws gonio::error if there is no frame, if frames differ in size or
-  /// largest count, or if a time is not positive and finite. O(frames values).
+  /// Fits each value of the frames. If all frames have one exposure time, the level includes the current, and all
+  /// photographs need that time. Throws gonio::error if there is no frame, if frames differ in size or largest count,
+  /// or if a time is not positive and finite. O(frames values).
   explicit dark_signal(std::span<const exposed_frame> frames);
 
-  /// The counts of value `i` (as in stored_codes) in an exposure.
+  /// Returns the dark count of value `i` (as in stored_codes) in an exposure.
   [[nodiscard]] double count(Eigen::Index i, double seconds) const noexcept {
     return pedestals_.empty() ? level_ : pedestals_[i] + currents_[i] * seconds;
   }
-  /// The median count of all values in no time at all.
+  /// Returns the median over all values of the count at exposure time 0.
   [[nodiscard]] double level() const noexcept { return level_; }
-  /// The variance of `count`, as a multiple of the variance of one dark count.
+  /// Returns the variance of `count`, as a multiple of the variance of one dark count.
   [[nodiscard]] double relative_variance(double seconds) const noexcept;
-  /// Does it know of each pixel? If so, of how many values.
+  /// Returns the number of values that have their own dark count; 0 for a given level.
   [[nodiscard]] Eigen::Index size() const noexcept { return std::ssize(pedestals_); }
-  /// The numbers of the pixels of which a channel, in the longest dark exposure, is more than eight robust deviations
-  /// above the median, and more than four counts; in increasing order.
+  /// Returns the pixels, ascending, that have a channel which in the longest dark exposure exceeds the median by more
+  /// than eight robust deviations and by more than four counts.
   [[nodiscard]] const std::vector<Eigen::Index>& hot_pixels() const noexcept { return hot_; }
 
-  /// Throws gonio::error if all dark frames have one exposure time and this is another one, by more than 1 %.
+  /// Throws gonio::error if all dark frames have one exposure time and `seconds` differs from it by more than 1 %.
   void require_known(double seconds) const;
 
  private:
@@ -60,7 +59,8 @@ class dark_signal {
   void find_hot_pixels(double longest);
 
   double level_ = 0.0;
-  double frames_ = 0.0, mean_time_ = 0.0, scatter_ = 0.0;  ///< number, mean and sum of squared deviations of the times
+  double frames_ = 0.0, mean_time_ = 0.0,
+         scatter_ = 0.0;  ///< number, mean and sum of squared deviations of the exposure times
   std::vector<float> pedestals_, currents_;
   std::vector<Eigen::Index> hot_;
 };

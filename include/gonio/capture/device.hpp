@@ -1,10 +1,10 @@
 #pragma once
-/// What a laboratory must offer: concepts of light sources, positioners, cameras and the goniometers that are built of
-/// them. The library has no drivers; examples/lab/ has models of each, which are simulations.
+/// The interfaces of laboratory devices: concepts of light sources, positioners, cameras and the goniometers built from
+/// them. The library has no drivers; examples/lab/ has simulated models of each.
 ///
-/// A call to a device blocks until the device has done what it was asked: arms are at rest, a lamp's light is steady, a
-/// image is read out. What a device cannot do it says with device_failure, at once or after a time-out of its own,
-/// and stays usable: whoever called may try again.
+/// A call to a device blocks until the device has finished: arms are at rest, a lamp's light is steady, an image is
+/// read out. If a device cannot do what was asked, it throws device_failure, at once or after its own time-out. It then
+/// stays usable, and the caller may retry.
 
 #include <gonio/core/direction.hpp>
 
@@ -21,13 +21,13 @@
 
 namespace gonio::capture {
 
-/// Thrown by a device that did not do what it was asked. The message names the device and what went wrong.
+/// Thrown by a device that did not do what was asked. The message names the device and the problem.
 class device_failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Counts of the pixels that see the sample, a row for each pixel; the columns are red, green and blue.
+/// Counts of the pixels that see the sample: one row per pixel; columns red, green and blue.
 using camera_frame = Eigen::Array<std::uint16_t, Eigen::Dynamic, 3>;
 
 /// Images of one pair of directions.
@@ -36,18 +36,18 @@ struct reading {
   std::vector<camera_frame> frames;  ///< all with the same pixels
 };
 
-/// Where a goniometer would measure a pair of directions, or why it cannot.
+/// The pair at which a goniometer would measure a requested pair, or the reason why it cannot.
 struct placement {
-  direction_pair at;     ///< in the sample's axes; not quite what was asked where lamps stand still
+  direction_pair at;     ///< in the sample's axes; may differ slightly from the request if lamps are fixed
   std::string obstacle;  ///< empty if the machine can measure there
 
   [[nodiscard]] bool is_reachable() const noexcept { return obstacle.empty(); }
 };
 
-/// One lamp or several, of which one burns at a time.
+/// One or several lamps. One is on at a time.
 ///
-/// A driver's author guarantees: `switch_on(lamp)`, with lamp < lamps(), returns when that lamp's light is steady and
-/// all others are off; `switch_off()` may be called at any time, also twice.
+/// The driver must guarantee: `switch_on(lamp)`, with lamp < lamps(), returns when that lamp's light is steady and all
+/// others are off. `switch_off()` may be called at any time, also twice.
 /// ```cpp
 /// struct torch {
 ///   Eigen::Index lamps() const { return 1; }
@@ -63,12 +63,12 @@ concept light_source = requires(L& lights, const L& same, Eigen::Index lamp) {
   lights.switch_off();
 };
 
-/// An arm or a robot that brings a lamp or a camera to a direction, as seen from the sample.
+/// An arm or a robot that moves a lamp or a camera to a direction, as seen from the sample.
 ///
-/// A driver's author guarantees: `obstacle(w)` says in a few words why the direction w (a unit vector in the sample's
-/// axes) cannot be reached, or nothing if it can, without moving; `move_to(w)` returns with the arm at rest, within the
-/// machine's own precision, and throws device_failure instead of stopping half-way unnoticed; it is only called where
-/// there is no obstacle.
+/// The driver must guarantee: `obstacle(w)` does not move the arm and returns a short reason why the direction w (a
+/// unit vector in the sample's axes) cannot be reached, or an empty string if it can. `move_to(w)` returns with the arm
+/// at rest, within the machine's own precision, and throws device_failure if it stops half-way. It is only called for
+/// directions without an obstacle.
 /// ```cpp
 /// struct bent_wire {
 ///   std::string obstacle(const gonio::direction& w) const { return w.z() > 0.5 ? "" : "the wire is too short"; }
@@ -84,9 +84,9 @@ concept positioner = requires(P& arm, const P& same, const direction& w) {
 
 /// A camera that looks at the sample.
 ///
-/// A driver's author guarantees: `expose(seconds)`, for a time from shortest_time() to longest_time(), returns the
-/// counts of the same pixels every time, from 0 to largest_count(), without gamma correction that changes from image
-/// to image, automatic gain or white balance. An image that did not arrive is a device_failure.
+/// The driver must guarantee: `expose(seconds)`, for a time from shortest_time() to longest_time(), returns the counts
+/// of the same pixels every time, from 0 to largest_count(). It uses no gamma correction that changes between images,
+/// no automatic gain and no white balance. It throws device_failure if an image does not arrive.
 /// ```cpp
 /// struct photodiode {
 ///   std::uint16_t largest_count() const { return 255; }
@@ -108,10 +108,10 @@ concept camera = requires(C& eye, const C& same, double seconds) {
 
 /// A machine that measures pairs of directions.
 ///
-/// A driver's author guarantees: `place(pair)` says where the machine would measure that pair of unit vectors, or why
-/// it cannot, without moving; light and viewer hiding one another is such an obstacle. `travel(from, to)` is the
-/// largest angle in radians by which a part of it turns between two pairs. `measure(pair)`, for a pair that place()
-/// returned, takes images there; it leaves the lamps off, also when it throws device_failure.
+/// The driver must guarantee: `place(pair)` does not move the machine and returns the pair of unit vectors at which it
+/// would measure, or the reason why it cannot, such as light and viewer occluding each other. `travel(from, to)` is the
+/// largest angle in radians by which a part of the machine turns between two pairs. `measure(pair)`, for a pair that
+/// place() returned, takes images there. It leaves the lamps off, even when it throws device_failure.
 ///
 /// With a machine of your own; examples/lab has simulated ones:
 /// ```cpp
@@ -148,10 +148,10 @@ concept goniometer = requires(G& machine, const G& same, const direction_pair& p
 /// The exposure times of the thesis's note on relative BRDF measurement (Sec. 3), in seconds.
 inline constexpr std::array<double, 5> note_exposure_times{0.0125, 0.025, 0.05, 0.1, 0.2};
 
-/// Takes images at some times, and at others where these do not show all: ever shorter ones while a pixel of the
-/// shortest is in the uppermost eighth of the counts, where chips saturate, longer ones while a colour of the longest
-/// has no count above the lowest eighth, by factors of 4 as far as the camera goes. Times beyond the camera's are
-/// brought to its own. The given times come first, in their order; there is at least one.
+/// Takes images at the given times, and at further times if these do not cover the range. It adds shorter exposures
+/// while a pixel of the shortest is in the top eighth of the counts, where chips saturate. It adds longer ones while a
+/// colour of the longest has no count above the lowest eighth. The factor is 4, within the camera's limits. Given times
+/// outside the limits are clamped. The given times come first, in their order; there must be at least one.
 template <camera Camera>
 [[nodiscard]] reading expose_bracket(Camera& eye, std::span<const double> times = note_exposure_times) {
   constexpr double factor = 4.0;
@@ -166,7 +166,7 @@ template <camera Camera>
   const auto [least, most] = std::ranges::minmax_element(taken.times);
   const Eigen::Index darkest = least - taken.times.begin();
   const Eigen::Index brightest = most - taken.times.begin();
-  // A frame without pixels is for whoever checks the reading.
+  // Frames without pixels are left for the caller's check of the reading.
   const auto is_bright = [&](const camera_frame& each) {
     return each.rows() > 0 && each.maxCoeff() >= largest - largest / 8;
   };

@@ -1,7 +1,7 @@
 #pragma once
-/// Clusters of points around their means: Lloyd's algorithm from the seeds of k-means++ (Arthur and Vassilvitskii,
-/// "k-means++: The Advantages of Careful Seeding", SODA 2007), and how well they stand apart (Rousseeuw, "Silhouettes:
-/// a Graphical Aid to the Interpretation and Validation of Cluster Analysis", 1987, doi:10.1016/0377-0427(87)90125-7).
+/// K-means clustering: Lloyd's algorithm with k-means++ seeds (Arthur and Vassilvitskii, "k-means++: The Advantages of
+/// Careful Seeding", SODA 2007), and the separation of clusters (Rousseeuw, "Silhouettes: a Graphical Aid to the
+/// Interpretation and Validation of Cluster Analysis", 1987, doi:10.1016/0377-0427(87)90125-7).
 
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
@@ -13,40 +13,39 @@
 
 namespace gonio::capture {
 
-/// Points, one a row: n x d.
+/// Points, one per row: n x d.
 using point_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using point_matrix_view = Eigen::Ref<const point_matrix>;
 
-/// Points in k clusters, none of which is empty, the largest first; of as large ones that whose centre comes first in
-/// the order of its coordinates.
+/// Points in k non-empty clusters, the largest first. Ties are broken by the centres' coordinates.
 struct point_clusters {
-  Eigen::VectorXi labels;           ///< n numbers from 0 to k - 1: that of the nearest centre
+  Eigen::VectorXi labels;           ///< the nearest centre of each point, from 0 to k - 1
   point_matrix centres;             ///< k x d, the means of the clusters
-  std::vector<Eigen::Index> sizes;  ///< how many points each cluster has
+  std::vector<Eigen::Index> sizes;  ///< number of points of each cluster
   double inertia = 0.0;             ///< sum of the squared distances of the points to their centres
 };
 
 namespace detail {
 
-/// How many of the points differ, but no more than `limit`. O(n limit).
+/// Returns the number of distinct points, at most `limit`. O(n limit).
 [[nodiscard]] Eigen::Index different_points(const point_matrix_view& points, Eigen::Index limit);
 
-/// The means of clusters none of which is empty: k x d.
+/// Returns the means of non-empty clusters: k x d.
 [[nodiscard]] point_matrix cluster_means(const point_matrix_view& points, const Eigen::VectorXi& labels, Eigen::Index k,
                                          thread_count threads);
 
 }  // namespace detail
 
-/// Lloyd's algorithm from given centres, k x d: every point goes to the nearest centre, every centre to the mean of its
-/// points, until no point changes or for `most_steps` steps. A cluster that loses all its points takes the one farthest
-/// from its centre. Throws gonio::error if a number is not finite, dimensions differ, or there are fewer points than
-/// centres. O(n k d) a step, same bytes for any number of threads.
+/// Lloyd's algorithm from given centres, k x d. Assigns every point to the nearest centre and moves every centre to the
+/// mean of its points, until no point changes or for `most_steps` steps. A cluster that loses all its points takes the
+/// point farthest from its centre. Throws gonio::error if a number is not finite, if dimensions differ, or if there are
+/// fewer points than centres. O(n k d) per step. The bytes do not depend on the number of threads.
 [[nodiscard]] point_clusters refine_clusters(const point_matrix_view& points, point_matrix centres,
                                              thread_count threads = {}, int most_steps = 100);
 
-/// The best of ten runs of Lloyd's algorithm from the seeds of k-means++, by inertia. Throws gonio::error if a point is
-/// not finite, or unless there are k different points and k is at least 1. The seed alone decides, not the number of
-/// threads. O(n k d) a step.
+/// Returns the best by inertia of ten runs of Lloyd's algorithm with k-means++ seeds. Throws gonio::error if a point is
+/// not finite, or unless k is at least 1 and there are k distinct points. The result depends on the seed, not on the
+/// number of threads. O(n k d) per step.
 ///
 /// ```cpp
 /// const auto clusters = gonio::capture::k_means(points, 3, seed);
@@ -54,20 +53,20 @@ namespace detail {
 [[nodiscard]] point_clusters k_means(const point_matrix_view& points, Eigen::Index k, std::uint64_t seed,
                                      thread_count threads = {});
 
-/// Of points the nearest of some centres, the first of equally near ones.
+/// The nearest centre of each point. If several are equally near, it is the first.
 struct nearest_centres {
   Eigen::VectorXi labels;
   Eigen::VectorXd squared_distances;
 };
-/// Where points belong that clusters were not made from. Points and centres, k x d, have equally many numbers,
-/// otherwise gonio::error is thrown. O(n k d), same bytes for any number of threads.
+/// Assigns new points to the nearest centres. Throws gonio::error unless points and centres, k x d, have the same
+/// dimension. O(n k d). The bytes do not depend on the number of threads.
 [[nodiscard]] nearest_centres find_nearest(const point_matrix_view& points, const point_matrix& centres,
                                            thread_count threads = {});
 
-/// How well clusters stand apart, from -1 to 1: the mean over the points of (b - a) / max(a, b), where a is a point's
-/// mean distance to the others of its cluster and b that to the points of the nearest other cluster. A point alone in
-/// its cluster counts 0 (Rousseeuw 1987), and so does every point if there is one cluster only. `labels` has a number
-/// from 0 on for each point, otherwise gonio::error is thrown. O(n^2 d): meant for thousands of points.
+/// Returns the separation of clusters, from -1 to 1: the mean over the points of (b - a) / max(a, b). a is a point's
+/// mean distance to the others of its cluster, b that to the points of the nearest other cluster. A point alone in its
+/// cluster counts 0 (Rousseeuw 1987). With a single cluster every point counts 0. Throws gonio::error unless `labels`
+/// has a number of at least 0 for each point. O(n^2 d): meant for thousands of points.
 [[nodiscard]] double mean_silhouette(const point_matrix_view& points, const Eigen::VectorXi& labels,
                                      thread_count threads = {});
 

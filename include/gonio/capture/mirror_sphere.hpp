@@ -1,6 +1,6 @@
 #pragma once
-/// A photographed mirror sphere as the light all around it (P. Debevec, "Rendering Synthetic Objects into Real Scenes",
-/// SIGGRAPH 1998, doi:10.1145/280814.280864; Nielsen's thesis 2016, note on environment maps, Eq. 1-3).
+/// Converts a photograph of a mirror sphere to the light around it (P. Debevec, "Rendering Synthetic Objects into Real
+/// Scenes", SIGGRAPH 1998, doi:10.1145/280814.280864; Nielsen's thesis 2016, note on environment maps, Eq. 1-3).
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
@@ -16,66 +16,65 @@
 
 namespace gonio::capture {
 
-/// A mirror sphere and the camera that looks at its centre. Axes: x to the right and y up in the image, z from the
-/// sphere towards the camera. Places in the image are those of a sphere of radius 1 that fills it: from -1 to 1, y
-/// upwards.
+/// A mirror sphere and a camera that looks at its centre. Axes: x to the right and y up in the image, z from the sphere
+/// towards the camera. Image coordinates run from -1 to 1 over a sphere of radius 1 that fills the image, y upwards.
 class mirror_sphere {
  public:
-  /// Seen from far away: orthographic, as the note assumes.
+  /// A camera at infinity: orthographic, as the note assumes.
   mirror_sphere() = default;
 
-  /// Seen from a distance in radii of the sphere, centre to camera. Throws gonio::error unless it is more than 1.
+  /// A camera at a distance from the centre, in radii of the sphere. Throws gonio::error unless it is more than 1.
   explicit mirror_sphere(double distance);
 
-  /// Seen by a camera for which the sphere spans this angle in radians. Throws gonio::error unless it lies between 0
-  /// and pi.
+  /// A camera for which the sphere subtends this angle in radians. Throws gonio::error unless it is between 0 and pi.
   [[nodiscard]] static mirror_sphere spanning(double angle);
 
   [[nodiscard]] double distance() const noexcept { return distance_; }
 
-  /// The largest angle in radians from the z axis from which light reaches the camera: pi from far away, where the
-  /// light from right behind the sphere is spread around its rim; less from close by, where the sphere hides it.
+  /// Returns the largest angle in radians between the z axis and a light that the camera sees. For a camera at infinity
+  /// it is pi; light from directly behind the sphere is spread around its rim. A close camera sees less, because the
+  /// sphere hides the light behind it.
   [[nodiscard]] double largest_polar_angle() const noexcept { return std::numbers::pi - std::asin(1.0 / distance_); }
 
-  /// Where light from a direction, which need not be of unit length, is seen. Nothing if the sphere hides it. Newton's
-  /// method in the plane of light, normal and camera; five steps or so.
+  /// Returns the image position of light from a direction, which need not be of unit length. Returns nothing if the
+  /// sphere hides it. Uses about five steps of Newton's method in the plane of light, normal and camera.
   [[nodiscard]] std::optional<Eigen::Vector2d> place_of(const direction& light) const noexcept;
 
-  /// The light that is seen at a place, a unit vector; nothing beside the sphere.
+  /// Returns the direction of the light seen at an image position, a unit vector; nothing outside the sphere.
   [[nodiscard]] std::optional<direction> light_at(const Eigen::Vector2d& place) const noexcept;
 
  private:
   [[nodiscard]] bool is_far() const noexcept { return std::isinf(distance_); }
 
-  /// The angle between z and the way from a point of the sphere to the camera, away from the point's side, where the
-  /// normal is at `angle` from z.
+  /// Returns the angle between z and the line from a point of the sphere to the camera. The normal at the point is at
+  /// `angle` from z; the line leans to the other side.
   [[nodiscard]] double leaning(double angle) const noexcept {
     return is_far() ? 0.0 : std::atan2(std::sin(angle), distance_ - std::cos(angle));
   }
 
-  /// The normal's angle from z that reflects light at a polar angle to the camera: 2 a + leaning(a) = polar, which
-  /// rises with a.
+  /// Returns the normal's angle from z that reflects light at a polar angle to the camera. It solves 2 a + leaning(a) =
+  /// polar, which increases with a.
   [[nodiscard]] double normal_angle(double polar) const noexcept;
 
-  /// The place's distance from the middle, of a point whose normal is at an angle from z.
+  /// Returns the distance from the image centre of the point whose normal is at an angle from z.
   [[nodiscard]] double radius_of(double angle) const noexcept {
     if (is_far()) return std::sin(angle);
     return std::min(1.0, std::sin(angle) / (distance_ - std::cos(angle)) * std::sqrt(distance_ * distance_ - 1.0));
   }
 
-  /// Its inverse: where the ray through the place meets the sphere first.
+  /// The inverse: the first point of the sphere on the ray through an image position.
   [[nodiscard]] double angle_of(double radius) const noexcept;
 
   double distance_ = std::numeric_limits<double>::infinity();
 };
 
 struct unwrap_options {
-  std::size_t rows = 256;    ///< of the map, which is twice as wide
+  std::size_t rows = 256;    ///< of the map; it has twice as many columns
   double reflectance = 1.0;  ///< of the mirror
-  int samples = 0;  ///< directions across a pixel of the map, of which the mean is taken; 0: as its light needs
+  int samples = 0;           ///< directions averaged across a pixel of the map; 0: chosen from the image size
 
-  /// As many as it takes not to step over a pixel of the middle of an image that is some pixels wide, where one shows
-  /// 4 / pixels of light's angle.
+  /// Returns the number of samples that skips no pixel in the middle of an image with `pixels` pixels across, where a
+  /// pixel covers 4 / pixels radians of the light's angle.
   [[nodiscard]] int samples_for(std::size_t pixels) const noexcept;
 };
 
@@ -83,20 +82,20 @@ namespace detail {
 
 void require_unwrappable(const image& probe, const unwrap_options& options);
 
-/// The colour at a place of the sphere's image: the mean of the four pixels around it by how close they are, without
-/// those that lie partly beside the sphere. Places within three quarters of a pixel of the rim are moved there, so that
-/// the pixel towards the middle is always whole.
+/// Returns the colour at a position of the sphere's image by bilinear interpolation. Ignores pixels that lie partly
+/// outside the sphere. Positions within three quarters of a pixel of the rim are moved inwards to that distance, so
+/// that the inner pixel is always whole.
 [[nodiscard]] rgb read_probe(const image& probe, const Eigen::Vector2d& place) noexcept;
 
 }  // namespace detail
 
-/// The light around a mirror sphere as a latitude-longitude image with the conventions of render/environment_map.hpp,
-/// from a square image that the sphere fills. For each direction of the map the image is read, between its pixels,
-/// where it shows that light, without pixels that lie partly beside the sphere. What the sphere hides, right behind it,
-/// is filled with what is seen at the rim on that side.
+/// Converts a square image that the sphere fills to a latitude-longitude image of the light around it, with the
+/// conventions of render/environment_map.hpp. For each direction of the map it interpolates the image at the position
+/// of that light, ignoring pixels that lie partly outside the sphere. Directions that the sphere hides get the colour
+/// at the rim on that side.
 ///
-/// Throws gonio::error unless the image is square, of at least 8 pixels a side, finite and not negative, and the
-/// options are positive, the reflectance at most 1. O(rows^2 samples^2).
+/// Throws gonio::error unless the image is square, at least 8 pixels wide, finite and not negative, there are rows,
+/// samples is not negative, and the reflectance is above 0 and at most 1. O(rows^2 samples^2).
 [[nodiscard]] image unwrap(const image& probe, const mirror_sphere& sphere, const unwrap_options& options = {},
                            thread_count threads = {});
 

@@ -1,9 +1,9 @@
 #pragma once
-/// How much light a white reference reflects: a number, or a table by the angles of light and viewer. No
-/// reference is quite matte; its maker's table, or one's own, says by how much.
+/// The reflectance of a white reference: a number, or a table over the angles of light and viewer. No reference is
+/// perfectly matte; the maker's table, or your own, gives the deviation.
 ///
-/// The factor is the reference's BRDF times pi (radiance beside that of a perfect diffuser under the same light). A
-/// measured BRDF is in proportion to it (Nielsen's thesis 2016, note on relative BRDF measurement, Eq. 18).
+/// The factor is the reference's BRDF times pi: its radiance relative to that of a perfect diffuser under the same
+/// light. A measured BRDF is proportional to it (Nielsen's thesis 2016, note on relative BRDF measurement, Eq. 18).
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>
@@ -16,28 +16,28 @@ namespace gonio::capture {
 
 /// The reflectance factor of a white reference for each pair of directions and each channel.
 ///
-/// `reference_reflectance(0.99)` is the same everywhere; `.reflectance = 0.99` of a calibration makes one, too.
+/// `reference_reflectance(0.99)` is the same everywhere. Numbers convert implicitly: `.reflectance = 0.99`.
 class reference_reflectance {
  public:
-  /// The same for all directions and channels. Throws gonio::error unless it is above 0 and up to 1.
+  /// The same for all directions and channels. Throws gonio::error unless it is above 0 and at most 1.
   reference_reflectance(double everywhere = 0.99);  // NOLINT: a number is a reflectance
 
-  /// A table over the polar angles of light and viewer, in radians; without angles of the viewer, the same for all.
-  /// `factors` has the viewers of the first light first, then those of the next. Between angles it is linear in each.
+  /// A table over the polar angles of light and viewer, in radians. Without viewer angles, it is the same for all
+  /// viewers. `factors` lists the viewers of the first light, then those of the next. Interpolation is bilinear.
   ///
-  /// Throws gonio::error if there is no angle of the light, if angles do not ascend from 0 to a right angle at most, if
-  /// there is not one factor for each pair of angles, or if a channel is not above 0 and up to `largest_possible`.
+  /// Throws gonio::error if there is no light angle, if angles do not ascend from 0 to at most a right angle, if there
+  /// is not one factor for each pair of angles, or if a channel is not above 0 and at most `largest_possible`.
   reference_reflectance(std::vector<double> theta_i, std::vector<double> theta_o, std::vector<rgb> factors);
 
-  /// The factor for a pair of directions; azimuths do not matter. Throws gonio::error naming the angle if the table
-  /// does not cover it: nothing is extrapolated. O(log(number of angles)).
+  /// Returns the factor for a pair of directions. Azimuths are ignored. Throws gonio::error that names the angle if the
+  /// table does not cover it: nothing is extrapolated. O(log(number of angles)).
   [[nodiscard]] rgb at(const direction_pair& pair) const;
 
-  /// Of all channels of the table, sr^-1 times pi.
+  /// Returns the largest factor over all channels of the table, sr^-1 times pi.
   [[nodiscard]] double largest() const;
 
-  /// The factor of a single pair of directions may be above that of a perfect diffuser, but not by as much as this:
-  /// such a number is a percentage.
+  /// The upper limit of a factor. A pair of directions may exceed a perfect diffuser, but a larger number is probably a
+  /// percentage.
   static constexpr double largest_possible = 1.5;
 
  private:

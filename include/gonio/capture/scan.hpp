@@ -1,7 +1,6 @@
 #pragma once
-/// Many pairs of directions measured one after the other, whatever happens to the machine meanwhile: planned, checked,
-/// ordered, and measured so that each reading is kept as soon as there is one (Nielsen's thesis 2016, note on the
-/// gonioreflectometer, Table 1).
+/// Measures many pairs of directions despite failures of the machine. The scan is planned, checked and ordered, and
+/// each reading is stored immediately (Nielsen's thesis 2016, note on the gonioreflectometer, Table 1).
 
 #include <gonio/capture/device.hpp>
 #include <gonio/capture/trajectory.hpp>
@@ -19,21 +18,21 @@
 
 namespace gonio::capture {
 
-/// A pose that a scan goes without, counted from 0, and why.
+/// A pose that a scan could not measure, counted from 0, and the reason.
 struct missing_pose {
   Eigen::Index number = 0;
   std::string reason;
 };
 
-/// The way of a machine through pairs of directions.
+/// The path of a machine through pairs of directions.
 struct scan_plan {
   std::vector<direction_pair> poses;      ///< in the order in which they are measured
-  std::vector<missing_pose> unreachable;  ///< numbered as the pairs that were asked for
-  double length = 0.0;                    ///< radians from the first pose to the last
+  std::vector<missing_pose> unreachable;  ///< numbered as in the requested pairs
+  double length = 0.0;                    ///< radians travelled from the first pose to the last
 };
 
-/// Where a machine can measure a pair: as it is, or by reciprocity with light and viewer in each other's place. If
-/// neither, what hinders the pair as it is.
+/// Returns where a machine can measure a pair: as given, or by reciprocity with light and viewer exchanged. If neither
+/// is possible, returns the obstacle of the pair as given.
 template <goniometer Machine>
 [[nodiscard]] placement place_either_way(const Machine& machine, const direction_pair& pair) {
   placement as_asked = machine.place(pair);
@@ -42,7 +41,7 @@ template <goniometer Machine>
   return exchanged.is_reachable() ? exchanged : as_asked;
 }
 
-/// A short way through all pairs that a machine can measure; those it cannot are named.
+/// Returns a short path through all pairs that a machine can measure, and lists the unreachable ones.
 template <goniometer Machine>
 [[nodiscard]] scan_plan plan_scan(const Machine& machine, std::span<const direction_pair> pairs) {
   scan_plan plan;
@@ -62,8 +61,8 @@ template <goniometer Machine>
   return plan;
 }
 
-/// A place where a scan keeps its readings. `has(pose)`: is the reading of the pose with this number kept? `add(pose,
-/// reading)` keeps it, and returns when nothing that happens to this process can lose it.
+/// Storage for the readings of a scan. `has(pose)` returns whether the reading of the pose with this number is stored.
+/// `add(pose, reading)` stores it, and returns only when a failure of this process cannot lose it.
 ///
 /// With a model of the library, a file:
 /// ```cpp
@@ -78,7 +77,7 @@ template <goniometer Machine>
 ///   std::printf("the first pose is %s\n", journal.has(0) ? "measured" : "to be measured");
 /// }
 /// ```
-/// With a model of your own, in memory, for a machine that is simulated:
+/// With a model of your own, in memory, for a simulated machine:
 /// ```cpp
 /// #include <gonio/capture/scan.hpp>
 ///
@@ -104,14 +103,14 @@ concept scan_record = requires(J& record, const J& same, Eigen::Index pose, cons
 };
 
 struct scan_options {
-  int attempts = 2;           ///< at each pose, before the scan goes on without it
-  int failures_in_a_row = 3;  ///< poses that fail one after the other, after which the machine is taken to be broken
+  int attempts = 2;           ///< per pose, before the scan skips it
+  int failures_in_a_row = 3;  ///< failing poses in succession after which the machine is considered broken
 };
 
-/// What a scan did.
+/// The result of a scan.
 struct scan_outcome {
   Eigen::Index measured = 0, kept_before = 0;
-  std::vector<missing_pose> missing;  ///< to be tried by the next scan of the same record
+  std::vector<missing_pose> missing;  ///< to be measured by the next scan with the same record
   bool is_broken_off = false;         ///< too many failures in a row: not all poses were tried
 
   [[nodiscard]] bool is_complete() const noexcept { return missing.empty() && !is_broken_off; }
@@ -119,10 +118,10 @@ struct scan_outcome {
 
 namespace detail {
 
-/// Why a reading is none; empty if it is one.
+/// Returns the fault of a reading; empty if there is none.
 [[nodiscard]] std::string fault_of(const reading& taken, std::uint16_t largest_count);
 
-/// Tries a pose until it is measured. Nothing, and why, if it fails every time.
+/// Retries a pose until it is measured. If every attempt fails, returns nothing and the reason.
 template <goniometer Machine>
 [[nodiscard]] std::pair<std::optional<reading>, std::string> try_to_measure(Machine& machine,
                                                                             const direction_pair& pose, int attempts) {
@@ -139,9 +138,9 @@ template <goniometer Machine>
 
 }  // namespace detail
 
-/// Measures the poses that a record does not have yet, in their order, and keeps each reading before the machine moves
-/// on. A pose that cannot be reached, or at which a device fails as often as it may, is left for another time. Other
-/// exceptions than device_failure pass; what was kept stays kept.
+/// Measures the poses that a record does not have yet, in their order, and stores each reading before the machine moves
+/// on. Skips a pose that cannot be reached, or at which a device fails `attempts` times. Exceptions other than
+/// device_failure propagate; stored readings remain stored.
 template <goniometer Machine, scan_record Record>
 scan_outcome scan(Machine& machine, std::span<const direction_pair> poses, Record& record,
                   const scan_options& options = {}, const progress& listener = {}) {

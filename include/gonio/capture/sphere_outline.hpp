@@ -1,9 +1,9 @@
 #pragma once
-/// Where a sphere of known radius is, from its outline in a photograph. Its rays touch it along a cone around the axis
-/// to its centre, which the image cuts in an ellipse. Rays d (unit vectors, after the lens' distortion is undone) of
-/// the outline lie in a plane, n . d = 1 with n = c / cos(alpha): the centre is in the direction c, at the distance
-/// R / sin(alpha). Outliers, such as the border of the shadow, are left out by M. Fischler and R. Bolles, "Random
-/// Sample Consensus", 1981 (doi:10.1145/358669.358692).
+/// Locates a sphere of known radius from its outline in a photograph. The rays that touch it form a cone around the
+/// axis to its centre; the cone's image is an ellipse. Rays d of the outline (unit vectors, after undoing the lens
+/// distortion) lie in a plane, n . d = 1 with n = c / cos(alpha): the centre is in the direction c, at the distance R /
+/// sin(alpha). Outliers, such as the shadow's border, are rejected by M. Fischler and R. Bolles, "Random Sample
+/// Consensus", 1981 (doi:10.1145/358669.358692).
 
 #include <gonio/capture/known_surface.hpp>
 #include <gonio/capture/surface_photograph.hpp>
@@ -19,49 +19,47 @@
 
 namespace gonio::capture {
 
-/// A circle in the image that somebody has drawn around the sphere, in pixels.
+/// A circle that a user has drawn around the sphere in the image, in pixels.
 struct outline_circle {
   double column = 0.0, row = 0.0, radius = 0.0;
 };
 
 struct outline_options {
-  double inlier_distance = 0.75;  ///< pixels from the outline within which a place of the edge agrees with it
-  Eigen::Index trials = 1000;     ///< outlines through three places of the edge
-  std::uint64_t seed = 1;         ///< decides which three
-  /// Where it is known, only those places count in the end at which it lights the sphere well: near its shadow the
-  /// outline fades.
+  double inlier_distance = 0.75;  ///< largest distance of an inlier from the outline, pixels
+  Eigen::Index trials = 1000;     ///< number of random triples of edge points
+  std::uint64_t seed = 1;         ///< chooses the triples
+  /// If given, the final fit uses only edge points that it lights well, because the outline fades near shadows.
   std::optional<surface_light> light = {};
 };
 
-/// A sphere, and how well its outline is met.
+/// A sphere and the quality of its outline.
 struct fitted_outline {
   placed_sphere sphere;
   Eigen::Index edge_points = 0, inliers = 0;
-  double deviation = 0.0;  ///< root mean square of the inliers' distances from the outline, pixels
+  double deviation = 0.0;  ///< root mean square distance of the inliers from the outline, pixels
 };
 
-/// The places (column, row) where something begins that differs from the background: the outermost ones of each row
-/// and of each column, to a fraction of a pixel by how much of the pixel is covered. The background is the median of
-/// the image's border. Throws gonio::error naming a pixel that is not a number, or if the image is all background.
-/// O(pixels).
+/// Returns the outermost points (column, row) of each row and column that differ from the background. The covered part
+/// of a pixel gives the position to a fraction of a pixel. The background is the median of the image's border. Throws
+/// gonio::error that names a pixel which is not a number, or if the image is all background. O(pixels).
 [[nodiscard]] std::vector<Eigen::Vector2d> edge_points(const image& photograph);
 
-/// The sphere of a radius, in the camera's unit of length, that these places are the outline of. Throws gonio::error if
-/// fewer than a third of them agree, or if they agree along less than a quarter of the outline: no sphere is found.
+/// Returns the sphere with this radius, in the camera's unit of length, that has these outline points. Throws
+/// gonio::error if fewer than a third of them agree, or if they cover less than a quarter of the outline.
 [[nodiscard]] fitted_outline fit_sphere(const std::vector<Eigen::Vector2d>& outline, const lens_camera& camera,
                                         double radius, const outline_options& options = {});
 
-/// The same of a photograph of the camera's size, by its `edge_points`.
+/// Returns the sphere in a photograph of the camera's size, by its `edge_points`.
 [[nodiscard]] fitted_outline find_sphere(const image& photograph, const lens_camera& camera, double radius,
                                          const outline_options& options = {});
 
-/// Of the outlines of one sphere that stands still in `photographs` many, the one that most of its edge agrees with:
-/// `find(i)` finds that of photograph i. It is no error if it refuses some, which a grazing lamp leaves a thin crescent
-/// in. Throws gonio::error with its last refusal if it refuses all.
+/// Returns the outline with the most inliers among photographs of one static sphere. `find(i)` returns the outline in
+/// photograph i. It may refuse some photographs, such as one in which a grazing lamp leaves a thin crescent. If it
+/// refuses all, throws gonio::error with its last refusal.
 [[nodiscard]] fitted_outline fullest_outline(Eigen::Index photographs,
                                              const std::function<fitted_outline(Eigen::Index)>& find);
 
-/// What `find_sphere` finds, of a circle, as near as a circle comes to the ellipse.
+/// Returns the sphere whose elliptic outline is closest to a circle.
 [[nodiscard]] fitted_outline sphere_within(const outline_circle& circle, const lens_camera& camera, double radius);
 
 }  // namespace gonio::capture

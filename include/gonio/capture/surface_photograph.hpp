@@ -1,9 +1,9 @@
 #pragma once
-/// A photograph of a surface of known shape as measurements of its BRDF, one for each pixel: of a sphere (Marschner et
-/// al. 2000, doi:10.1364/AO.39.002592; Nielsen et al. 2015, doi:10.1145/2816795.2818085, Sec. 6) or any other.
+/// Converts a photograph of a surface of known shape to BRDF measurements, one per pixel: of a sphere (Marschner et al.
+/// 2000, doi:10.1364/AO.39.002592; Nielsen et al. 2015, doi:10.1145/2816795.2818085, Sec. 6) or any other shape.
 ///
-/// A pixel's value is the radiance L = f E cos(theta_i), where a lamp of intensity I at a distance d has E = I / d^2.
-/// With a photograph of a white reference by the same camera and lamp, f follows from both for each pixel
+/// A pixel's value is the radiance L = f E cos(theta_i). A lamp of intensity I at a distance d has E = I / d^2. With a
+/// photograph of a white reference by the same camera and lamp, the ratio gives f for each pixel
 /// (capture/surface_light.hpp).
 
 #include <gonio/capture/surface_light.hpp>
@@ -19,33 +19,33 @@
 
 namespace gonio::capture {
 
-/// What of a photograph counts, and how it is averaged.
+/// Which pixels of a photograph are used, and how they are averaged.
 struct photograph_options {
-  /// Pixels with a channel of this value and more are skipped, in either photograph.
+  /// Skips pixels with a channel of at least this value, in either photograph.
   std::optional<double> saturation = {};
-  /// Pixels at which light or camera have a smaller cosine are skipped.
+  /// Skips pixels at which light or camera have a smaller cosine.
   double smallest_cosine = 0.05;
-  /// Pixels of one cell of these are averaged to one sample.
+  /// Pixels in one cell of this grid are averaged to one sample.
   grid cells = grid({90, 90, 180});
 };
 
-/// Samples, and what they are made of.
+/// Samples and statistics of their pixels.
 struct photograph_samples {
   sample_set samples;
-  Eigen::Index pixels = 0;            ///< that count
-  Eigen::Index saturated = 0;         ///< that do not
-  rgb pixel_deviation = rgb::Zero();  ///< relative noise of a pixel, as neighbours in a cell scatter
+  Eigen::Index pixels = 0;            ///< used
+  Eigen::Index saturated = 0;         ///< skipped as saturated
+  rgb pixel_deviation = rgb::Zero();  ///< relative noise of a pixel, from the scatter within cells
 };
 
-/// The samples of a photograph. Pixels at the surface's border, with a neighbour that does not see it, are skipped:
-/// what they see is mixed. All pixels whose half and difference angles lie in one cell are averaged to one sample: its
-/// directions, its value and its cones (`pixel_aperture`) are their means. Its weight is, in each channel, `weight_of`
-/// the relative deviation of the mean of n pixels, s / sqrt(n), with s the median scatter of pixels within cells of
-/// four and more. Surfaces that shade themselves are not known as such.
+/// Returns the samples of a photograph. Skips pixels at the surface's border (with a neighbour that does not see it),
+/// because they mix surface and background. Averages all pixels whose half and difference angles lie in one cell to one
+/// sample: directions, value and cones (`pixel_aperture`). The weight in each channel is `weight_of` the relative
+/// deviation of the mean of n pixels, s / sqrt(n), where s is the median scatter of pixels within cells of at least
+/// four. Does not detect surfaces that shade themselves.
 ///
-/// Throws gonio::error if a photograph or the reference's surface has another size than the camera's image, naming a
-/// pixel of the surface that is not a number, if the lamp is inside the surface, if a surface has no positions that the
-/// lamp needs, or if no pixel is lit and seen. O(pixels log pixels).
+/// Throws gonio::error if a photograph or the reference's surface differs in size from the camera's image, if a pixel
+/// of the surface is not a number (it is named), if the lamp is inside the surface, if the lamp needs positions that
+/// the surface lacks, or if no pixel is lit and visible. O(pixels log pixels).
 /// ```cpp
 /// const auto found = gonio::capture::find_sphere(photograph, camera, 0.05);
 /// const auto surface = gonio::capture::surface_of(found.sphere, camera);

@@ -12,8 +12,8 @@
 
 namespace gonio::detail {
 
-/// Coefficients in t^2 of atan(t) / t over pi / 2, for t from 0 to 1: the polynomials whose largest relative error is
-/// least (Remez's exchange), 1.6e-8 with nine and 4e-14 with sixteen.
+/// Returns the coefficients in t^2 of atan(t) / t over pi / 2, for t from 0 to 1. The polynomials have the least
+/// maximum relative error (Remez's exchange): 1.6e-8 with nine coefficients and 4e-14 with sixteen.
 template <std::floating_point Real>
 [[nodiscard]] constexpr auto arc_tangent_coefficients() noexcept {
   if constexpr (std::is_same_v<Real, float>)
@@ -28,8 +28,8 @@ template <std::floating_point Real>
         0.0075033769833896553, -0.0027784904318869678, 0.0006519744249023101, -7.2074615891761176e-05};
 }
 
-/// atan(t) / t over pi / 2 of t^2 from 0 to 1: even and odd powers apart, so that a processor waits for half as many
-/// steps.
+/// Returns atan(t) / t over pi / 2, given t^2 from 0 to 1. Even and odd powers are summed separately, which halves the
+/// chain of dependent operations.
 template <std::floating_point Real>
 [[nodiscard]] inline Real arc_tangent_over_tangent(Real squared) noexcept {
   constexpr auto c = arc_tangent_coefficients<Real>();
@@ -43,27 +43,26 @@ template <std::floating_point Real>
   return count % 2 == 0 ? last * squared + before : before * squared + last;
 }
 
-/// 1 if a number is more than another, otherwise 0. Without a branch: which of the two is more a processor could not
-/// guess.
+/// Returns 1 if a > b, otherwise 0, without a branch: the hardware could not predict it.
 template <std::floating_point Real>
 [[nodiscard]] inline Real is_more(Real a, Real b) noexcept {
   return Real(0.5) - std::copysign(Real(0.5), b - a);
 }
 
-/// The share of a quarter turn of an angle by its tangent or, if it is steep (1, otherwise 0), one over that, and its
-/// square.
+/// Returns an angle as a share of a quarter turn. If `steep` is 0, `tangent` is the angle's tangent; if it is 1, the
+/// reciprocal. `squared` is its square.
 template <std::floating_point Real>
 [[nodiscard]] inline Real quarter_turns(Real tangent, Real squared, Real steep) noexcept {
-  // 1 - share or share, without a branch that the processor would have to guess.
+  // Computes 1 - share or share without a branch, which the hardware could not predict.
   return std::abs(steep - tangent * arc_tangent_over_tangent(squared));
 }
 
-/// The tangent of an azimuth folded to half a turn, and on which side it is.
+/// The tangent of an azimuth folded to half a turn, and the side that it is on.
 template <std::floating_point Real>
 struct azimuth_terms {
-  Real tangent;  ///< or one over it if that is more than 1
-  Real steep;    ///< 1 if it is more than pi / 4 from the x axis, otherwise 0
-  Real left;     ///< 1 if it is in the second quadrant, otherwise 0
+  Real tangent;  ///< or its reciprocal if that is smaller than 1
+  Real steep;    ///< 1 if the azimuth is more than pi / 4 from the x axis, otherwise 0
+  Real left;     ///< 1 if the azimuth is in the second quadrant, otherwise 0
 
   azimuth_terms(Real x, Real y) noexcept {
     const Real side = std::abs(x), up = std::abs(y);
@@ -73,7 +72,8 @@ struct azimuth_terms {
   }
 };
 
-/// The share of half a turn, from 0 to 1, which is 0 again, by the share of a quarter turn from the x axis.
+/// Returns an azimuth as a share of half a turn, from 0 to 1 (1 is equivalent to 0), given the share of a quarter turn
+/// from the x axis.
 template <std::floating_point Real>
 [[nodiscard]] inline Real half_turns(Real quarter, Real left) noexcept {
   return std::abs(left - quarter / 2);

@@ -1,5 +1,5 @@
 #pragma once
-/// The concept every reflectance in the library models: tables, analytic models, fits.
+/// The concept of a BRDF, which tables, analytic models and fits satisfy.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>
@@ -10,10 +10,10 @@ namespace gonio {
 
 /// A bidirectional reflectance distribution function: `f(wi, wo) -> rgb` in sr^-1.
 ///
-/// What the compiler cannot check, and a model must keep:
+/// Requirements that the compiler cannot check:
 /// - `wi` (towards the light) and `wo` (towards the viewer) are unit vectors in the local frame, normal +z;
-/// - the value never contains the cosine of the incident angle;
-/// - it is zero where either direction is at or below the horizon;
+/// - the value does not contain the cosine of the incident angle;
+/// - it is zero if either direction is at or below the horizon;
 /// - it is finite, reciprocal (f(wi, wo) = f(wo, wi)) and isotropic up to rounding;
 /// - evaluation is thread safe, does not allocate and does not throw.
 ///
@@ -56,14 +56,13 @@ concept brdf = requires(const F& f, const direction& wi, const direction& wo) {
   noexcept->std::convertible_to<rgb>;
 };
 
-/// A BRDF that is held elsewhere, such as a table of many megabytes: two classes that need it share one. What it views
-/// must outlive it.
+/// A reference to a BRDF, such as a table of many megabytes that two objects share. The BRDF must outlive it.
 template <class Brdf>
 class brdf_view {
  public:
   explicit brdf_view(const Brdf& f) noexcept : f_(&f) {}
 
-  /// Directions of any type that the BRDF takes.
+  /// Evaluates the BRDF. Accepts directions of any type that the BRDF accepts.
   template <class Direction>
   [[nodiscard]] auto operator()(const Direction& wi, const Direction& wo) const noexcept {
     return (*f_)(wi, wo);

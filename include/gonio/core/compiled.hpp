@@ -1,9 +1,9 @@
 #pragma once
-/// Where the bodies of functions that are no templates are compiled.
+/// Decides where the bodies of functions that are not templates are compiled.
 ///
-/// A header declares; such bodies stand in `<module>/impl/<name>.ipp`. The target `gonio::gonio` has the header include
-/// them, as inline functions. The target `gonio::compiled` defines GONIO_COMPILED: then headers only declare, and the
-/// bodies are compiled once, in the library that this target links.
+/// A header declares the functions; their bodies are in `<module>/impl/<name>.ipp`. With the target `gonio::gonio`, the
+/// header includes them as inline functions. The target `gonio::compiled` defines GONIO_COMPILED: headers then only
+/// declare, and the bodies are compiled once, in the library of that target.
 
 #if defined(GONIO_COMPILED)
 #define GONIO_INLINE

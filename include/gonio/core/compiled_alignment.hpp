@@ -1,7 +1,7 @@
 #pragma once
-/// A program and the library that it links must align Eigen's matrices alike: -march and EIGEN_MAX_ALIGN_BYTES decide.
-/// Where they differ, memory would be freed as it was not allocated. Here the program does not link instead, and the
-/// linker names what it misses: `library_is_compiled_for_alignment<static, dynamic>`, both in bytes.
+/// A program and the library that it links must align Eigen's matrices in the same way, which depends on -march and
+/// EIGEN_MAX_ALIGN_BYTES. Otherwise memory would be freed with the wrong function. To prevent this, the program does
+/// not link. The linker then reports `library_is_compiled_for_alignment<static, dynamic>` as missing, both in bytes.
 
 #include <gonio/core/compiled.hpp>
 
@@ -10,7 +10,7 @@
 #if defined(GONIO_COMPILED)
 namespace gonio::detail {
 
-/// Defined in gonio::compiled, for its own alignments alone.
+/// Defined in gonio::compiled, only for the alignments of that library.
 template <int Static, int Dynamic>
 void library_is_compiled_for_alignment();
 

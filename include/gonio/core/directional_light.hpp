@@ -1,5 +1,5 @@
 #pragma once
-/// A light so far away that its direction is the same everywhere.
+/// A light at infinity, whose direction is the same everywhere.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>
@@ -9,9 +9,9 @@ namespace gonio {
 struct directional_light {
   /// Towards the light.
   direction towards;
-  /// Radiance times solid angle: the irradiance of a surface that faces the light.
+  /// The irradiance on a surface that faces the light: radiance times solid angle.
   rgb irradiance = rgb::Ones();
-  /// Under which it is seen, radians.
+  /// The half angle of the light as seen from the surface, radians.
   double half_angle = 0.0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The one exception type of the library: bad input, refused at the edge.
+/// The only exception type of the library, for bad input.
 
 #include <initializer_list>
 #include <stdexcept>
@@ -8,7 +8,8 @@
 
 namespace gonio {
 
-/// A piece of a message: text, or a number written as std::to_string does. It views the text that it is given.
+/// A piece of a message: text, or a number formatted like std::to_string does. Refers to the given text without copying
+/// it.
 class message_part {
  public:
   message_part(std::string_view text) : text_(text.data()), size_(text.size()) {}           // NOLINT: conversions are
@@ -25,7 +26,7 @@ class message_part {
   void append_to(std::string& sentence) const;
 
  private:
-  // What no text is as long as.
+  // Larger than the length of any text.
   static constexpr std::size_t real = std::string_view::npos, integer = real - 1, natural = real - 2;
 
   union {
@@ -34,29 +35,29 @@ class message_part {
     long long integer_;
     unsigned long long natural_;
   };
-  std::size_t size_;  ///< of the text, or which number it is
+  std::size_t size_;  ///< of the text, or the kind of number
 };
 
-/// The parts, one after the other.
+/// Joins the parts.
 [[nodiscard]] std::string message_of(std::initializer_list<message_part> parts);
 
-/// Thrown when data that came from outside (a file, a caller's array, a command line) is not what it
-/// should be. The message is one sentence that names what is wrong, where, and what was expected.
-/// Evaluating a BRDF never throws. Who refuses input calls `refuse`.
+/// Thrown if external data (a file, a caller's array, a command line) is invalid. The message is one sentence that
+/// names the fault, its location, and the expected value. Evaluating a BRDF never throws. Code that refuses input calls
+/// `refuse`.
 class error : public std::runtime_error {
  public:
-  /// What a file held may stand in the sentence: control characters are escaped (`printable`).
+  /// The sentence may contain text from a file: control characters are escaped (`printable`).
   explicit error(const std::string& sentence);
 };
 
-/// Throws gonio::error. In a program that is compiled without exceptions, as renderers may be, it prints the sentence
-/// to the standard error stream and aborts.
+/// Throws gonio::error. In a program compiled without exceptions, as renderers may be, prints the sentence to the
+/// standard error stream and aborts.
 ///
 /// ```cpp
 /// if (found != expected) gonio::refuse({"row ", row, " has ", found, " values, expected ", expected});
 /// ```
 [[noreturn]] void refuse(const std::string& sentence);
-/// The parts are put together there, where it costs the caller no code of its own.
+/// Joins the parts of the message inside the function, so that callers need no code for it.
 [[noreturn]] void refuse(std::initializer_list<message_part> parts);
 
 }  // namespace gonio

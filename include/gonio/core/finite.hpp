@@ -1,5 +1,5 @@
 #pragma once
-/// Is every number of an array finite?
+/// Tests whether every number of an array is finite.
 
 #include <span>
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Memory for large tables that are read at random. A processor keeps the addresses of some thousand pages at hand; a
-/// table of 18 MB has 4,400 pages of 4 kB, or nine of 2 MB.
+/// Memory for large tables that are read at random. A processor caches the addresses of some thousand pages. A table of
+/// 18 MB has 4,400 pages of 4 kB, or nine of 2 MB.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,8 +16,8 @@ namespace gonio {
 
 inline constexpr std::size_t huge_page = std::size_t{1} << 21;
 
-/// Asks the system for pages of 2 MB for memory that nothing was written to yet. Systems that have none, or that are
-/// not Linux, give what they have: nothing but speed depends on it.
+/// Requests pages of 2 MB for memory that has not been written to. On systems without them, or other than Linux, the
+/// memory is only slower.
 inline void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #if defined(__linux__)
   void* begin = memory;
@@ -27,8 +27,8 @@ inline void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] st
 #endif
 }
 
-/// An allocator that asks the system for pages of 2 MB where it needs more than one. Systems that have none, or that
-/// are not Linux, give what they have: nothing but speed depends on it. Costs up to 2 MB more than is asked for.
+/// An allocator that requests pages of 2 MB if it needs more than one. On systems without them, or other than Linux,
+/// the memory is only slower. Allocates up to 2 MB more than requested.
 template <class T>
 struct huge_page_allocator {
   using value_type = T;
@@ -38,7 +38,7 @@ struct huge_page_allocator {
   huge_page_allocator(const huge_page_allocator<Other>& /*unused*/) noexcept {}  // NOLINT: implicit by the standard
 
   [[nodiscard]] T* allocate(std::size_t count) {
-    // More than there can be is refused by `operator new`: this compiles without exceptions.
+    // `operator new` refuses impossible sizes: this compiles without exceptions.
     count = std::min(count, (std::numeric_limits<std::ptrdiff_t>::max() - page) / sizeof(T));
     if (!is_large(count)) return static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{64}));
     const std::size_t bytes = (count * sizeof(T) + page - 1) / page * page;

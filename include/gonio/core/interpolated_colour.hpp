@@ -12,10 +12,11 @@
 
 namespace gonio {
 
-/// What each of some wavelengths adds to red, green and blue (3 x wavelengths) of a reflectance that is linear between
-/// them and constant outside, as renderers read spectra; integrated every nanometre. Throws as `spectral_colour`.
+/// Returns the contribution of each wavelength to red, green and blue (3 x wavelengths) of a reflectance that is linear
+/// between the wavelengths and constant outside, as renderers read spectra. Integrates every nanometre. Throws as
+/// `spectral_colour`.
 [[nodiscard]] inline Eigen::MatrixXd interpolated_colour(std::span<const double> wavelengths) {
-  static_cast<void>(spectral_colour(wavelengths));  // refuses what is no spectrum
+  static_cast<void>(spectral_colour(wavelengths));  // throws for an invalid spectrum
   std::vector<double> fine;
   for (int nanometres = 360; nanometres <= 830; ++nanometres) fine.push_back(nanometres);
   const spectral_colour colour(fine);

@@ -1,6 +1,6 @@
 #pragma once
-/// The points nearest to a place, by a k-d tree. Needs nanoflann, which the targets gonio::scattered and gonio::shape
-/// link; only bodies include this header, so that who uses them does not parse nanoflann.
+/// Finds the points nearest to a location, by a k-d tree. Needs nanoflann, which the targets gonio::scattered and
+/// gonio::shape link. Only function bodies include this header, so that users do not parse nanoflann.
 
 #include <Eigen/Core>
 #include <nanoflann.hpp>
@@ -11,7 +11,7 @@
 
 namespace gonio {
 
-/// Points in a k-d tree, which reads them where they are: they must outlive it, and it stays where it is.
+/// Points in a k-d tree. Reads the points in place: they must outlive the tree. The tree cannot be moved.
 template <int Dimension>
 class k_d_tree {
  public:
@@ -23,13 +23,13 @@ class k_d_tree {
   k_d_tree(const k_d_tree&) = delete;
   k_d_tree& operator=(const k_d_tree&) = delete;
 
-  /// Writes the numbers of the `count` nearest points, or of all if there are fewer, and the squares of their
-  /// distances, the nearest first. Returns how many there are. O(count log n); allocates nothing.
+  /// Writes the numbers of the `count` nearest points, or of all if there are fewer, and their squared distances, the
+  /// nearest first. Returns how many there are. O(count log n); does not allocate.
   Eigen::Index nearest(const double* place, Eigen::Index count, std::uint32_t* numbers, double* squared) const {
     return static_cast<Eigen::Index>(tree_.knnSearch(place, static_cast<std::size_t>(count), numbers, squared));
   }
 
-  /// The numbers of the points nearer than a radius, always in the same order.
+  /// Returns the numbers of the points within a radius, always in the same order.
   [[nodiscard]] std::vector<Eigen::Index> within(double radius, const double* place) const {
     std::vector<std::pair<std::uint32_t, double>> found;
     tree_.radiusSearch(place, radius * radius, found, nanoflann::SearchParams(0, 0.0F, false));
@@ -40,7 +40,7 @@ class k_d_tree {
   }
 
  private:
-  /// What nanoflann asks for.
+  /// The interface that nanoflann needs.
   struct adaptor {
     const points& of;
 

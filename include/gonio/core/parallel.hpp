@@ -1,6 +1,6 @@
 #pragma once
-/// Loops over blocks of a range on several threads whose results do not depend on the number of threads:
-/// the partition is fixed by the range alone, and partial results are merged in the order of the range.
+/// Parallel loops over blocks of a range whose results do not depend on the number of threads. The range alone
+/// determines the blocks, and partial results are merged in the order of the range.
 
 #include <Eigen/Core>
 
@@ -10,7 +10,7 @@
 
 namespace gonio {
 
-/// How many threads a loop may use; 0 means as many as the machine has cores.
+/// The number of threads that a loop may use; 0 means the number of processor cores.
 struct thread_count {
   unsigned value = 0;
 
@@ -27,7 +27,7 @@ struct block {
 
 namespace detail {
 
-/// A loop's body that is held elsewhere, without its type: the threads and their exceptions are compiled once, not for
+/// A reference to a loop body, without its type. The code for threads and exceptions is then compiled once, not for
 /// every body.
 struct block_body {
   void* body = nullptr;
@@ -40,9 +40,9 @@ void run_blocks(Eigen::Index count, Eigen::Index block_size, block_body body, th
 
 }  // namespace detail
 
-/// Calls `body(block)` once for each block of at most `block_size` indices of [0, count), in any order
-/// and concurrently. If bodies throw, the exception of the first block in the range's order among those
-/// that ran is rethrown after all threads have stopped; blocks not yet started are then skipped.
+/// Calls `body(block)` once for each block of at most `block_size` indices of [0, count), in any order and
+/// concurrently. If bodies throw, no new blocks start. After all threads have stopped, rethrows the exception of the
+/// first block, in the order of the range, that has thrown.
 template <class Body>
 void for_each_block(Eigen::Index count, Eigen::Index block_size, Body&& body, thread_count threads = {}) {
   const auto call = [](void* held, block range) { (*static_cast<std::remove_reference_t<Body>*>(held))(range); };
@@ -60,9 +60,9 @@ void for_each_index(Eigen::Index count, Eigen::Index block_size, Body&& body, th
       threads);
 }
 
-/// Sums over a range: `accumulate(partial, block)` adds a block's contribution to a partial result that
-/// starts as a copy of `zero`, and the partial results are added with `+=`. The range is cut into at most
-/// 16 runs of blocks, each summed in order, so that the same bytes come out for any number of threads.
+/// Sums over a range. `accumulate(partial, block)` adds a block's contribution to a partial result that starts as a
+/// copy of `zero`. The partial results are added with `+=`. The range is divided into at most 16 runs of blocks, each
+/// summed in order, so that the result has the same bytes for any number of threads.
 template <class Result, class Accumulate>
 [[nodiscard]] Result sum_over_blocks(Eigen::Index count, Eigen::Index block_size, const Result& zero,
                                      Accumulate&& accumulate, thread_count threads = {}) {

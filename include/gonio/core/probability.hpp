@@ -3,17 +3,18 @@
 
 namespace gonio {
 
-/// The number that a chi-square variable of so many degrees of freedom, above 0, stays below with a probability.
+/// Returns the quantile of a chi-square variable with positive degrees of freedom.
 [[nodiscard]] double chi_square_quantile(double share, double degrees_of_freedom);
 
-/// The same of an F variable.
+/// Returns the quantile of an F variable.
 [[nodiscard]] double f_quantile(double share, double numerator_degrees, double denominator_degrees);
 
-/// The probability that a chi-square variable exceeds a value, to a relative 1e-10 or so even where it is tiny; 1 for a
-/// value of 0 or less.
+/// Returns the probability that a chi-square variable exceeds a value, to a relative error of about 1e-10 even if tiny;
+/// 1 for a value of 0 or less.
 [[nodiscard]] double chi_square_tail(double value, double degrees_of_freedom);
 
-/// The same of an F variable; infinite denominator degrees make it that of a chi-square variable over its degrees.
+/// Returns the same for an F variable. With infinite denominator degrees, it is a chi-square variable over its degrees
+/// of freedom.
 [[nodiscard]] double f_tail(double value, double numerator_degrees, double denominator_degrees);
 
 }  // namespace gonio

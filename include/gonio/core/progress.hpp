@@ -1,16 +1,16 @@
 #pragma once
-/// How long work tells its caller how far it has come.
+/// Progress reports of long computations.
 
 #include <functional>
 #include <string_view>
 
 namespace gonio {
 
-/// Called now and then by long work with the name of its stage and the fraction of that stage that is
-/// done, from 0 to 1, from one thread at a time. An empty function asks for no reports.
+/// Called repeatedly by long computations, with the name of the stage and its completed fraction, from 0 to 1, from one
+/// thread at a time. An empty function receives no reports.
 using progress = std::function<void(std::string_view stage, double fraction)>;
 
-/// Reports if anyone listens.
+/// Reports unless the listener is empty.
 inline void report(const progress& listener, std::string_view stage, double fraction) {
   if (listener) listener(stage, fraction);
 }

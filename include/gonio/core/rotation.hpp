@@ -1,11 +1,11 @@
 #pragma once
-/// Whether a matrix that comes from outside is a rotation.
+/// Tests whether an external matrix is a rotation.
 
 #include <Eigen/Core>
 
 namespace gonio {
 
-/// Is a matrix orthogonal, to 1e-3 (what a file with four decimals has), and no mirror image?
+/// Returns true if a matrix is orthogonal, to 1e-3 (the precision of a file with four decimals), and not a reflection.
 [[nodiscard]] bool is_rotation(const Eigen::Matrix3d& matrix);
 
 }  // namespace gonio

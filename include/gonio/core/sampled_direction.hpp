@@ -1,6 +1,6 @@
 #pragma once
-/// What a renderer draws when it follows light: a direction, the density with which it was drawn, and what it is worth.
-/// M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 4th edition 2023, Sec. 9.1.2 and 9.2.
+/// A direction drawn by a renderer, with its density and weight. M. Pharr, W. Jakob and G. Humphreys, "Physically Based
+/// Rendering", 4th edition 2023, Sec. 9.1.2 and 9.2.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>
@@ -12,8 +12,8 @@
 
 namespace gonio {
 
-/// A direction towards the light that was drawn, f cos(theta_i) / pdf there, and the density pdf in sr^-1. Where
-/// nothing could be drawn, or what was drawn is below the horizon, the weight is zero.
+/// A drawn direction towards the light, its weight f cos(theta_i) / pdf, and its density pdf in sr^-1. The weight is
+/// zero if nothing could be drawn, or if the direction is below the horizon.
 template <std::floating_point Real>
 struct basic_sampled_direction {
   Eigen::Matrix<Real, 3, 1> wi = Eigen::Matrix<Real, 3, 1>::UnitZ();
@@ -23,13 +23,13 @@ struct basic_sampled_direction {
 
 using sampled_direction = basic_sampled_direction<double>;
 
-/// Draws directions towards the light, given the viewer's, and tells the density with which it does.
+/// Draws directions towards the light, given the viewer's, and returns their density.
 ///
-/// What the compiler cannot check, and a model must keep:
-/// - `sample(wo, u1, u2)` takes two numbers from 0 up to 1; `sample(...).pdf` is `pdf(wi, wo)` of its direction;
+/// Requirements that the compiler cannot check:
+/// - `sample(wo, u1, u2)` takes two numbers in [0, 1); `sample(...).pdf` equals `pdf(wi, wo)` for its direction;
 /// - the weight times pdf is f cos(theta_i), and pdf is positive wherever f is;
-/// - pdf integrates to 1 over the sphere of directions. What falls below the horizon has weight 0 and counts;
-/// - where the viewer is not above the horizon, weight and density are zero;
+/// - pdf integrates to 1 over the sphere of directions, including those below the horizon, which have weight 0;
+/// - if the viewer is not above the horizon, weight and density are zero;
 /// - both are thread safe, do not allocate and do not throw.
 ///
 /// With a model of the library:
@@ -72,14 +72,14 @@ concept direction_sampler = requires(const Sampler& sampler, const direction& wi
   noexcept->std::convertible_to<double>;
 };
 
-/// The direction of density cos(theta) / pi of two numbers from 0 to 1.
+/// Maps two numbers from 0 to 1 to a direction of density cos(theta) / pi.
 template <std::floating_point Real>
 [[nodiscard]] Eigen::Matrix<Real, 3, 1> cosine_weighted_direction(Real u1, Real u2) noexcept {
   const Real radius = std::sqrt(u1), azimuth = 2 * std::numbers::pi_v<Real> * u2;
   return {radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(std::max(Real(0), 1 - u1))};
 }
 
-/// That density, in sr^-1; zero below the horizon.
+/// Returns that density in sr^-1; zero below the horizon.
 template <std::floating_point Real>
 [[nodiscard]] Real cosine_weighted_pdf(const Eigen::Matrix<Real, 3, 1>& wi) noexcept {
   return std::max(wi.z(), Real(0)) * std::numbers::inv_pi_v<Real>;

@@ -18,7 +18,8 @@
 
 namespace gonio {
 
-/// The observer's three responses at a wavelength in nanometres: off the standard's tables by a percent of the peak.
+/// Returns the observer's three responses at a wavelength in nanometres. They differ from the standard's tables by a
+/// percent of the peak.
 [[nodiscard]] inline rgb colour_matching(double wavelength) noexcept {
   const auto lobe = [wavelength](double height, double centre, double below, double above) {
     const double z = (wavelength - centre) / (wavelength < centre ? below : above);
@@ -29,12 +30,12 @@ namespace gonio {
           lobe(1.217, 437.0, 11.8, 36.0) + lobe(0.681, 459.0, 26.0, 13.8)};
 }
 
-/// Does the observer see a wavelength in nanometres? From 360 to 830, where the standard has responses: the fits are
-/// small beyond, but not zero.
+/// Returns true for wavelengths from 360 to 830 nanometres, the range of the standard's responses. Outside, the fits
+/// are small but not zero.
 [[nodiscard]] inline bool is_visible(double wavelength) noexcept { return wavelength >= 360.0 && wavelength <= 830.0; }
 
-/// Relative power of daylight D65 at a wavelength in nanometres, 100 at 560: linear between the standard's values every
-/// 10 nanometres from 380 to 780, constant outside.
+/// Returns the relative power of daylight D65 at a wavelength in nanometres, 100 at 560. Linear between the standard's
+/// values every 10 nanometres from 380 to 780, constant outside.
 [[nodiscard]] inline double daylight(double wavelength) noexcept {
   constexpr std::array power{49.9755, 54.6482, 82.7549, 91.4860, 93.4318, 86.6823, 104.865, 117.008, 117.812,
                              114.861, 115.923, 108.811, 109.354, 107.802, 104.790, 107.689, 104.405, 104.046,
@@ -46,29 +47,29 @@ namespace gonio {
   return std::lerp(power[below], power[below + 1], position - static_cast<double>(below));
 }
 
-/// Relative power of incandescent light A at a wavelength in nanometres, 100 at 560: Planck's law at 2848 K with the
-/// second radiation constant 1.435e-2 m K, as the standard defines it.
+/// Returns the relative power of incandescent light A at a wavelength in nanometres, 100 at 560: Planck's law at 2848 K
+/// with the second radiation constant 1.435e-2 m K, as the standard defines it.
 [[nodiscard]] inline double incandescent(double wavelength) noexcept {
   constexpr double exponent = 1.435e7 / 2848.0, reference = 560.0;  // nanometres
   return 100.0 * std::pow(reference / wavelength, 5) * std::expm1(exponent / reference) /
          std::expm1(exponent / wavelength);
 }
 
-/// What a reflectance is lit by before the observer sees it.
+/// The light under which a reflectance is observed.
 enum class illuminant { d65, a };
 
-/// Relative power of an illuminant at a wavelength in nanometres, 100 at 560.
+/// Returns the relative power of an illuminant at a wavelength in nanometres, 100 at 560.
 [[nodiscard]] inline double relative_power(illuminant light, double wavelength) noexcept {
   return light == illuminant::a ? incandescent(wavelength) : daylight(wavelength);
 }
 
-/// Turns reflectance at given wavelengths into linear Rec. 709, by the trapezoidal rule, such that a reflectance that
-/// is the same at all of them is that grey: XYZ is relative to the illuminant's white, as in CIELAB, and that white is
-/// (1, 1, 1). `unclipped_lab` of it is therefore CIELAB under that illuminant.
+/// Converts reflectance at given wavelengths to linear Rec. 709, by the trapezoidal rule. XYZ is relative to the
+/// illuminant's white, as in CIELAB, and that white becomes (1, 1, 1). A constant reflectance therefore becomes a grey
+/// of that value, and `unclipped_lab` is CIELAB under that illuminant.
 class spectral_colour {
  public:
-  /// Wavelengths in nanometres. Throws gonio::error unless there are at least two, finite and ascending, one of which
-  /// the observer sees (`is_visible`).
+  /// Takes wavelengths in nanometres. Throws gonio::error unless there are at least two, finite and ascending, and at
+  /// least one is visible (`is_visible`).
   explicit spectral_colour(std::span<const double> wavelengths, illuminant light = illuminant::d65)
       : weights_(std::ssize(wavelengths), 3) {
     if (wavelengths.size() < 2) refuse("a spectrum needs at least two wavelengths");
@@ -92,12 +93,12 @@ class spectral_colour {
     }
   }
 
-  /// The number of wavelengths.
+  /// Returns the number of wavelengths.
   [[nodiscard]] Eigen::Index size() const noexcept { return weights_.rows(); }
 
-  /// The colour of as many reflectances as there are wavelengths. Components of saturated colours may be negative.
+  /// Returns the colour of a reflectance for each wavelength. Components of saturated colours may be negative.
   [[nodiscard]] rgb operator()(std::span<const double> reflectance) const { return colour_of(reflectance); }
-  /// The same of reflectances as they are stored.
+  /// Returns the colour of reflectances in single precision.
   [[nodiscard]] rgb operator()(std::span<const float> reflectance) const { return colour_of(reflectance); }
 
  private:
@@ -113,8 +114,8 @@ class spectral_colour {
   Eigen::ArrayX3d weights_;
 };
 
-/// CIELAB 1976 (L*, a*, b*) of a `spectral_colour` under its illuminant, in and out of the gamut of Rec. 709: `to_lab`
-/// clips, as a display would.
+/// Returns the CIELAB 1976 (L*, a*, b*) of a `spectral_colour` under its illuminant, inside and outside of the gamut of
+/// Rec. 709. `to_lab` clips instead, as a display does.
 [[nodiscard]] inline rgb unclipped_lab(const rgb& colour) noexcept {
   const rgb relative = to_xyz(colour) / to_xyz(rgb::Ones());
   const double x = detail::lab_curve(relative.x()), y = detail::lab_curve(relative.y()),

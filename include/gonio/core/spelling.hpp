@@ -1,5 +1,5 @@
 #pragma once
-/// What a misspelt word was meant to be: a name of a column, an option.
+/// Guesses the intended word of a misspelt one, such as the name of a column or an option.
 
 #include <optional>
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace gonio {
 
-/// The number of letters to insert, delete, replace, or exchange with their neighbour that make one word of another:
-/// the distance of Damerau and Levenshtein, without a second change at the same letters. O(product of the lengths).
+/// Returns the number of letters to insert, delete, replace, or exchange with their neighbour to change one word into
+/// another: the Damerau-Levenshtein distance, without a second change at the same letters. O(product of the lengths).
 [[nodiscard]] std::size_t spelling_distance(std::string_view one, std::string_view other);
 
-/// The word that is nearest to a misspelt one, if no more than a third of its letters differ.
+/// Returns the word nearest to a misspelt one, if no more than a third of its letters differ.
 [[nodiscard]] std::optional<std::string> nearest_word(std::string_view misspelt, const std::vector<std::string>& words);
 
 }  // namespace gonio

@@ -1,6 +1,6 @@
 #pragma once
-/// Order statistics. Each takes a vector or a span of numbers, one at least, none of which is a NaN, and reorders them:
-/// hand over a copy of what must stay in order. O(n).
+/// Order statistics. Each function takes a vector or a span of at least one number, none of them NaN, and reorders it:
+/// pass a copy if the order matters. O(n).
 
 #include <algorithm>
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace gonio {
 
-/// Times the median distance from the median, this is the standard deviation of normal numbers, whatever a few others
-/// among them are: 1 over the normal distribution's quantile of 0.75.
+/// 1 over the 0.75 quantile of the normal distribution. The median distance of normal numbers from their median, times
+/// this factor, is their standard deviation, regardless of a few outliers.
 inline constexpr double deviation_by_median = 1.4826;
 
-/// Numbers in the order of what belongs to them, and of themselves where that is the same. O(n log n).
+/// Returns numbers in the order of their keys; for equal keys, in their own order. O(n log n).
 [[nodiscard]] inline std::vector<std::ptrdiff_t> in_order(std::vector<std::pair<double, std::ptrdiff_t>> keyed) {
   std::sort(keyed.begin(), keyed.end());
   std::vector<std::ptrdiff_t> ordered;
@@ -22,7 +22,7 @@ inline constexpr double deviation_by_median = 1.4826;
   return ordered;
 }
 
-/// The number at a position, from 0 on, when they are sorted. The smaller ones are then before it.
+/// Returns the number at a position, from 0 on, in sorted order. Moves smaller ones before it.
 template <class Numbers>
 [[nodiscard]] auto nth_smallest(Numbers&& numbers, std::ptrdiff_t position) {
   const auto at = std::begin(numbers) + position;
@@ -30,19 +30,19 @@ template <class Numbers>
   return *at;
 }
 
-/// The number at floor(share (n - 1)) when they are sorted: the least for a share of 0, the greatest for 1.
+/// Returns the number at floor(share (n - 1)) in sorted order: the smallest for a share of 0, the largest for 1.
 template <class Numbers>
 [[nodiscard]] auto quantile(Numbers&& numbers, double share) {
   return nth_smallest(numbers, static_cast<std::ptrdiff_t>(share * static_cast<double>(std::size(numbers) - 1)));
 }
 
-/// The number in the middle, the upper one of an even number of them.
+/// Returns the middle number, or the upper of the two middle numbers.
 template <class Numbers>
 [[nodiscard]] auto upper_median(Numbers&& numbers) {
   return nth_smallest(numbers, std::ssize(numbers) / 2);
 }
 
-/// The number in the middle, or the mean of the two in the middle.
+/// Returns the middle number, or the mean of the two middle numbers.
 template <class Numbers>
 [[nodiscard]] auto median(Numbers&& numbers) {
   const auto upper = upper_median(numbers);

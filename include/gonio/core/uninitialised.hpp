@@ -1,12 +1,12 @@
 #pragma once
-/// Memory for tables that are filled once: zeros would be written first, by one thread, and take all of its pages.
+/// Memory for tables that are filled once. Writing zeros first, by one thread, would touch all of its pages.
 
 #include <memory>
 #include <utility>
 
 namespace gonio {
 
-/// The standard allocator, but a vector that is made of a size alone has elements without a value.
+/// The standard allocator, except that a vector constructed from a size alone has uninitialised elements.
 template <class T>
 struct uninitialised_allocator : std::allocator<T> {
   template <class Other>

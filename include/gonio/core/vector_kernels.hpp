@@ -1,6 +1,6 @@
 #pragma once
-/// The loops that dense algebra is made of, on contiguous numbers, compiled once: whoever writes them as
-/// expressions pays for each combination of matrices, columns and parts of columns that occurs.
+/// The inner loops of dense algebra on contiguous numbers, compiled once. As expressions they would be compiled for
+/// each combination of matrices, columns and parts of columns.
 
 #include <Eigen/Core>
 
@@ -9,17 +9,18 @@
 
 namespace gonio {
 
-/// The sum of a[i] b[i].
+/// Return the sum of a[i] b[i].
 [[nodiscard]] double dot(const double* a, const double* b, Eigen::Index count);
 [[nodiscard]] float dot(const float* a, const float* b, Eigen::Index count);
 
-/// Three columns of numbers for dot products with many rows. They are kept by sixteens, of which the last starts where
-/// a row's last sixteen numbers do and is zero where it overlaps the one before: no product needs a remainder.
+/// Three columns of numbers for dot products with many rows. They are stored in blocks of sixteen. The last block is
+/// aligned with the last sixteen numbers of a row, and is zero where it overlaps the block before. No product needs a
+/// remainder.
 class three_columns {
  public:
   explicit three_columns(const Eigen::MatrixXd& columns);
 
-  /// The sums of row[i] times each column's i-th number.
+  /// Returns the dot products of a row with each column.
   [[nodiscard]] std::array<float, 3> dot_each(const float* row) const {
     sixteen sum_0 = sixteen::Zero(), sum_1 = sum_0, sum_2 = sum_0, short_row = sum_0;
     if (rows_ < 16) row = std::copy_n(row, rows_, short_row.data()) - rows_;
@@ -36,41 +37,41 @@ class three_columns {
  private:
   using sixteen = Eigen::Array<float, 16, 1>;
   Eigen::Index rows_;
-  Eigen::Array<float, 48, Eigen::Dynamic> sixteens_;  // of each column one below the other
+  Eigen::Array<float, 48, Eigen::Dynamic> sixteens_;  // the columns' blocks, one below the other
 };
 
-/// Asks for numbers that are read soon: they are at hand then.
+/// Prefetches numbers that are read soon.
 inline void prefetch(const float* numbers, Eigen::Index count) {
   constexpr Eigen::Index line = 64 / sizeof(float);
   for (Eigen::Index i = 0; i < count; i += line) __builtin_prefetch(numbers + i);
 }
 
-/// The root of the sum of a[i]^2, also where these squares are out of range.
+/// Returns the square root of the sum of a[i]^2, even if these squares overflow or underflow.
 [[nodiscard]] double norm(const double* a, Eigen::Index count);
 
-/// A power of two that brings a positive length to [1/2, 1), or as near as there is one; 1 for zero.
+/// Returns the power of two that brings a positive length to [1/2, 1), or the nearest one that exists; 1 for zero.
 [[nodiscard]] double near_inverse(double length);
 
-/// Adds factor a[i] to sum[i].
+/// Add factor a[i] to sum[i].
 void add_scaled(double factor, const double* a, double* sum, Eigen::Index count);
 void add_scaled(float factor, const float* a, float* sum, Eigen::Index count);
 
-/// The same of matrices of one size.
+/// Adds factor a to sum, for matrices of equal size.
 void add_scaled(double factor, const Eigen::MatrixXd& a, Eigen::MatrixXd& sum);
 
 /// Multiplies product[i] by a[i].
 void multiply(const float* a, float* product, Eigen::Index count);
 
-/// Replaces each number by its exponential, within 2 units of the last place, and the same wherever a number stands.
+/// Replaces each number by its exponential, accurate to 2 units in the last place, independent of its position.
 void exponentiate(float* numbers, Eigen::Index count);
 
-/// Replaces each number by its exponential, or by its natural logarithm.
+/// Replace each number by its exponential, or by its natural logarithm.
 void exponentiate(double* numbers, Eigen::Index count);
 void take_logarithms(double* numbers, Eigen::Index count);
 
-/// Calls `map` for sixteen numbers at a time, an array that it replaces by their images; behind the last ones there are
-/// zeros. Eigen rounds functions otherwise where a number stands alone before or after whole vector registers, which
-/// depends on where the memory begins.
+/// Calls `map` for sixteen numbers at a time, as an array that it replaces by the results. The last array is padded
+/// with zeros. Without this, Eigen would round functions differently for numbers outside of whole vector registers,
+/// depending on the memory address.
 template <class Map>
 void map_by_sixteens(float* numbers, Eigen::Index count, Map&& map) {
   using sixteen = Eigen::Array<float, 16, 1>;
@@ -87,7 +88,7 @@ void map_by_sixteens(float* numbers, Eigen::Index count, Map&& map) {
   std::copy_n(rest.data(), count - whole, numbers + whole);
 }
 
-/// A copy in single precision.
+/// Returns a copy in single precision.
 [[nodiscard]] Eigen::MatrixXf to_float(const Eigen::MatrixXd& numbers);
 
 }  // namespace gonio

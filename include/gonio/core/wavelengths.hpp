@@ -1,12 +1,12 @@
 #pragma once
-/// What may be the wavelengths of a spectrum.
+/// Checks the wavelengths of a spectrum.
 
 #include <span>
 
 namespace gonio {
 
-/// Refuses wavelengths that are none: throws gonio::error unless there is one at least and all are positive, finite and
-/// ascending, naming the first that is not.
+/// Throws gonio::error, naming the first invalid one, unless there is at least one wavelength and all are positive,
+/// finite and ascending.
 void require_wavelengths(std::span<const double> wavelengths);
 
 }  // namespace gonio

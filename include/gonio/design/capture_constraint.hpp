@@ -1,5 +1,5 @@
 #pragma once
-/// What an apparatus cannot do: lights on an arc, arms that must not come too close to one another or to the horizon.
+/// The limits of an apparatus: lights on an arc, arms that must keep away from each other and from the horizon.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
@@ -15,7 +15,7 @@
 
 namespace gonio::design {
 
-/// A range of polar angles, both ends included, in radians; what is rounded of a direction counts as the end.
+/// A range of polar angles in radians. Both ends are included, within 1e-9 for rounding.
 struct polar_range {
   double smallest = 0.0;
   double largest = std::numbers::pi / 2.0;
@@ -25,39 +25,40 @@ struct polar_range {
   }
 };
 
-/// Settings that cannot be reached: the light in one range while the viewer is in the other.
+/// A combination that cannot be reached: the light in one range while the viewer is in the other.
 struct forbidden_zone {
   polar_range light, viewer;
 };
 
-/// Which pairs of directions an apparatus can measure. All angles in radians; by default it can measure all. Of a
-/// image, the directions are those of its centre.
+/// The pairs of directions that an apparatus can measure. All angles are in radians. The default allows every pair. For
+/// an image, the rules apply to the directions at its centre.
 struct capture_constraint {
-  polar_range light, viewer;              ///< where light and viewer can be
-  double smallest_separation = 0.0;       ///< between light and viewer, which hide one another
-  double light_step = 0.0;                ///< lights stand at multiples of this polar angle; 0: anywhere
-  double light_tolerance = radians(0.5);  ///< by how much one may miss the light that is meant
+  polar_range light, viewer;              ///< the polar angles that light and viewer can reach
+  double smallest_separation = 0.0;       ///< between light and viewer, which would occlude each other
+  double light_step = 0.0;                ///< lights stand at multiples of this polar angle; 0 allows any angle
+  double light_tolerance = radians(0.5);  ///< how far the light may be from such a multiple
   std::vector<forbidden_zone> forbidden;
-  /// The viewer stands in the plane of light and normal, or misses it by at most so much.
+  /// If set, the largest angle between the viewer and the plane of light and normal.
   std::optional<double> plane_tolerance;
-  /// An instrument whose light and viewers are fixed has these pairs alone, each met to half a degree; any pair if
-  /// there is none here.
+  /// If not empty, the only pairs that the instrument can measure, because its light and viewers are fixed. A pair
+  /// matches within half a degree.
   std::vector<direction_pair> pairs;
 
   [[nodiscard]] bool is_none() const noexcept;
 
   [[nodiscard]] bool operator()(const direction_pair& pair) const;
 
-  /// Light and viewer with these angles between them where they can be: as the angles have them, or by reciprocity in
-  /// each other's place; nothing if neither can be. Where only the plane of incidence is allowed, those next to it are
-  /// moved into it.
+  /// Returns a pair with these angles that the apparatus can reach: as given, or by reciprocity with light and viewer
+  /// exchanged. Returns nothing if it can reach neither. If `plane_tolerance` is set, phi_d becomes 0 first, which
+  /// moves the pair into the plane of incidence.
   [[nodiscard]] std::optional<direction_pair> pose_of(const half_difference& angles) const;
 
-  /// The position in `pairs` of the one that is met by a pair, light and viewer in either place, whatever its azimuth.
+  /// Returns the position in `pairs` of the first that matches, up to exchange of light and viewer and to a common
+  /// azimuth.
   [[nodiscard]] std::optional<std::size_t> fixed_pair(const direction_pair& pair) const;
 
-  /// The name of the first rule, of those above in their order, that leaves nothing to measure together with those
-  /// before it, by what `leaves_some` says of constraints; empty if all of them leave something.
+  /// Adds the rules one by one, in the order of the members above. Returns the name of the first with which
+  /// `leaves_some` is false; empty if it stays true for all rules.
   [[nodiscard]] std::string excluding_rule(const std::function<bool(const capture_constraint&)>& leaves_some) const;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Which measurements one setting of an apparatus brings: a point sample one, an image thousands. `capture_geometry`
-/// is the concept, `point_geometry` its simplest model; the others stand in `sphere_geometry.hpp` and
-/// `near_field_geometry.hpp`.
+/// The measurements that one setting of an apparatus gives: one for a point sample, thousands for an image.
+/// `capture_geometry` is the concept and `point_geometry` its simplest model. The other models are in
+/// `sphere_geometry.hpp` and `near_field_geometry.hpp`.
 
 #include <gonio/design/capture_constraint.hpp>
 #include <gonio/table/valid_cells.hpp>
@@ -18,17 +18,17 @@
 
 namespace gonio::design {
 
-/// A step on a grid of candidates: how many along each of its axes.
+/// A step on a grid of candidates: the number of positions along each axis.
 using grid_step = std::array<int, 3>;
 
 /// Candidates for a measurement, numbered from 0 to size() - 1.
 ///
-/// - `allows(candidate)`: can it be measured at all? The others hold of those that can.
-/// - `centre(candidate)`: where light and viewer are; of an image, as seen from the middle of what it shows.
-/// - `nearest(pair)`: the candidate whose centre is next to a pair of directions above the horizon.
-/// - `directions(candidate)`: the directions of all of its samples; at least one.
-/// - `stepped(candidate, step)`: the candidate that a step on the grid leads to, if there is one and it is allowed.
-///   Steps there and back lead back, where both exist.
+/// - `allows(candidate)`: whether it can be measured. The other functions require an allowed candidate.
+/// - `centre(candidate)`: the directions of light and viewer; for an image, those at its centre.
+/// - `nearest(pair)`: the candidate whose centre is nearest to a pair of directions above the horizon.
+/// - `directions(candidate)`: the directions of all its samples; at least one.
+/// - `stepped(candidate, step)`: the candidate one step away on the grid, if it exists and is allowed. The opposite
+///   step leads back if both exist.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -83,18 +83,19 @@ concept capture_geometry = requires(const Geometry& geometry, Eigen::Index candi
   { geometry.stepped(candidate, step) } -> std::convertible_to<std::optional<Eigen::Index>>;
 };
 
-/// Each valid cell of a grid is a sample by itself; where only one of light and viewer can be in a place, the other one
-/// is. phi_d goes round.
+/// Every valid cell of a grid as one sample. If only the exchanged pair of directions can be reached, light and viewer
+/// are exchanged. phi_d is periodic.
 class point_geometry {
  public:
-  /// Of an instrument's fixed pairs, each is the candidate in whose cell it lies; of two in one cell the first is.
+  /// If the constraint lists fixed pairs, the candidates are the cells that contain them. If a cell contains two, the
+  /// first is used.
   explicit point_geometry(valid_cells cells, capture_constraint constraint = {});
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] Eigen::Index size() const noexcept { return cells_.size(); }
-  /// Of the cells that are moved into the plane of incidence, those next to it are candidates: each pose once.
+  /// If `plane_tolerance` is set, only cells with the first phi_d are allowed: each pose once.
   [[nodiscard]] bool allows(Eigen::Index cell) const;
-  /// The rule that leaves no candidate; empty if there is one. O(cells).
+  /// Returns the rule that leaves no candidate; empty if there is a candidate. O(cells).
   [[nodiscard]] std::string excluding_rule() const;
   [[nodiscard]] direction_pair centre(Eigen::Index cell) const;
   [[nodiscard]] Eigen::Index nearest(const direction_pair& pair) const;
@@ -105,7 +106,7 @@ class point_geometry {
  private:
   valid_cells cells_;
   capture_constraint constraint_;
-  std::map<Eigen::Index, direction_pair> fixed_pairs_;  ///< by their cells
+  std::map<Eigen::Index, direction_pair> fixed_pairs_;  ///< keys are cells
 };
 static_assert(capture_geometry<point_geometry>);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Every cell of a basis as a candidate for the next measurement: what E(S) of Xu et al. 2016
-/// (doi:10.1145/2980179.2982396), Eq. 15, becomes with each of them, all at once.
+/// Every cell of a basis as a candidate for the next measurement. Computes E(S) of Xu et al. 2016
+/// (doi:10.1145/2980179.2982396), Eq. 15, with each of them added, in one sweep.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/capture_geometry.hpp>
@@ -15,14 +15,14 @@
 
 namespace gonio::design {
 
-/// The rows Y and W of all cells (see `expected_error`), in float: 8 bytes a cell and observation, or 2.4 GB for a
-/// million cells and 270 observations. A prior that was learned with fewer cells (`gonio learn --thin`) needs less, and
-/// loses little: docs/results/directions.md.
+/// The rows Y and W of all cells (see `expected_error`), in float. They need 8 bytes per cell and observation: 2.4 GB
+/// for a million cells and 270 observations. A prior with fewer cells (`gonio learn --thin`) needs less and loses
+/// little: docs/results/directions.md.
 class cell_candidates {
  public:
-  /// 4 k m operations a cell. `sample_noise_penalties` are those of the errors that a measurement of each cell has of
-  /// its own: m times `reading_variances` without the noise of the criterion; none if it is empty. Throws gonio::error
-  /// unless there is one for each cell, finite and not negative.
+  /// 4 k m operations per cell. `sample_noise_penalties`, if not empty, holds one penalty per cell for the error of a
+  /// measurement there: m times `reading_variances` without the criterion's noise. Throws gonio::error unless there is
+  /// one for each cell, and each is finite and not negative.
   template <error_metric Metric>
   cell_candidates(const pca<Metric>& basis, expected_error criterion, capture_constraint constraint = {},
                   thread_count threads = {}, std::span<const double> sample_noise_penalties = {})
@@ -33,23 +33,23 @@ class cell_candidates {
   [[nodiscard]] const point_geometry& geometry() const noexcept { return geometry_; }
   [[nodiscard]] const expected_error& criterion() const noexcept { return criterion_; }
 
-  /// Y and W of some cells.
+  /// Returns Y and W at some cells.
   [[nodiscard]] expected_error::rows rows_of(std::span<const Eigen::Index> cells) const;
 
-  /// E of measurements at some cells.
+  /// Returns E of measurements at some cells.
   [[nodiscard]] double operator()(std::span<const Eigen::Index> cells) const;
 
-  /// E of measurements at some cells and one more, as a function of that cell.
+  /// E of measurements at some cells and one more, as a function of the additional cell.
   class with_one_more;
 
-  /// That of some cells: O(n m) a call instead of O(n^2 m). It refers to the candidates.
+  /// Returns `with_one_more` for some cells. A call costs O(n m) instead of O(n^2 m). The result refers to this object.
   [[nodiscard]] with_one_more beside(std::span<const Eigen::Index> cells) const;
 
-  /// E of measurements at some cells and, in turn, at each cell beside them: one value a cell, infinity for those
-  /// that the constraint excludes. 8 n m operations a cell for n measurements and m observations; reads Y and W once.
+  /// Returns E of measurements at some cells and one more: one value for each additional cell, infinity if the
+  /// constraint excludes it. 10 n m operations per cell for n measurements and m observations. Reads Y and W once.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells) const;
 
-  /// The same of a range of the cells alone, which begins at a multiple of `sweep_block`: the same bytes.
+  /// Returns the same values, byte for byte, for a range of cells. The range must begin at a multiple of `sweep_block`.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells, block range) const;
 
   static constexpr Eigen::Index sweep_block = 128;
@@ -64,7 +64,7 @@ class cell_candidates {
   point_geometry geometry_;
   expected_error criterion_;
   std::vector<Eigen::Index> excluded_;
-  error_sweep::tiles tiles_;  ///< Y and W of eight cells after eight cells
+  error_sweep::tiles tiles_;  ///< Y and W in tiles of eight cells
   std::vector<error_sweep::lanes> sample_noise_penalties_;
   thread_count threads_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// The thousands of closely related samples of an image as the few measurements that they amount to.
+/// Replaces the thousands of related samples of an image by the few measurements that carry the same information.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/direction.hpp>
@@ -15,7 +15,7 @@
 
 namespace gonio::design {
 
-/// Rows of a basis at some measurements, n x k, and what noise that is 1 in every sample does to each.
+/// Rows of a basis at some measurements, n x k, and the response of each to noise of 1 in every sample.
 struct component_rows {
   Eigen::MatrixXd components;
   Eigen::VectorXd noise;
@@ -23,14 +23,14 @@ struct component_rows {
 
 namespace detail {
 
-/// The cells next to some directions, ascending, and how often each is met.
+/// Returns the nearest cells to some directions, ascending, and the number of directions in each.
 [[nodiscard]] std::vector<std::pair<Eigen::Index, double>> cells_next_to(std::span<const half_difference> directions,
                                                                          const valid_cells& cells);
 
 }  // namespace detail
 
-/// The rows of the cells next to some directions, which are above the horizon. A cell that is met c times is one row
-/// times sqrt(c): the same normal equations. O(n k).
+/// Returns the rows of the cells nearest to some directions, which must be above the horizon. A cell with c directions
+/// becomes one row times sqrt(c), which gives the same normal equations. O(n k).
 template <basis Basis>
 [[nodiscard]] component_rows rows_at(const Basis& basis, std::span<const half_difference> directions) {
   const std::vector<std::pair<Eigen::Index, double>> counts = detail::cells_next_to(directions, basis.cells());
@@ -46,10 +46,10 @@ template <basis Basis>
   return rows;
 }
 
-/// The fewest rows (Z, u) that reproduce R'R and R'O, ignoring eigenvalues below `negligible`.
+/// Returns the fewest rows (Z, u) that reproduce R'R and R'O, ignoring eigenvalues below `negligible`.
 ///
-/// With R'R = V L V' these are Z = L^1/2 V' and u = L^-1/2 V'R'O. A solution that is penalised by eta leaves eta / (eta
-/// + L) of a direction V unknown, which is hardly less than all where L is far below eta. O(n k min(n, k)).
+/// With R'R = V L V', these are Z = L^1/2 V' and u = L^-1/2 V'R'O. A solution with penalty eta leaves the fraction eta
+/// / (eta + L) of a direction in V unknown. If L is far below eta, this is nearly 1. O(n k min(n, k)).
 [[nodiscard]] component_rows compressed(const component_rows& rows, double negligible);
 
 }  // namespace gonio::design

@@ -1,5 +1,5 @@
 #pragma once
-/// Any criterion as a function of the candidates that are measured, for the searches of `search.hpp`.
+/// Any criterion as a function of a set of candidates, for the searches of `search.hpp`.
 
 #include <gonio/design/capture_geometry.hpp>
 #include <gonio/design/compressed_rows.hpp>
@@ -13,8 +13,8 @@
 
 namespace gonio::design {
 
-/// Reads the rows of all samples anew whenever it is asked. For the expected error `cell_candidates` and
-/// `image_candidates` are much faster.
+/// Recomputes the rows of all samples at each call. For the expected error, `cell_candidates` and `image_candidates`
+/// are much faster.
 ///
 /// ```cpp
 /// const gonio::design::point_geometry points(prior.cells());

@@ -1,6 +1,6 @@
 #pragma once
 /// The expected error (Xu et al. 2016, doi:10.1145/2980179.2982396, Eq. 15) of some measurements and one more, for
-/// eight candidates side by side: what a search that tries every cell spends its time in.
+/// eight candidates at a time: the inner loop of a search that tries every cell.
 
 #include <gonio/design/expected_error.hpp>
 
@@ -11,38 +11,38 @@
 
 namespace gonio::design {
 
-/// What `extended_error` says of one candidate after the other, in single precision: 10 n m operations for each
-/// candidate, n measurements and m observations. Its own rows of Y and W are all that comes from memory.
+/// Computes `extended_error` for many candidates in single precision. 10 n m operations for each candidate, with n
+/// measurements and m observations. Only the candidate's own rows of Y and W are read from memory.
 class error_sweep {
  public:
   static constexpr Eigen::Index width = 8;
-  /// One number of each of eight candidates.
+  /// One number for each of eight candidates.
   using lanes = Eigen::Array<float, width, 1>;
-  /// Tiles of eight candidates, one beside the other: in each, a column for each observation, eight numbers of Y above
-  /// eight of W, and columns of zeros up to `columns(m)`.
+  /// Tiles of eight candidates, side by side. A tile has a column for each observation, with eight numbers of Y above
+  /// eight of W, and then columns of zeros up to `columns(m)`.
   using tiles = Eigen::Array<float, 2 * width, Eigen::Dynamic>;
 
-  /// Columns of a tile, given the number of observations.
+  /// The number of columns of a tile, given the number of observations.
   [[nodiscard]] static constexpr Eigen::Index columns(Eigen::Index observations) noexcept {
     return (observations + observations_together - 1) / observations_together * observations_together;
   }
 
   error_sweep(const expected_error& criterion, const expected_error::rows& measured);
 
-  /// Writes E with each candidate of as many tiles as there are elements of `errors`, given their own etas. The first
-  /// tile begins at column `first` of `candidates`.
+  /// Writes E with each candidate of `errors.size()` tiles, given the candidates' own penalties. The first tile begins
+  /// at column `first` of `candidates`.
   void operator()(const tiles& candidates, Eigen::Index first, std::span<const lanes> sample_noise_penalties,
                   std::span<lanes> errors) const;
 
  private:
   static constexpr Eigen::Index measurements_together = 4, observations_together = 4;
 
-  /// What is found of the candidates of a tile.
+  /// Intermediate values for the candidates of a tile.
   struct found {
-    std::vector<lanes> on_y, on_w;   ///< Y y and Y (w - W'a), a number for each measurement
+    std::vector<lanes> on_y, on_w;   ///< Y y and Y (w - W'a), one element per measurement
     std::vector<lanes> once, twice;  ///< a = K^-1 Y y and b = K^-1 Y (w - W'a)
     tiles left;                      ///< t = y - Y'a above u = w - W'a - Y'b
-    lanes d, r;                      ///< eta + y t and y u
+    lanes d, r;                      ///< d = eta + the candidate's own penalty + y . t and r = y . u
   };
 
   void project(const float* tile, found& of) const;
@@ -55,14 +55,14 @@ class error_sweep {
 
   Eigen::Index measurements_, observations_;
   float eta_, common_shift_;
-  /// Y of four measurements beside one another: groups of them, and an observation a column in each.
+  /// Y in groups of four measurements, side by side. In each group an observation is a column.
   Eigen::Array<float, measurements_together, Eigen::Dynamic> by_measurement_;
-  /// Y above W of four observations: groups of them, and a measurement a column in each.
+  /// Y above W in groups of four observations, side by side. In each group a measurement is a column.
   Eigen::Array<float, 2 * observations_together, Eigen::Dynamic> by_observation_;
   Eigen::MatrixXf inverse_, cross_;  ///< K^-1 and Y W'
   Eigen::ArrayXf squared_errors_;
   Eigen::Index channels_;
-  Eigen::MatrixXf inverse_unknown_, missed_;  ///< of `remainder`: none unless materials are left out
+  Eigen::MatrixXf inverse_unknown_, missed_;  ///< from `remainder`; empty unless materials are left out
   Eigen::ArrayXf own_variances_;
   Eigen::ArrayXf noise_response_, weighted_response_;  ///< the second is W times the first
   float noise_energy_, own_energy_;

@@ -1,7 +1,7 @@
 #pragma once
 /// Searches that try every candidate as the next measurement, which Xu et al. 2016 (doi:10.1145/2980179.2982396) could
-/// not afford: greedy growth, exchange until no replacement of one measurement by any other is an improvement
-/// (Fedorov's exchange, 1972), and both.
+/// not afford: greedy growth, and Fedorov's exchange (1972), which stops when no replacement of one measurement by any
+/// other improves the plan.
 
 #include <gonio/design/search.hpp>
 
@@ -9,11 +9,11 @@
 
 namespace gonio::design {
 
-/// An objective that also tells, all at once, what a set is worth with each of all candidates beside it; infinity for
-/// those that are not allowed.
+/// An objective that also evaluates, in one call, a set with each of all candidates added; infinity for candidates that
+/// are not allowed.
 ///
-/// An objective may offer `best_beside(candidates)`, the one that is worth most beside some, none of them again; of
-/// equal ones that with the lowest number. Searches then ask it, and who implements it may share the work.
+/// An objective may offer `best_beside(candidates)`: the best candidate to add that is not in the set; if several are
+/// equally good, the one with the lowest number. The searches then call it, so it can distribute the work.
 template <class Objective>
 concept sweeping_objective = plan_objective<Objective> &&
     requires(const Objective& objective, std::span<const Eigen::Index> candidates) {
@@ -23,7 +23,7 @@ concept sweeping_objective = plan_objective<Objective> &&
 
 namespace detail {
 
-/// The candidate that is worth most beside those of a plan, none of them again.
+/// Returns the best candidate to add to a plan that is not in it yet.
 template <sweeping_objective Objective>
 [[nodiscard]] Eigen::Index best_addition(const Objective& objective, std::span<const Eigen::Index> plan) {
   if constexpr (requires { objective.best_beside(plan); }) return objective.best_beside(plan);
@@ -34,7 +34,7 @@ template <sweeping_objective Objective>
 
 }  // namespace detail
 
-/// Adds the best of all candidates until there are n: a longer plan begins with the shorter one. Throws gonio::error
+/// Adds the best of all candidates until there are n. A longer plan begins with the shorter one. Throws gonio::error
 /// unless n is from 1 to the number of candidates.
 template <sweeping_objective Objective>
 [[nodiscard]] capture_plan grow_greedily(const Objective& objective, Eigen::Index n, capture_plan plan = {},
@@ -48,8 +48,8 @@ template <sweeping_objective Objective>
   return plan;
 }
 
-/// Replaces one candidate after another by the best of all, until no replacement improves: n sweeps over all candidates
-/// a round. Values are compared in double; improvements below a millionth, which float does not see, are none.
+/// Replaces one candidate after another by the best of all, until no replacement improves the plan: n sweeps over all
+/// candidates per round. Compares in double. Ignores relative improvements below 1e-6, which float cannot resolve.
 template <sweeping_objective Objective>
 [[nodiscard]] capture_plan exchange(const Objective& objective, capture_plan plan, const progress& listener = {}) {
   plan.value = objective(plan.candidates);
@@ -60,7 +60,7 @@ template <sweeping_objective Objective>
     other.value = objective(other.candidates);
     if (detail::improves(other.value, plan.value, 1e-6)) {
       plan = std::move(other);
-      without_improvement = 1;  // this one is the best in its place now
+      without_improvement = 1;  // this candidate is now the best at its position
     } else {
       ++without_improvement;
     }

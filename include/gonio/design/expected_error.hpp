@@ -1,6 +1,6 @@
 #pragma once
-/// What a set of measurements leaves unknown: the expected error of Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016,
-/// "Minimal BRDF Sampling for Two-Shot Near-Field Reflectance Acquisition" (doi:10.1145/2980179.2982396), Eq. 12-15.
+/// The expected error after a set of measurements: Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, "Minimal BRDF Sampling
+/// for Two-Shot Near-Field Reflectance Acquisition" (doi:10.1145/2980179.2982396), Eq. 12-15.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/design/design_criterion.hpp>
@@ -12,58 +12,58 @@
 
 namespace gonio::design {
 
-/// How the expected error weighs what may go wrong. With its defaults, but for eta, it is Eq. 15 as printed without
-/// noise.
+/// The error sources that the expected error includes. Apart from eta, the defaults give Eq. 15 as printed.
 struct expected_error_options {
-  /// Tikhonov's penalty of the reconstruction (Eq. 4), which the paper sets to 40.
+  /// Tikhonov's penalty of the reconstruction (Eq. 4). The paper uses 40.
   double eta = default_eta;
-  /// The deviation of every measurement's mapped value, independent of all others'.
+  /// The standard deviation of every measurement's mapped value. These errors are independent.
   double noise = 0.0;
-  /// beta of Eq. 15 with O = 1 (Eq. 13): the size of one shift that the mapped values of all samples share.
+  /// beta of Eq. 15 with O = 1 (Eq. 13): the size of one shift common to the mapped values of all samples.
   double common_shift = 0.0;
-  /// Is each material left out of the basis before it is reconstructed? As printed, it is not: the basis has seen all
-  /// materials that the error is the mean over, so that it is least without any penalty.
+  /// Leaves each material out of the basis before reconstructing it. Eq. 15 as printed does not: the basis has seen
+  /// every material that the error averages over, so the error is smallest without a penalty.
   bool leave_out = false;
 };
 
-/// E(S) of Eq. 15: the mean over the materials that a basis was learned from of the norm, over all cells, of what
-/// the reconstruction from the measurements S misses, plus beta times the norm of what a common shift adds.
+/// E(S) of Eq. 15. For each material that the basis was learned from, it takes the norm over all cells of the error of
+/// the reconstruction from the measurements S. E is the mean of these norms plus beta times the norm of the response to
+/// a common shift.
 ///
-/// As printed, its norms run over a million cells. But y_i = Q c_i with the materials' coefficients c_i, and |Q x|^2 =
-/// x'M x with the k x k matrix M = Q'Q, which is Sigma^2. With Y = S Q C' and W = S Q M C', n x m for n measurements
-/// and m observations, K = Y Y' + eta I and B = K^-1 Y (the columns of C are orthonormal, and Y Y' = S Q Q' S'):
+/// As printed, the norms run over a million cells. But y_i = Q c_i with the materials' coefficients c_i, and |Q x|^2 =
+/// x'M x with the k x k matrix M = Q'Q, which is Sigma^2. Let Y = S Q C' and W = S Q M C', n x m for n measurements and
+/// m observations, K = Y Y' + eta I and B = K^-1 Y. The columns of C are orthonormal, so Y Y' = S Q Q' S'. Then
 ///
 ///   |Q (Q+ - (SQ)+_eta S) y_i|^2 = c_i'M c_i - 2 w_i . b_i + b_i' (W Y') b_i.
 ///
-/// A measurement may also have an error of its own, of variance v: a detector's, or that of a direction which is not
-/// quite met (`angular_error_penalty`). A weight's variance over the observations is 1 / m, so that the
-/// reconstruction which expects the error is penalised by eta + m v there, K = Y Y' + eta I + m diag(v), and every
-/// squared error grows by the sum of v_i [K^-1 W Y' K^-1]_ii, by what such errors add to it on average. Independent
-/// noise is such an error of the same variance everywhere.
+/// A measurement may also have an error of its own, of variance v: the detector's, or the error of a direction
+/// (`angular_error_penalty`). The variance of a weight over the observations is 1 / m. A reconstruction that expects
+/// this error therefore penalises the measurement by eta + m v: K = Y Y' + eta I + m diag(v). Each squared error grows
+/// by the average effect of these errors, the sum of v_i [K^-1 W Y' K^-1]_ii. Independent noise is the case of one v
+/// for all measurements.
 ///
-/// Without a material's channels, its colours or wavelengths, the others have another mean and covariance, and the
-/// whole is Woodbury's identity once more (`leave_one_material_out_error`, of which this is the same error for samples
-/// in cells). It comes to the formula of leave-one-out for linear fits: with the material's rows C_j of C, one for each
-/// channel, and the matrices of as many rows and columns
+/// If a material's channels (colours or wavelengths) are left out, the mean and covariance of the others change.
+/// Woodbury's identity gives the leave-one-out formula for linear fits. (`leave_one_material_out_error` is the same
+/// error; here all samples are in cells.) C_j holds the material's rows of C, one per channel. With the channels x
+/// channels matrices
 ///
-///   X = (what is missed of C_j' with all in the basis)' M (the same),   L = I - 1 1' / m - C_j A' K^-1 A C_j',   A = S
-///   Q,
+///   X = (the residual of C_j' with all in the basis)' M (the same),
+///   L = I - 1 1' / m - C_j A' K^-1 A C_j',   A = S Q,
 ///
-/// its squared errors are the diagonal of L^-1 X L^-1. What errors of the measurements add is taken from the basis of
-/// all.
+/// the squared errors are the diagonal of L^-1 X L^-1. The contribution of measurement errors is computed from the
+/// basis of all materials.
 ///
-/// Cells that the components are not known for take no part. Where k is less than all components, what the materials
-/// have beyond them is left out: it is the same for all S, but for what it does as noise.
+/// Cells without known components are ignored. If k is less than the number of all components, the rest of the
+/// materials is ignored too. It is the same for all S, except for its effect as noise.
 class expected_error {
  public:
-  /// What is needed of n measurements and m observations: Y and W, one row for each measurement, and what noise does to
-  /// them. Y stands above W in one matrix, because products with both at once are faster than two.
+  /// The inputs for n measurements and m observations: Y and W, one row for each measurement, and the noise. Y is above
+  /// W in one matrix, because one product with both is faster than two products.
   struct rows {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> both;  ///< 2n x m
 
     Eigen::VectorXd noise;  ///< S O of Eq. 13, n values: 1 for a sample by itself
     Eigen::VectorXd
-        sample_noise_penalty;  ///< m v of the errors of its own, noise among them, n values: 0 where there are none
+        sample_noise_penalty;  ///< n values: m v of each measurement's own error, including noise; 0 if there is none
 
     rows() = default;
     rows(Eigen::Index n, Eigen::Index m) : both(2 * n, m), noise(n), sample_noise_penalty(Eigen::VectorXd::Zero(n)) {}
@@ -75,20 +75,20 @@ class expected_error {
     [[nodiscard]] auto weighted() const { return both.bottomRows(size()); }
   };
 
-  /// Errors over the cells that the components were learned on, all of which count alike.
+  /// Errors over the cells that the components were learned on, all with the same weight.
   template <error_metric Metric>
   explicit expected_error(const pca<Metric>& basis, const expected_error_options& options = {})
       : expected_error(basis, options, basis.singular_values().array().square().matrix().asDiagonal()) {}
 
-  /// Errors in the norm x'M x of the components' weights; M is k x k, symmetric and positive semidefinite. With M = Q'D
-  /// Q and a diagonal D, cells count as much as D says. Throws gonio::error for a negative eta, noise or shift, a
-  /// wrong size, and fewer than two materials to leave out.
+  /// Errors in the norm x'M x of the components' weights. M is k x k, symmetric and positive semidefinite. M = Q'D Q
+  /// with a diagonal D weights the cells by D. Throws gonio::error for a negative eta, noise or shift, for a wrong
+  /// size, and if fewer than two materials can be left out.
   template <error_metric Metric>
   expected_error(const pca<Metric>& basis, const expected_error_options& options, const Eigen::MatrixXd& norm)
       : expected_error(basis.coefficients(), basis.channels(), options, norm) {}
 
   [[nodiscard]] const expected_error_options& options() const noexcept { return options_; }
-  /// The channels of each material: so many observations, one after the other.
+  /// The number of channels per material. Its observations are consecutive.
   [[nodiscard]] Eigen::Index channels() const noexcept { return channels_; }
   /// C and C M: m x k. A measurement whose row of components is q has the rows C q and C M q of Y and W.
   [[nodiscard]] const Eigen::MatrixXd& coefficients() const noexcept { return coefficients_; }
@@ -96,32 +96,32 @@ class expected_error {
   /// c_i'M c_i: the squared error of each observation if nothing is measured.
   [[nodiscard]] const Eigen::VectorXd& energies() const noexcept { return energies_; }
 
-  /// Y and W of measurements, given the components' values at them, n x k, and what noise does to them. O(n k m).
+  /// Returns Y and W, given the components' values at the measurements, n x k, and the noise of each. O(n k m).
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components, Eigen::VectorXd noise) const;
-  /// The same for samples by themselves.
+  /// Returns Y and W of single samples, whose noise is 1.
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components) const;
 
-  /// E(S). O(n^2 m) for n measurements and m observations.
+  /// Returns E(S). O(n^2 m) for n measurements and m observations.
   [[nodiscard]] double operator()(const rows& measured) const { return state(measured).error(options_.common_shift); }
 
-  /// E(S) from the components' values at the measurements, n x k.
+  /// Returns E(S) from the components' values at the measurements, n x k.
   [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const { return (*this)(prepare(components)); }
 
-  /// m beta^2, which noise adds to each measurement's own eta.
+  /// m noise^2, which noise adds to each measurement's own penalty.
   [[nodiscard]] double noise_eta() const noexcept {
     return static_cast<double>(coefficients_.rows()) * options_.noise * options_.noise;
   }
 
-  /// What is left unknown when some measurements are made, and how to add to them.
+  /// The errors that remain after some measurements, and the matrices for adding another one.
   struct remainder {
-    Eigen::MatrixXd inverse;                  ///< K^-1, n x n
-    Eigen::VectorXd squared_errors;           ///< of each observation
-    Eigen::MatrixXd inverse_unknown, missed;  ///< L^-1 and L^-1 X L^-1 of one material beside another: channels x m,
-                                              ///< if they are left out
-    Eigen::VectorXd own_variances;            ///< v of each measurement's own error
-    double own_energy = 0.0;                  ///< what these add to each squared error
-    Eigen::VectorXd noise_response;           ///< C (SQ)+_eta S O: what a common shift adds to the weights
-    double noise_energy = 0.0;                ///< |Q (SQ)+_eta S O|^2
+    Eigen::MatrixXd inverse;         ///< K^-1, n x n
+    Eigen::VectorXd squared_errors;  ///< of each observation
+    Eigen::MatrixXd inverse_unknown,
+        missed;  ///< L^-1 and L^-1 X L^-1 of all materials, side by side: channels x m; empty unless they are left out
+    Eigen::VectorXd own_variances;   ///< v of each measurement's own error
+    double own_energy = 0.0;         ///< their contribution to each squared error
+    Eigen::VectorXd noise_response;  ///< C (SQ)+_eta S O: the effect of a common shift on the weights
+    double noise_energy = 0.0;       ///< |Q (SQ)+_eta S O|^2
 
     [[nodiscard]] double error(double common_shift) const;
   };
@@ -132,8 +132,8 @@ class expected_error {
   expected_error(const Eigen::MatrixXf& coefficients, Eigen::Index channels, const expected_error_options& options,
                  const Eigen::MatrixXd& norm);
 
-  /// What `remainder` has of materials left out, given what Y' K^-1 and Y' K^-1 W Y' K^-1 make of the measurements: m x
-  /// n each. O(n m channels + m channels^2).
+  /// Sets the members of `remainder` for left-out materials, given Y' K^-1 and Y' K^-1 W Y' K^-1: m x n each. O(n m
+  /// channels + m channels^2).
   void leave_each_out(const rows& measured, const Eigen::MatrixXd& known, const Eigen::MatrixXd& spread,
                       remainder& left) const;
 
@@ -145,12 +145,12 @@ class expected_error {
 
 static_assert(design_criterion<expected_error>);
 
-/// Measurements to which another one is added. A = I - (SQ)' K^-1 (SQ), what they leave unknown, then changes by a
-/// matrix of rank one: with t = C A q, w = C A M A q, d = eta + q'A q and r = q'A M A q of a candidate q, the squared
-/// errors grow by r t^2 / d^2 - 2 t w / d. O(n m) for each candidate. With errors of their own, d contains the
-/// candidate's own eta, and with a = K^-1 SQ q, b = K^-1 SQ M A q and its v, all squared errors grow by
-/// (v + a'diag(v) a) r / d^2 - 2 a'diag(v) b / d more. Where materials are left out, L falls by t t' / d, and X changes
-/// as the squared errors do (`sum_of_left_out_errors`): O(m channels) more.
+/// Measurements to which one more is added. They leave A = I - (SQ)' K^-1 (SQ) unknown, and the new one changes A by a
+/// matrix of rank one. For a candidate q, let t = C A q, w = C A M A q, d = eta + q'A q and r = q'A M A q. The squared
+/// errors grow by r t^2 / d^2 - 2 t w / d. O(n m) for each candidate. If measurements have errors of their own, d
+/// includes the candidate's own eta. With a = K^-1 SQ q, b = K^-1 SQ M A q and the candidate's v, all squared errors
+/// grow by another (v + a'diag(v) a) r / d^2 - 2 a'diag(v) b / d. If materials are left out, L falls by t t' / d, and X
+/// changes as the squared errors do (`sum_of_left_out_errors`): another O(m channels).
 template <class Scalar>
 class extended_error {
  public:
@@ -160,24 +160,26 @@ class extended_error {
 
   extended_error(const expected_error& criterion, const expected_error::rows& measured);
 
-  /// E with each of some candidates, whose rows of Y and W and whose own etas are given.
+  /// Returns E with each of some candidates added, given their rows of Y and W and their own penalties.
   [[nodiscard]] column operator()(const Eigen::Ref<const matrix>& y, const Eigen::Ref<const matrix>& w,
                                   const Eigen::Ref<const column>& sample_noise_penalty) const;
 
  private:
-  /// One column for each candidate, as products are fastest.
+  /// One column for each candidate: this makes products fastest.
   using columns = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-  /// What the measurements know of each candidate: a and b above, times -1. Empty if there are none.
+  /// -a and -b of each candidate (see above). Empty without measurements.
   struct knowledge {
     columns once, twice;
   };
 
-  /// Makes the columns of q and M q, one above the other, those of t and w, and those of M A q that of C A M A q.
+  /// On entry `both` holds C q above C M q, one column for each candidate. Replaces them by t above C M A q, and sets
+  /// `twice` to w.
   [[nodiscard]] knowledge take_away(columns& both, columns& twice) const;
   [[nodiscard]] Scalar own_growth(const knowledge& known, Eigen::Index candidate, Scalar sample_noise_penalty, Scalar d,
                                   Scalar r) const;
-  /// The mean over the observations of materials left out, given the candidate's t and A w and what own errors add.
+  /// Returns the mean over the observations of left-out materials, given the candidate's t and w and the effect of own
+  /// errors.
   [[nodiscard]] Scalar mean_left_out(const Scalar* t, const Scalar* w, Scalar d, Scalar r, Scalar own) const;
 
   Scalar eta_, common_shift_;
@@ -185,14 +187,13 @@ class extended_error {
   columns both_;               ///< Y' above W'
   columns y_, minus_inverse_;  ///< Y, -K^-1
   column squared_errors_;
-  columns inverse_unknown_, missed_;  ///< of `remainder`: none unless materials are left out
+  columns inverse_unknown_, missed_;  ///< from `remainder`; empty unless materials are left out
   Eigen::Matrix<Scalar, Eigen::Dynamic, 1> noise_response_, own_variances_;
   Scalar noise_energy_, own_energy_;
 };
 
 #if defined(GONIO_COMPILED)
-/// Steps of a descent are made in double; many candidates in single precision, unless they stand in tiles
-/// (`error_sweep`).
+/// Descent uses double, sweeps single precision. Candidates in tiles use `error_sweep`.
 extern template class extended_error<float>;
 extern template class extended_error<double>;
 #endif

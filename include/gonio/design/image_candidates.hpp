@@ -1,6 +1,6 @@
 #pragma once
-/// What images are worth: E(S) of Xu et al. 2016 (doi:10.1145/2980179.2982396) where a candidate brings many samples
-/// (section 5.2).
+/// E(S) of Xu et al. 2016 (doi:10.1145/2980179.2982396) for candidates that are images with many samples each (section
+/// 5.2).
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
@@ -21,36 +21,36 @@ namespace gonio::design {
 
 namespace detail {
 
-/// Measurements of both, one after the other.
+/// Returns the measurements of all parts, one after the other.
 [[nodiscard]] expected_error::rows joined(std::span<const expected_error::rows* const> parts, Eigen::Index m);
 
 }  // namespace detail
 
-/// E of images, whose samples are read whenever they are asked for: for searches that look at few candidates of many.
-/// Samples whose information is below a thousandth of eta are left out (`compressed`), which changes E by less.
+/// E of images whose samples are computed at each call: for searches that evaluate few of many candidates. Samples with
+/// information below eta / 1000 are ignored (`compressed`), which changes E by less than a thousandth.
 template <error_metric Metric, capture_geometry Geometry>
 class image_objective {
  public:
-  /// The basis must be the one of the criterion.
+  /// `basis` must be the basis of the criterion.
   image_objective(pca<Metric> basis, expected_error criterion, Geometry geometry)
       : basis_(std::move(basis)), criterion_(std::move(criterion)), geometry_(std::move(geometry)) {}
 
   [[nodiscard]] const Geometry& geometry() const noexcept { return geometry_; }
   [[nodiscard]] const expected_error& criterion() const noexcept { return criterion_; }
 
-  /// Y and W of one image, compressed. O(s k min(s, k)) for s samples.
+  /// Returns Y and W of one image, compressed. O(s k min(s, k)) for s samples.
   [[nodiscard]] expected_error::rows rows_of(Eigen::Index candidate) const {
     const std::vector<half_difference> directions = geometry_.directions(candidate);
     const component_rows few = compressed(rows_at(basis_, directions), 1e-3 * criterion_.options().eta);
     return criterion_.prepare(few.components, few.noise);
   }
 
-  /// E of some images.
+  /// Returns E of some images.
   [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const {
     return criterion_(rows_of_all(candidates));
   }
 
-  /// E of some images and one more, as a function of that one.
+  /// Returns E of some images and one more, as a function of the additional image.
   [[nodiscard]] auto beside(std::span<const Eigen::Index> candidates) const {
     return [this, others = rows_of_all(candidates)](Eigen::Index candidate) {
       const expected_error::rows one = rows_of(candidate);
@@ -73,8 +73,8 @@ class image_objective {
   Geometry geometry_;
 };
 
-/// E of images, all of which are read beforehand, so that all can be tried as the next one. 16 m bytes for each of
-/// the rows that an image amounts to (5 to 40), at eta / 1000.
+/// E of images that are all computed beforehand, so that a search can try each of them next. Each image is compressed
+/// to 5 to 40 rows, at eta / 1000. A row needs 16 m bytes.
 template <error_metric Metric, capture_geometry Geometry>
 class image_candidates {
  public:
@@ -98,12 +98,12 @@ class image_candidates {
 
   [[nodiscard]] const Geometry& geometry() const noexcept { return objective_.geometry(); }
 
-  /// E of some images.
+  /// Returns E of some images.
   [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const {
     return objective_.criterion()(rows_of_all(candidates));
   }
 
-  /// E of some images and one more, as a function of that one.
+  /// Returns E of some images and one more, as a function of the additional image.
   [[nodiscard]] auto beside(std::span<const Eigen::Index> candidates) const {
     return [this, others = rows_of_all(candidates)](Eigen::Index candidate) {
       const std::array<const expected_error::rows*, 2> both{&others, &rows_[candidate]};
@@ -111,12 +111,12 @@ class image_candidates {
     };
   }
 
-  /// E of some images and, in turn, each candidate beside them; infinity for those that are not allowed.
+  /// Returns E of some images and one more: one value for each additional candidate, infinity if it is not allowed.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates) const {
     return errors_with_each(candidates, {0, std::ssize(rows_)});
   }
 
-  /// The same of a range of the candidates alone.
+  /// Returns the same for a range of the candidates.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates, block range) const {
     std::vector<float> errors(static_cast<std::size_t>(range.size()), std::numeric_limits<float>::infinity());
     const auto with = beside(candidates);

@@ -1,6 +1,6 @@
 #pragma once
-/// Images of a flat sample by a camera that is close to it, under a distant light: every pixel has its own viewing
-/// direction. Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016 (doi:10.1145/2980179.2982396), section 5.2 and Fig. 4.
+/// Images of a flat sample by a close camera under a distant light. Every pixel has its own viewing direction. Xu,
+/// Nielsen, Yu, Jensen and Ramamoorthi 2016 (doi:10.1145/2980179.2982396), section 5.2 and Fig. 4.
 
 #include <gonio/design/capture_geometry.hpp>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace gonio {
-class pinhole_camera;  // core/pinhole_camera.hpp, which needs more of Eigen than all else here
+class pinhole_camera;  // core/pinhole_camera.hpp, which includes more of Eigen than this file needs
 }
 
 namespace gonio::design {
@@ -19,42 +19,42 @@ namespace gonio::design {
 struct near_field_options {
   /// alpha = 2 atan(r / R) in radians, for a disc of radius r and a camera at distance R from its centre.
   double field_of_view = radians(25.0);
-  /// Samples along the diameter of the disc as seen from above; the image's pixels, or blocks of them.
+  /// Samples along the disc's diameter as seen from above: the image's pixels, or blocks of them.
   Eigen::Index pixels = 24;
-  /// Distance of neighbouring candidates in radians: of the polar angles, and of the azimuth between light and camera.
+  /// Step between candidates in radians: of the polar angles, and of the azimuth between light and camera.
   double step = radians(5.0);
-  /// Lights and cameras beyond this polar angle are no candidates.
+  /// Lights and cameras at larger polar angles are not candidates.
   double largest_polar_angle = radians(85.0);
-  /// The camera's, or the light's, polar angle if it cannot be chosen.
+  /// The polar angle of the camera or of the light, if it is fixed.
   std::optional<double> fixed_camera = {}, fixed_light = {};
   capture_constraint constraint = {};
 };
 
-/// The camera of such an image: at distance 1 in the direction wo, its square image just around the disc, whose
-/// radius is tan(field_of_view / 2).
+/// Returns the camera of such an image: at distance 1 in the direction wo. Its square image just contains the disc,
+/// whose radius is tan(field_of_view / 2).
 [[nodiscard]] pinhole_camera near_field_camera(const direction& wo, double field_of_view, Eigen::Index pixels);
 
-/// A candidate is a polar angle of the light, one of the camera, and the azimuth from camera to light. An azimuth and
-/// its negative give mirror images of one another: they are from 0 to pi.
+/// A candidate is a polar angle of the light, one of the camera, and the azimuth from camera to light. The azimuth is
+/// from 0 to pi, because its negative gives the mirror image.
 class near_field_geometry {
  public:
-  /// Throws gonio::error unless the field of view is from 0 to 90 degrees, the step and the largest angle positive, and
-  /// there is at least one candidate.
+  /// Throws gonio::error unless the field of view and the largest polar angle are between 0 and 90 degrees, there are
+  /// pixels, the step is positive, fixed directions are above the horizon, and at least one candidate is allowed.
   explicit near_field_geometry(const near_field_options& options = {});
 
   [[nodiscard]] const near_field_options& options() const noexcept { return options_; }
   [[nodiscard]] Eigen::Index size() const noexcept { return Eigen::Index{extents_[0]} * extents_[1] * extents_[2]; }
 
-  /// Azimuths are all the same where light or camera is at the zenith: the first stands for them.
+  /// If light or camera is at the zenith, all azimuths are the same and only the first is allowed.
   [[nodiscard]] bool allows(Eigen::Index candidate) const;
 
-  /// Light and camera as seen from the centre of the sample; the camera in the half plane of positive x.
+  /// Returns light and camera as seen from the centre of the sample. The camera is in the half plane of positive x.
   [[nodiscard]] direction_pair centre(Eigen::Index candidate) const;
 
-  /// The candidate whose light and camera are next to those of a pair.
+  /// Returns the candidate whose light and camera are nearest to those of a pair.
   [[nodiscard]] Eigen::Index nearest(const direction_pair& pair) const;
 
-  /// One direction for each pixel whose ray meets the disc, and which the light and the camera are above.
+  /// Returns one direction for each pixel whose ray meets the disc; without such a pixel, the direction of the centre.
   [[nodiscard]] std::vector<half_difference> directions(Eigen::Index candidate) const;
 
   [[nodiscard]] std::optional<Eigen::Index> stepped(Eigen::Index from, const grid_step& step) const;

@@ -1,8 +1,7 @@
 #pragma once
-/// Directions at which the literature recommends to measure, as data.
-/// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Table 1: the best n directions of a search over MERL's grid by
-/// condition number; Table 2: the best n images of a sphere. Westlund and Meyer 2001, "Applying Appearance Standards to
-/// Light Reflection Models": what industry measures.
+/// Directions recommended in the literature, as data. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Table 1: the n
+/// directions on MERL's grid with the best condition number; Table 2: the best n images of a sphere. Westlund and Meyer
+/// 2001, "Applying Appearance Standards to Light Reflection Models": the directions measured in industry.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
@@ -25,10 +24,10 @@ const std::vector<std::vector<printed_direction>>& nielsen_table_1();
 
 }  // namespace detail
 
-/// The numbers of directions for which Nielsen et al. 2015 print a set.
+/// The sizes of the sets in Nielsen et al. 2015.
 inline constexpr std::array<Eigen::Index, 5> nielsen_direction_counts{1, 2, 5, 10, 20};
 
-/// Whether there is a set of that many.
+/// Whether there is a set of n directions.
 [[nodiscard]] constexpr bool has_nielsen_directions(Eigen::Index n) {
   return std::ranges::find(nielsen_direction_counts, n) != nielsen_direction_counts.end();
 }
@@ -36,13 +35,14 @@ inline constexpr std::array<Eigen::Index, 5> nielsen_direction_counts{1, 2, 5, 1
 /// Nielsen et al. 2015, Table 1, in radians. Throws gonio::error unless n is 1, 2, 5, 10 or 20.
 [[nodiscard]] std::vector<half_difference> nielsen_directions(Eigen::Index n);
 
-/// Nielsen et al. 2015, Table 2, in radians: n images of a sphere. All of an image's samples have the theta_d that is
-/// given, half the angle between light and camera; theta_h = phi_d = 0 is where the normal is midway. Throws
-/// gonio::error unless n is 1, 2 or 5.
+/// Nielsen et al. 2015, Table 2, in radians: n images of a sphere. All samples of an image have the given theta_d, half
+/// the angle between light and camera. theta_h = phi_d = 0 is the point whose normal is midway. Throws gonio::error
+/// unless n is 1, 2 or 5.
 [[nodiscard]] std::vector<half_difference> nielsen_sphere_directions(Eigen::Index n);
 
-/// The five measurements of industry's goniospectrophotometers (Westlund and Meyer 2001), in radians: the light at 45
-/// degrees, the viewer in its plane at 15, 25, 45, 75 and 110 degrees from the mirror direction towards the light.
+/// The five measurements of industrial goniospectrophotometers (Westlund and Meyer 2001), in radians. The light is at
+/// 45 degrees. The viewer is in its plane at 15, 25, 45, 75 and 110 degrees from the mirror direction towards the
+/// light.
 [[nodiscard]] std::vector<half_difference> westlund_meyer_directions();
 
 }  // namespace gonio::design

@@ -1,5 +1,5 @@
 #pragma once
-/// How sure the readings of an apparatus are, in the domain that a prior is fitted in.
+/// The error variances of an apparatus' readings, in the domain in which a prior is fitted.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -14,8 +14,8 @@
 
 namespace gonio::design {
 
-/// The variance of the error of a reading at each location, of the prior's mean material, and where light and viewer
-/// may be off their directions of all of its materials. O(locations), times k with an angular error.
+/// Returns the error variance of a reading at each location. Noise and dark signal are evaluated for the prior's mean
+/// material, angular errors for all its materials. O(locations), times k with an angular error.
 template <error_metric Metric>
 [[nodiscard]] Eigen::VectorXd reading_variances(const apparatus& with, const pca<Metric>& prior,
                                                 std::span<const location> locations, thread_count threads = {}) {

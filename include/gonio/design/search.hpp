@@ -1,7 +1,7 @@
 #pragma once
-/// Searches for what to measure, for any geometry of candidates and any objective that tells what a set of them is
-/// worth. Random swaps: Matusik, Pfister, Brand and McMillan 2003. Descent on the grid: Nielsen, Jensen and Ramamoorthi
-/// 2015 (doi:10.1145/2816795.2818085), section 4; from the best of many candidates: Xu et al. 2016
+/// Searches for the best measurements, for any geometry of candidates and any objective. Random swaps: Matusik,
+/// Pfister, Brand and McMillan 2003. Descent on the grid: Nielsen, Jensen and Ramamoorthi 2015
+/// (doi:10.1145/2816795.2818085), section 4. Descent from the best of many candidates: Xu et al. 2016
 /// (doi:10.1145/2980179.2982396), section 5.1.
 
 #include <gonio/core/error.hpp>
@@ -24,10 +24,10 @@
 
 namespace gonio::design {
 
-/// What a set of candidates is worth to measure: smaller is better. Their order must not matter.
+/// The value of a set of candidates; smaller is better. It must not depend on their order.
 ///
-/// An objective may offer `beside(candidates)`, a function of one more candidate that is cheaper than the whole:
-/// searches that move one at a time then use it.
+/// An objective may offer `beside(candidates)`, a function of one more candidate that is cheaper than evaluating the
+/// whole set. Searches that move one candidate at a time then use it.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -44,7 +44,7 @@ namespace gonio::design {
 ///   std::printf("%g\n", gonio::design::swap_at_random(points, volume, 5, 1000).value);
 /// }
 /// ```
-/// With a model of your own, candidates as far from each other as can be:
+/// With a model of your own, candidates as far apart as possible:
 /// ```cpp
 /// #include <gonio/design/search.hpp>
 ///
@@ -72,7 +72,7 @@ concept plan_objective = requires(const Objective& objective, std::span<const Ei
   { objective(candidates) } -> std::convertible_to<double>;
 };
 
-/// Different candidates to measure, and what they are worth.
+/// Distinct candidates to measure, and the value of the set.
 struct capture_plan {
   std::vector<Eigen::Index> candidates;
   double value = std::numeric_limits<double>::infinity();
@@ -80,7 +80,7 @@ struct capture_plan {
 
 namespace detail {
 
-/// Is there as much to choose from?
+/// Refuses unless n is from 1 to the number of allowed candidates.
 template <capture_geometry Geometry>
 void require_choice(Eigen::Index n, const Geometry& geometry) {
   Eigen::Index allowed = 0;
@@ -99,7 +99,7 @@ void require_choice(Eigen::Index n, const Geometry& geometry) {
   return std::ranges::find(candidates, candidate) != candidates.end();
 }
 
-/// A random candidate that the plan does not have yet.
+/// Returns a random allowed candidate that is not in the plan.
 template <capture_geometry Geometry, class Generator>
 [[nodiscard]] Eigen::Index another_candidate(const std::vector<Eigen::Index>& plan, const Geometry& geometry,
                                              Generator& generator) {
@@ -109,10 +109,10 @@ template <capture_geometry Geometry, class Generator>
   return candidate;
 }
 
-/// The candidates of a plan without the one at a position.
+/// Returns the candidates of a plan without the one at a position.
 [[nodiscard]] std::vector<Eigen::Index> without(std::vector<Eigen::Index> candidates, Eigen::Index position);
 
-/// The value of a plan as a function of what is at one position; infinity for what the plan has already.
+/// Returns the value of a plan as a function of the candidate at one position; infinity if the plan already has it.
 template <plan_objective Objective>
 [[nodiscard]] auto value_of_replacement(const Objective& objective, const std::vector<Eigen::Index>& candidates,
                                         Eigen::Index position) {
@@ -132,12 +132,12 @@ template <plan_objective Objective>
   }
 }
 
-/// Is a value better than another by more than rounding? Either may be negative: some criteria are logarithms.
+/// Whether a value is better by more than rounding. Values may be negative: some criteria are logarithms.
 [[nodiscard]] inline bool improves(double value, double on, double rounding = 1e-12) noexcept {
   return value < on && (std::isinf(on) || on - value > rounding * std::abs(on));
 }
 
-/// Moves one candidate of a plan to the best of its six neighbours at a distance, if that is an improvement.
+/// Moves one candidate to the best of its six neighbours at a distance if that is better. Returns whether it moved.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] bool move_one(const Geometry& geometry, const Objective& objective, capture_plan& plan,
                             Eigen::Index position, int distance) {
@@ -159,9 +159,8 @@ template <capture_geometry Geometry, plan_objective Objective>
 
 }  // namespace detail
 
-/// Lets each candidate of a plan slide along the grid as long as it improves: steps of 3, then of 1, each in the best
-/// of six directions, the candidates in random order. The result is no worse than any plan with one candidate moved by
-/// one step.
+/// Moves candidates of a plan along the grid while that improves it: first in steps of 3, then of 1, each in the best
+/// of six directions, the candidates in random order. No move of one candidate by one step improves the result.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan descend(const Geometry& geometry, const Objective& objective, capture_plan plan,
                                    std::uint64_t seed = 0) {
@@ -178,12 +177,12 @@ template <capture_geometry Geometry, plan_objective Objective>
         while (detail::move_one(geometry, objective, plan, position, distance)) improved = true;
     }
   }
-  plan.value = objective(std::span<const Eigen::Index>(plan.candidates));  // without the rounding of many steps
+  plan.value = objective(std::span<const Eigen::Index>(plan.candidates));  // removes the rounding of many steps
   return plan;
 }
 
-/// Adds one candidate after another, the best of `tries` random ones each time, and descends after each. With one try
-/// it is Nielsen et al.'s search, with 500 Xu et al.'s. Throws gonio::error unless n is from 1 to the number of
+/// Adds candidates one by one, each time the best of `tries` random ones, and descends after each. One try gives the
+/// search of Nielsen et al.; 500 give that of Xu et al. Throws gonio::error unless n is from 1 to the number of
 /// candidates.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan grow_and_descend(const Geometry& geometry, const Objective& objective, Eigen::Index n,
@@ -211,8 +210,8 @@ template <capture_geometry Geometry, plan_objective Objective>
   return plan;
 }
 
-/// n random candidates, one of which is replaced by a random other one where that is an improvement, as many times as
-/// `swaps` says: Matusik et al.'s search, the baseline. Throws gonio::error unless n is from 1 to the number of
+/// Starts with n random candidates. `swaps` times, replaces a random one by another random candidate if that improves
+/// the plan: the search of Matusik et al., the baseline. Throws gonio::error unless n is from 1 to the number of
 /// candidates.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan swap_at_random(const Geometry& geometry, const Objective& objective, Eigen::Index n,

@@ -1,7 +1,7 @@
 #pragma once
-/// The next best measurement, given those that were made: sequential experimental design. Each candidate is judged by
-/// what the posterior covariance of the Gaussian process behind `reconstruction` becomes with it, as linear functions
-/// of the material see it: Cohn, Ghahramani and Jordan 1996, "Active learning with statistical models"
+/// Sequential experimental design: chooses the next best measurement, given those already made. Scores each candidate
+/// by the posterior covariance that the Gaussian process behind `reconstruction` would have with it, for linear
+/// functions of the material: Cohn, Ghahramani and Jordan 1996, "Active learning with statistical models"
 /// (doi:10.1613/jair.295); Rasmussen and Williams 2006, Eq. 2.24. Results: docs/results/adaptive-design.md.
 
 #include <gonio/core/parallel.hpp>
@@ -19,38 +19,38 @@
 
 namespace gonio::design {
 
-/// What somebody sees of a material: by how much each of p points changes when the mapped values at the candidates do.
+/// The sensitivity of p observed points of a material to its mapped values at the candidates.
 struct sensitivity {
-  Eigen::MatrixXd slopes;   ///< 3 p x candidates: row 3 i + c is that of point i and channel c
-  Eigen::VectorXd weights;  ///< p: how much each point counts
+  Eigen::MatrixXd slopes;   ///< 3 p x candidates: row 3 i + c is the derivative of point i, channel c
+  Eigen::VectorXd weights;  ///< p: the weight of each point
 };
 
-/// The mean over the points, by their weights, of the deviation of what is seen: sum_i w_i (sum_c s_ic' P s_ic)^1/2 for
-/// the slopes s and the covariance P of each channel. O(p candidates^2).
+/// Returns the weighted sum over the points of their standard deviations: sum_i w_i (sum_c s_ic' P s_ic)^1/2 for the
+/// slopes s and the covariance P of each channel. O(p candidates^2).
 [[nodiscard]] double seen_deviation(const Eigen::MatrixXd& covariance, const sensitivity& seen,
                                     thread_count threads = {});
 
-/// The same with one more measurement at each of the candidates, in turn, whose errors have these variances: a value
-/// for each candidate. P falls by P_x P_x' / (P_xx + its error variance). O(p candidates^2). Same bytes for any number
-/// of threads.
+/// Returns `seen_deviation` after one more measurement with the given error variance: one value for each candidate. The
+/// measurement reduces P by P_x P_x' / (P_xx + its error variance). O(p candidates^2). The bytes do not depend on the
+/// number of threads.
 [[nodiscard]] std::vector<double> seen_deviation_with_each(const Eigen::MatrixXd& covariance, const sensitivity& seen,
                                                            const Eigen::VectorXd& error_variances,
                                                            thread_count threads = {});
 
-/// What is known of the mapped values at all candidates.
+/// The posterior of the mapped values at all candidates.
 struct candidate_posterior {
   Eigen::MatrixXd mean;        ///< candidates x 3
-  Eigen::MatrixXd covariance;  ///< candidates x candidates, of each channel
+  Eigen::MatrixXd covariance;  ///< candidates x candidates, the same for each channel
 
-  /// Takes a measurement at a candidate into the covariance, whatever its value. O(candidates^2).
+  /// Updates the covariance for a measurement at a candidate, whatever its value. O(candidates^2).
   void add(Eigen::Index candidate, double error_variance);
 };
 
-/// 3,246 cells: 24 of theta_h, 15 of theta_d and 12 of phi_d.
+/// Returns 3,246 cells: 24 of theta_h, 15 of theta_d and 12 of phi_d.
 [[nodiscard]] valid_cells default_candidates();
 
-/// The cells of a coarse grid as candidates, with the covariance that an estimator expects of a material there before
-/// anything is measured. A value type whose copies share it: 8 bytes for each pair of candidates.
+/// The cells of a coarse grid as candidates, with an estimator's prior covariance at them. A value type; copies share
+/// the covariance, 8 bytes for each pair of candidates.
 ///
 /// ```cpp
 /// const gonio::reconstruction estimator{prior};
@@ -69,18 +69,19 @@ class sequential_design {
 
   [[nodiscard]] const reconstruction<Metric>& estimator() const noexcept { return estimator_; }
   [[nodiscard]] const point_geometry& geometry() const noexcept { return geometry_; }
-  /// Of a measurement at each candidate: the estimator's, which grows towards grazing, and that of the apparatus.
+  /// The error variance of a measurement at each candidate: the estimator's, which grows towards grazing angles, plus
+  /// the apparatus'.
   [[nodiscard]] const Eigen::VectorXd& error_variances() const noexcept { return before_->error_variances; }
 
-  /// Where the candidates lie on the prior's cells, and the prior's functions and mean there.
+  /// The locations of the candidates on the prior's cells, and the prior's functions and mean there.
   [[nodiscard]] const std::vector<location>& locations() const noexcept { return before_->locations; }
   [[nodiscard]] const located_rows& rows() const noexcept { return before_->at; }
   [[nodiscard]] const Eigen::VectorXd& offsets() const noexcept { return before_->offsets; }
 
-  /// Before anything is measured.
+  /// Returns the distribution before any measurement.
   [[nodiscard]] candidate_posterior prior() const { return {before_->offsets.replicate(1, 3), before_->covariance}; }
 
-  /// Given the process of n samples: O(n^3 + candidates^2 n).
+  /// Returns the posterior, given the process of n samples. O(n^3 + candidates^2 n).
   [[nodiscard]] candidate_posterior posterior_of(const sample_process& samples) const {
     auto [mean, covariance] = samples.predict(before_->at, before_->covariance);
     for (Eigen::Index c = 0; c < mean.cols(); ++c) mean.col(c) += before_->offsets;

@@ -1,7 +1,7 @@
 #pragma once
 /// Images of a sphere of the material (Marschner et al. 2000, doi:10.1364/AO.39.002592; Nielsen et al. 2015,
-/// doi:10.1145/2816795.2818085, section 6): with light and camera far away all of its points have the same theta_d,
-/// half the angle between the two, and every (theta_h, phi_d) at which both are above the horizon is seen.
+/// doi:10.1145/2816795.2818085, section 6). If light and camera are far away, all its points have the same theta_d,
+/// half the angle between the two. The image shows every (theta_h, phi_d) at which both are above the horizon.
 
 #include <gonio/design/capture_geometry.hpp>
 
@@ -11,10 +11,10 @@
 
 namespace gonio::design {
 
-/// One candidate for each theta_d of a grid: its samples are all valid cells of that slice, each once.
+/// One candidate for each theta_d of a grid. Its samples are all valid cells of that slice, each once.
 class sphere_geometry {
  public:
-  /// Light and camera are at least an angle in radians apart.
+  /// Light and camera must be at least `smallest_separation` radians apart.
   explicit sphere_geometry(valid_cells cells, double smallest_separation = 0.0)
       : cells_(std::move(cells)), smallest_separation_(smallest_separation) {}
 
@@ -24,7 +24,7 @@ class sphere_geometry {
     return !cells_of(slice).empty() && 2.0 * cells_.grid().theta_d(static_cast<int>(slice)) >= smallest_separation_;
   }
 
-  /// As seen from where the sphere's normal is midway between light and camera.
+  /// Returns the pair at the point where the sphere's normal is midway between light and camera.
   [[nodiscard]] direction_pair centre(Eigen::Index slice) const {
     return to_directions({0.0, cells_.angles(cells_of(slice).front()).theta_d, 0.0});
   }
@@ -36,7 +36,7 @@ class sphere_geometry {
 
   [[nodiscard]] std::optional<Eigen::Index> stepped(Eigen::Index from, const grid_step& step) const;
 
-  /// The valid cells of a slice.
+  /// Returns the valid cells of a slice.
   [[nodiscard]] std::vector<Eigen::Index> cells_of(Eigen::Index slice) const;
 
  private:

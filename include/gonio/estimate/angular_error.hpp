@@ -1,5 +1,5 @@
 #pragma once
-/// The penalty for measurements whose light and viewer are off their directions by an angle.
+/// The penalty for measurements whose light and viewer directions have an angular error.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -14,19 +14,18 @@ namespace gonio {
 
 namespace detail {
 
-/// A pair whose light, or whose viewer, is turned by an angle towards one of four sides.
+/// Returns eight pairs in which either the light or the viewer is turned by an angle in one of four directions.
 [[nodiscard]] std::array<direction_pair, 8> misplaced_pairs(const direction_pair& meant, double angle);
 
 }  // namespace detail
 
-/// The penalty that a measurement deserves beyond the prior's eta because light and viewer are each an angle in radians
-/// off their directions, towards unknown sides: m times the variance of the error of its mapped value, over the m
-/// observations of the basis and over the sides.
+/// Returns the penalty to add to the prior's eta for a measurement whose light and viewer are each off by an angle in
+/// radians, in unknown directions. It is m times the variance of the error of the mapped value, taken over the m
+/// observations of the basis and over the directions of the error.
 ///
-/// A value measured at x', taken for one at x, is wrong by (q(x') - q(x)) . c + o, where o is the error of the mean
+/// A value measured at x' but assigned to x is wrong by (q(x') - q(x)) . c + o. Here o is the error of the mean
 /// material: its value at x', mapped as if it were at x. The weights c have orthonormal columns over the observations,
-/// so that m times the mean square is |q(x') - q(x)|^2 + m o^2. Light and viewer move independently: their errors add.
-/// O(k).
+/// so m times the mean square is |q(x') - q(x)|^2 + m o^2. Light and viewer move independently: their errors add. O(k).
 template <error_metric Metric>
 [[nodiscard]] double angular_error_penalty(const pca<Metric>& basis, const direction_pair& meant, double angle) {
   const location here = locate(basis.cells(), to_half_difference(meant.wi, meant.wo));

@@ -1,5 +1,5 @@
 #pragma once
-/// What apertures make of readings, by a fit of them.
+/// The effect of apertures on readings, predicted by a fit.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -11,8 +11,9 @@
 
 namespace gonio::detail {
 
-/// The mean over a sample's cones to the value in the middle, for each channel: a row for each of `numbers`. At most
-/// 100, at least a hundredth, and 1 where nothing is reflected. `values` has at least as many channels as the samples.
+/// Returns the mean of `values` over a sample's cones divided by the value on their axes, for each channel: one row for
+/// each of `numbers`. Factors are clamped to 0.01 to 100; they are 1 where nothing is reflected. `values` must have at
+/// least as many channels as the samples.
 [[nodiscard]] Eigen::MatrixXd aperture_factors(
     const sample_set& samples, const std::vector<Eigen::Index>& numbers,
     const std::function<Eigen::ArrayXd(const direction& wi, const direction& wo)>& values, thread_count threads);

@@ -1,5 +1,5 @@
 #pragma once
-/// The least-squares problems that fitting measurements by a basis amounts to.
+/// The least-squares problems of fitting measurements by a basis.
 /// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 9; Noell, Koehler and Stricker 2014, Eq. 7.
 
 #include <gonio/basis/pca.hpp>
@@ -18,45 +18,45 @@
 
 namespace gonio {
 
-/// The weights of a basis' functions, a column for each channel of what was fitted: colours, wavelengths.
+/// The weights of a basis' functions, one column for each fitted channel (colour or wavelength).
 template <colour_basis Basis>
 struct solved_channels {
   Basis functions;
   solution found;
 };
 
-/// Measurements seen through a basis. Row i of a system is the basis interpolated at measurement i, the right-hand side
-/// its mapped value minus the offset there; its weight multiplies the squared error. Channels with a basis and weights
-/// in common share one system, with a right-hand side for each. Rows are read from the basis block by block, never
-/// copied as a whole.
+/// The least-squares systems of measurements in a basis. Row i of a system is the basis interpolated at measurement i.
+/// Its right-hand side is the mapped value minus the offset there, and its weight multiplies the squared error.
+/// Channels that share a basis and weights share one system, with a right-hand side for each. Rows are read from the
+/// basis block by block and never copied as a whole.
 template <colour_basis Basis>
 class basis_equations {
  public:
   basis_equations(Basis functions, located_samples samples, thread_count threads = {})
       : basis_equations(of_mapped(functions, map_samples(functions, std::move(samples), threads), threads)) {}
 
-  /// Of samples that `map_samples` has mapped.
+  /// Makes the equations of samples that `map_samples` has already mapped.
   [[nodiscard]] static basis_equations of_mapped(Basis functions, located_samples mapped, thread_count threads = {}) {
     return {mapped_already{}, std::move(functions), std::move(mapped), threads};
   }
 
-  /// Number of systems to solve: one if the channels share their basis and their weights, else one for each channel.
+  /// Returns the number of systems: one if the channels share their basis and their weights, else one for each channel.
   [[nodiscard]] Eigen::Index systems() const noexcept {
     return basis<Basis> && !measured_->weighs_channels_apart() ? 1 : channels();
   }
 
-  /// A system over all functions of the basis: of a channel, or of all if there is but one.
+  /// Returns a system over all functions of the basis: of one channel, or of all channels if there is only one system.
   [[nodiscard]] least_squares_problem problem(Eigen::Index system = 0) const;
 
-  /// All systems.
+  /// Returns all systems.
   [[nodiscard]] std::vector<least_squares_problem> problems() const {
     std::vector<least_squares_problem> all;
     for (Eigen::Index system = 0; system < systems(); ++system) all.push_back(problem(system));
     return all;
   }
 
-  /// The weights of all functions, size() x channels, by a solver for each system; functions that the basis leaves out
-  /// have weight zero. Systems are solved in parallel.
+  /// Returns the weights of all functions, size() x channels. The solver is called once for each system, in parallel.
+  /// Functions that the basis leaves out have weight zero.
   template <solver Solver>
   [[nodiscard]] solution solve(const Solver& solver) const {
     return solve_each([&](const least_squares_problem& problem) { return solver.solve(problem); });

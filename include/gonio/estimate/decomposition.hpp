@@ -1,5 +1,5 @@
 #pragma once
-/// Basis decomposition: the mapped measurements as a linear combination of a basis' functions.
+/// Basis decomposition: mapped measurements as a linear combination of a basis' functions.
 /// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 9-12 (pca x log-relative x Tikhonov); Noell et al. 2014, Eq.
 /// 7-11 (measured x log x NNLS).
 
@@ -14,22 +14,21 @@
 
 namespace gonio {
 
-/// Weights that cannot be negative mean nothing where the functions' signs are arbitrary: principal components want
-/// `tikhonov`, `least_squares`, `truncated_svd` or `lasso`; non-negative solvers want measured materials. The name is
-/// what the compiler says to whoever combines the two.
+/// Non-negative weights make no sense for functions of arbitrary sign. Use `tikhonov`, `least_squares`, `truncated_svd`
+/// or `lasso` with principal components, and non-negative solvers with measured materials. The compiler reports this
+/// name if the two are combined.
 template <class Basis, class Solver>
 concept non_negative_weights_need_functions_of_definite_sign =
     !(has_arbitrary_sign<Basis> && solves_non_negative<Solver>);
 
-/// Fits each colour channel of measurements by a basis, with the weights found by a solver: `basis_equations` says what
-/// is solved.
+/// Fits each channel of measurements by a basis, with weights found by a solver; see `basis_equations`.
 ///
 /// ```cpp
 /// const auto paint = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
 /// const auto lc = gonio::decomposition{gonio::measured{materials, gonio::log{}}, gonio::nnls{}}.fit(samples);
 /// ```
-/// Basis must be a `colour_basis`, Solver a `solver`. Where one is not, the compiler's first lines name the member that
-/// it lacks.
+/// Basis must be a `colour_basis`, Solver a `solver`. If one is not, the compiler's first lines name the missing
+/// member.
 template <class Basis, class Solver>
 requires non_negative_weights_need_functions_of_definite_sign<Basis, Solver>
 class decomposition {
@@ -39,11 +38,11 @@ class decomposition {
   explicit decomposition(Basis basis, Solver solver = Solver(), thread_count threads = {})
       : basis_(std::move(basis)), solver_(std::move(solver)), threads_(threads) {}
 
-  /// Of samples, or a table, each cell of which is one of weight 1. Where channels share their basis there may be any
-  /// number of them, each wavelength being fitted as a grey material: they share one factorisation. Else they are the
-  /// colours. Cost of the solver plus O(samples x size of the
-  /// basis) for reading the rows; O(samples x size^2) more where the solver wants the normal equations. Throws
-  /// gonio::error for unusable samples, or if the solver gives up.
+  /// Fits samples, or a table whose cells are samples of weight 1. If channels share their basis, any number of
+  /// channels is possible: they share one factorisation, and each wavelength is fitted as a grey material. Otherwise
+  /// the channels must be colours. Costs the solver plus O(samples x size of the basis) for reading the rows, and
+  /// O(samples x size^2) more if the solver uses the normal equations. Throws gonio::error for unusable samples, or if
+  /// the solver gives up.
   template <class Samples>
   [[nodiscard]] fitted_brdf<Basis> fit(const Samples& samples) const {
     located_samples located = locate_samples(cells(), samples, threads_);

@@ -1,5 +1,5 @@
 #pragma once
-/// What a decomposition's metric, basis and solver must have, one sentence for each member, for the compiler to say.
+/// Checks the members of a decomposition's metric, basis and solver one by one, for readable compiler messages.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/solve/solver.hpp>
@@ -22,8 +22,8 @@ struct metric_of<Basis> {
   using type = std::remove_cvref_t<decltype(std::declval<const Basis&>().metric())>;
 };
 
-/// Instantiating it asserts one part after the other, and of each part first the members, then its concept, which also
-/// knows their types.
+/// Instantiation asserts one part after the other: first the members of each part, then its concept, which also checks
+/// their types.
 template <class Basis, class Solver>
 struct decomposition_parts {
   using metric = typename metric_of<Basis>::type;

@@ -1,6 +1,6 @@
 #pragma once
-/// Basis decomposition of samples that are not quite where they are said to be: light and viewer are each off by an
-/// angle, towards sides that nobody knows.
+/// Basis decomposition of samples whose directions have errors: light and viewer are each off by an angle in an unknown
+/// direction.
 
 #include <gonio/estimate/angular_error.hpp>
 #include <gonio/estimate/estimator.hpp>
@@ -22,14 +22,14 @@ namespace gonio {
 /// The reconstruction of Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 12, from samples whose light and viewer
 /// may be anywhere on circles of `angle` radians around their directions.
 ///
-/// What a sample then shows is, on average, the mean of the prior's rows over the circles, and a value deviates from it
-/// by d = (q(x) - mean q) . c + o(x) - mean o at a location x, where o is the mean material's value there, mapped as if
-/// it were in place. That is an error of its own of variance v, the mean of d^2: with m observations the penalty m v
-/// beyond eta, or the weight eta / (eta + m v). v depends on the material: it is nothing for a matte one, and much on
-/// the flank of a highlight. It is taken over the prior's observations first (C'C = I: |q(x) - mean q|^2 + m o^2), then
-/// over the colour channels of what was found with it, once more.
+/// On average, such a sample shows the mean of the prior's rows over the circles. At a location x its value deviates
+/// from that mean by d = (q(x) - mean q) . c + o(x) - mean o. Here o is the mean material's value at x, mapped as if x
+/// were the stated location. The variance v = mean of d^2 is an error of this sample: with m observations it adds m v
+/// to the penalty eta, so the sample has the weight eta / (eta + m v). v depends on the material: it is zero for a
+/// matte one and large on the flank of a highlight. The fit is made twice: first with v averaged over the prior's
+/// observations (C'C = I: |q(x) - mean q|^2 + m o^2), then with v averaged over the colour channels of the first fit.
 ///
-/// Where both agree, the angle does not matter:
+/// If these two fits agree, the angle does not matter:
 /// ```cpp
 /// const auto paint = gonio::errors_in_variables_decomposition{prior, 40.0, gonio::radians(0.5)}.fit(samples);
 /// const auto trusting = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
@@ -37,14 +37,14 @@ namespace gonio {
 template <error_metric Metric>
 class errors_in_variables_decomposition {
  public:
-  /// Throws gonio::error unless eta is positive and the angle from 0 to 45 degrees.
+  /// Throws gonio::error unless eta is positive and the angle is 0 to 45 degrees.
   errors_in_variables_decomposition(pca<Metric> prior, double eta, double angle, thread_count threads = {})
       : prior_(std::move(prior)), solver_(eta), angle_(angle), threads_(threads) {
     if (!(angle >= 0.0 && angle <= std::numbers::pi / 4.0))
       refuse("samples may be misplaced by 0 to 45 degrees, not by " + std::to_string(degrees(angle)));
   }
 
-  /// O(16 n k) for n samples beside the solver's cost. Throws gonio::error for unusable samples.
+  /// Fits samples. O(16 n k) for n samples, plus the solver's cost. Throws gonio::error for unusable samples.
   [[nodiscard]] fitted_brdf<pca<Metric>> fit(const sample_set& samples) const {
     const located_samples measured = locate_samples(prior_.cells(), samples, threads_);
     const system equations = average(measured);
@@ -56,15 +56,15 @@ class errors_in_variables_decomposition {
  private:
   static constexpr Eigen::Index sides = 4;
 
-  /// The equations over the circles.
+  /// The equations averaged over the circles.
   struct system {
     row_matrix rows;                       ///< the mean row of each sample, n x k
     Eigen::VectorXd offsets;               ///< the mean material's mapped value, n
-    Eigen::MatrixXd right;                 ///< mapped values less the offsets, n x channels
+    Eigen::MatrixXd right;                 ///< mapped values minus the offsets, n x channels
     Eigen::VectorXd sample_noise_penalty;  ///< m v over the prior's observations, n
   };
 
-  /// What a sample at one location of its circles would show.
+  /// The values that a sample at one location would show on its circles.
   struct displaced {
     std::array<Eigen::RowVectorXd, sides * sides> rows;
     std::array<double, sides * sides> offsets;
@@ -111,7 +111,7 @@ class errors_in_variables_decomposition {
     return means;
   }
 
-  /// m v of a material whose weights are given, the mean over its channels.
+  /// Returns m v of a material with given weights, averaged over its channels.
   [[nodiscard]] Eigen::VectorXd sample_noise_penalties(const located_samples& measured, const system& means,
                                                        const Eigen::MatrixXd& weights) const {
     const Eigen::Index channels = weights.cols();
@@ -128,7 +128,7 @@ class errors_in_variables_decomposition {
     return etas;
   }
 
-  /// `sample_weights`: as `located_samples` has them.
+  /// `sample_weights` has the layout of `located_samples::weights`.
   [[nodiscard]] solution solve(const system& equations, const Eigen::MatrixXd& sample_weights,
                                const Eigen::VectorXd& sample_noise_penalty) const {
     const double eta = solver_.eta();
@@ -143,7 +143,7 @@ class errors_in_variables_decomposition {
   }
 
   [[nodiscard]] double observations() const { return static_cast<double>(prior_.coefficients().rows()); }
-  /// A quarter of the circle, in radians.
+  /// Returns the angle of a quarter of the circle, in radians.
   [[nodiscard]] static double side(Eigen::Index quarter) noexcept {
     return 2.0 * std::numbers::pi * static_cast<double>(quarter) / static_cast<double>(sides);
   }
@@ -157,9 +157,9 @@ class errors_in_variables_decomposition {
 
 static_assert(estimator<errors_in_variables_decomposition<log_relative>>);
 
-/// Samples whose weights are those that a `reconstruction` by such a prior should give them, each being off by an
-/// angle: e / (e + v) of what they were, with the model's error variance e and the variance v of the mapped error. O(n
-/// k).
+/// Returns samples with the weights for a `reconstruction` by this prior if light and viewer are each off by an angle.
+/// Each weight is multiplied by e / (e + v), with the model's error variance e and the variance v of the mapped error.
+/// O(n k).
 template <error_metric Metric>
 [[nodiscard]] sample_set weighted_as_misplaced(const sample_set& samples, const pca<Metric>& prior,
                                                const discrepancy_model& model, double angle) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The concept of an estimator: samples in, a BRDF over all directions out.
+/// The concept of an estimator, which reconstructs a BRDF over all directions from samples.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/table/brdf_table.hpp>
@@ -7,7 +7,7 @@
 
 namespace gonio {
 
-/// A BRDF that can also be tabulated onto any grid faster than by evaluating it cell by cell.
+/// A BRDF that can be tabulated on any grid faster than cell by cell.
 template <class Fit>
 concept tabulated_brdf = brdf<Fit> && requires(const Fit& fit, const valid_cells& cells) {
   { fit.tabulate(cells) } -> std::same_as<brdf_table>;
@@ -15,10 +15,10 @@ concept tabulated_brdf = brdf<Fit> && requires(const Fit& fit, const valid_cells
 
 /// Completes a BRDF from scattered measurements.
 ///
-/// What the compiler cannot check, and a model must keep: `fit` refuses unusable samples with gonio::error
-/// (`require_usable`), does not depend on the number of threads, and the result is non-negative and zero
-/// below the horizon; `fit(...).tabulate(cells)` agrees with evaluating the fit at the cells' angles up to
-/// float rounding; fitting is const and thread safe.
+/// Requirements that the compiler cannot check: `fit` refuses unusable samples with gonio::error (`require_usable`) and
+/// does not depend on the number of threads. The result is non-negative and zero below the horizon.
+/// `fit(...).tabulate(cells)` agrees with the fit at the cells' angles up to float rounding. Fitting is const and
+/// thread safe.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -35,7 +35,7 @@ concept tabulated_brdf = brdf<Fit> && requires(const Fit& fit, const valid_cells
 ///   std::printf("%g per steradian\n", paint({0, 0, 1}, {0, 0, 1}).x());
 /// }
 /// ```
-/// With a model of your own, which says grey:
+/// With a model of your own, which returns the mean as grey:
 /// ```cpp
 /// #include <gonio/estimate/estimator.hpp>
 ///

@@ -1,10 +1,11 @@
 #pragma once
-/// Tikhonov's penalty eta (Nielsen et al. 2015, doi:10.1145/2816795.2818085, Eq. 12) as what it is, a noise parameter.
+/// Tikhonov's penalty eta (Nielsen et al. 2015, doi:10.1145/2816795.2818085, Eq. 12) computed from the measurement
+/// noise.
 ///
-/// Prior: c ~ N(0, I/m), since the coefficients of the m training observations have orthonormal columns. With row error
-/// variance sigma^2, the posterior mean minimises |Q c - y|^2 + m sigma^2 |c|^2. sigma^2 is the variance of the noise
-/// plus that of the model error, which is estimated by leaving out each training material. Results:
-/// docs/results/eta.md.
+/// Prior: c ~ N(0, I/m), since the coefficients of the m training observations have orthonormal columns. If a row's
+/// error has variance sigma^2, the posterior mean minimises |Q c - y|^2 + m sigma^2 |c|^2. sigma^2 is the variance of
+/// the noise plus the variance of the model error. The model error is estimated by leaving out each training material
+/// in turn. Results: docs/results/eta.md.
 
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/leave_one_material_out_error.hpp>
@@ -17,9 +18,10 @@
 
 namespace gonio {
 
-/// The eta that is expected to reconstruct best from samples at these locations: their values do not matter. `noise`:
-/// the deviation of a measured value relative to it, independent in each sample and channel; 0.02 is 2 %. Throws
-/// gonio::error for unusable samples, noise that is negative or not finite, and a prior of fewer than two materials.
+/// Returns the eta with the least expected reconstruction error for samples at these locations. The samples' values do
+/// not matter. `noise` is the standard deviation of a measured value relative to it (0.02 is 2 %), independent in each
+/// sample and channel. Throws gonio::error for unusable samples, for noise that is negative or not finite, and for a
+/// prior of fewer than two materials.
 ///
 /// ```cpp
 /// const double eta = gonio::eta_of_noise(prior, samples, 0.02);
@@ -29,19 +31,22 @@ template <error_metric Metric, class Samples>
 [[nodiscard]] double eta_of_noise(const pca<Metric>& prior, const Samples& samples, double noise,
                                   thread_count threads = {}) {
   const located_samples located = locate_samples(prior.cells(), samples, threads);
-  detail::summed_scores<leave_one_material_out_error> errors;  // of each channel, if these do not count alike
+  detail::summed_scores<leave_one_material_out_error>
+      errors;  // one for each channel, if channels have different weights
   for (Eigen::Index column = 0; column < located.weights.cols(); ++column) {
     const Eigen::VectorXd weights = located.weights.col(column);
     if (weights.isZero(0.0)) continue;
     errors.parts.emplace_back(prior, located.locations, weights, noise, threads);
   }
-  // Less than 1e-7 of the largest eigenvalue is no penalty; a hundred times that eigenvalue leaves the mean material.
+  // An eta below 1e-7 of the largest eigenvalue has no effect. An eta of 100 times that eigenvalue gives the mean
+  // material.
   const double largest = errors.largest();
   return detail::eta_of_least(errors, 1e-7 * largest, 1e2 * largest);
 }
 
-/// The etas of no noise and of the largest that is plausible, for cross-validation to choose between: of a few rows GCV
-/// sees no more than how well they predict each other, and by chance asks for any. Throws as `eta_of_noise` does.
+/// Returns the range of etas for cross-validation: from the eta of no noise to that of the largest plausible noise.
+/// With few rows, GCV only sees how well they predict each other and may choose any eta by chance. Throws as
+/// `eta_of_noise` does.
 template <error_metric Metric, class Samples>
 [[nodiscard]] eta_range plausible_etas(const pca<Metric>& prior, const Samples& samples, double largest_noise = 0.3,
                                        thread_count threads = {}) {
@@ -50,9 +55,9 @@ template <error_metric Metric, class Samples>
   return {std::min(without, with), std::max(without, with)};
 }
 
-/// For samples whose noise nobody knows: the eta of generalised cross-validation among the plausible ones, one for all
-/// channels; for a single sample the largest of these. Errors that samples have in common, as those of images whose
-/// camera is off its place, it does not see. Throws as `eta_of_noise` does.
+/// Returns the eta for samples of unknown noise, the same for all channels. Generalised cross-validation chooses it
+/// among the plausible ones; for a single sample it is the largest of these. Cross-validation does not see errors that
+/// samples share, such as those of images with a wrong camera position. Throws as `eta_of_noise` does.
 ///
 /// ```cpp
 /// const double eta = gonio::eta_of_unknown_noise(prior, samples);

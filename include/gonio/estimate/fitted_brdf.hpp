@@ -1,6 +1,6 @@
 #pragma once
-/// A BRDF held as the weights of a basis, and its expansion to tables (Nielsen et al. 2015,
-/// doi:10.1145/2816795.2818085, Eq. 10).
+/// A BRDF as weights of a basis, and its expansion to tables (Nielsen et al. 2015, doi:10.1145/2816795.2818085, Eq.
+/// 10).
 
 #include <gonio/basis/combine.hpp>
 #include <gonio/basis/pca.hpp>
@@ -27,22 +27,22 @@
 
 namespace gonio {
 
-/// offset + rows . weights in the metric's domain, mapped back and clamped at zero: a BRDF, and the solver's report if
-/// a solver found the weights. Channels that share a basis are any: colours, one value, or wavelengths, each held as a
-/// grey material. Evaluation costs O(8 x size of the basis), or one row where rows are computed; tabulate
-/// for the inner loop of a renderer.
+/// A BRDF: offset + rows . weights in the metric's domain, mapped back and clamped at zero. Holds the solver's report
+/// if a solver found the weights. Channels that share a basis may be colours, one value, or wavelengths; each
+/// wavelength is held as a grey material. An evaluation costs O(8 x size of the basis), or one row if rows are
+/// computed. Tabulate the fit for the inner loop of a renderer.
 ///
-/// Rows that a basis stores are multiplied by the weights in float, rows that it computes in double: functions given by
-/// a formula may cancel each other to many digits.
+/// Stored rows are multiplied by the weights in float, computed rows in double, because functions given by a formula
+/// may cancel each other to many digits.
 template <colour_basis Basis>
 requires std::same_as<domain_of<Basis>, valid_cells>
 class fitted_brdf {
  public:
-  /// How many functions of a computed basis fit on the stack, where evaluation keeps their row: it does not allocate.
+  /// The largest size of a computed basis. Its row is kept on the stack, so that evaluation does not allocate.
   static constexpr int most_computed_functions = 4096;
 
-  /// `weights` is (size of the basis) x channels. Throws gonio::error if it is not, for channels other than colours
-  /// where each has a basis of its own, or for more than `most_computed_functions` that are computed.
+  /// `weights` is (size of the basis) x channels. Throws gonio::error if it is not, if channels with a basis each are
+  /// not colours, or for more than `most_computed_functions` computed functions.
   fitted_brdf(Basis basis, Eigen::MatrixXd weights, std::optional<solve_report> report = {},
               gonio::channels kinds = {});
 
@@ -50,26 +50,26 @@ class fitted_brdf {
       : fitted_brdf(std::move(basis), std::move(found.weights), std::move(found.report), std::move(kinds)) {}
 
   [[nodiscard]] const Basis& functions() const noexcept { return basis_; }
-  /// (size of the basis) x channels.
+  /// Returns the weights, (size of the basis) x channels.
   [[nodiscard]] const Eigen::MatrixXd& weights() const noexcept { return weights_; }
-  /// What the columns of the weights are.
+  /// Returns what the columns of the weights stand for.
   [[nodiscard]] const gonio::channels& channels() const noexcept { return kinds_; }
-  /// What the solver says of the weights; nothing if no solver found them.
+  /// Returns the solver's report; nothing if no solver found the weights.
   [[nodiscard]] const std::optional<solve_report>& report() const noexcept { return report_; }
 
-  /// Reflectance in sr^-1 as a colour, at least zero; zero below the horizon. Wavelengths make the colour that
-  /// `channels::colour` says.
+  /// Returns the reflectance in sr^-1 as a colour, at least zero; zero below the horizon. Wavelengths are converted as
+  /// by `channels::colour`.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     return at(locate(basis_.cells(), to_half_difference(wi, wo)));
   }
 
-  /// Reflectance in sr^-1 in each channel, at least zero; zero below the horizon.
+  /// Returns the reflectance in sr^-1 in each channel, at least zero; zero below the horizon.
   [[nodiscard]] Eigen::ArrayXd values(const direction& wi, const direction& wo) const {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return Eigen::ArrayXd::Zero(kinds_.size());
     return values(locate(basis_.cells(), to_half_difference(wi, wo)));
   }
-  /// The same at a location on the basis' cells.
+  /// Returns the same at a location on the basis' cells.
   [[nodiscard]] Eigen::ArrayXd values(const location& place) const {
     if constexpr (basis<Basis>) {
       const Eigen::RowVectorXd row = row_at(basis_, place);
@@ -83,9 +83,9 @@ class fitted_brdf {
     }
   }
 
-  /// How the values change with the weights, of their shape: sr^-1 for each unit of a weight of the same channel. Zero
-  /// below the horizon and where a value is clamped. By central differences of the metric's inverse, good to eight
-  /// digits. O(8 x size of the basis).
+  /// Returns the derivatives of the values by the weights, in the shape of the weights: sr^-1 for each unit of a weight
+  /// of the same channel. Zero below the horizon and where a value is clamped. Computed by central differences of the
+  /// metric's inverse, accurate to eight digits. O(8 x size of the basis).
   [[nodiscard]] Eigen::MatrixXd gradient(const direction& wi, const direction& wo) const requires basis<Basis> {
     Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(weights_.rows(), weights_.cols());
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return slopes;
@@ -102,10 +102,10 @@ class fitted_brdf {
     return slopes;
   }
 
-  /// The cells that locations for `at` are on.
+  /// Returns the cells that locations for `at` refer to.
   [[nodiscard]] const valid_cells& cells() const noexcept { return basis_.cells(); }
 
-  /// Reflectance in sr^-1 at a location on the basis' cells, at least zero.
+  /// Returns the reflectance in sr^-1 at a location on the basis' cells, at least zero.
   [[nodiscard]] rgb at(const location& place) const noexcept {
     if (kinds_.are_wavelengths()) {
       const Eigen::ArrayXd spectrum = values(place);
@@ -114,7 +114,7 @@ class fitted_brdf {
     return reflectance(mapped_at(place), place);
   }
 
-  /// The value at a cell of the basis in the metric's domain, of colours or of one value.
+  /// Returns the value at a cell of the basis in the metric's domain, as a colour or as three equal values.
   [[nodiscard]] rgb mapped(Eigen::Index cell) const noexcept {
     if constexpr (computed)
       return mapped_at(locate_cell(basis_.cells(), cell));
@@ -122,22 +122,21 @@ class fitted_brdf {
       return {stored_value(cell, 0), stored_value(cell, 1), stored_value(cell, 2)};
   }
 
-  /// Expands the fit to a table: one product of the basis' rows with the weights, which reads the basis once,
-  /// and where the cells are others an interpolation of its three channels. Rows that are computed are so at the
-  /// cells of the table, unless the basis combines its functions at all of its own (`combining_basis`). Same bytes for
-  /// any number of threads. Wavelengths become colours: `tabulate_spectra` keeps them.
+  /// Expands the fit to a table. Multiplies the basis' rows by the weights, which reads the basis once. If the cells
+  /// are not those of the basis, interpolates the three channels. Computed rows are evaluated at the cells of the
+  /// table, unless the basis combines its functions at all of its own cells (`combining_basis`). Same bytes for any
+  /// number of threads. Wavelengths become colours: `tabulate_spectra` keeps them.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const;
 
-  /// Expands a fit of wavelengths. The cost of a table of colours for each three of them. Throws gonio::error for other
-  /// channels.
+  /// Expands a fit of wavelengths. Costs one table of colours for every three wavelengths. Throws gonio::error for
+  /// other channels.
   [[nodiscard]] spectral_table tabulate_spectra(const valid_cells& cells,
                                                 thread_count threads = {}) const requires basis<Basis>;
 
-  /// The same table through the metric's own `inverse` at each cell: slower where rows are stored, and works with any
-  /// metric.
+  /// Expands the fit through the metric's `inverse` at each cell. Works with any metric, but is slower for stored rows.
   [[nodiscard]] brdf_table tabulate_cells(const valid_cells& cells, thread_count threads = {}) const;
 
-  /// Red, green and blue, or thrice the one value, over all cells of the basis, in the metric's domain.
+  /// Red, green and blue, or three copies of the one value, over all cells of the basis, in the metric's domain.
   using mapped_fields = Eigen::Array<float, 3, Eigen::Dynamic>;
 
   [[nodiscard]] mapped_fields mapped_field(thread_count threads = {}) const;
@@ -150,7 +149,7 @@ class fitted_brdf {
   static constexpr bool computed = computed_basis<channel_type>;
   static constexpr bool combinable = !computed || combining_basis<Basis>;
 
-  /// The functions of a channel.
+  /// Returns the functions of a channel.
   [[nodiscard]] const channel_type& functions_of([[maybe_unused]] Eigen::Index channel) const noexcept {
     if constexpr (basis<Basis>)
       return basis_;
@@ -164,7 +163,7 @@ class fitted_brdf {
       return {functions.channel(0), functions.channel(1), functions.channel(2)};
   }
 
-  /// Three columns of the weights from one on, the last one again where there are fewer.
+  /// Returns three columns of the weights, starting with `first`. If there are fewer, repeats the last one.
   [[nodiscard]] Eigen::MatrixXd three_columns(Eigen::Index first) const {
     Eigen::MatrixXd three(weights_.rows(), 3);
     for (Eigen::Index c = 0; c < 3; ++c)
@@ -172,14 +171,14 @@ class fitted_brdf {
     return three;
   }
 
-  /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
+  /// Returns one channel at a cell: a contiguous dot product that is as fast as reading the row.
   [[nodiscard]] float stored_value(Eigen::Index cell, Eigen::Index channel) const noexcept requires(!computed) {
     const float* weights = float_weights_.data() + channel * weights_.rows();
     const channel_type& functions = functions_of(channel);
     return dot(weights, functions.row(cell).data(), weights_.rows()) + static_cast<float>(functions.offset(cell));
   }
 
-  /// The value at any location in the metric's domain.
+  /// Returns the value at any location in the metric's domain.
   [[nodiscard]] rgb mapped_at(const location& at) const noexcept {
     if constexpr (computed)
       return computed_value(at);
@@ -196,7 +195,7 @@ class fitted_brdf {
     return sum;
   }
 
-  /// The three channels at a location, from one row if they share their basis.
+  /// Returns the three channels at a location, from one row if they share their basis.
   [[nodiscard]] rgb computed_value(const location& at) const noexcept requires computed {
     Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(weights_.rows());
     rgb value;
@@ -208,7 +207,7 @@ class fitted_brdf {
     return value;
   }
 
-  /// Through the three channels, and what the metric needs beside them, a row of cells at once.
+  /// Expands the fit one row of cells at a time, from three channels and the metric's companion values.
   [[nodiscard]] brdf_table tabulate_rows(const valid_cells& cells, thread_count threads) const;
 
   [[nodiscard]] rgb reflectance(const rgb& y, const location& at) const noexcept {
@@ -217,11 +216,11 @@ class fitted_brdf {
   }
 
   Basis basis_;
-  [[no_unique_address]] own_channels channels_;  ///< their functions, where each channel has its own
+  [[no_unique_address]] own_channels channels_;  ///< the functions of each channel, if every channel has its own
   Eigen::MatrixXd weights_;
   std::optional<solve_report> report_;
   gonio::channels kinds_;
-  Eigen::MatrixXf float_weights_;  // what products with stored rows read, for three channels
+  Eigen::MatrixXf float_weights_;  // for products with stored rows, in three channels
 };
 
 template <colour_basis Basis>
@@ -296,7 +295,7 @@ template <colour_basis Basis>
 requires std::same_as<domain_of<Basis>, valid_cells>
 typename fitted_brdf<Basis>::mapped_fields fitted_brdf<Basis>::mapped_field(thread_count threads) const {
   mapped_fields field(3, basis_.cells().size());
-  constexpr bool at_once = combinable_basis<Basis>;  // three channels by one row
+  constexpr bool at_once = combinable_basis<Basis>;  // one row gives all three channels
   if constexpr (at_once) field = combine(basis_, three_columns(0), threads);
   for_each_index(
       basis_.cells().size(), 4096,

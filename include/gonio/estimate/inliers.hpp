@@ -1,7 +1,7 @@
 #pragma once
-/// Which samples of a material to believe, at any number of them: those that their process does not call wrong
-/// (wrong_samples.hpp). Of many samples some are judged together, and each of the others by these. The search for wrong
-/// samples starts from what the nearest material of the prior says, too, which outliers cannot drag along. Why so:
+/// Finds the samples of a material to keep, for any number of samples: those that their process does not call wrong
+/// (wrong_samples.hpp). Of many samples, some are judged together, and each of the others by these. The search for
+/// wrong samples also starts from the nearest material of the prior, which outliers cannot drag along. Reasons:
 /// docs/decisions/0020-wrong-samples.md; results: docs/results/real-materials.md, docs/results/real-methods.md.
 
 #include <gonio/basis/pca.hpp>
@@ -19,66 +19,66 @@
 
 namespace gonio {
 
-/// At most so many samples are judged together, by a process of all of them.
+/// The largest number of samples that are judged together, by one process of all of them.
 inline constexpr Eigen::Index most_judged = 500;
-/// Of so many that the others contradict, what these say is told.
+/// The largest number of contradicted samples for which the prediction by the others is reported.
 inline constexpr Eigen::Index most_contradicted = 20;
 
-/// A sample that the others contradict, for people.
+/// A sample that the others contradict, for reports.
 struct outlying_sample {
   Eigen::Index number = 0;   ///< its position among the samples
   rgb measured;              ///< sr^-1
-  rgb predicted;             ///< sr^-1, from all that are not contradicted
+  rgb predicted;             ///< sr^-1, from all samples that are not contradicted
   double deviation = 0.0;    ///< of the prediction, in the metric's domain: relative where that is a logarithm
   double probability = 0.0;  ///< that the sample is wrong
 
-  /// The channel in which reading and prediction differ by the largest factor; a negative value counts as zero, and
-  /// 0.001 sr^-1 is added to both.
+  /// Returns the channel in which measured and predicted value differ by the largest factor. A negative value counts as
+  /// zero, and 0.001 sr^-1 is added to both.
   [[nodiscard]] Eigen::Index worst_channel() const;
 };
 
-/// What was found about n samples.
+/// The inliers among n samples.
 struct inliers {
-  Eigen::VectorXd weights;             ///< what each counts, the probability that it is right
-  std::vector<Eigen::Index> rejected;  ///< positions of those that count less than half, the worst first
-  /// The first of them, `most_contradicted` at most and of those that are judged together, with what the others say.
+  Eigen::VectorXd weights;             ///< the probability that each sample is right
+  std::vector<Eigen::Index> rejected;  ///< positions of samples with a weight below one half, the worst first
+  /// The first `most_contradicted` of these that were judged together, with the prediction by the others.
   std::vector<outlying_sample> contradicted = {};
-  double outlier_share = 0.0;  ///< of all samples, the sum of what they do not count
+  double outlier_share = 0.0;  ///< the mean of 1 - weight over all samples
 
-  /// Positions of the samples that count. What counts less than 0.01 does not.
+  /// Returns the positions of the samples whose weight is at least 0.01.
   [[nodiscard]] std::vector<Eigen::Index> kept() const;
 };
 
-/// All of n samples.
+/// Returns n samples as inliers.
 [[nodiscard]] inliers all_inliers(Eigen::Index n);
 
-/// The largest share of n samples that a count of outliers may state: 60 %, less 7.2 samples. What disagrees with a
-/// dozen others may as well be a highlight: of twelve samples none, of 20 at most 24 %, of 100 at most 53 %.
+/// Returns the largest share of n samples that a count of outliers may state: 60 % minus 7.2 samples. Samples that
+/// disagree with a dozen others may be a highlight. The share is 0 for 12 samples, 24 % for 20, 53 % for 100.
 [[nodiscard]] inline double largest_outlier_share(Eigen::Index n) noexcept {
   return n <= 12 ? 0.0 : 0.6 - 7.2 / static_cast<double>(n);
 }
 
-/// Some samples, each of which counts as much as it did times its inlier weight.
+/// Returns the kept samples, with their weights multiplied by the inlier weights.
 [[nodiscard]] located_samples weighted(const located_samples& samples, const inliers& found);
 
 namespace detail {
 
-/// The positions of those samples that are judged together: all of up to `most_judged`. Of more, two thirds of so many
-/// are chosen at random, and a third from all neighbourhoods alike, so that a narrow highlight has its samples among
-/// them. O(n log n).
+/// Returns the positions of the samples that are judged together: all of up to `most_judged`. Of more samples, two
+/// thirds of `most_judged` are chosen at random and one third evenly from all neighbourhoods, so that a narrow
+/// highlight is represented. O(n log n).
 [[nodiscard]] std::vector<Eigen::Index> judged_together(const located_samples& samples);
 
-/// The first three numbers of a row.
+/// Returns the first three numbers of a row.
 [[nodiscard]] inline rgb first_three(const Eigen::MatrixXd& values, Eigen::Index row) {
   return {values(row, 0), values(row, 1), values(row, 2)};
 }
 
-/// What the search asks a prior, whatever its metric.
+/// The functions of a prior that the search uses, independent of the metric.
 struct prior_functions {
   Eigen::MatrixXd coefficients;  ///< components x observations
   std::function<located_rows(std::span<const location>)> rows;
   std::function<located_samples(const located_samples&)> map;
-  /// Makes reflectance, sr^-1, of mapped values less the offset: a row for each location.
+  /// Converts mapped values without the offset to reflectance in sr^-1: a row for each location.
   std::function<void(std::span<const location>, Eigen::MatrixXd& values)> invert;
 };
 
@@ -106,10 +106,10 @@ template <error_metric Metric>
 
 }  // namespace detail
 
-/// The inliers of samples in colours: `mapped` are the same in the prior's domain (`map_samples`), `error_variances`
-/// those of each one's error. `all` is the process of all of them, if there is one: it is used for up to `most_judged`.
-/// For n samples, j of them judged together, k components and m materials: what `judge_samples` does for j, O(n j (j +
-/// k)), and O(j m k).
+/// Finds the inliers among samples in colours. `mapped` are the samples in the prior's domain (`map_samples`),
+/// `error_variances` the variances of their errors. `all`, if given, is the process of all samples and is used for up
+/// to `most_judged` of them. For n samples, j of them judged together, k components and m materials: the cost of
+/// `judge_samples` for j, plus O(n j (j + k)) and O(j m k).
 template <error_metric Metric>
 [[nodiscard]] inliers find_inliers(const pca<Metric>& prior, const expected_covariance& expected,
                                    const located_samples& samples, const located_samples& mapped,

@@ -1,6 +1,6 @@
 #pragma once
-/// The soft and the specular prior of materials that do not fit into memory: what learn_soft_specular_prior finds, from
-/// passes over blocks of cells. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), section 8.
+/// Learns the soft and the specular prior of materials that do not fit into memory, in passes over blocks of cells. The
+/// result is that of learn_soft_specular_prior. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), section 8.
 
 #include <gonio/basis/learn_streamed_pca.hpp>
 #include <gonio/basis/soft_specular_prior.hpp>
@@ -11,18 +11,19 @@
 
 namespace gonio {
 
-/// Two priors, and how they were found.
+/// Two priors, and the accuracy of their computation.
 struct streamed_soft_specular {
   soft_specular_prior prior;
-  bool exact = true;      ///< else at least one in a random subspace
-  double residual = 0.0;  ///< the larger one of both, as `streamed_pca` has it
+  bool exact = true;      ///< false if at least one was found in a random subspace
+  double residual = 0.0;  ///< the larger one of both, as in `streamed_pca`
 };
 
-/// Principal components of either half of the materials, relative to the median of all: parted by the contrast of their
-/// highlights, at the median of these without a threshold. One pass over the cells for medians and contrasts, then
-/// those of learn_streamed_pca for each half, which read the cells of all materials. O(cells m^2) for m columns, or
-/// O(cells m components). The same bytes for any number of threads. `options.share` is not used. Throws gonio::error as
-/// learn_soft_specular_prior does, and what reading throws.
+/// Learns the principal components of each half of the materials, relative to the median of all. The materials are
+/// split by the contrast of their highlights, without a threshold at the median contrast. Makes one pass over the cells
+/// for medians and contrasts, then the passes of learn_streamed_pca for each half, which read the cells of all
+/// materials. O(cells m^2) for m columns, or O(cells m components). The same bytes for any number of threads.
+/// `options.share` is not used. Throws gonio::error as learn_soft_specular_prior does, and anything that reading
+/// throws.
 ///
 /// ```cpp
 /// const auto learned = gonio::learn_streamed_soft_specular(gonio::rows_of(materials), {.components = 60});

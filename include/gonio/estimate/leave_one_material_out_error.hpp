@@ -1,8 +1,8 @@
 #pragma once
-/// What a reconstruction from given locations and noise is expected to miss of a material that the basis has not seen:
-/// the expected error of Xu et al. 2016 (doi:10.1145/2980179.2982396), Eq. 12-15 (`expected_error`), but each material
-/// is left out of the basis before it is reconstructed. That makes it a function of Tikhonov's penalty worth
-/// minimising: a material that the basis contains is reconstructed best without any.
+/// The expected error of a reconstruction of an unseen material, from given locations and noise. This is the expected
+/// error of Xu et al. 2016 (doi:10.1145/2980179.2982396), Eq. 12-15 (`expected_error`), except that each material is
+/// left out of the basis before it is reconstructed. The error therefore has a minimum over Tikhonov's penalty: a
+/// material that the basis contains is reconstructed best without a penalty.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -16,26 +16,27 @@
 
 namespace gonio {
 
-/// The mean over all observations (colours or wavelengths of materials) that a basis was learned from of the norm, over
-/// the cells that it was learned on, of what the reconstruction misses; sqrt(bias^2 + variance) of each.
+/// The norm of the reconstruction error over the cells that the basis was learned on, sqrt(bias^2 + variance), averaged
+/// over all observations (colours or wavelengths of materials).
 ///
 /// Leaving a material out needs no new components. The m observations have coefficients C, m x k, with orthonormal
-/// columns that sum to zero; without those of a material, the p rows C_j, the others have the mean c = -C_j'1 / (m - p)
-/// and the sum of squares S = C'C - C_j'C_j - (m - p) c c' = I - N N' with N = C_j'R, R R' = I + 1 1' / (m - p). The
-/// reconstruction by the others' components is that by all, with S for the weights' prior covariance instead of I:
+/// columns that sum to zero. Without a material's p rows C_j, the others have the mean c = -C_j'1 / (m - p) and the sum
+/// of squares S = C'C - C_j'C_j - (m - p) c c' = I - N N' with N = C_j'R, R R' = I + 1 1' / (m - p). The reconstruction
+/// by the others' components equals that by all, with S instead of I as the prior covariance of the weights:
 ///
 ///   x = c + S A'(A S A' + eta I)^-1 (y - A c), A the rows of the basis at the locations, y the mapped measurement.
 ///
 /// With A'A = V diag(l) V', D = diag(1 / (l + eta)) and F = diag(l) D that is, by Woodbury's identity,
 /// x = c + S V (D q + F n (I - n'F n)^-1 n'D q), q = V'A'(y - A c), n = V'N.
 ///
-/// Where k is less than all components, what the materials have beyond them is noise of the measurements, taken for the
-/// same share of the variance everywhere. What noise adds is taken from the basis of all materials.
+/// If k is less than the number of all components, the variance of the materials in the missing ones counts as
+/// measurement noise, the same share of the variance everywhere. The effect of noise is computed with the basis of all
+/// materials.
 class leave_one_material_out_error {
  public:
-  /// n locations with a weight each, as a least-squares problem has them, and the relative deviation of what is
-  /// measured there. O(n k^2 + k^3 + observations k^2). Throws gonio::error for noise that is negative or not finite,
-  /// as many weights as there are not locations, and a basis of fewer than two materials.
+  /// Takes n locations, a weight for each as in a least-squares problem, and the relative standard deviation of the
+  /// measurements. O(n k^2 + k^3 + observations k^2). Throws gonio::error for noise that is negative or not finite, for
+  /// a number of weights other than n, and for a basis of fewer than two materials.
   template <error_metric Metric>
   leave_one_material_out_error(const pca<Metric>& basis, std::span<const location> locations,
                                const Eigen::VectorXd& weights, double noise, thread_count threads = {})
@@ -46,26 +47,27 @@ class leave_one_material_out_error {
                basis.channels());
   }
 
-  /// The largest eigenvalue of A'WA.
+  /// Returns the largest eigenvalue of A'WA.
   [[nodiscard]] double largest() const { return values_[values_.size() - 1]; }
 
-  /// The error at each eta, which must be positive. O(observations r^2) each, where r <= min(n, k) is the rows' rank.
+  /// Returns the error at each eta, which must be positive. O(observations r^2) each, where r <= min(n, k) is the rank
+  /// of the rows.
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& etas) const;
 
  private:
-  /// A'WA, what noise is in A'W y (its covariance), and what it shifts that by.
+  /// A'WA, and the covariance and mean of the noise in A'W y.
   struct sums {
     Eigen::MatrixXd gram, noise;
     Eigen::VectorXd shift;
 
     explicit sums(Eigen::Index k);
     sums& operator+=(const sums& other);
-    /// Adds locations with the row of the basis at each as a column.
+    /// Adds locations. Column i has the row of the basis at location i.
     void add(Eigen::MatrixXd columns, const Eigen::VectorXd& weights, const Eigen::VectorXd& shifts,
              const Eigen::VectorXd& variances);
   };
 
-  /// A material in the eigenvectors V: t is what it differs by from the others' mean, n as above, M = Sigma^2.
+  /// A material in the eigenvectors V: t is its difference from the others' mean, n is as above, M = Sigma^2.
   struct left_out {
     Eigen::MatrixXd t, n, mt, mn;  // V't, V'N, V'M t, V'M N: r x channels
     Eigen::MatrixXd nmn, nmt;      // N'M N, N'M t
@@ -100,22 +102,23 @@ class leave_one_material_out_error {
   void initialise(const sums& all, const Eigen::VectorXd& singular_values, const Eigen::MatrixXf& coefficients,
                   Eigen::Index channels);
 
-  /// V and l, without what is rounding, and all that does not depend on the material. `energies` is the diagonal of M.
+  /// Computes V and l without eigenvalues that are rounding errors, and everything that does not depend on the
+  /// material. `energies` is the diagonal of M.
   void decompose(const Eigen::VectorXd& energies, const sums& all);
 
-  /// `own`: the material's rows of C, as columns.
+  /// `own` has the material's rows of C as columns.
   [[nodiscard]] left_out leave_out(const Eigen::VectorXd& energies, const Eigen::MatrixXd& own,
                                    double observations) const;
 
   [[nodiscard]] double error_at(double eta) const;
 
-  /// Of each channel.
+  /// Returns the squared bias of each channel.
   [[nodiscard]] Eigen::VectorXd squared_bias(const left_out& material, const Eigen::VectorXd& d) const;
 
   Eigen::VectorXd values_;        // l, ascending
   Eigen::MatrixXd vectors_;       // V
   Eigen::MatrixXd norm_;          // V'M V
-  Eigen::MatrixXd noise_energy_;  // element by element V'M V times the noise in V'A'W y
+  Eigen::MatrixXd noise_energy_;  // element-wise product of V'M V and the noise in V'A'W y
   Eigen::VectorXd shift_;         // of V'A'W y
   std::vector<left_out> materials_;
   thread_count threads_;

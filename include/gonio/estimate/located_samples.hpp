@@ -1,5 +1,5 @@
 #pragma once
-/// Measurements placed on the cells of a basis.
+/// Measurements located on the cells of a basis.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/metric/error_metric.hpp>
@@ -15,61 +15,61 @@ namespace gonio {
 /// One value for each colour channel of each sample: 3 x n.
 using channel_values = Eigen::Array<float, 3, Eigen::Dynamic>;
 
-/// Where was measured, what, and how much it counts, which is more than nothing: n of each.
+/// The locations, values and positive weights of n measurements.
 struct located_samples {
   std::vector<location> locations;
-  Eigen::MatrixXd values;  ///< n x channels: red, green and blue in sr^-1, or whatever is observed over the domain
-  /// n x channels, or n x 1 if each measurement counts the same in all channels.
+  Eigen::MatrixXd values;  ///< n x channels: red, green and blue in sr^-1, or any values observed over the domain
+  /// n x channels, or n x 1 if each measurement has one weight for all channels.
   Eigen::MatrixXd weights;
-  gonio::channels kinds = {};  ///< what the columns of `values` are, where they are reflectances
+  gonio::channels kinds = {};  ///< the meaning of the columns of `values`, if these are reflectances
 
   [[nodiscard]] Eigen::Index size() const noexcept { return locations.size(); }
 
-  /// Is there a measurement that counts more in one channel than in another?
+  /// Returns true if the channels have weights of their own.
   [[nodiscard]] bool weighs_channels_apart() const noexcept { return weights.cols() > 1; }
-  /// What the measurements count in one channel.
+  /// Returns the weights of the measurements in one channel.
   [[nodiscard]] Eigen::VectorXd weights_of(Eigen::Index channel) const {
     return weights.col(weighs_channels_apart() ? channel : 0);
   }
 
-  /// The weights of three channels as estimators keep them.
+  /// Returns the weights of three channels in the layout of estimators.
   [[nodiscard]] channel_values channel_weights() const;
 
-  /// The values of three channels as estimators keep them.
+  /// Returns the values of three channels in the layout of estimators.
   [[nodiscard]] channel_values channels() const;
 
-  /// The same samples for whoever looks at three channels and shows none: see `channels::three`.
+  /// Returns the samples in three channels for computing, not for display: see `channels::three`.
   [[nodiscard]] located_samples in_three_channels() const;
 
-  /// The half and difference angles of all samples.
+  /// Returns the half and difference angles of all samples.
   [[nodiscard]] std::vector<half_difference> angles() const;
 
-  /// Some of the samples, by their positions.
+  /// Returns some of the samples, by their positions.
   [[nodiscard]] located_samples subset(const std::vector<Eigen::Index>& positions) const;
 };
 
 namespace detail {
 
-/// Completes the locations.
+/// Completes the locations from their angles.
 void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads);
 
 }  // namespace detail
 
-/// The same samples, a single channel being repeated in all three, for estimators of colours. Throws gonio::error for
-/// another number.
+/// Returns the samples in three channels, for estimators of colours. Repeats a single channel. Throws gonio::error for
+/// any other number of channels.
 [[nodiscard]] located_samples in_colours(located_samples samples);
 
-/// Samples on given cells, in the channels that they have. Those of weight zero in all channels are left out: whatever
-/// looks at all samples, as outlier weights do, must not see them. Throws gonio::error for unusable ones
-/// (`require_usable`), for a reflectance beyond the range of float, or if all weights are zero. O(samples).
+/// Locates samples on given cells, in their own channels. Leaves out samples of weight zero in all channels, because
+/// outlier weights must not see them. Throws gonio::error for unusable samples (`require_usable`), for a reflectance
+/// outside the range of float, or if all weights are zero. O(samples).
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const sample_set& samples,
                                              thread_count threads = {});
 
-/// Every cell of a table as a measurement of weight 1. Throws gonio::error naming the first cell that is not finite.
+/// Makes every cell of a table a measurement of weight 1. Throws gonio::error naming the first cell that is not finite.
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const brdf_table& table,
                                              thread_count threads = {});
 
-/// Reflectances at given locations under a metric: 3 x n.
+/// Maps reflectances at given locations by a metric: 3 x n.
 template <error_metric Metric>
 [[nodiscard]] channel_values map_values(const Metric& metric, const channel_values& values,
                                         const std::vector<location>& locations, thread_count threads = {}) {

@@ -9,7 +9,7 @@
 
 namespace gonio {
 
-/// Samples in the metric's domain of a basis, less its offset at each: what its functions combine to. O(samples).
+/// Maps samples by the metric of a basis and subtracts the basis' offset at each location. O(samples).
 template <colour_basis Basis>
 [[nodiscard]] located_samples map_samples(const Basis& functions, located_samples samples, thread_count threads = {}) {
   if constexpr (!basis<Basis>) samples = in_colours(std::move(samples));

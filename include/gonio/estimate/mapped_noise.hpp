@@ -1,5 +1,5 @@
 #pragma once
-/// What relative noise of measurements becomes in the domain of a metric.
+/// Maps relative measurement noise to the domain of a metric.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/parallel.hpp>
@@ -16,20 +16,20 @@ namespace gonio {
 
 /// The errors of n measurements in the mapped domain.
 struct mapped_noise {
-  Eigen::VectorXd shift;     ///< their means, n values: a map that is not linear moves them
+  Eigen::VectorXd shift;     ///< their means, n values, not zero because the map is not linear
   Eigen::VectorXd variance;  ///< their variances, n values
 };
 
 namespace detail {
 
-/// The middles of `count` equally likely parts of the standard normal distribution, by bisection.
+/// Returns the medians of `count` equally likely parts of the standard normal distribution, by bisection.
 [[nodiscard]] std::vector<double> normal_quantiles(int count);
 
 }  // namespace detail
 
-/// Gaussian noise of a deviation relative to the value (0.02 is 2 %), where the value is that of the basis' mean
-/// material. From 64 quantiles: what happens to one measurement in a hundred is an outlier rather than noise. Throws
-/// gonio::error for noise that is negative or not finite. O(locations).
+/// Maps Gaussian noise whose standard deviation is relative to the value (0.02 is 2 %). The values are those of the
+/// basis' mean material. Uses 64 quantiles: an error that occurs once in a hundred measurements is an outlier, not
+/// noise. Throws gonio::error for noise that is negative or not finite. O(locations).
 template <basis Basis>
 [[nodiscard]] mapped_noise map_noise(const Basis& functions, std::span<const location> locations, double noise,
                                      thread_count threads = {}) {

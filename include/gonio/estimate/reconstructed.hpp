@@ -1,7 +1,8 @@
 #pragma once
-/// A material reconstructed from samples, and how sure that is: the posterior of the Gaussian process that it is the
-/// mean of (Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, Eq. 2.24). How often the intervals
-/// hold on measured materials whose families the prior has not seen: docs/results/real-materials.md.
+/// A material reconstructed from samples, with the uncertainty of every value: the posterior of a Gaussian process
+/// whose mean is the reconstruction (Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, Eq.
+/// 2.24). docs/results/real-materials.md states how often the intervals hold on measured materials whose families the
+/// prior has not seen.
 
 #include <gonio/basis/discrepancy.hpp>
 #include <gonio/basis/joined.hpp>
@@ -23,70 +24,73 @@
 
 namespace gonio {
 
-/// A reflectance with this probability lies between two values, sr^-1.
+/// An interval that contains the reflectance with a given probability, sr^-1.
 struct reflectance_interval {
   rgb low, high;
 };
 
-/// Probabilities that intervals are offered for.
+/// The probabilities for which intervals are offered.
 enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 
-/// To how many of the model's deviations an interval reaches, from the conformal factors of measured materials whose
-/// families the prior has not seen, the quantiles of their errors in such deviations (Lee, Barber and Willett 2023,
-/// doi:10.48550/arXiv.2306.06342): of samples all over, below some theta_h and in planes. `unknown` is the share of the
-/// variance before measuring that is left: errors near samples have heavy tails, errors far from all of them do not.
-/// The number of samples counts from 500 on. A promise for materials like those, averaged over directions.
+/// Returns half the width of an interval in standard deviations of the model. These are conformal factors: quantiles of
+/// the errors, in such deviations, on measured materials whose families the prior has not seen (Lee, Barber and Willett
+/// 2023, doi:10.48550/arXiv.2306.06342). Their samples were spread over all directions, below some theta_h, or in
+/// planes. `unknown` is the share of the variance before measuring that remains: errors near samples have heavy tails,
+/// errors far from all samples do not. The number of samples has an effect above 500. The intervals hold for materials
+/// like those, averaged over directions.
 [[nodiscard]] double deviations_of(confidence_level level, Eigen::Index samples, double unknown) noexcept;
 
-/// How sure a reconstruction is.
+/// The uncertainty of a reconstruction in a few numbers.
 struct certainty {
-  /// Half of all directions are known to this or better, relative to the value, with a probability of 68 %,
+  /// The median over all directions of half the width of the 68 % interval, relative to the value.
   double known_to = 0.0;
-  /// and so are half of those whose light or viewer is more than 80 degrees from the normal.
+  /// The same median over the directions whose light or viewer is more than 80 degrees from the normal.
   double known_to_at_grazing = 0.0;
-  /// To which factor the highlight is known, with a probability of 95 %: the median over half vectors within 5 degrees
-  /// of the normal and difference angles up to 70 degrees.
+  /// The highlight is known to within this factor with a probability of 95 %: the median over half vectors within 5
+  /// degrees of the normal and difference angles up to 70 degrees.
   double highlight_factor = 1.0;
-  /// The largest angle in radians between the normal and the half vector of a sample that counts, and to what half of
-  /// the directions are known whose half vector is more than 4 degrees farther away; 0 if less than a fifth of all are.
+  /// `measured_to` is the largest angle in radians between the normal and the half vector of a sample that counts.
+  /// `known_to_beyond` is the median of `known_to` over the directions whose half vector is more than 4 degrees farther
+  /// out; 0 if these are less than a fifth of all directions.
   double measured_to = 0.0, known_to_beyond = 0.0;
 };
 
-/// A sample beside what all others say of it.
+/// A sample and its prediction from all other samples.
 struct sample_residual {
-  Eigen::Index number = 0;          ///< its position among the samples that were given
+  Eigen::Index number = 0;          ///< its position among the given samples
   rgb measured;                     ///< sr^-1
-  rgb predicted;                    ///< sr^-1, from all others
-  double relative_deviation = 0.0;  ///< of the prediction and the sample together
+  rgb predicted;                    ///< sr^-1, from all other samples
+  double relative_deviation = 0.0;  ///< of prediction and sample combined
   double disagreement = 0.0;        ///< `sample_predictions::disagreement`
   bool rejected = false;
 };
 
 namespace detail {
 
-/// By half the widths of intervals: of 68 % at all of `certainty_cells`, of 95 % at all of `highlight_angles`.
+/// Summarises half the widths of intervals: of 68 % at each of `certainty_cells`, of 95 % at each of
+/// `highlight_angles`.
 [[nodiscard]] certainty certainty_of(std::vector<double> everywhere, std::vector<double> highlight, double measured_to);
 
-/// Directions all over the half sphere, and in the highlight, by which certainty is stated.
+/// Return the directions at which certainty is evaluated: over the whole hemisphere, and in the highlight.
 [[nodiscard]] const valid_cells& certainty_cells();
 [[nodiscard]] std::vector<half_difference> highlight_angles();
 
 }  // namespace detail
 
-/// What `reconstruction` found: a fit in the channels of its samples, with all that they say about it. A value type
-/// whose copies share what they hold.
+/// The result of `reconstruction`: a fit in the channels of its samples, its uncertainty, and the samples that
+/// disagree. A value type; copies share the data.
 template <error_metric Metric>
 class reconstructed {
  public:
   using basis_type = joined<pca<Metric>, discrepancy<Metric>>;
   using fit_type = fitted_brdf<basis_type>;
 
-  /// Of more samples, so many at random say how sure the fit is: what more of them know is left out, deviations are too
-  /// large.
+  /// If there are more samples, this many random ones determine the uncertainty. The deviations are then too large,
+  /// because the other samples are ignored.
   static constexpr Eigen::Index most_known = 500;
 
-  /// For `reconstruction`: `known` is the process of the samples that the fit is of, or of some of them, and `all` that
-  /// of all `samples`, if they are few enough; `numbers` are their positions among those that were given.
+  /// For `reconstruction`. `known` is the process of the fitted samples, or of a subset of them. `all` is the process
+  /// of all `samples`, if they are few enough. `numbers` are the positions of `samples` in the caller's set.
   reconstructed(pca<Metric> prior, fit_type fit, sample_process known, inliers found, std::optional<sample_process> all,
                 std::shared_ptr<const located_samples> samples, std::vector<Eigen::Index> numbers, thread_count threads)
       : prior_(std::move(prior)),
@@ -104,37 +108,37 @@ class reconstructed {
     for (outlying_sample& each : found_.contradicted) each.number = number_of(each.number);
   }
 
-  /// Reflectance in sr^-1 as a colour, at least zero; zero below the horizon. The fit, and no dip in the mirror
-  /// direction
-  /// (`mirror_envelope`), which takes evaluations of the fit as many as the prior has rows from there to 8 degrees.
+  /// Returns the reflectance in sr^-1 as a colour, at least zero; zero below the horizon. Fills dips in the mirror
+  /// direction (`mirror_envelope`), which evaluates the fit once for each row of the prior from there to 8 degrees.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     return filled<rgb>(
         located(wi, wo), [&](const location& at) { return fit_.at(at); }, luminance);
   }
-  /// The same in each channel of the samples.
+  /// Returns the reflectance in each channel of the samples.
   [[nodiscard]] Eigen::ArrayXd values(const direction& wi, const direction& wo) const {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return fit_.values(wi, wo);
     return filled<Eigen::ArrayXd>(
         located(wi, wo), [&](const location& at) { return fit_.values(at); },
         [&](const Eigen::ArrayXd& values) { return brightness(fit_.channels(), values); });
   }
-  /// All directions as a table of colours.
+  /// Tabulates all directions as colours.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells) const {
     brdf_table table = fit_.tabulate(cells, threads_);
     fill_mirror_dips(table, threads_);
     return table;
   }
-  /// All directions as a table of wavelengths, where the samples have some.
+  /// Tabulates all directions by wavelength. The samples must have wavelengths.
   [[nodiscard]] spectral_table tabulate_spectra(const valid_cells& cells) const {
     spectral_table table = fit_.tabulate_spectra(cells, threads_);
     fill_mirror_dips(table, fit_.channels(), threads_);
     return table;
   }
-  /// The weights, the functions that they are of, and the solver's report.
+  /// Returns the weights, their functions, and the solver's report.
   [[nodiscard]] const fit_type& fit() const noexcept { return fit_; }
 
-  /// For `reconstruction`: samples are told of as they were read, of which the fit is of others.
+  /// For `reconstruction`: sets the readings through apertures, which are reported instead of the corrected values that
+  /// were fitted.
   void tell_readings(const located_samples& read) {
     readings_ = read.kinds.are_colours() ? read.values : read.in_three_channels().values;
     for (outlying_sample& each : found_.contradicted) {
@@ -147,15 +151,15 @@ class reconstructed {
 
   // ---- how sure ----
 
-  /// The standard deviation of a value in the metric's domain; where that is a logarithm, relative to the value. O(n (n
-  /// + k)) for n samples, of which at most `most_known` count, and k components.
+  /// Returns the standard deviation of a value in the metric's domain. If the metric is a logarithm, it is relative to
+  /// the value. O(n (n + k)) for n samples, at most `most_known`, and k components.
   [[nodiscard]] double deviation(const location& at) const {
     return std::sqrt(scale_) * doubting_.deviation(row_at(prior_, at), at.angles);
   }
-  /// In two directions above the horizon.
+  /// Returns the deviation for two directions above the horizon.
   [[nodiscard]] double deviation(const direction& wi, const direction& wo) const { return deviation(located(wi, wo)); }
 
-  /// Half the width of an interval in the metric's domain.
+  /// Returns half the width of an interval in the metric's domain.
   [[nodiscard]] double half_width(const location& at, confidence_level level) const {
     const Eigen::RowVectorXd row = row_at(prior_, at);
     const double after = doubting_.deviation(row, at.angles),
@@ -163,7 +167,7 @@ class reconstructed {
     return deviations_of(level, kept_, unknown * unknown) * std::sqrt(scale_) * after;
   }
 
-  /// Around a value at a location, each channel on its own; never below zero.
+  /// Returns the interval around a value at a location, for each channel separately; never below zero.
   [[nodiscard]] reflectance_interval interval(const rgb& value, const location& at, confidence_level level) const {
     const double half = half_width(at, level);
     const auto moved = [&](double by) {
@@ -174,25 +178,25 @@ class reconstructed {
     };
     return {moved(-half), moved(half)};
   }
-  /// Around the value in two directions above the horizon.
+  /// Returns the interval around the value for two directions above the horizon.
   [[nodiscard]] reflectance_interval interval(const direction& wi, const direction& wo, confidence_level level) const {
     return interval((*this)(wi, wo), located(wi, wo), level);
   }
 
-  /// By how much a value is known, relative to it, with a probability of 68 %.
+  /// Returns half the width of the 68 % interval, relative to the value.
   [[nodiscard]] double known_to(const location& at) const {
     return std::expm1(half_width(at, confidence_level::sixty_eight_percent));
   }
-  /// In two directions above the horizon.
+  /// Returns the same for two directions above the horizon.
   [[nodiscard]] double known_to(const direction& wi, const direction& wo) const { return known_to(located(wi, wo)); }
-  /// At all of some cells: choose a coarse grid, what is known is smooth.
+  /// Returns the same for all given cells. Choose a coarse grid: the uncertainty is smooth.
   [[nodiscard]] std::vector<double> known_to(const valid_cells& cells) const {
     std::vector<double> all = half_widths(cells);
     for (double& each : all) each = std::expm1(each);
     return all;
   }
 
-  /// O(1,800 deviations).
+  /// Returns the uncertainty in a few numbers. O(1,800 deviations).
   [[nodiscard]] gonio::certainty certainty() const {
     std::vector<double> highlight;
     for (const half_difference& angles : detail::highlight_angles())
@@ -203,24 +207,24 @@ class reconstructed {
     return detail::certainty_of(half_widths(detail::certainty_cells()), std::move(highlight), measured_to);
   }
 
-  /// Is this a material like those of the prior?
+  /// Tests whether the material is like those of the prior.
   [[nodiscard]] gonio::familiarity familiarity() const { return known_.familiarity(); }
 
   // ---- which samples ----
 
-  /// What each sample counts that has a weight, from 0 to 1.
+  /// Returns the inlier weight, from 0 to 1, of each sample of positive weight.
   [[nodiscard]] const Eigen::VectorXd& inlier_weights() const noexcept { return found_.weights; }
-  /// Positions of samples that count less than half, or not at all, the worst first.
+  /// Returns the positions of samples whose inlier weight is below one half, the worst first.
   [[nodiscard]] const std::vector<Eigen::Index>& rejected() const noexcept { return found_.rejected; }
-  /// Samples that the others contradict, the worst first; see `inliers`.
+  /// Returns the samples that the others contradict, the worst first; see `inliers`.
   [[nodiscard]] const std::vector<outlying_sample>& contradicted() const noexcept { return found_.contradicted; }
-  /// Of all samples, the sum of what they do not count.
+  /// Returns the mean of 1 - inlier weight over all samples.
   [[nodiscard]] double outlier_share() const noexcept { return found_.outlier_share; }
-  /// How many samples the fit is of.
+  /// Returns the number of samples that the fit uses.
   [[nodiscard]] Eigen::Index kept() const noexcept { return kept_; }
 
-  /// Each sample that counts beside what all others say, rejected ones included. O(n^3). Throws gonio::error for more
-  /// samples than `discrepancy_model::most_centres`.
+  /// Returns each sample of positive weight with its prediction from all others. Rejected samples are included. O(n^3).
+  /// Throws gonio::error for more than `discrepancy_model::most_centres` samples.
   [[nodiscard]] std::vector<sample_residual> residuals() const {
     if (!all_)
       refuse({"residuals need at most ", known_.expected().model.most_centres, " samples, not ", samples_->size()});
@@ -245,7 +249,7 @@ class reconstructed {
   }
 
  private:
-  /// Of 68 % at all of some cells.
+  /// Returns half the widths of the 68 % intervals at some cells.
   [[nodiscard]] std::vector<double> half_widths(const valid_cells& cells) const {
     std::vector<double> all(cells.size());
     for_each_index(
@@ -259,7 +263,7 @@ class reconstructed {
   [[nodiscard]] location located(const direction& wi, const direction& wo) const {
     return locate(prior_.cells(), to_half_difference(wi, wo));
   }
-  /// A value by the fit, and by the dips of the prior's rows beyond it.
+  /// Returns a value of the fit. Fills a dip from the prior's rows that are farther from the mirror direction.
   template <class Value, class Evaluate, class Brightness>
   [[nodiscard]] Value filled(const location& at, Evaluate&& evaluate, Brightness&& brightness_of) const {
     const Value own = evaluate(at);
@@ -275,7 +279,7 @@ class reconstructed {
     }
     return envelope.next(own, brightness_of(own));
   }
-  /// A reading to what a single direction gives.
+  /// Returns the ratio of a reading through an aperture to the value in a single direction.
   [[nodiscard]] rgb factor(Eigen::Index i) const {
     const rgb read = detail::first_three(readings_, i), narrowed = detail::first_three(samples_->values, i);
     return (narrowed == 0.0).select(1.0, read / narrowed);
@@ -292,7 +296,7 @@ class reconstructed {
   std::shared_ptr<const located_samples> samples_;
   std::vector<Eigen::Index> numbers_;
   thread_count threads_;
-  Eigen::MatrixXd readings_ = {};  ///< n x 3, where samples were read through apertures
+  Eigen::MatrixXd readings_ = {};  ///< n x 3, if samples were read through apertures
 };
 
 }  // namespace gonio

@@ -1,9 +1,9 @@
 #pragma once
-/// What `gonio reconstruct` does by default: samples of a material in, the material out, with how sure that is and
-/// which sample disagrees. A prior's components and what they cannot say are fitted together: principal components
-/// (Nielsen et al. 2015, doi:10.1145/2816795.2818085, Eq. 12) and a Gaussian process beside them (Kennedy and O'Hagan
-/// 2001, doi:10.1111/1467-9868.00294). Where few directions were measured the components decide, where many were the
-/// measurements themselves. Results on real materials, with families left out: docs/results/real-materials.md.
+/// Reconstructs a material from samples, with the uncertainty of every value and the samples that disagree. `gonio
+/// reconstruct` does this by default. Principal components (Nielsen et al. 2015, doi:10.1145/2816795.2818085, Eq. 12)
+/// are fitted together with a Gaussian process for everything that they cannot express (Kennedy and O'Hagan 2001,
+/// doi:10.1111/1467-9868.00294). With few measured directions the components decide, with many the measurements.
+/// Results on real materials, with families left out: docs/results/real-materials.md.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/random.hpp>
@@ -26,13 +26,14 @@
 
 namespace gonio {
 
-/// Samples to a material, in four steps: map the samples, ask their process which of them are inliers, take the mean of
-/// the process of these, and keep the process for all questions about the result. An `estimator`.
+/// Reconstructs a material from samples in four steps: maps the samples, finds the inliers by the samples' process,
+/// takes the mean of the inliers' process, and keeps that process for all questions about the result. An `estimator`.
 ///
-/// With m observations in the prior, components have the coefficients c ~ N(0, I / m) and the discrepancy the variance
-/// `discrepancy_model::variance`. The mean of that process is ridge regression in its dual form: `tikhonov` with eta =
-/// m error_variance, of the components joined to the discrepancy's functions around the samples
-/// (docs/decisions/0019-discrepancy-beside-the-prior.md). Noise takes weight from the samples in proportion.
+/// With m observations in the prior, the components have coefficients c ~ N(0, I / m), and the discrepancy has the
+/// variance `discrepancy_model::variance`. The mean of that process is ridge regression in its dual form: `tikhonov`
+/// with eta = m error_variance, on the components joined to the discrepancy's functions around the samples
+/// (docs/decisions/0019-discrepancy-beside-the-prior.md). Noise adds to the error variance of a sample and so lowers
+/// its weight.
 ///
 /// ```cpp
 /// const auto paint = gonio::reconstruction{prior}.fit(samples);
@@ -49,7 +50,7 @@ class reconstruction {
   /// Throws gonio::error for an impossible model.
   explicit reconstruction(pca<Metric> prior, const discrepancy_model& model = {}, thread_count threads = {});
 
-  /// The same, but for its belief in all samples.
+  /// Returns a copy that rejects no sample.
   [[nodiscard]] reconstruction keeping_all() const {
     reconstruction other = *this;
     other.rejects_ = false;
@@ -59,35 +60,35 @@ class reconstruction {
   [[nodiscard]] const pca<Metric>& prior() const noexcept { return prior_; }
   [[nodiscard]] const valid_cells& cells() const noexcept { return prior_.cells(); }
   [[nodiscard]] const discrepancy_model& model() const noexcept { return expected_.model; }
-  /// What is expected of a material before it is measured.
+  /// Returns the covariance that is expected before a material is measured.
   [[nodiscard]] const expected_covariance& expected() const noexcept { return expected_; }
 
-  /// Of samples in any channels, each wavelength being fitted as a grey material, all by one process. Which samples are
-  /// inliers is told by their colours, or by three bands where no wavelength is visible. n samples, k components and c
-  /// centres: O(n^2 (n + k)) up to `most_centres` samples, O(n (k + c)^2) for more. Throws gonio::error for unusable
-  /// samples.
+  /// Fits samples in any channels, all by one process; each wavelength is fitted as a grey material. Inliers are found
+  /// by the samples' colours, or by three bands if no wavelength is visible. For n samples, k components and c centres:
+  /// O(n^2 (n + k)) up to `most_centres` samples, O(n (k + c)^2) for more. Throws gonio::error for unusable samples.
   ///
-  /// Samples through an aperture are readings of what a single direction gives, times a factor: the mean of the fit
-  /// over the aperture's cones to the fit in the middle. Three more fits are of samples without that factor.
+  /// A reading through an aperture is the value in a single direction times a factor. The factor is the mean of the fit
+  /// over the aperture's cones, divided by the fit on their axes. The fit is repeated three times with this factor
+  /// removed.
   [[nodiscard]] result_type fit(const sample_set& samples) const;
-  /// The same of samples that are located on the prior's cells.
+  /// Fits samples that are located on the prior's cells.
   [[nodiscard]] result_type fit_located(located_samples samples, std::vector<Eigen::Index> numbers = {}) const;
 
-  /// The process of samples that are located on the prior's cells, all of them believed.
+  /// Returns the process of samples that are located on the prior's cells, without rejecting any.
   [[nodiscard]] sample_process process_of(const located_samples& samples) const {
     return process_of_mapped(map_samples(prior_, samples, threads_));
   }
-  /// The process, in three channels (`channels::three`), of those that `fit` would keep; of more than `most_centres`,
-  /// of some of them.
+  /// Returns the process, in three channels (`channels::three`), of the samples that `fit` would keep; of a random
+  /// subset if they are more than `most_centres`.
   [[nodiscard]] sample_process process_of_inliers(const located_samples& samples) const;
 
  private:
-  /// Samples that count, mapped, and their process if they are few enough for one.
+  /// The samples that count, mapped, and their process if they are few enough.
   struct selection {
     inliers found;
     std::optional<sample_process> all;      ///< of all samples
     located_samples kept;                   ///< mapped
-    std::optional<sample_process> process;  ///< of those that are kept
+    std::optional<sample_process> process;  ///< of the kept samples
   };
 
   using solved = std::pair<basis_type, solution>;
@@ -97,20 +98,20 @@ class reconstruction {
   [[nodiscard]] sample_process process_of_mapped(const located_samples& mapped) const {
     return {expected_, locate_rows(prior_, mapped.locations), mapped, error_variances(mapped)};
   }
-  /// What apertures make of the values of samples that count, by a fit.
+  /// Returns the factors by which apertures change the values of samples that count, predicted by a fit.
   [[nodiscard]] Eigen::MatrixXd aperture_factors(const sample_set& samples, const std::vector<Eigen::Index>& numbers,
                                                  const typename result_type::fit_type& fit) const;
-  /// Of the samples that are kept, or of some of them.
+  /// Returns the process of the kept samples, or of a random subset.
   [[nodiscard]] sample_process known_by(const selection& chosen) const;
 
   [[nodiscard]] solved solve(const located_samples& kept, const std::optional<sample_process>& process) const;
   [[nodiscard]] solved solve_around_centres(located_samples kept) const;
-  /// Components, and a discrepancy as a combination of covariances with its centres.
+  /// Returns the components joined to a discrepancy, which is a combination of its covariances with the centres.
   [[nodiscard]] basis_type functions_around(const std::vector<half_difference>& centres) const {
     return {prior_, {prior_.cells(), prior_.metric(), discrepancy_functions::covariances(centres, model().lengths)}};
   }
 
-  /// Of each sample's error: the model's, and what its noise is in the metric's domain.
+  /// Returns the variance of each sample's error: the model's plus that of the noise in the metric's domain.
   [[nodiscard]] Eigen::VectorXd error_variances(const located_samples& samples) const {
     Eigen::VectorXd variances = map_noise(prior_, samples.locations, model().noise, threads_).variance;
     for (Eigen::Index i = 0; i < variances.size(); ++i)
@@ -124,7 +125,7 @@ class reconstruction {
   bool rejects_ = true;
 };
 
-// ---- bodies, outside their class so that those of `log_relative` can be compiled once -----------------------------
+// ---- bodies, outside of the class so that those of `log_relative` can be compiled once ------------------------------
 
 template <error_metric Metric>
 reconstruction<Metric>::reconstruction(pca<Metric> prior, const discrepancy_model& model, thread_count threads)
@@ -194,7 +195,7 @@ typename reconstruction<Metric>::solved reconstruction<Metric>::solve_around_cen
                           read_rows_at(whitened, all.subspan(range.begin, range.size()), out);
                         }};
   solution found = solve_rows(tikhonov(expected_.observations * model().error_variance), rows, kept, threads_);
-  // The last weights are of functions that are combinations of covariances.
+  // The last weights belong to combinations of covariances. Convert them to weights of the covariances.
   Eigen::MatrixXd last(smooth.size(), found.weights.cols());
   const Eigen::Index first = found.weights.rows() - last.rows();
   for (Eigen::Index c = 0; c < last.cols(); ++c) std::copy_n(&found.weights(first, c), last.rows(), &last(0, c));
@@ -208,7 +209,7 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit(const s
   const std::vector<Eigen::Index> numbers = counting_positions(samples);
   const located_samples read = locate_samples(cells(), samples, threads_);
   result_type paint = fit_located(read, numbers);
-  constexpr int rounds = 3;  // two see less of a peak, six make it too bright (docs/decisions/0039)
+  constexpr int rounds = 3;  // two rounds lose part of a peak, six make it too bright (docs/decisions/0039)
   for (int round = 0; round < rounds && samples.have_apertures(); ++round) {
     const Eigen::MatrixXd factors = aperture_factors(samples, numbers, paint.fit());
     located_samples narrowed = read;
@@ -226,7 +227,7 @@ Eigen::MatrixXd reconstruction<Metric>::aperture_factors(const sample_set& sampl
   if (has_process(samples.size()))
     return detail::aperture_factors(
         samples, numbers, [&](const direction& wi, const direction& wo) { return fit.values(wi, wo); }, threads_);
-  // Of more samples a table is read.
+  // With more samples, read a table of the fit.
   if (fit.channels().are_wavelengths()) {
     const spectral_table table = fit.tabulate_spectra(cells(), threads_);
     return detail::aperture_factors(
@@ -248,7 +249,7 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located
       std::make_shared<const located_samples>(kinds.are_colours() ? std::move(samples) : samples.in_three_channels());
   selection chosen = select(*colours);
   sample_process known = known_by(chosen);
-  if (!kinds.are_colours()) {  // the same samples and covariance, other values
+  if (!kinds.are_colours()) {  // the samples and the covariance stay, the values change
     chosen.kept = weighted(map_samples(prior_, samples, threads_), chosen.found);
     if (chosen.process) chosen.process = chosen.process->with_values(chosen.kept.values);
   }

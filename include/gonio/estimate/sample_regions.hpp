@@ -1,6 +1,6 @@
 #pragma once
-/// Samples grouped by the angles of their half and difference vectors: whatever goes wrong in a measurement does so in
-/// all directions alike, but a fit may be good for the diffuse part of a surface and bad in its highlight.
+/// Samples grouped by half and difference angles. Measurement errors are alike in all directions, but a fit may be good
+/// in the diffuse part of a surface and bad in its highlight.
 
 #include <gonio/table/location.hpp>
 
@@ -13,8 +13,9 @@
 
 namespace gonio {
 
-/// At most six strips of theta_h with equal numbers of samples, each cut into at most four parts of theta_d: as many as
-/// leave eight samples in each. With fewer in a region chance decides; with more, few samples have but one.
+/// At most six strips of theta_h with equal numbers of samples, each cut into at most four parts of theta_d. Each
+/// region has at least eight samples, if there are that many. With a smaller limit chance would decide; with a larger
+/// one small sets would have a single region.
 class sample_regions {
  public:
   static constexpr Eigen::Index fewest_samples = 8;
@@ -24,9 +25,9 @@ class sample_regions {
 
   [[nodiscard]] Eigen::Index count() const noexcept { return strips_ * parts_; }
 
-  /// The positions of all samples.
+  /// Returns the positions of all samples.
   [[nodiscard]] std::span<const Eigen::Index> all() const noexcept { return order_; }
-  /// Those of one region; the first regions are nearest to the highlight.
+  /// Returns the positions of one region's samples. The first regions are nearest to the highlight.
   [[nodiscard]] std::span<const Eigen::Index> operator[](Eigen::Index region) const noexcept {
     return part_of<const Eigen::Index>(part_of<const Eigen::Index>(order_, region / parts_, strips_), region % parts_,
                                        parts_);

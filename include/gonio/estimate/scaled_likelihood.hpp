@@ -1,6 +1,6 @@
 #pragma once
-/// How likely measurements are, given the values of one material that is brightened or darkened: by what factor, and
-/// which of the measurements are outliers, is found by expectation-maximisation (outlier_mixture.hpp).
+/// The likelihood of measurements, given the values of one material times an unknown factor. Expectation-maximisation
+/// (outlier_mixture.hpp) finds the factor and the outliers.
 
 #include <gonio/estimate/outlier_mixture.hpp>
 
@@ -9,18 +9,18 @@
 
 namespace gonio::detail {
 
-/// How likely measurements are, given a material's values, at the best factor found.
+/// The likelihood of measurements at the best factor found for a material.
 struct scaled_likelihood {
   double logarithm_of_factor = 0.0;
   double log_likelihood = -std::numeric_limits<double>::infinity();
 };
 
-/// Expectation-maximisation of an `outlier_mixture` whose centre is unknown: `differences` are the logarithms of
-/// measurements less those of a material.
+/// Fits an `outlier_mixture` with an unknown centre by expectation-maximisation. `differences` are the logarithms of
+/// measurements minus those of a material.
 [[nodiscard]] scaled_likelihood locate_mixture(const std::vector<double>& differences,
                                                const std::vector<double>& outliers, double start);
 
-/// The best of several starts, for the mode of the differences may be anywhere.
+/// Returns the best result of several starts, because the mode of the differences may be anywhere.
 [[nodiscard]] scaled_likelihood best_factor(const std::vector<double>& differences,
                                             const std::vector<double>& outliers);
 

@@ -1,7 +1,7 @@
 #pragma once
-/// A prior for soft and one for specular materials, of which the measurements choose.
-/// Nielsen, Jensen and Ramamoorthi 2015 (doi:10.1145/2816795.2818085), section 8: whether a material is specular is
-/// told by the ratio of an in-peak to an out-of-peak sample; what ratio exactly says estimate/highlight_contrast.hpp.
+/// One prior for soft and one for specular materials; the measurements choose between them. Nielsen, Jensen and
+/// Ramamoorthi 2015 (doi:10.1145/2816795.2818085), section 8, decide whether a material is specular by the ratio of an
+/// in-peak to an out-of-peak sample. estimate/highlight_contrast.hpp defines the ratio.
 
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/highlight_contrast.hpp>
@@ -13,22 +13,22 @@
 
 namespace gonio {
 
-/// What a material is taken for.
+/// The kind of material that a prior was learned from.
 enum class material_kind { soft, specular };
 
-/// The fit of the one estimator or the other.
+/// A fit by one of two estimators.
 template <tabulated_brdf Soft, tabulated_brdf Specular>
 class soft_or_specular_fit {
  public:
-  /// `contrast` is what it was chosen by.
+  /// `contrast` is the contrast that decided the choice.
   soft_or_specular_fit(std::variant<Soft, Specular> fit, double contrast) : fit_(std::move(fit)), contrast_(contrast) {}
 
   [[nodiscard]] material_kind kind() const noexcept {
     return fit_.index() == 0 ? material_kind::soft : material_kind::specular;
   }
-  /// The measured contrast; see `highlight_contrast`.
+  /// Returns the measured contrast; see `highlight_contrast`.
   [[nodiscard]] double contrast() const noexcept { return contrast_; }
-  /// The fit itself, soft at index 0 and specular at 1.
+  /// Returns the fit itself: soft at index 0, specular at index 1.
   [[nodiscard]] const std::variant<Soft, Specular>& chosen() const noexcept { return fit_; }
 
   /// Reflectance in sr^-1, at least zero; zero below the horizon.
@@ -37,7 +37,7 @@ class soft_or_specular_fit {
     return (*std::get_if<1>(&fit_))(wi, wo);
   }
 
-  /// Same bytes for any number of threads.
+  /// Tabulates the fit. Same bytes for any number of threads.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
     return std::visit([&](const auto& fit) { return fit.tabulate(cells, threads); }, fit_);
   }
@@ -47,13 +47,12 @@ class soft_or_specular_fit {
   double contrast_;
 };
 
-/// Fits by the first estimator measurements whose contrast is below the threshold, by the second the others. Both are
-/// any estimators; the paper's are decompositions by the principal components of either half of a database.
+/// Fits measurements by the first estimator if their contrast is below the threshold, otherwise by the second. Both can
+/// be any estimators. The paper uses decompositions by the principal components of each half of a database.
 ///
-/// Measurements none of which is in the peak, or none out of it, do not tell soft from specular, and are refused: a
-/// prior chosen by anything else would be a guess, and the one prior of all materials is the better one then. Ask
-/// `highlight_contrast` beforehand where that may happen. Of the directions of the paper's Table 1 only the set of one
-/// is such.
+/// Refuses measurements of which none is in the peak or none is out of it, because they do not distinguish soft from
+/// specular materials. In that case a single prior of all materials is better than a guess. If this may happen, call
+/// `highlight_contrast` first. Of the directions in the paper's Table 1, only the set of one direction is refused.
 ///
 /// ```cpp
 /// const auto reference = gonio::log_relative::to_median_of(materials);
@@ -66,8 +65,8 @@ class soft_or_specular_fit {
 template <estimator Soft, estimator Specular>
 class soft_or_specular {
  public:
-  /// `reference` and `regions` are those that the threshold was found with. Throws gonio::error unless the threshold is
-  /// finite and the regions follow one another.
+  /// `reference` and `regions` must be those used to find the threshold. Throws gonio::error unless the threshold is
+  /// finite and the highlight ends before the other region begins.
   soft_or_specular(Soft soft, Specular specular, log_relative reference, double threshold,
                    highlight_regions regions = {})
       : soft_(std::move(soft)),
@@ -85,7 +84,8 @@ class soft_or_specular {
   [[nodiscard]] const Specular& specular() const noexcept { return specular_; }
   [[nodiscard]] double threshold() const noexcept { return threshold_; }
 
-  /// The contrast of measurements. Throws gonio::error for unusable ones, or if none is in the peak or none out of it.
+  /// Returns the contrast of measurements. Throws gonio::error if they are unusable, or if none is in the peak or none
+  /// out of it.
   template <sample_range Samples>
   [[nodiscard]] double contrast(const Samples& samples) const {
     if (const auto found = highlight_contrast(reference_, samples, regions_)) return *found;
@@ -93,13 +93,13 @@ class soft_or_specular {
            " and one from " + in_degrees(regions_.off_peak) + " on are needed");
   }
 
-  /// What the material is taken for. Throws gonio::error as `contrast` does.
+  /// Returns the kind of the material. Throws gonio::error as `contrast` does.
   template <sample_range Samples>
   [[nodiscard]] material_kind choose(const Samples& samples) const {
     return kind_of(contrast(samples));
   }
 
-  /// Costs what the chosen fit costs. Throws gonio::error as `contrast` and the chosen estimator do.
+  /// Fits by the chosen estimator, at its cost. Throws gonio::error as `contrast` and that estimator do.
   template <sample_range Samples>
   [[nodiscard]] auto fit(const Samples& samples) const {
     using soft_fit = std::remove_cvref_t<decltype(soft_.fit(samples))>;

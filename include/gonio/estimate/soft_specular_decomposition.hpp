@@ -1,7 +1,6 @@
 #pragma once
-/// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), section 8, with the paper's own estimator: two priors are learned
-/// from a database parted by contrast, and a ridge reconstruction (Eq. 12) is made with the one that the samples
-/// choose.
+/// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), section 8, with the paper's estimator. Learns two priors from a
+/// database split by contrast, and makes a ridge reconstruction (Eq. 12) with the prior that the samples choose.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/soft_specular_prior.hpp>
@@ -17,9 +16,9 @@
 
 namespace gonio {
 
-/// Principal components of either half of a database, relative to one reference: `split_by_contrast`, then `learn_pca`
-/// of each half. Keeps at most `components` of each. The set is copied half by half. Throws gonio::error as these do.
-/// O(cells materials^2).
+/// Learns the principal components of each half of a database, relative to one reference: `split_by_contrast`, then
+/// `learn_pca` of each half. Keeps at most `components` of each. Copies each half in turn. Throws gonio::error as these
+/// functions do. O(cells materials^2).
 ///
 /// ```cpp
 /// const auto reference = gonio::log_relative::to_median_of(materials);
@@ -37,16 +36,16 @@ struct soft_specular_penalties {
   double soft = 0.0, specular = 0.0;
 };
 
-/// The penalties of two halves where `eta` is the penalty of a prior of all materials. The weights of principal
-/// components have the variance 1 / (3 materials), whatever the materials, so the penalty that stands for the same
-/// noise is proportional to their number.
+/// Returns the penalties of two halves, given the penalty `eta` of a prior of all materials. The weights of principal
+/// components have the variance 1 / (3 materials) for any materials, so the penalty for the same noise is proportional
+/// to their number.
 [[nodiscard]] soft_specular_penalties penalties_in_proportion(const soft_specular_prior& prior, double eta);
 
-/// The paper's reconstruction, by one prior.
+/// The paper's reconstruction by one prior.
 using ridge_reconstruction = decomposition<log_relative_pca, tikhonov>;
 
-/// The paper's reconstruction, by the prior that the samples choose. Throws gonio::error unless the penalties are
-/// positive; its `fit` does as `soft_or_specular` says.
+/// Makes the paper's reconstruction with the prior that the samples choose. Throws gonio::error unless the penalties
+/// are positive. Its `fit` throws as that of `soft_or_specular`.
 [[nodiscard]] soft_or_specular<ridge_reconstruction, ridge_reconstruction> soft_specular_decomposition(
     const soft_specular_prior& prior, const soft_specular_penalties& eta, thread_count threads = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Ridge regression of samples by functions whose rows at them are known: `basis_equations` without a basis.
+/// Ridge regression of samples by functions with known rows: `basis_equations` without a basis.
 
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/row_source.hpp>
@@ -7,8 +7,9 @@
 
 namespace gonio {
 
-/// The weights of k functions, k x channels, of which `rows` are the values at mapped samples: of all channels at once
-/// or, where samples count more in one than in another, of one after the other. O(n k^2) for each of these.
+/// Returns the weights of k functions, k x channels. `rows` are the functions' values at the mapped samples. If all
+/// channels have the same sample weights, they are solved at once, otherwise one after the other. O(n k^2) for each
+/// solve.
 [[nodiscard]] solution solve_rows(const tikhonov& solver, const row_source& rows, const located_samples& mapped,
                                   thread_count threads = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-/// An estimate at many locations.
+/// Evaluates an estimate at many locations.
 
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/located_samples.hpp>
@@ -13,8 +13,8 @@
 
 namespace gonio {
 
-/// An estimate at given locations on `cells`: by its own `at` if it has these cells, else read from its table where
-/// locations are cells and there are many, otherwise evaluated.
+/// Evaluates an estimate at locations on `cells`: by its `at` if it has these cells. Otherwise tabulates it if many
+/// locations are cells, and evaluates it in directions for the rest.
 template <tabulated_brdf Fit>
 [[nodiscard]] channel_values values_at(const Fit& fit, const valid_cells& cells, const std::vector<location>& locations,
                                        thread_count threads = {}) {
@@ -27,7 +27,7 @@ template <tabulated_brdf Fit>
   };
   if constexpr (requires { fit.at(locations[0]); })
     if (fit.cells() == cells) return collect([&](const location& at) { return fit.at(at); });
-  // A table takes as long as some thousand evaluations.
+  // A table costs as much as several thousand evaluations.
   constexpr std::ptrdiff_t worth_a_table = 4096;
   std::optional<brdf_table> table;
   if (std::ranges::count_if(locations, [](const location& at) { return at.count == 1; }) > worth_a_table)

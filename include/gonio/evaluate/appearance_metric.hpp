@@ -1,13 +1,12 @@
 #pragma once
-/// How different two BRDF tables look: the mean CIELAB 1976 difference over the pixels of a sphere, under two
-/// directional lights and under an environment (render/lighting.hpp). A difference of 1 is about what an observer
-/// just notices.
+/// The visible difference of two BRDF tables: the mean CIELAB 1976 difference over the pixels of a sphere, under two
+/// directional lights and under an environment (render/lighting.hpp). An observer just notices a difference of about 1.
 
 #include <gonio/evaluate/sphere_delta_e.hpp>
 
 namespace gonio {
 
-/// What an observer sees of the spheres under both lightings.
+/// The appearance of the spheres under both lightings.
 struct appearance {
   sphere_appearance lights;
   sphere_appearance environment;
@@ -19,23 +18,24 @@ struct appearance_difference {
   double environment = 0.0;
 };
 
-/// Renders tables over given cells and compares the images as an observer of a display would: two sphere_delta_e, but
-/// for the exposure, at which a white Lambertian sphere has mean luminance 1 whatever the table.
+/// Renders tables over given cells and compares the images as an observer of a display would. It consists of two
+/// sphere_delta_e, except for the exposure: a white Lambertian sphere has mean luminance 1 for every table.
 class appearance_metric {
  public:
-  /// Prepares the spheres; takes the time and memory of two `sphere_operator`s.
+  /// Prepares the spheres. Needs the time and memory of two `sphere_operator`s.
   explicit appearance_metric(const valid_cells& cells, int size = 36, thread_count threads = {});
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return lights_.cells(); }
 
-  /// The spheres' linear colours before clipping, as the operators of both lightings.
+  /// Operators of both lightings, which give the spheres' linear colours before clipping.
   [[nodiscard]] const render::sphere_operator& lights() const noexcept { return lights_.sphere(); }
   [[nodiscard]] const render::sphere_operator& environment() const noexcept { return environment_.sphere(); }
 
-  /// What an observer sees of a table. Throws gonio::error if it is over other cells.
+  /// Returns the appearance of a table. Throws gonio::error if it is over other cells.
   [[nodiscard]] appearance look(const brdf_table& table, thread_count threads = {}) const;
 
-  /// Mean difference of two appearances of the same metric: keep a truth's to compare many estimates with it.
+  /// Returns the mean difference of two appearances of one metric. To compare many estimates with a truth, keep the
+  /// truth's appearance.
   [[nodiscard]] static appearance_difference difference(const appearance& a, const appearance& b) {
     return {sphere_delta_e::difference(a.lights, b.lights), sphere_delta_e::difference(a.environment, b.environment)};
   }

@@ -1,8 +1,8 @@
 #pragma once
-/// The error measures of an estimated table against its truth. None of them suffices alone: the mapped error is not
-/// perceptual, and a mean colour difference does not notice a lost highlight.
-/// Nielsen, Jensen and Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition", SIGGRAPH Asia
-/// 2015 (doi:10.1145/2816795.2818085), Eq. 1-2 (mapping, cosine weight).
+/// Error measures of an estimated table against its truth. None suffices alone: the mapped error is not perceptual, and
+/// a mean colour difference misses a lost highlight. Nielsen, Jensen and Ramamoorthi, "On Optimal, Minimal BRDF
+/// Sampling for Reflectance Acquisition", SIGGRAPH Asia 2015 (doi:10.1145/2816795.2818085), Eq. 1-2 (mapping, cosine
+/// weight).
 
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/metric/error_metric.hpp>
@@ -14,30 +14,30 @@
 
 namespace gonio {
 
-/// How an estimate differs from the truth. Of the values with a channel each, `.mean()` is the mean over channels.
+/// The difference between an estimate and the truth. For values per channel, `.mean()` is the mean over the channels.
 struct comparison {
-  /// Root mean square over the truth's cells of the difference in a metric's mapped domain.
+  /// Root mean square of the difference in a metric's mapped domain, over the truth's cells.
   rgb mapped_rms = rgb::Zero();
-  /// The same of the difference of reflectance times max(cos_i cos_o, 0.001) (Eq. 2), in sr^-1.
+  /// Root mean square of the difference of reflectance times max(cos_i cos_o, 0.001) (Eq. 2), in sr^-1.
   rgb cosine_rms = rgb::Zero();
   /// Mean CIELAB difference of spheres under the two lights and under the environment; see appearance_metric.
   double delta_e_lights = 0.0;
   double delta_e_env = 0.0;
-  /// Peak of the estimate over that of the truth; see highlight_peak. If the truth's is zero: 1 if the estimate's
-  /// is, too, otherwise infinite.
+  /// Highlight peak of the estimate over that of the truth; see highlight_peak. If the truth's is zero: 1 if the
+  /// estimate's is also zero, otherwise infinite.
   rgb peak_ratio = rgb::Ones();
 };
 
-/// The height of a table's highlight, for each channel: the 99.9th percentile (interpolated between order
-/// statistics) over the cells with theta_h below 5 degrees, or over those of the grid's smallest theta_h if it has
-/// none below. Negative percentiles count as zero. Of cells whose theta_d is larger than `largest_theta_d` none is
-/// looked at: without a limit the grazing rim decides, which is brighter than any highlight (of red paint the 0.1 %
-/// that the percentile leaves out end at 86 degrees).
+/// Returns the height of a table's highlight for each channel: the 99.9th percentile (interpolated between order
+/// statistics) over the cells with theta_h below 5 degrees, or over those of the grid's smallest theta_h if it has none
+/// below. Negative percentiles count as zero. Ignores cells with theta_d above `largest_theta_d`. Without this limit
+/// the grazing rim would determine the result, because it is brighter than any highlight. (For red paint, the 0.1 %
+/// above the percentile end at 86 degrees.)
 [[nodiscard]] rgb highlight_peak(const brdf_table& table, double largest_theta_d = radians(70.0));
 
 namespace detail {
 
-/// Finds the places of a table's cells on the cells of a metric; a metric without cells does not depend on the place.
+/// Locates a table's cells on the cells of a metric. A metric without cells does not depend on the location.
 template <error_metric Metric>
 class metric_places {
  public:
@@ -59,7 +59,7 @@ class metric_places {
   bool same_;
 };
 
-/// Sums of squares over cells, the mapped differences first.
+/// Sums of squares over cells: three of mapped differences, then three of cosine-weighted differences.
 using squared_differences = Eigen::Array<double, 6, 1>;
 
 template <error_metric Metric>
@@ -86,9 +86,9 @@ template <error_metric Metric>
 
 }  // namespace detail
 
-/// Judges an estimate by all measures, over the truth's cells; an estimate over another grid is interpolated there.
-/// The mapped and cosine-weighted errors see values as they are, `metric` deciding what a negative one means.
-/// `appearance` must be over the truth's cells, otherwise gonio::error is thrown. Same bytes for any number of threads.
+/// Evaluates all error measures of an estimate over the truth's cells. An estimate over another grid is interpolated.
+/// The mapped and cosine-weighted errors use values as they are, so `metric` determines the effect of a negative value.
+/// Throws gonio::error unless `appearance` is over the truth's cells. The bytes do not depend on the number of threads.
 template <error_metric Metric>
 [[nodiscard]] comparison compare(const brdf_table& estimate, const brdf_table& truth, const Metric& metric,
                                  const appearance_metric& appearance, thread_count threads = {}) {

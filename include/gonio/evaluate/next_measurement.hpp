@@ -1,6 +1,6 @@
 #pragma once
-/// Where to measure next, given what was measured: where the expected error of the estimate, as it is seen on spheres,
-/// becomes least. Materials that shine ask for other directions than matte ones. Results on measured materials, with
+/// Chooses the next measurement, given those already made: the one that minimises the expected visible error of the
+/// estimate on spheres. Glossy materials need other directions than matte ones. Results on measured materials, with
 /// families left out: docs/results/adaptive-design.md.
 
 #include <gonio/design/search.hpp>
@@ -19,15 +19,15 @@
 
 namespace gonio {
 
-/// A measurement that is worth making.
+/// A recommended measurement.
 struct next_measurement {
   direction_pair pose;            ///< light and viewer
-  half_difference angles;         ///< the same as a half vector and a difference
-  double expected_delta_e = 0.0;  ///< that remains with it: the deviation of the mean Delta E, linearised
+  half_difference angles;         ///< the same as half and difference angles
+  double expected_delta_e = 0.0;  ///< expected error after it: the deviation of the mean Delta E, linearised
 };
 
-/// Chooses measurements for an estimator. The perceived error is linearised at the estimate from what was measured,
-/// which is why the choice depends on it: a Gaussian process alone is as unsure whatever was read.
+/// Chooses measurements for an estimator. It linearises the perceived error at the estimate from the samples, so the
+/// choice depends on their values. The uncertainty of a Gaussian process alone would not.
 ///
 /// ```cpp
 /// const gonio::measurement_chooser chooser{gonio::reconstruction{prior}};
@@ -36,7 +36,7 @@ struct next_measurement {
 template <error_metric Metric>
 class measurement_chooser {
  public:
-  /// Throws gonio::error if the apparatus can measure no candidate.
+  /// Throws gonio::error if the apparatus cannot measure any candidate.
   explicit measurement_chooser(reconstruction<Metric> estimator, const design::apparatus& with = {},
                                valid_cells candidates = design::default_candidates(), thread_count threads = {})
       : design_(std::move(estimator), with, std::move(candidates)),
@@ -47,9 +47,9 @@ class measurement_chooser {
 
   [[nodiscard]] const design::sequential_design<Metric>& candidates() const noexcept { return design_; }
 
-  /// The best `count` measurements beside some samples, one after the other, without waiting for what they read. No
-  /// cell of the candidates is measured twice, and none that the apparatus cannot reach. O(count points candidates^2).
-  /// Throws gonio::error for unusable samples and if there are fewer candidates.
+  /// Returns the best `count` measurements to add to some samples, chosen one after another without knowing their
+  /// readings. Measures no candidate cell twice, and none that the apparatus cannot reach. O(count points
+  /// candidates^2). Throws gonio::error for unusable samples, and if there are fewer candidates.
   [[nodiscard]] std::vector<next_measurement> choose(
       const sample_set& samples, Eigen::Index count,
       const std::function<bool(const direction_pair&)>& is_reachable = {}) const {
@@ -66,7 +66,7 @@ class measurement_chooser {
     const double scale = process ? process->scale() : 1.0;
     std::vector<next_measurement> chosen;
     while (std::ssize(chosen) < count) {
-      // The best candidate beside those that are chosen.
+      // The best candidate in addition to those already chosen.
       const std::vector<double> deviations =
           design::seen_deviation_with_each(known.covariance, seen, design_.error_variances(), threads_);
       const auto value = [&](Eigen::Index i) {
@@ -88,7 +88,7 @@ class measurement_chooser {
     return locate_samples(design_.estimator().prior().cells(), samples, threads_);
   }
 
-  /// Those that the constraint allows, and whose cell no sample lies in.
+  /// Returns the candidates that the constraint allows and whose cell contains no sample.
   [[nodiscard]] std::vector<bool> free_candidates(const sample_set& samples) const {
     const design::point_geometry& geometry = design_.geometry();
     std::vector<bool> free(geometry.size());

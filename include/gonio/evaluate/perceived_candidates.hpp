@@ -1,8 +1,7 @@
 #pragma once
-/// Candidates for a measurement, judged by the error that is seen: the mean Delta E of spheres between the materials of
-/// a prior and what `reconstruction` makes of their samples, each material left out of the prior with its family. It is
-/// the measure of `next_measurement.hpp` before anything was read. Which criterion finds the best directions for
-/// measured materials: docs/results/adaptive-design.md.
+/// Scores candidates for a measurement by the visible error: the mean Delta E of spheres between a prior's materials
+/// and their `reconstruction` from samples, with each material's family left out of the prior. It is the measure of
+/// `next_measurement.hpp` before any reading. docs/results/adaptive-design.md compares criteria on measured materials.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/rgb.hpp>
@@ -24,18 +23,18 @@
 namespace gonio {
 
 struct perceived_options {
-  /// Of the square of what is seen, the share of the variance that the process states; the rest is the square of what
-  /// the material's own values are off.
+  /// Weight of the variance that the process states in the squared error. The rest is the weight of the squared error
+  /// of the material's own values.
   double variance_share = 0.5;
-  Eigen::Index most_materials = 48;  ///< of a prior with more, so many are taken, evenly spaced
-  int sphere_size = 8;               ///< points across each sphere
-  /// The criterion is the power mean of the materials' Delta E with this exponent: 1 is the mean, 8 almost the worst.
+  Eigen::Index most_materials = 48;  ///< if the prior has more, this many are used, evenly spaced
+  int sphere_size = 8;               ///< number of points across each sphere
+  /// The criterion is the power mean of the materials' Delta E with this exponent. 1 is the mean, 8 nearly the maximum.
   double power = 1.0;
 };
 
 namespace detail {
 
-/// Mapped values of channels of any kind, n x c, as those of the three that `channels::three` makes of them: n x 3.
+/// Converts mapped values of channels of any kind, n x c, to those of the three channels of `channels::three`: n x 3.
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd mapped_in_three_channels(const Metric& metric, std::span<const location> locations,
                                                        const Eigen::MatrixXd& mapped, const channels& kinds) {
@@ -52,13 +51,13 @@ template <error_metric Metric>
 
 }  // namespace detail
 
-/// A `design::sweeping_objective`. Its value is the mean Delta E over the materials, linearised at each of them; with
-/// `perceived_options::power` another mean.
+/// A `design::sweeping_objective`. Its value is the mean Delta E over the materials, linearised at each; with
+/// `perceived_options::power` it is a power mean.
 ///
-/// The process without a family has the covariance P. From samples y_X of one of its materials, a point of a sphere
-/// with the slopes s is off by e = s (y - P_X K^-1 y_X), and the process states the variance v = s (P - P_X K^-1 P_X')
-/// s'. The Delta E of the point is the root of a mixture of e^2 and v, summed over the channels. One more candidate
-/// changes e and v by a matrix of rank one.
+/// Without a family, the process has the covariance P. Given samples y_X of one of the family's materials, a point of a
+/// sphere with the slopes s has the error e = s (y - P_X K^-1 y_X), and the process states the variance v = s (P - P_X
+/// K^-1 P_X') s'. The Delta E of the point is the square root of a mixture of e^2 and v, summed over the channels. One
+/// more candidate changes e and v by a matrix of rank one.
 ///
 /// ```cpp
 /// const gonio::design::sequential_design cells(gonio::reconstruction{prior}, gonio::design::usual_apparatus());
@@ -67,8 +66,8 @@ template <error_metric Metric>
 /// ```
 class perceived_candidates {
  public:
-  /// 4 bytes for each candidate, point, channel and material: 160 MB by default. O(candidates^2 x points x materials)
-  /// at most. Throws gonio::error for options out of range, and unless the prior has two families.
+  /// 4 bytes per candidate, point, channel and material: 160 MB by default. At most O(candidates^2 x points x
+  /// materials). Throws gonio::error for options out of range, and unless the prior has two families.
   template <error_metric Metric>
   explicit perceived_candidates(const design::sequential_design<Metric>& candidates,
                                 const perceived_options& options = {}, thread_count threads = {})
@@ -99,33 +98,33 @@ class perceived_candidates {
   [[nodiscard]] const design::point_geometry& geometry() const noexcept { return geometry_; }
   [[nodiscard]] Eigen::Index materials() const noexcept { return materials_; }
 
-  /// Of measurements at some candidates. O(n points materials).
+  /// Returns the value for measurements at some candidates. O(n points materials).
   [[nodiscard]] double operator()(std::span<const Eigen::Index> cells) const;
 
-  /// Of measurements at some candidates and, in turn, at each candidate beside them; infinity for those that the
-  /// apparatus cannot reach. O(candidates n points materials).
+  /// Returns the values for measurements at some candidates and one more: one value for each additional candidate,
+  /// infinity if the apparatus cannot reach it. O(candidates n points materials).
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells) const;
-  /// The same of a range of the candidates, which begins at a multiple of `sweep_block`: the same bytes.
+  /// Returns the same bytes for a range of the candidates, which must begin at a multiple of `sweep_block`.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells, block range) const;
 
   static constexpr Eigen::Index sweep_block = 64;
 
  private:
-  /// Positions among a prior's names: all members, and those that are judged.
+  /// Positions among a prior's names: all members of a family, and those that are evaluated.
   struct family {
     std::vector<Eigen::Index> members, judged;
   };
-  /// A material at the n candidates, in the three channels that are seen: n x 3, less the prior's mean.
+  /// A material at the n candidates, in three visible channels: n x 3, minus the prior's mean.
   struct seen_material {
     Eigen::MatrixXd mapped;
     design::sensitivity slopes;
   };
-  /// What is known of a family's materials by the others: P = Q W + the discrepancy's covariance.
+  /// A family's materials under the prior of the others: P = Q W + the discrepancy's covariance.
   struct left_out {
     Eigen::MatrixXd weights;            ///< W: k x n
-    Eigen::MatrixXd mapped;             ///< n x 3 of each material, less the others' mean
-    Eigen::MatrixXf seen;               ///< s P: for each material and channel the points, x n
-    Eigen::VectorXf errors, variances;  ///< before anything is measured
+    Eigen::MatrixXd mapped;             ///< n x 3 per material, minus the others' mean
+    Eigen::MatrixXf seen;               ///< s P: the points of each material and channel, x n
+    Eigen::VectorXf errors, variances;  ///< before any measurement
     [[nodiscard]] Eigen::Index materials() const noexcept { return mapped.cols() / 3; }
   };
   struct remainder;
@@ -134,18 +133,18 @@ class perceived_candidates {
                        const expected_covariance& expected, const perceived_options& options, thread_count threads);
 
   [[nodiscard]] std::vector<family> families_of(const std::vector<std::string>& names) const;
-  /// F of F F' = the discrepancy's covariance but for a hundredth of its variance.
+  /// Returns F with F F' = the discrepancy's covariance, except for a hundredth of its variance.
   [[nodiscard]] Eigen::MatrixXf discrepancy_factor() const;
-  /// `members` has a column for each observation that is left out.
+  /// `members` has a column for each left-out observation.
   void leave_out(const Eigen::MatrixXd& members, const std::vector<seen_material>& seen,
                  const Eigen::MatrixXf& discrepancy);
   [[nodiscard]] remainder remains(const left_out& some, std::span<const Eigen::Index> cells) const;
-  /// The mean Delta E of one material, by e and v of all of its points, to the power of the options.
+  /// Returns the mean Delta E of one material from e and v of all its points, raised to the power in the options.
   [[nodiscard]] double seen_power(const Eigen::Ref<const Eigen::ArrayXf>& errors,
                                   const Eigen::Ref<const Eigen::ArrayXf>& variances) const;
-  /// The mean over the materials by the sum of `seen_power`.
+  /// Returns the power mean over the materials from the sum of `seen_power`.
   [[nodiscard]] double power_mean(double sum) const;
-  /// Adds `seen_power` of a family's materials with each candidate of a range to the sums.
+  /// Adds to the sums the `seen_power` of a family's materials with each candidate of a range.
   void add_with_each(const left_out& some, std::span<const Eigen::Index> cells, block range,
                      std::vector<double>& sums) const;
 
@@ -156,7 +155,7 @@ class perceived_candidates {
   perceived_options options_;
   thread_count threads_;
   std::vector<left_out> families_;
-  Eigen::ArrayXf weights_;       ///< of the points
+  Eigen::ArrayXf weights_;       ///< one per point
   Eigen::MatrixXd discrepancy_;  ///< n x n
   std::vector<bool> allowed_;
   Eigen::Index materials_ = 0;

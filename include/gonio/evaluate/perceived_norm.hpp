@@ -1,5 +1,5 @@
 #pragma once
-/// What an error of a basis' weights looks like, for designs that serve the eye: a norm for `expected_error`.
+/// A norm for `expected_error` that measures the visible effect of errors in a basis' weights, for perceptual designs.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -17,10 +17,10 @@ namespace gonio {
 
 namespace detail {
 
-/// d L* / d Y of a grey of luminance Y on a display, whose white is 1 and which shows nothing beyond it.
+/// Returns d L* / d Y of a grey of luminance Y on a display with white 1; 0 above white.
 [[nodiscard]] double lightness_slope(double luminance) noexcept;
 
-/// How the lightness of one point of a sphere changes with the weights, for each observation of a basis: m x k.
+/// Returns the derivative of one point's lightness by the weights, for each observation of a basis: m x k.
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXf lightness_jacobian(const pca<Metric>& basis, const render::sphere_operator& sphere,
                                                  Eigen::Index point) {
@@ -34,7 +34,7 @@ template <error_metric Metric>
   Eigen::MatrixXf components(basis.size(), entries);
   for (Eigen::Index e = 0; e < entries; ++e) components.col(e) = basis.components().row(cells[e]);
 
-  // What each observation reflects in each of the directions, and how that changes with its mapped value.
+  // Each observation's reflected light in each direction, and its derivative by the mapped value.
   constexpr double step = 0.05;
   Eigen::MatrixXf mapped = product(basis.coefficients(), components);
   Eigen::VectorXd luminances = Eigen::VectorXd::Zero(mapped.rows());
@@ -56,13 +56,13 @@ template <error_metric Metric>
 
 }  // namespace detail
 
-/// M, k x k, such that x'Mx is the mean square, over the points of a sphere and the observations that the basis was
-/// learned from, of the CIELAB lightness by which the sphere changes when an observation's weights change by a small x.
+/// Returns M, k x k. x'Mx is the mean squared change of a sphere's CIELAB lightness when an observation's weights
+/// change by a small x. The mean is over the points of the sphere and the observations that the basis was learned from.
 ///
-/// For `expected_error(basis, options, M)`: cells count as much as they contribute to what is seen, errors that cancel
-/// within a point's light cancel here, and what is beyond white does not count. Each colour channel is taken for a
-/// grey. 4 k m operations for each entry of the sphere, 2 k^2 m for each point; the same bytes for any number of
-/// threads. Throws gonio::error if the sphere is over other cells.
+/// For `expected_error(basis, options, M)`: cells count by their contribution to the visible image, errors that cancel
+/// within a point's light cancel here, and light above white is ignored. Each colour channel is treated as grey. 4 k m
+/// operations for each entry of the sphere, 2 k^2 m for each point. The bytes do not depend on the number of threads.
+/// Throws gonio::error if the sphere is over other cells.
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, const render::sphere_operator& sphere,
                                              thread_count threads = {}) {
@@ -86,8 +86,8 @@ template <error_metric Metric>
   return norm / (static_cast<double>(points) * static_cast<double>(basis.coefficients().rows()));
 }
 
-/// The same, the mean of two spheres: under two directional lights, and under the closed-form environment
-/// (render/lighting.hpp), at a resolution that takes seconds.
+/// Returns the mean of M for two spheres: under two directional lights, and under the closed-form environment
+/// (render/lighting.hpp). The resolution is chosen so that it takes seconds.
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, thread_count threads = {}) {
   constexpr int size = 20;

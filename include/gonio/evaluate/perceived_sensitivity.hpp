@@ -1,6 +1,6 @@
 #pragma once
-/// How a change of a material is seen, linearised at an estimate of it: CIELAB 1976 over the points of spheres. Unlike
-/// `perceived_norm`, which is a mean over the materials of a prior, it is that of one material.
+/// The visible effect of a change of a material, linearised at its estimate: CIELAB 1976 over the points of spheres. It
+/// is specific to one material; `perceived_norm` is a mean over the materials of a prior.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/sequential_design.hpp>
@@ -16,23 +16,23 @@
 
 namespace gonio {
 
-/// Two spheres over coarse cells, under the closed-form environment and under two lights (render/lighting.hpp), which
-/// count the same. A value type: 24 bytes for each point and cell.
+/// Two spheres over coarse cells, under the closed-form environment and under two lights (render/lighting.hpp), with
+/// equal weight. A value type: 24 bytes for each point and cell.
 class perceived_sensitivity {
  public:
-  /// Spheres of `size` x `size` points each.
+  /// Each sphere has `size` x `size` points.
   explicit perceived_sensitivity(valid_cells cells, int size = 14, thread_count threads = {});
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
 
-  /// By how much CIELAB colours change with the mapped values of each channel at the cells, given the estimate's
-  /// reflectance there, sr^-1, and its derivative by the mapped value: cells x 3 each. Weights sum to 1, so that
-  /// deviations are those of a mean Delta E. What is beyond white does not count. O(points x cells). Throws
-  /// gonio::error for sizes that do not match.
+  /// Returns the derivatives of CIELAB colours by the mapped values of each channel at the cells. Takes the estimate's
+  /// reflectance there in sr^-1 and its derivative by the mapped value: cells x 3 each. Weights sum to 1, so deviations
+  /// are those of a mean Delta E. Light above white is ignored. O(points x cells). Throws gonio::error for sizes that
+  /// do not match.
   [[nodiscard]] design::sensitivity operator()(const Eigen::MatrixXd& reflectance,
                                                const Eigen::MatrixXd& derivative) const;
 
-  /// The same at mapped values: cells x 3, at the cells' locations on a metric's.
+  /// Likewise, at mapped values: cells x 3, at the cells' locations on a metric's cells.
   template <error_metric Metric>
   [[nodiscard]] design::sensitivity at(const Metric& metric, std::span<const location> locations,
                                        const Eigen::MatrixXd& mapped) const {
@@ -48,12 +48,12 @@ class perceived_sensitivity {
     return (*this)(reflectance, derivative);
   }
 
-  /// Of the points; their sum is 1.
+  /// Returns the weights of the points; their sum is 1.
   [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return weights_; }
 
  private:
   valid_cells cells_;
-  std::array<Eigen::MatrixXd, 3> light_;  ///< of each channel: points x cells
+  std::array<Eigen::MatrixXd, 3> light_;  ///< per channel: points x cells
   Eigen::VectorXd weights_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Measurements simulated from a table, with the defects that real ones have. Noell et al. 2014, section 3.1
-/// (data ratio, outlier ratio), and relative noise as in Nielsen et al. 2015 (doi:10.1145/2816795.2818085).
+/// Simulates measurements from a table, with the defects of real ones. Noell et al. 2014, section 3.1 (data ratio,
+/// outlier ratio), and relative noise as in Nielsen et al. 2015 (doi:10.1145/2816795.2818085).
 
 #include <gonio/core/random.hpp>
 #include <gonio/table/brdf_table.hpp>
@@ -18,44 +18,44 @@
 
 namespace gonio {
 
-/// What goes wrong in a simulated measurement.
+/// The defects of a simulated measurement.
 struct measurement_defects {
-  /// Share of the samples whose value is replaced by that of a random other cell of the table.
+  /// Fraction of the samples whose value is replaced by that of a random cell of the table.
   double outlier_ratio = 0.0;
   /// Standard deviation of Gaussian noise relative to the value, independent in each channel.
   double noise = 0.0;
-  /// Values are means over its cones, of so many pairs of directions.
+  /// Values are means over its cones, each of `pairs_a_reading` pairs of directions.
   gonio::aperture aperture = {};
   static constexpr int pairs_a_reading = 512;
 };
 
-/// A direction above the horizon turned by an angle in radians towards a random side; kept above the horizon.
+/// Rotates a direction above the horizon by an angle in radians towards a random side. Keeps it above the horizon.
 template <class Generator>
 [[nodiscard]] direction misplaced(const direction& w, double angle, Generator& generator) {
   std::uniform_real_distribution<double> any_side(0.0, 2.0 * std::numbers::pi);
   return turned_above_horizon(w, angle, any_side(generator));
 }
 
-/// The table's values, interpolated, where light and viewer are each off their directions by an angle in radians, as
-/// samples of the directions that were meant.
+/// Returns samples whose light and viewer each miss their nominal direction by an angle in radians. The values are
+/// interpolated from the table at the actual directions; the samples have the nominal ones.
 [[nodiscard]] sample_set sample_table_misplaced(const brdf_table& table, std::span<const direction_pair> pairs,
                                                 double angle, std::uint64_t seed = 0);
 
-/// How many of `all` a share of them, between 0 and 1, is: at least one.
+/// Returns the number that is the fraction `share`, between 0 and 1, of `all`: at least one.
 [[nodiscard]] inline Eigen::Index share_of(Eigen::Index all, double share) noexcept {
   return std::max<Eigen::Index>(std::llround(share * static_cast<double>(all)), 1);
 }
 
-/// `count` different cells chosen at random, in increasing order. Throws gonio::error unless count is
-/// between 1 and the number of cells.
+/// Returns `count` distinct random cells, ascending. Throws gonio::error unless count is between 1 and the number of
+/// cells.
 [[nodiscard]] std::vector<Eigen::Index> random_cells(const valid_cells& cells, Eigen::Index count, std::uint64_t seed);
 
-/// The cells nearest to directions, the same cell twice if two directions share it. Throws gonio::error
-/// naming a direction that falls on no valid cell.
+/// Returns the cells nearest to directions; a cell occurs twice if two directions share it. Throws gonio::error that
+/// names a direction without a valid cell.
 [[nodiscard]] std::vector<Eigen::Index> cells_at(const valid_cells& cells, std::span<const half_difference> directions);
 
-/// Gives samples defects, which come from the seed alone: `any_value(generator)` is what an outlier's value becomes.
-/// Throws gonio::error for an outlier ratio outside [0, 1] or negative noise.
+/// Adds defects to samples, determined by the seed. `any_value(generator)` is the value of an outlier. Throws
+/// gonio::error for an outlier ratio outside [0, 1] or negative noise.
 template <class AnyValue>
 [[nodiscard]] sample_set corrupt(sample_set samples, const measurement_defects& defects, std::uint64_t seed,
                                  AnyValue&& any_value) {
@@ -64,7 +64,7 @@ template <class AnyValue>
   if (!(defects.noise >= 0.0 && std::isfinite(defects.noise)))
     refuse("the noise must be finite and not negative, not " + std::to_string(defects.noise));
 
-  // Replace exactly the asked share, so that a ratio means the same at 20 samples and at a million.
+  // Replace exactly the requested fraction, so that a ratio means the same for 20 samples and for a million.
   std::mt19937_64 generator(seed);
   std::vector<Eigen::Index> order(samples.size());
   std::iota(order.begin(), order.end(), Eigen::Index{0});
@@ -81,18 +81,17 @@ template <class AnyValue>
   return samples;
 }
 
-/// The table's values at cells, at the cells' own angles, with defects: an outlier has the value of a random cell.
-/// Throws as `corrupt` does.
+/// Returns the table's values at cells, at the cells' own angles, with defects. An outlier has the value of a random
+/// cell. Throws as `corrupt` does.
 [[nodiscard]] sample_set sample_table(const brdf_table& table, std::span<const Eigen::Index> cells,
                                       const measurement_defects& defects = {}, std::uint64_t seed = 0);
 
-/// Measurements parted in two.
+/// Measurements split in two.
 struct sample_split {
   sample_set some, others;
 };
 
-/// `count` of the samples, at random, and the others, both in their order. Throws gonio::error if there are not as
-/// many.
+/// Splits off `count` random samples; both parts keep their order. Throws gonio::error if there are fewer samples.
 [[nodiscard]] sample_split split_samples(const sample_set& samples, Eigen::Index count, std::uint64_t seed);
 
 }  // namespace gonio

@@ -1,5 +1,5 @@
 #pragma once
-/// The materials that published figures are means over. Whoever leaves them out of a prior, as the literature does, can
+/// The test materials over which published figures are averaged. Leave them out of a prior, as the literature does, to
 /// compare with these figures.
 
 #include <string>

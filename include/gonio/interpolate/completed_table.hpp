@@ -1,5 +1,5 @@
 #pragma once
-/// A BRDF whose every cell an estimator has filled: what estimators without a basis return.
+/// A BRDF with a value in every cell: the result of estimators without a basis.
 
 #include <gonio/estimate/estimator.hpp>
 
@@ -8,20 +8,20 @@
 
 namespace gonio {
 
-/// A table, at least zero, that is read by trilinear interpolation and resampled onto other grids.
+/// A table, at least zero, that is interpolated trilinearly and resampled onto other grids.
 class completed_table {
  public:
-  /// Negative values count as zero.
+  /// Takes a table. Replaces negative values by zero.
   explicit completed_table(brdf_table table) : table_(std::move(table)) {
     for (float& value : table_.values()) value = std::max(value, 0.0f);
   }
 
   [[nodiscard]] const brdf_table& table() const noexcept { return table_; }
 
-  /// Reflectance in sr^-1, at least zero; zero below the horizon.
+  /// Returns the reflectance in sr^-1, at least zero; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept { return table_(wi, wo); }
 
-  /// The table itself, or interpolated at the cells of another grid. Same bytes for any number of threads.
+  /// Returns the table itself, or interpolates it at the cells of another grid. Same bytes for any number of threads.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
     return resample(table_, cells, threads);
   }

@@ -1,7 +1,7 @@
 #pragma once
-/// Scattered-data interpolation over a pyramid of grids: Gortler, Grzeszczuk, Szeliski and Cohen, "The Lumigraph",
-/// SIGGRAPH 1996 (doi:10.1145/237170.237200), section 3.3 (splat, pull, push), which Noell, Koehler and Stricker 2014,
-/// section 3.1, compare their estimator with, over the table of a BRDF.
+/// Scattered-data interpolation over a pyramid of grids on the table of a BRDF: Gortler, Grzeszczuk, Szeliski and
+/// Cohen, "The Lumigraph", SIGGRAPH 1996 (doi:10.1145/237170.237200), section 3.3 (splat, pull, push). Noell, Koehler
+/// and Stricker 2014, section 3.1, compare their estimator with it.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/interpolate/completed_table.hpp>
@@ -16,7 +16,7 @@ namespace gonio {
 
 namespace detail {
 
-/// The cells of an axis of n, merged in runs of `stride` from the first on; the last run may be shorter.
+/// An axis of `cells` cells, merged into runs of `stride` from the first on. The last run may be shorter.
 struct merged_axis {
   int cells = 1;
   int stride = 1;
@@ -24,18 +24,18 @@ struct merged_axis {
 
   [[nodiscard]] int extent() const noexcept { return (cells + stride - 1) / stride; }
 
-  /// The middle of a run, counted in cells. Beyond the ends of an axis that wraps runs repeat.
+  /// Returns the centre of a run, in cells. Runs repeat outside of an axis that wraps.
   [[nodiscard]] double centre(int run) const noexcept;
 
-  /// Runs twice as long, unless one holds all cells already.
+  /// Returns the axis with runs twice as long, unless one run already has all cells.
   [[nodiscard]] merged_axis coarser() const noexcept { return {cells, extent() > 1 ? 2 * stride : stride, wraps}; }
 
-  /// The coarser runs around the centre of a run, with the weights of linear interpolation: 3/4 and 1/4, but for a
-  /// shorter run at the end.
+  /// Returns the coarser runs around the centre of a run, with the weights of linear interpolation: 3/4 and 1/4, except
+  /// for a shorter run at the end.
   [[nodiscard]] axis_interval parents(int run, const merged_axis& coarse) const noexcept;
 };
 
-/// A level of the pyramid: three channels of reflectance and the weight, at most 1, of what is known about it.
+/// A level of the pyramid: three channels of reflectance, and the weight of their information, at most 1.
 struct pyramid_level {
   merged_axis theta_h, theta_d, phi_d;
   Eigen::Array4Xf cells;
@@ -60,31 +60,31 @@ struct pyramid_level {
   }
 };
 
-/// Sums of weighted values and of weights as mean values and weights that saturate at 1.
+/// Converts sums of weighted values and of weights to mean values and weights that saturate at 1.
 [[nodiscard]] Eigen::Array4f mean_of(const Eigen::Array4d& sums) noexcept;
 
-/// Value times weight and weight, to be summed.
+/// Returns value times weight, and weight, for summation.
 [[nodiscard]] Eigen::Array4d weighted(const Eigen::Array4f& cell) noexcept;
 
-/// Pull: what the finer cells know together about each cell of twice their size.
+/// Pull: combines the finer cells into cells of twice their size.
 [[nodiscard]] pyramid_level pull(const pyramid_level& fine, thread_count threads);
 
-/// Push: as much of each finer cell as is not known comes from the coarser ones around it, which are complete.
+/// Push: completes each finer cell, as far as its weight is below 1, from the complete coarser cells around it.
 void push(const pyramid_level& coarse, pyramid_level& fine, thread_count threads);
 
 }  // namespace detail
 
-/// Completes a table from measurements, each of which counts for the cell nearest to it.
+/// Completes a table from measurements, each of which is assigned to the nearest cell.
 ///
-/// - Splat: a cell has the weighted mean of its measurements, and the sum of their weights, at most 1, as its own.
-/// - Pull: cells of twice the size along each axis have the weighted mean and, at most 1, the summed weight of their
-///   parts, up to a single cell.
+/// - Splat: a cell has the weighted mean of its measurements and the sum of their weights, at most 1.
+/// - Pull: cells of twice the size along each axis have the weighted mean of their parts and the sum of their weights,
+///   at most 1, up to a single cell.
 /// - Push: from the coarsest level down, a cell of weight w keeps w of its own value and takes 1 - w from the coarser
 ///   level, interpolated linearly between the centres of its cells.
 ///
 /// Extents need not be powers of two: phi_d wraps for any (reciprocity), theta_h and theta_d end. A cell measured with
-/// a weight of at least 1 keeps its mean exactly, unless that is negative: measurements are averaged as they are, so
-/// that noise cancels, and what is negative in the end becomes zero. Outliers are interpolated like anything else.
+/// a weight of at least 1 keeps its mean exactly, unless it is negative. Measurements are averaged unclamped, so that
+/// noise cancels; negative results become zero. Outliers are interpolated like any other value.
 ///
 /// ```cpp
 /// const auto paint = gonio::pull_push{gonio::valid_cells()}.fit(samples);
@@ -96,8 +96,8 @@ class pull_push {
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
 
-  /// O(samples + cells of the grid), 50 bytes for each of these. Throws gonio::error for unusable samples
-  /// (`require_usable`), or if all weights are zero.
+  /// Completes a table. O(samples + cells of the grid), 50 bytes for each cell. Throws gonio::error for unusable
+  /// samples (`require_usable`), or if all weights are zero.
   template <sample_range Samples>
   [[nodiscard]] completed_table fit(const Samples& samples) const {
     require_usable(samples);
@@ -106,11 +106,11 @@ class pull_push {
     return complete(sums);
   }
 
-  /// Each cell of a table is a sample of weight 1.
+  /// Completes a table, each of whose cells is a sample of weight 1.
   [[nodiscard]] completed_table fit(const brdf_table& table) const;
 
  private:
-  /// Sums of weighted values, and of weights, over the measurements nearest to each cell of a grid.
+  /// Sums of weighted values and of weights, over the measurements nearest to each cell of a grid.
   class splats {
    public:
     explicit splats(const grid& over) : over_(over), sums_(Eigen::Array4Xd::Zero(4, over.size())) {}

@@ -1,8 +1,8 @@
 #pragma once
-/// Scattered measurements as a BRDF, without a prior: the value of the nearest one, or a mean of the k nearest weighted
-/// by inverse distance. D. Shepard, "A two-dimensional interpolation function for irregularly-spaced data", ACM 1968
-/// (doi:10.1145/800186.810616), with weights that fade out at the next neighbour: R. Franke and G. Nielson, "Smooth
-/// interpolation of large sets of scattered data", 1980 (doi:10.1002/nme.1620151110). Needs gonio::scattered
+/// Scattered measurements as a BRDF, without a prior: the value of the nearest measurement, or a mean of the k nearest
+/// weighted by inverse distance. D. Shepard, "A two-dimensional interpolation function for irregularly-spaced data",
+/// ACM 1968 (doi:10.1145/800186.810616), with weights that vanish at the next neighbour: R. Franke and G. Nielson,
+/// "Smooth interpolation of large sets of scattered data", 1980 (doi:10.1002/nme.1620151110). Needs gonio::scattered
 /// (nanoflann).
 ///
 /// ```cpp
@@ -21,16 +21,16 @@
 
 namespace gonio {
 
-/// What `scattered_interpolation` fits. Copies share the samples.
+/// The fit of `scattered_interpolation`. Copies share the samples.
 class scattered_brdf {
  public:
-  /// Reflectance in sr^-1, at least zero; zero below the horizon. With the distances d_i of the k nearest samples, R of
-  /// the next one and the weights w_i that they were given, each counts by w_i ((R - d_i) / (R d_i))^p, so that the
-  /// result is continuous, and a sample's own value in its own direction. Exactly reciprocal; isotropic up to rounding,
-  /// which decides where more than k samples are equally near. O(k log n).
+  /// Returns the reflectance in sr^-1, at least zero; zero below the horizon. Let d_i be the distances of the k nearest
+  /// samples, R that of the next one, and w_i the samples' weights. Then each sample has the weight w_i ((R - d_i) / (R
+  /// d_i))^p. The result is continuous, and equals a sample's value in its own direction. Exactly reciprocal; isotropic
+  /// up to rounding, which decides if more than k samples are equally near. O(k log n).
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept;
 
-  /// The same at the cells of a grid. Same bytes for any number of threads.
+  /// Tabulates the fit at the cells of a grid. Same bytes for any number of threads.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
     return gonio::tabulate(*this, cells, threads);
   }
@@ -44,14 +44,14 @@ class scattered_brdf {
   [[nodiscard]] rgb mean_of_neighbours(const embedded_samples& of, const std::array<double, 4>& place) const noexcept;
 
   scattered_options options_;
-  /// One for all channels, or one for each where samples count more in one channel than in another.
+  /// One for all channels, or one for each channel if weights differ between channels.
   std::vector<std::shared_ptr<const embedded_samples>> channels_;
 };
 
 static_assert(tabulated_brdf<scattered_brdf>);
 
-/// Interpolates measurements, and adds nothing to them. It resolves what they resolve: a highlight that was not
-/// measured is not there.
+/// Interpolates measurements and nothing else. Its resolution is that of the measurements: it has no highlight that was
+/// not measured.
 class scattered_interpolation {
  public:
   /// Throws gonio::error for options out of their range.
@@ -61,8 +61,8 @@ class scattered_interpolation {
 
   [[nodiscard]] const scattered_options& options() const noexcept { return options_; }
 
-  /// O(n log n). Measurements of the same angles are one, with their weighted mean. Throws gonio::error for unusable
-  /// samples (`require_usable`), and if none has a weight, in one of the channels.
+  /// Fits samples. O(n log n). Measurements of the same angles are merged into their weighted mean. Throws gonio::error
+  /// for unusable samples (`require_usable`), and if all weights are zero in one of the channels.
   [[nodiscard]] scattered_brdf fit(const sample_set& samples) const;
 
   template <sample_range Samples>

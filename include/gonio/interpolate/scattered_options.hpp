@@ -1,6 +1,6 @@
 #pragma once
-/// How scattered measurements are interpolated: what is near to what, how many neighbours count and how much.
-/// interpolate/scattered_brdf.hpp does it.
+/// Options for the interpolation of scattered measurements: the distance, the number of neighbours and their weights.
+/// Used by interpolate/scattered_brdf.hpp.
 
 #include <gonio/core/direction.hpp>
 
@@ -10,16 +10,16 @@
 
 namespace gonio {
 
-/// Where a pair of directions lies in a space in which the distance says how different pairs are.
+/// Embeds pairs of directions in a space whose distance measures how different pairs are.
 ///
 /// With s = sqrt(theta_h / (pi / 2)) and t = theta_d / (pi / 2) the coordinates are
 /// (s, a t, b r cos 2 phi_d, b r sin 2 phi_d), where r = sin theta_h sin theta_d:
 /// - the root resolves highlights, as MERL's grid does;
-/// - 2 phi_d: by reciprocity phi_d and phi_d + pi are one pair;
-/// - r: at theta_d = 0 there is no phi_d, and at theta_h = 0 an isotropic material does not see it, since it turns both
-///   directions about the normal. r cos phi_d is half the difference of the cosines of light and viewer.
-/// Pairs that differ for a reciprocal isotropic material have a distance, all others have none: what a BRDF must keep
-/// is kept. A mirrored material (phi_d and -phi_d alike) is not assumed.
+/// - 2 phi_d: by reciprocity phi_d and phi_d + pi are the same pair;
+/// - r: at theta_d = 0 there is no phi_d, and at theta_h = 0 an isotropic material does not depend on it, because it
+///   rotates both directions about the normal. r cos phi_d is half the difference of the cosines of light and viewer.
+/// Pairs have distance zero exactly if they are the same for a reciprocal isotropic material, so that these symmetries
+/// are preserved. Mirror symmetry (phi_d equivalent to -phi_d) is not assumed.
 struct pair_embedding {
   double theta_d_scale = 1.0;  ///< a
   double phi_d_scale = 0.25;   ///< b
@@ -27,13 +27,13 @@ struct pair_embedding {
   [[nodiscard]] std::array<double, 4> operator()(const half_difference& angles) const noexcept;
 };
 
-/// What a mean of neighbours is taken of.
+/// The quantity that is averaged over neighbours.
 enum class interpolation_domain {
   reflectance,
-  logarithm,  ///< ln(rho + 0.001 sr^-1), with negative values as zero: `log_relative` of a black reference
+  logarithm,  ///< ln(rho + 0.001 sr^-1), with negative values as zero: `log_relative` with a black reference
 };
 
-/// The defaults are the best on measured materials, each judged by the choice of the others: docs/results/scattered.md.
+/// The defaults are the best on measured materials, cross-validated between materials: docs/results/scattered.md.
 struct scattered_options {
   static constexpr Eigen::Index most_neighbours = 64;
 
@@ -43,7 +43,7 @@ struct scattered_options {
   interpolation_domain domain = interpolation_domain::logarithm;
 };
 
-/// Throws gonio::error that names the first option out of its range.
+/// Throws gonio::error naming the first option outside of its range.
 void require_usable(const scattered_options& options);
 
 }  // namespace gonio

@@ -1,5 +1,5 @@
 #pragma once
-/// An error metric chosen at run time, for command lines. Programs that know theirs name it instead.
+/// An error metric chosen at run time, for command lines. If the metric is known, use its type instead.
 
 #include <gonio/core/vector_kernels.hpp>
 #include <gonio/metric/lin.hpp>
@@ -18,8 +18,8 @@
 
 namespace gonio {
 
-/// Holds one of this folder's metrics, and gives what that one gives. What a basis makes of materials is then one type,
-/// whatever the user says.
+/// Holds one of this folder's metrics and behaves like it. A basis of materials then has one type for any choice of the
+/// user.
 ///
 /// ```cpp
 /// const gonio::any_metric chosen = highlights ? gonio::any_metric(gonio::lin()) : gonio::any_metric(gonio::log());
@@ -40,17 +40,17 @@ class any_metric {
     return std::visit([&](const auto& metric) -> double { return metric.inverse(y, at); }, held_);
   }
 
-  /// For what is done to many values at once.
+  /// Returns the held metric, for operations on many values at once.
   [[nodiscard]] const choice& held() const noexcept { return held_; }
 
-  /// The same metric over other cells.
+  /// Returns the same metric over other cells.
   [[nodiscard]] any_metric on(const valid_cells& cells) const {
     return std::visit([&](const auto& metric) { return any_metric(metric.on(cells)); }, held_);
   }
 
-  /// As many as the metric with the most has; of the others it is zero. See `row_metric`.
+  /// The largest number of any metric; zero for the others. See `row_metric`.
   static constexpr int companions = log_relative::companions;
-  /// What is held is not known when the fields are interpolated.
+  /// The held metric is unknown when the fields are interpolated.
   static constexpr weighted_mean mean = weighted_mean::arithmetic;
   [[nodiscard]] std::array<float, companions> companion(Eigen::Index cell) const noexcept {
     const auto* relative = std::get_if<log_relative>(&held_);

@@ -1,5 +1,5 @@
 #pragma once
-/// The concept of an error metric: a map of reflectance under which differences are worth squaring.
+/// The concept of an error metric: a map of reflectance such that squared differences are a meaningful error.
 
 #include <gonio/table/location.hpp>
 #include <gonio/table/upsample.hpp>
@@ -15,9 +15,9 @@ namespace gonio {
 
 /// A strictly increasing map of a reflectance at a cell, or at a location between cells.
 ///
-/// What the compiler cannot check, and a model must keep:
+/// Requirements that the compiler cannot check:
 /// - `inverse(forward(rho, where), where) == rho` up to rounding for every finite rho >= 0;
-/// - `forward` is defined and finite for negative rho too, and says in its documentation how;
+/// - `forward` is also defined and finite for negative rho, and its documentation states how;
 /// - a cell number and the location of that cell give the same result;
 /// - all members are const, thread safe and do not allocate.
 ///
@@ -59,26 +59,26 @@ concept error_metric = requires(const Metric& metric, double value, Eigen::Index
   { metric.inverse(value, at) } -> std::convertible_to<double>;
 };
 
-/// The reflectance of a mapped value: `inverse`, but never negative, as no reflectance is.
+/// Returns the reflectance of a mapped value: `inverse`, clamped at zero.
 template <error_metric Metric, class Where>
 [[nodiscard]] double reflectance_of(const Metric& metric, double mapped, const Where& where) noexcept {
   return std::max(double{metric.inverse(mapped, where)}, 0.0);
 }
 
-/// A metric that also knows the derivative of `forward` by the reflectance, `slope(rho)`, wherever that is: finite and
-/// positive for every finite rho. Fits that are not linear need it.
+/// A metric that also has the derivative of `forward` by the reflectance, `slope(rho)`, which is the same at all
+/// locations, and finite and positive for every finite rho. Non-linear fits need it.
 template <class Metric>
 concept smooth_metric = error_metric<Metric> && requires(const Metric& metric, double value) {
   { metric.slope(value) } -> std::convertible_to<double>;
 };
 
-/// A metric that maps a whole row of cells back at once, which is how tables are expanded fast.
+/// A metric that maps a whole row of cells back at once, for fast expansion of tables.
 ///
-/// `companions` fields of its own are interpolated beside the three channels, given cell by cell by
-/// `companion(cell)` (an array of that many floats; not needed if there are none). `mean` says whether the row is what
-/// is interpolated or, at the cost of a multiplication, its exponential. `inverse_row(row, values, out)` takes an array
-/// of 3 + companions rows and a column for each cell of `row`, and writes `inverse` of the three channels, clamped at
-/// zero, to `out`, cell by cell.
+/// The metric adds `companions` fields of its own, which are interpolated with the three channels. `companion(cell)`
+/// returns them as an array of floats; it is not needed if there are none. `mean` states whether the interpolated row
+/// or, at the cost of a multiplication, its exponential is passed. `inverse_row(row, values, out)` takes an array of 3
+/// + companions rows and a column for each cell of `row`. It writes `inverse` of the three channels, clamped at zero,
+/// to `out`, cell by cell.
 template <class Metric>
 concept row_metric = error_metric<Metric> &&
     requires(const Metric& metric, const cell_row& row, const cell_fields<3 + Metric::companions>& values,

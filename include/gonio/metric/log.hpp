@@ -10,19 +10,19 @@
 
 namespace gonio {
 
-/// forward(rho) = ln(1 + rho), continued to negative reflectance as an odd function, -ln(1 - rho): smooth at zero,
-/// where it is linear, and finite for every measurement.
+/// forward(rho) = ln(1 + rho), continued to negative reflectance as an odd function, -ln(1 - rho). It is smooth and
+/// linear at zero, and finite for every measurement.
 struct log : place_free_metric<log> {
   [[nodiscard]] static double map(double rho) noexcept { return std::copysign(std::log1p(std::abs(rho)), rho); }
   [[nodiscard]] static double unmap(double y) noexcept { return std::copysign(std::expm1(std::abs(y)), y); }
-  /// The derivative of `map`.
+  /// Returns the derivative of `map`.
   [[nodiscard]] static double slope(double rho) noexcept { return 1.0 / (1.0 + std::abs(rho)); }
-  /// Up to 1/2 by the series of exp(y) - 1, beyond by exp, each held where it leaves its range: within 5e-7 of the
-  /// value, and three times as fast as Eigen's expm1, which takes a logarithm, too.
+  /// Inverts all values: up to 1/2 by the series of exp(y) - 1, above by exp, each with its argument clamped to its
+  /// range. Accurate to 5e-7 of the value, and three times as fast as Eigen's expm1, which also computes a logarithm.
   static void unmap_all(std::span<float> values) {
     constexpr float border = 0.5f;
     float exp_at_border = border;
-    exponentiate(&exp_at_border, 1);  // rounded as all others
+    exponentiate(&exp_at_border, 1);  // rounded like all others
     map_by_sixteens(values.data(), std::ssize(values), [&](auto& these) {
       auto series = these;
       for (int i = 0; i < these.size(); ++i) {

@@ -1,7 +1,7 @@
 #pragma once
-/// The log-relative metric: the logarithm of a cosine-weighted reflectance relative to that of a reference.
-/// Nielsen, Jensen and Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition",
-/// SIGGRAPH Asia 2015 (doi:10.1145/2816795.2818085), Eq. 1-4; weighed by the larger cosine: Xu et al. 2016
+/// The log-relative metric: the logarithm of a cosine-weighted reflectance relative to that of a reference. Nielsen,
+/// Jensen and Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition", SIGGRAPH Asia 2015
+/// (doi:10.1145/2816795.2818085), Eq. 1-4. Weighting by the larger cosine: Xu et al. 2016
 /// (doi:10.1145/2980179.2982396), section 3.
 
 #include <gonio/core/vector_kernels.hpp>
@@ -19,7 +19,7 @@
 
 namespace gonio {
 
-/// Which cosines weight a reflectance in `log_relative`. Two papers differ: docs/reference/estimators.md.
+/// The cosines that weight a reflectance in `log_relative`. Two papers differ: docs/reference/estimators.md.
 enum class cosine_weighting {
   product,  ///< cos theta_i cos theta_o: Nielsen et al. 2015, Eq. 2
   larger,   ///< the larger of the two: Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, section 3
@@ -28,9 +28,9 @@ enum class cosine_weighting {
 /// forward(rho) = ln((rho c + epsilon) / (rho_ref c + epsilon)) with the cosine weight
 /// c = max(cos theta_i cos theta_o, epsilon) of the location (Eq. 1-2), or max(cos theta_i, cos theta_o, epsilon).
 ///
-/// Negative reflectance counts as zero in `forward`, whose smallest value is ln(epsilon / (rho_ref c +
-/// epsilon)); `inverse` of anything smaller is negative, down to -epsilon / c. Whoever needs a BRDF clamps
-/// it at zero. Between cells the reference is interpolated in its logarithm, and c is exact.
+/// Negative reflectance counts as zero in `forward`, whose smallest value is ln(epsilon / (rho_ref c + epsilon)).
+/// `inverse` of a smaller value is negative, down to -epsilon / c: clamp it at zero for a BRDF. Between cells the
+/// logarithm of the reference is interpolated, and c is exact.
 class log_relative {
  public:
   /// Avoids division by zero and bounds the influence of camera noise; the paper's value.
@@ -40,18 +40,18 @@ class log_relative {
   /// value is negative or not finite.
   log_relative(valid_cells cells, std::vector<float> reference, cosine_weighting weighting = cosine_weighting::product);
 
-  /// The metric relative to the median of all columns at each cell (Eq. 3), of a material_set or of any other set of
-  /// observations with `cells` and `values`. O(cells x columns).
+  /// Returns the metric relative to the median of all columns at each cell (Eq. 3). Takes a material_set or any other
+  /// set of observations with `cells` and `values`. O(cells x columns).
   template <class Materials>
   [[nodiscard]] static log_relative to_median_of(const Materials& materials, thread_count threads = {}) {
     return to_median_of(materials.cells, materials.values, threads);
   }
 
-  /// The same of a row of values for each cell.
+  /// Returns the same for a matrix with a row of values for each cell.
   [[nodiscard]] static log_relative to_median_of(const valid_cells& cells, const cell_matrix& values,
                                                  thread_count threads = {});
 
-  /// The same relative to the same reference, which does not depend on the weight, with the other weight.
+  /// Returns the metric with another cosine weight. The reference stays, because it does not depend on the weight.
   [[nodiscard]] log_relative weighted_by(cosine_weighting weighting) const {
     log_relative other = *this;
     other.weighting_ = weighting;
@@ -59,7 +59,7 @@ class log_relative {
   }
   [[nodiscard]] cosine_weighting weighting() const noexcept { return weighting_; }
 
-  /// c.
+  /// Returns the cosine weight c.
   [[nodiscard]] double cosine_weight(const cosine_pair& cosine) const noexcept {
     return std::max(weighting_ == cosine_weighting::product ? product_of(cosine) : larger_of(cosine), epsilon);
   }
@@ -84,10 +84,10 @@ class log_relative {
     return inverse(y, reference(at), cosine_weight(at.cosine));
   }
 
-  /// The same metric over other cells, its reference interpolated.
+  /// Returns the same metric over other cells. Interpolates its reference.
   [[nodiscard]] log_relative on(const valid_cells& cells) const;
 
-  /// The logarithm of the reference is interpolated beside the channels. See `row_metric`.
+  /// The logarithm of the reference is interpolated with the channels. See `row_metric`.
   static constexpr int companions = 1;
   static constexpr weighted_mean mean = weighted_mean::geometric;
   [[nodiscard]] std::array<float, 1> companion(Eigen::Index cell) const noexcept { return {(*log_reference_)[cell]}; }
@@ -104,7 +104,7 @@ class log_relative {
         const Eigen::Array4f these = Eigen::Map<const Eigen::Array4f>(relative + 4 * i);
         return (these * (these[3] + shift[i]) - shift[i]).max(0.0f);
       };
-      // A vector of four, of which the next cell overwrites the last number.
+      // Write vectors of four, whose last number the next cell overwrites.
       for (Eigen::Index i = 0; i + 1 < count; ++i) Eigen::Map<Eigen::Array4f>{cell + 3 * i} = value_at(i);
       const Eigen::Array4f last = value_at(count - 1);
       std::copy_n(last.data(), 3, cell + 3 * (count - 1));
@@ -114,19 +114,19 @@ class log_relative {
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] std::span<const float> reference() const noexcept { return *reference_; }
 
-  /// The reference BRDF at a location, in sr^-1.
+  /// Returns the reference BRDF at a location, in sr^-1.
   [[nodiscard]] double reference(const location& at) const noexcept {
     if (at.count == 1) return (*reference_)[at.cell[0]];
     const auto value = [&](Eigen::Index cell) { return log_reference((*reference_)[cell]); };
     return std::exp(interpolate(at, value, 0.0));
   }
 
-  /// The logarithm in which the reference is interpolated; zeros are far below epsilon and are floored.
+  /// Returns the logarithm in which the reference is interpolated. Zeros are replaced by a value far below epsilon.
   [[nodiscard]] static double log_reference(double reference) noexcept { return std::log(std::max(reference, 1e-8)); }
 
  private:
   static constexpr Eigen::Index shifts_at_once = 64;
-  /// epsilon over the cosine weight, of at most so many cells of a row from the cell `begin` on.
+  /// Computes epsilon over the cosine weight, for cells of a row from `begin` on, at most `shifts_at_once`.
   void compute_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const;
 
   [[nodiscard]] static double product_of(const cosine_pair& cosine) noexcept { return cosine.i * cosine.o; }

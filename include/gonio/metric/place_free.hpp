@@ -1,5 +1,5 @@
 #pragma once
-/// What error metrics that are the same at every location have in common.
+/// Common base of error metrics that are the same at every location.
 
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/table/upsample.hpp>
@@ -8,18 +8,18 @@
 
 namespace gonio {
 
-/// Base of a metric given by `static double map(double rho)`, `static double unmap(double y)` or members of that name,
-/// and `unmap_all(values)` on a span of floats: turns them into an `error_metric` that also maps whole rows back.
+/// Base of a metric with `static double map(double rho)`, `static double unmap(double y)` (or non-static members), and
+/// `unmap_all(values)` on a span of floats. Makes it an `error_metric` that also maps whole rows back.
 template <class Metric>
 class place_free_metric {
  public:
   [[nodiscard]] double forward(double rho, const auto& /*at*/) const noexcept { return metric().map(rho); }
   [[nodiscard]] double inverse(double y, const auto& /*at*/) const noexcept { return metric().unmap(y); }
 
-  /// The same metric over other cells.
+  /// Returns the same metric over other cells.
   [[nodiscard]] const Metric& on(const valid_cells& /*cells*/) const noexcept { return metric(); }
 
-  /// Nothing needs interpolating beside the three channels.
+  /// No fields are interpolated with the three channels.
   static constexpr int companions = 0;
   static constexpr weighted_mean mean = weighted_mean::arithmetic;
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The p-th root of reflectance. The square root, which it is unless told otherwise, is epsilon_root(x) = sqrt(x) of
-/// Noell, Koehler and Stricker 2014, section 3.1 (in the text on Table 2).
+/// The p-th root of reflectance. The default square root is epsilon_root(x) = sqrt(x) of Noell, Koehler and Stricker
+/// 2014, section 3.1 (in the text on Table 2).
 
 #include <gonio/core/error.hpp>
 #include <gonio/core/vector_kernels.hpp>
@@ -13,8 +13,8 @@
 
 namespace gonio {
 
-/// forward(rho) = rho^(1/p), continued to negative reflectance as an odd function, -(-rho)^(1/p): a negative
-/// measurement stays one. The slope at zero is infinite (p > 1), so that noise around zero counts for much.
+/// forward(rho) = rho^(1/p), continued to negative reflectance as an odd function, -(-rho)^(1/p), so that negative
+/// measurements stay negative. The slope at zero is infinite (p > 1), so that noise around zero has a large effect.
 class root : public place_free_metric<root> {
  public:
   /// Throws gonio::error unless p is finite and at least 1.
@@ -30,7 +30,7 @@ class root : public place_free_metric<root> {
     const double size = std::abs(y);
     return std::copysign(p_ == 2.0 ? size * size : std::pow(size, p_), y);
   }
-  /// The derivative of `map`, which is infinite at zero for p > 1: below 1e-12 that at 1e-12.
+  /// Returns the derivative of `map`. It is infinite at zero for p > 1: below 1e-12, returns the derivative at 1e-12.
   [[nodiscard]] double slope(double rho) const noexcept {
     const double size = std::max(std::abs(rho), 1e-12);
     return std::pow(size, 1.0 / p_ - 1.0) / p_;

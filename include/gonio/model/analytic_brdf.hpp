@@ -1,5 +1,5 @@
 #pragma once
-/// Analytic BRDFs whose lobes are chosen at run time: what a fit returns, and a file or a command line names.
+/// Analytic BRDFs whose lobes are chosen at run time, by a fit, a file or a command line.
 
 #include <gonio/model/fresnel_lobe.hpp>
 #include <gonio/model/ggx.hpp>
@@ -19,13 +19,13 @@
 
 namespace gonio::model {
 
-/// The shape of a lobe behind function pointers. There is one object of each kind, in static storage.
+/// The shape of a lobe behind function pointers. Each kind has one object in static storage.
 class lobe_kind {
  public:
   static constexpr Eigen::Index most_parameters = 4;
-  using values = std::array<double, most_parameters>;  ///< those that a kind does not have are zero
+  using values = std::array<double, most_parameters>;  ///< unused entries are zero
 
-  /// The kind of a shape that is known at compile time.
+  /// Returns the kind of a shape that is known at compile time.
   template <template <class> class Shape>
   requires lobe_shape<Shape>
   [[nodiscard]] static const lobe_kind& of() {
@@ -37,17 +37,17 @@ class lobe_kind {
   [[nodiscard]] std::string_view name() const noexcept { return name_; }
   [[nodiscard]] std::span<const shape_parameter> parameters() const noexcept { return parameters_; }
 
-  /// Where a fit may start.
+  /// Returns parameters from which a fit may start.
   [[nodiscard]] values typical() const noexcept {
     values start{};
     for (Eigen::Index i = 0; i < std::ssize(parameters_); ++i) start[i] = parameters_[i].typical;
     return start;
   }
 
-  /// The shape, in sr^-1.
+  /// Returns the shape's value in sr^-1.
   [[nodiscard]] double value(const lobe_geometry& at, const values& p) const noexcept { return value_(at, p); }
 
-  /// The shape, and its derivatives by each parameter, exact (automatic differentiation).
+  /// Returns the shape's value and writes its exact derivative by each parameter (automatic differentiation).
   double value_and_slopes(const lobe_geometry& at, const values& p, values& slopes) const noexcept {
     return slopes_(at, p, slopes);
   }
@@ -94,21 +94,21 @@ class lobe_kind {
 /// All isotropic kinds.
 [[nodiscard]] std::span<const lobe_kind* const> lobe_kinds();
 
-/// The kind of that name. Throws gonio::error listing the names if there is none.
+/// Returns the kind with this name. Throws gonio::error that lists the names if there is none.
 [[nodiscard]] const lobe_kind& lobe_kind_named(std::string_view name);
 
 /// One lobe of a BRDF: a kind, a colour and the parameters of the kind.
 class analytic_lobe {
  public:
-  /// Throws gonio::error naming the parameter and its bound if one is out of bounds; a colour must be finite and not
-  /// negative.
+  /// Throws gonio::error that names the parameter and its bounds if one is out of bounds, and if the colour is negative
+  /// or not finite.
   analytic_lobe(const lobe_kind& kind, const rgb& colour, const lobe_kind::values& parameters);
 
   [[nodiscard]] const lobe_kind& kind() const noexcept { return *kind_; }
   [[nodiscard]] const rgb& colour() const noexcept { return colour_; }
   [[nodiscard]] const lobe_kind::values& parameters() const noexcept { return parameters_; }
 
-  /// In the terms of a model, such as `ward`. Throws gonio::error if it is of another kind.
+  /// Converts to a lobe of a known shape, such as `ward`. Throws gonio::error if the lobe is of another kind.
   template <template <class> class Shape>
   [[nodiscard]] lobe<Shape> as() const {
     if (!(*kind_ == lobe_kind::of<Shape>()))

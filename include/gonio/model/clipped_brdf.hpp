@@ -1,6 +1,6 @@
 #pragma once
-/// BRDFs without negative values, as renderers need them: colours outside the gamut, noise and a dark signal that was
-/// subtracted make measured values negative, and a renderer would subtract them from other light.
+/// BRDFs without negative values, as renderers need them. Colours outside the gamut, noise and a subtracted dark signal
+/// make measured values negative. A renderer would subtract these values from other light.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
@@ -17,7 +17,7 @@
 
 namespace gonio::model {
 
-/// A BRDF whose negative values are zero.
+/// A BRDF with negative values set to zero.
 template <brdf Brdf>
 class clipped_brdf {
  public:
@@ -31,15 +31,16 @@ class clipped_brdf {
   Brdf f_;
 };
 
-/// What `clipped_brdf` changes.
+/// The changes that `clipped_brdf` makes.
 struct clipped_values {
-  Eigen::Index cells = 0;  ///< with a negative value in any channel
-  /// What each channel reflects more of light from all sides, relative to what the channels reflect on average.
+  Eigen::Index cells = 0;  ///< number of cells with a negative value in any channel
+  /// Increase of each channel's reflected light under uniform illumination, relative to the mean reflected light of the
+  /// channels.
   rgb added{rgb::Zero()};
 };
 
-/// Counts the negative values of a BRDF at cells and integrates them. O(cells), and 129,600 evaluations of f if there
-/// is one.
+/// Counts the cells at which a BRDF has negative values, and integrates these. O(cells), plus 129,600 evaluations of f
+/// if there are any.
 template <brdf Brdf>
 [[nodiscard]] clipped_values count_negative_values(const Brdf& f, const valid_cells& cells) {
   clipped_values found;
@@ -61,9 +62,8 @@ template <brdf Brdf>
   return found;
 }
 
-/// The same of a material of the RGL database, as measured in either order of the directions. Values whose light or
-/// viewer is within 6 degrees of the horizon do not count: they are interpolated with those below it, which are
-/// negative.
+/// Counts them for a material of the RGL database, as measured, in both orders of the directions. Ignores values with
+/// light or viewer within 6 degrees of the horizon: they are interpolated with values below it, which are negative.
 [[nodiscard]] inline clipped_values count_negative_values(const adaptive_brdf& material, const valid_cells& cells) {
   constexpr double lowest_cosine = 0.1;
   const auto measured = [&](const direction& wi, const direction& wo) noexcept -> rgb {
@@ -73,7 +73,7 @@ template <brdf Brdf>
   return count_negative_values<decltype(measured)>(measured, cells);
 }
 
-/// Such a material whose negative values above the horizon are zero. Its normals do not change.
+/// Returns a copy of the material with negative values above the horizon set to zero. Its normals do not change.
 [[nodiscard]] inline adaptive_brdf clipped(const adaptive_brdf& material, thread_count threads = {}) {
   const auto measured = [&](const direction& wi, const direction& wo) noexcept -> rgb {
     return material.as_measured(wi, wo).max(0.0);

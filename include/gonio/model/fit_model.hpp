@@ -15,10 +15,10 @@
 
 namespace gonio::model {
 
-/// A fitted model and what is known of its minimum.
+/// A fitted model and data about its minimum.
 struct model_fit {
   analytic_brdf model;
-  double loss = 0.0;  ///< the weighted mean over measurements and channels of the norm of the residual
+  double loss = 0.0;  ///< the weighted mean of the norm of the residual over measurements and channels
   Eigen::Index evaluations = 0;
   bool converged = false;
   double promised_gain = 0.0;  ///< see `local_minimum`
@@ -26,8 +26,8 @@ struct model_fit {
 
 namespace detail {
 
-/// Where the fit of some lobes starts. Lobes of the same kind must not start alike, or they stay alike: the second is
-/// four times as rough or sharp as the first, the third a fourth, and so on in turns.
+/// Returns the shapes from which a fit starts. Lobes of the same kind need different starts, or they stay equal. The
+/// second is four times as rough or sharp as the first, the third a quarter, and so on alternately.
 [[nodiscard]] std::vector<lobe_kind::values> typical_shapes(const std::vector<const lobe_kind*>& kinds);
 
 [[nodiscard]] model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
@@ -36,13 +36,14 @@ namespace detail {
 
 }  // namespace detail
 
-/// Fits a sum of lobes. Shapes are shared by the channels, colours are not, and none is negative; bounds are respected.
+/// Fits a sum of lobes. The channels share the shapes, and each has its own colours. No colour is negative, and all
+/// parameters stay within their bounds.
 ///
-/// Without an initial guess: the consecutive optimisation of Nielsen et al. 2014 from typical shapes (colours; shapes;
-/// all), which for squares of linear residuals becomes variable projection: the shapes alone, with the colours that are
-/// best for them. `metric` maps reflectance before it is compared: lin, log or root. Throws
-/// gonio::error for fewer measurements than parameters, or if all are zero. O(N (L + P)^2) an iteration for N
-/// observations, L lobes and P parameters.
+/// Needs no initial guess. It follows the consecutive optimisation of Nielsen et al. 2014 from typical shapes: first
+/// colours, then shapes, then all. For squares of linear residuals it uses variable projection instead: it varies only
+/// the shapes and solves for their best colours. `metric` maps reflectance before the comparison: lin, log or root.
+/// Throws gonio::error if there are fewer measurements than parameters, or if all are zero. O(N (L + P)^2) per
+/// iteration for N observations, L lobes and P parameters.
 ///
 /// ```cpp
 /// const std::vector kinds{&gonio::model::lobe_kind::of<gonio::model::lambert_shape>(),

@@ -1,5 +1,5 @@
 #pragma once
-/// Measurements as the fit of an analytic model reads them.
+/// Measurements as input of the fit of an analytic model.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/model/lobe.hpp>
@@ -19,7 +19,7 @@ struct fit_observation {
   channel_weights weight;
 };
 
-/// Samples. Throws gonio::error for those that cannot be used (`require_usable`).
+/// Converts samples. Throws gonio::error for unusable samples (`require_usable`).
 template <sample_range Samples>
 [[nodiscard]] std::vector<fit_observation> fit_observations(const Samples& samples) {
   require_usable(samples);
@@ -31,22 +31,23 @@ template <sample_range Samples>
   return all;
 }
 
-/// What each cell of a table counts in a fit. The cells of MERL's grid are narrow at the highlight: half of them have a
-/// theta_h below 22.5 degrees (63 % of the valid ones), where a seventh of all pairs of directions is.
+/// The weight of each cell of a table in a fit. The cells of MERL's grid are narrow at the highlight: half of the cells
+/// have a theta_h below 22.5 degrees (63 % of the valid ones), but only a seventh of all pairs of directions is there.
 enum class cell_weighting {
   equal,        ///< 1
-  solid_angle,  ///< the pairs of directions in it: dwi dwo = 4 cos(theta_d) dwh dwd
-  cosine        ///< these times cos(theta_i) cos(theta_o): the light that it reflects from everywhere to everywhere
+  solid_angle,  ///< the pairs of directions in the cell: dwi dwo = 4 cos(theta_d) dwh dwd
+  cosine        ///< the solid angle times cos(theta_i) cos(theta_o): the light that the cell transfers under uniform
+                ///< illumination
 };
 
-/// All cells of a table, with weights whose mean is 1. 104 bytes a cell.
+/// Returns all cells of a table, with weights whose mean is 1. 104 bytes per cell.
 [[nodiscard]] std::vector<fit_observation> fit_observations(const brdf_table& table, thread_count threads = {},
                                                             cell_weighting weighting = cell_weighting::equal);
 
 namespace detail {
 
-/// The solid angle in sr^2 of the pairs of directions nearest to the node of a cell, for one azimuth of the half vector
-/// in radians: the integral of 4 cos(theta_d) sin(theta_h) sin(theta_d) over the three angles.
+/// Returns the solid angle in sr^2 of the pairs of directions nearest to the node of a cell, per radian of the half
+/// vector's azimuth: the integral of 4 cos(theta_d) sin(theta_h) sin(theta_d) over the three angles.
 [[nodiscard]] double solid_angle_of_pairs(const grid& of, const cell_index& cell);
 
 }  // namespace detail

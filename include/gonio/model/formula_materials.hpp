@@ -1,6 +1,6 @@
 #pragma once
-/// Named materials that are formulas, for demonstrations and tests: their truth is known everywhere, and
-/// none of them is in a database from which a prior was learned.
+/// Named materials given by formulas, for demonstrations and tests. Their true values are known everywhere, and none is
+/// in a database from which a prior was learned.
 
 #include <gonio/core/error.hpp>
 #include <gonio/model/ggx.hpp>
@@ -16,7 +16,7 @@
 
 namespace gonio::model {
 
-/// A material by formula: one of a few analytic models, chosen at run time.
+/// A material given by a formula: one of a few analytic models, chosen at run time.
 class formula_brdf {
  public:
   using model = std::variant<lambertian, ggx, sum_of_lobes<lambertian, ggx>>;
@@ -42,11 +42,11 @@ namespace detail {
 
 }  // namespace detail
 
-/// The names that `formula_material` knows: `red-paint` (glossy), `blue-rubber` (matte), `gold-metal` (a
-/// rough conductor), `grey-lambertian` (ideal diffuse, albedo 0.18).
+/// Returns the names for `formula_material`: `red-paint` (glossy), `blue-rubber` (matte), `gold-metal` (a rough
+/// conductor) and `grey-lambertian` (ideal diffuse, albedo 0.18).
 [[nodiscard]] std::vector<std::string> formula_material_names();
 
-/// The material of that name. Throws gonio::error listing the names if there is none.
+/// Returns the material with this name. Throws gonio::error that lists the names if there is none.
 [[nodiscard]] formula_brdf formula_material(std::string_view name);
 
 }  // namespace gonio::model

@@ -1,5 +1,5 @@
 #pragma once
-/// How much a smooth interface reflects.
+/// The reflectance of a smooth interface.
 
 #include <algorithm>
 #include <cmath>
@@ -10,20 +10,20 @@ namespace gonio::model {
 /// Rendering", EG 1994 (doi:10.1111/1467-8659.1330233); J. B. Nielsen's thesis (2016), Eq. 2.21.
 template <class Real>
 [[nodiscard]] Real fresnel_schlick(double cosine, const Real& f0) {
-  const double rest = std::max(1.0 - cosine, 0.0);  // a cosine may round to more than 1
+  const double rest = std::max(1.0 - cosine, 0.0);  // rounding can make a cosine exceed 1
   const double grazing = rest * rest * rest * rest * rest;
   return f0 * (1.0 - grazing) + grazing;
 }
 
-/// The reflectance at normal incidence of a refractive index: ((1 - n) / (1 + n))^2, thesis Eq. 2.21.
+/// The reflectance at normal incidence for a refractive index: ((1 - n) / (1 + n))^2, thesis Eq. 2.21.
 template <class Real>
 [[nodiscard]] Real normal_reflectance(const Real& index) {
   const Real ratio = (1.0 - index) / (1.0 + index);
   return ratio * ratio;
 }
 
-/// A dielectric of relative refractive index n >= 1, unpolarised light from outside. R. L. Cook and K. E. Torrance, "A
-/// Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293), section 4.
+/// Reflectance of a dielectric of relative index n >= 1, for unpolarised light from outside. R. L. Cook and K. E.
+/// Torrance, "A Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293), section 4.
 template <class Real>
 [[nodiscard]] Real fresnel_dielectric(double cosine, const Real& index) {
   using std::sqrt;
@@ -34,8 +34,8 @@ template <class Real>
   return 0.5 * across * across * (1.0 + parallel * parallel);
 }
 
-/// A conductor of complex index n + ik, unpolarised light from vacuum. M. Born and E. Wolf, "Principles of Optics",
-/// section 14.2, in the form without complex numbers.
+/// Reflectance of a conductor with complex index n + ik, for unpolarised light from vacuum. M. Born and E. Wolf,
+/// "Principles of Optics", section 14.2, written without complex numbers.
 template <class Real>
 [[nodiscard]] Real fresnel_conductor(double cosine, const Real& index, const Real& extinction) {
   using std::sqrt;

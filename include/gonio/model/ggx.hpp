@@ -38,12 +38,12 @@ template <class Real>
 
 }  // namespace detail
 
-/// F D G / (4 cos_i cos_o). Masking is Smith's, height-uncorrelated as in the paper: G = G1(wi) G1(wo).
+/// F D G / (4 cos_i cos_o). Masking is Smith's height-uncorrelated form, as in the paper: G = G1(wi) G1(wo).
 /// ```cpp
 /// const gonio::model::ggx varnish{.alpha = 0.15, .f0 = gonio::rgb::Constant(0.04)};
 /// ```
-/// With h = wi + wo there is no direction above the horizon at which it is not finite: the cosines of the
-/// denominator cancel against those of G, and sines come from components, not from 1 - cos^2.
+/// The value is finite for all directions above the horizon. With h = wi + wo, the cosines of the denominator cancel
+/// against those of G, and sines are computed from components, not from 1 - cos^2.
 struct ggx {
   /// Roughness: the width of the microfacet distribution, about the tangent of its typical slope. In (0, 1].
   double alpha = 0.2;
@@ -58,24 +58,24 @@ struct ggx {
     return fresnel(at.cosine_d) * (distribution(at.h) * masking_over_cosines);
   }
 
-  /// D(h) of Eq. 33, in sr^-1: area of microfacets with normal h. Its integral with the cosine is 1.
+  /// D(h) of Eq. 33, in sr^-1: the area of microfacets with normal h. Its integral with the cosine is 1.
   [[nodiscard]] double distribution(const direction& h) const noexcept {
     GONIO_ASSERT(alpha > 0.0);
     return detail::ggx_distribution(h, alpha);
   }
 
-  /// G1 of Eq. 34: the fraction of microfacets that is visible at this cosine, whichever their normal.
+  /// G1 of Eq. 34: the fraction of microfacets visible at this cosine, independent of their normal.
   [[nodiscard]] double masking(double cosine) const noexcept {
     return 2.0 * cosine * detail::ggx_masking_over_twice_cosine(cosine, alpha);
   }
 
-  /// Schlick's approximation of the Fresnel reflectance; `cosine` is that of wi with h.
+  /// Schlick's approximation of the Fresnel reflectance. `cosine` is between wi and h.
   [[nodiscard]] rgb fresnel(double cosine) const noexcept { return fresnel_schlick(cosine, f0); }
 };
 
 static_assert(brdf<ggx>);
 
-/// The same as the shape of a lobe, whose f0 all colours share: what one fits to measurements.
+/// The same model as the shape of a lobe, for fits. All colours share its f0.
 template <class Real>
 struct ggx_shape {
   static constexpr std::string_view name = "ggx";
@@ -84,7 +84,7 @@ struct ggx_shape {
   static auto members(auto& self) { return std::tie(self.alpha, self.f0); }
 
   Real alpha = Real(0.2);  ///< roughness
-  Real f0 = Real(0.1);     ///< reflectance of a facet at normal incidence, beside which the colour scales all
+  Real f0 = Real(0.1);     ///< reflectance of a facet at normal incidence; the lobe's colour also scales the whole
 
   [[nodiscard]] Real operator()(const lobe_geometry& at) const {
     const Real masking = detail::ggx_masking_over_twice_cosine(at.cosine_i, alpha) *

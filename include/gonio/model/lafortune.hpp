@@ -7,9 +7,9 @@
 
 namespace gonio::model {
 
-/// (wi' M wo / |M|)^n with the isotropic M = diag(-sin tilt, -sin tilt, cos tilt), in the paper's terms C_x = -sin tilt
-/// and C_z = cos tilt. Their common scale cannot be told from the colour: |M|, the larger of |C_x| and |C_z|, makes the
-/// colour the lobe's highest reflectance. A sum of several lobes is `sum_of_lobes`.
+/// (wi' M wo / |M|)^n with the isotropic M = diag(-sin tilt, -sin tilt, cos tilt); in the paper's terms C_x = -sin tilt
+/// and C_z = cos tilt. Their common scale is indistinguishable from the colour. |M|, the larger of |C_x| and |C_z|,
+/// makes the colour the lobe's largest reflectance. A sum of several lobes is `sum_of_lobes`.
 template <class Real>
 struct lafortune_shape {
   static constexpr std::string_view name = "lafortune";
@@ -18,8 +18,8 @@ struct lafortune_shape {
       shape_parameter{"exponent", "", 0.01, 1e6, 20.0, true}};
   static auto members(auto& self) { return std::tie(self.tilt, self.exponent); }
 
-  /// 45 degrees: Phong's lobe about the mirror direction; more: towards grazing angles; 0: a diffuse lobe; less than 0:
-  /// back to the light.
+  /// pi / 4: Phong's lobe about the mirror direction; larger: towards grazing angles; 0: a diffuse lobe; negative: back
+  /// to the light.
   Real tilt = Real(std::numbers::pi / 4);
   Real exponent = Real(20.0);  ///< n
 

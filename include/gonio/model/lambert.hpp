@@ -1,5 +1,5 @@
 #pragma once
-/// The ideal diffuse reflector: the same radiance in every direction.
+/// The ideal diffuse reflector, with the same radiance in every direction.
 /// J. B. Nielsen's thesis (2016), Sec. 2.2.4; J. H. Lambert, "Photometria" (1760).
 
 #include <gonio/core/brdf.hpp>
@@ -28,7 +28,7 @@ struct lambertian {
 
 static_assert(brdf<lambertian>);
 
-/// The same as the shape of a lobe, whose colour is the albedo: 1 / pi.
+/// The same model as the shape of a lobe: 1 / pi. The lobe's colour is the albedo.
 template <class Real>
 struct lambert_shape {
   static constexpr std::string_view name = "lambert";

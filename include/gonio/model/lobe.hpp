@@ -1,5 +1,5 @@
 #pragma once
-/// The lobes that analytic BRDFs are sums of: a colour times a shape with a few parameters.
+/// The lobes of analytic BRDFs: a colour times a shape with a few parameters.
 /// J. B. Nielsen's thesis (2016), Sec. 2.2.4.
 
 #include <gonio/core/brdf.hpp>
@@ -19,12 +19,12 @@
 
 namespace gonio::model {
 
-/// What the lobes of analytic models depend on, of a pair of directions above the horizon.
+/// The arguments of a lobe's shape for a pair of directions above the horizon.
 struct lobe_geometry {
-  double cosine_i;    ///< of wi with the normal
-  double cosine_o;    ///< of wo with the normal
-  double cosine_d;    ///< of wi, or wo, with the half vector
-  double tangential;  ///< the product of wi and wo within the surface, x x' + y y'
+  double cosine_i;    ///< between wi and the normal
+  double cosine_o;    ///< between wo and the normal
+  double cosine_d;    ///< between wi and the half vector, or wo and the half vector
+  double tangential;  ///< the product of the tangential parts of wi and wo, x x' + y y'
   direction h;        ///< the half vector
 
   lobe_geometry(const direction& wi, const direction& wo) noexcept
@@ -32,29 +32,29 @@ struct lobe_geometry {
     const direction sum = wi + wo;
     const double length = sum.norm();
     cosine_d = std::min(0.5 * length, 1.0);
-    // Directions that are opposite up to rounding leave no half vector; the normal is the limit within the plane.
+    // Opposite directions have no half vector. The normal is its limit within their plane.
     h = length > 0.0 ? direction(sum / length) : direction(0.0, 0.0, 1.0);
   }
 
   /// The cosine between the viewer and the mirrored light: wr . wo with wr = 2 (wi . n) n - wi.
   [[nodiscard]] double mirrored_cosine() const noexcept { return cosine_i * cosine_o - tangential; }
-  /// tan^2 of the half angle; infinite where the half vector lies in the surface.
+  /// tan^2 of the half angle; infinite if the half vector lies in the surface.
   [[nodiscard]] double squared_tangent_h() const noexcept { return (h.x() * h.x() + h.y() * h.y()) / (h.z() * h.z()); }
 };
 
-/// A parameter of a shape: what it may be, and in what unit.
+/// A parameter of a shape: its name, unit and bounds.
 struct shape_parameter {
   std::string_view name, unit;
   double lowest, highest;
-  double typical;            ///< where a fit may start
-  bool logarithmic = false;  ///< steps are factors: a roughness, an exponent
+  double typical;            ///< a value from which a fit may start
+  bool logarithmic = false;  ///< a fit takes steps in the logarithm, as for a roughness or an exponent
 };
 
-/// The shape of a lobe, in sr^-1: a struct of parameters that is a template of their number type, because a fit
-/// evaluates it with numbers that carry derivatives.
+/// The shape of a lobe, in sr^-1: a struct of parameters, templated on their number type, because a fit evaluates it
+/// with numbers that carry derivatives.
 ///
-/// What the compiler cannot check, and a model must keep: `parameters` describes the `members`, in their order; the
-/// value is not negative, and finite unless a cosine underflows; it does not throw.
+/// A model must keep rules that the compiler cannot check. `parameters` describes the `members` in their order. The
+/// value is not negative, and finite unless a cosine underflows. It does not throw.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -67,7 +67,7 @@ struct shape_parameter {
 ///   std::printf("%g sr^-1\n", gloss({0.6, 0, 0.8}, {-0.6, 0, 0.8}).x());
 /// }
 /// ```
-/// With a model of your own, fitted as any other is:
+/// With a model of your own, fitted like any other:
 /// ```cpp
 /// #include <gonio/io/measurements/samples.hpp>
 /// #include <gonio/metric/log.hpp>
@@ -104,19 +104,19 @@ concept lobe_shape = requires(Shape<double>& shape, const Shape<double>& constan
   { constant(at) } -> std::convertible_to<double>;
 };
 
-/// How many parameters a shape has.
+/// The number of parameters of a shape.
 template <template <class> class Shape>
 inline constexpr Eigen::Index parameter_count =
     std::tuple_size_v<decltype(Shape<double>::members(std::declval<Shape<double>&>()))>;
 
-/// The parameters of a shape as an array.
+/// Returns the parameters of a shape as an array.
 template <template <class> class Shape, class Real>
 [[nodiscard]] std::array<Real, parameter_count<Shape>> values_of(const Shape<Real>& shape) {
   return std::apply([](const auto&... value) { return std::array<Real, parameter_count<Shape>>{value...}; },
                     Shape<Real>::members(shape));
 }
 
-/// The shape with some parameters, which are taken as they are.
+/// Returns the shape with the given parameters. Does not check them.
 template <template <class> class Shape, class Real>
 [[nodiscard]] Shape<Real> shape_from(const std::array<Real, parameter_count<Shape>>& values) {
   Shape<Real> shape;
@@ -129,17 +129,17 @@ template <template <class> class Shape, class Real>
   return shape;
 }
 
-/// Throws gonio::error naming the shape, the parameter and its bound unless the value is within.
+/// Throws gonio::error that names the shape, the parameter and its bounds unless the value is within them.
 void require_within_bounds(std::string_view shape, const shape_parameter& parameter, double value);
 
-/// Throws gonio::error naming the shape unless the colour is finite and not negative.
+/// Throws gonio::error that names the shape unless the colour is finite and not negative.
 void require_usable_colour(std::string_view shape, const rgb& colour);
 
-/// Reflectance is held below this where a model has a pole at grazing angles: infinity times no light would be no
-/// number.
+/// The upper limit of reflectance for models with a pole at grazing angles, because infinity times zero light would be
+/// NaN.
 inline constexpr double largest_reflectance = 1e300;
 
-/// A shape in a colour: f = colour * shape(wi, wo).
+/// A coloured shape: f = colour * shape(wi, wo).
 /// ```cpp
 /// const gonio::model::ward varnish{gonio::rgb::Constant(0.1), {.roughness = 0.05}};
 /// ```
@@ -149,7 +149,7 @@ class lobe {
  public:
   using shape_type = Shape<double>;
 
-  /// Throws gonio::error naming what is out of bounds; a colour must be finite and not negative.
+  /// Throws gonio::error that names the parameter if one is out of bounds, and if the colour is negative or not finite.
   explicit lobe(rgb colour = rgb::Ones(), const shape_type& shape = {}) : colour_(std::move(colour)), shape_(shape) {
     require_usable_colour(shape_type::name, colour_);
     const auto values = values_of<Shape, double>(shape_);

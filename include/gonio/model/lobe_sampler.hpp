@@ -1,8 +1,7 @@
 #pragma once
-/// Directions for a renderer to follow, drawn where an analytic BRDF is bright: of a model, a sum of lobes or what a
-/// fit returned. Each lobe is drawn by its `techniques_of`, and the lobes are mixed by their albedos: E. Veach and L.
-/// J. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995
-/// (doi:10.1145/218380.218498).
+/// Importance sampling of analytic BRDFs, for renderers: of a single model, a sum of lobes or a fit's result. Each lobe
+/// is sampled by its `techniques_of`, and the lobes are mixed by their albedos: E. Veach and L. J. Guibas, "Optimally
+/// Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995 (doi:10.1145/218380.218498).
 
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/model/sampling_techniques.hpp>
@@ -24,10 +23,11 @@ namespace gonio::model {
 
 namespace detail {
 
-/// A number for each of some intervals of cos(theta_o).
+/// One number for each interval of cos(theta_o).
 using by_viewer = std::array<double, 32>;
 
-/// Densities, each with its share for every viewer; the shares sum to 1. Only its construction allocates.
+/// A mixture of densities, with a share of each for every viewer. The shares sum to 1. Only construction allocates
+/// memory.
 class direction_mixture {
  public:
   void add(const sampling_technique::density_type& density, const by_viewer& shares) {
@@ -45,7 +45,7 @@ class direction_mixture {
       share = e.shares[at];
       if (u1 < share) break;
     }
-    // What is left of u1 within the share of the chosen density is again a number from 0 up to 1.
+    // Rescale the remainder of u1 within the chosen density's share to [0, 1).
     const double u = std::clamp(u1 / share, 0.0, 1.0 - 0x1p-53);
     return std::visit([&](const auto& density) { return density.sample(wo, u, u2); }, chosen->density);
   }
@@ -59,7 +59,7 @@ class direction_mixture {
     return sum;
   }
 
-  /// The cosine in the middle of an interval.
+  /// Returns the cosine in the middle of an interval.
   [[nodiscard]] static double cosine_of(Eigen::Index interval) {
     return (static_cast<double>(interval) + 0.5) / static_cast<double>(by_viewer{}.size());
   }
@@ -78,14 +78,14 @@ class direction_mixture {
   std::vector<entry> entries_;
 };
 
-/// What a lobe is drawn by, and its albedo.
+/// A lobe's sampling techniques and its albedo.
 struct weighed_lobe {
   sampling_techniques techniques;
   by_viewer albedo;
 };
 
-/// The albedo by a few directions of the lobe's own, each of another azimuth: an estimate will do, because the weights
-/// are right with any shares.
+/// Estimates a lobe's albedo from a few of its own sampled directions, each at another azimuth. An estimate suffices,
+/// because sampling is unbiased with any shares.
 template <class Lobe>
 [[nodiscard]] weighed_lobe weigh(const Lobe& f, const sampling_techniques& techniques) {
   direction_mixture own;
@@ -114,7 +114,7 @@ inline constexpr bool is_sum_of_lobes = false;
 template <class... Lobes>
 inline constexpr bool is_sum_of_lobes<sum_of_lobes<Lobes...>> = true;
 
-/// Appends the lobes of a model.
+/// Appends the lobes of a model with their techniques.
 template <class Model>
 void weigh_lobes(const Model& f, std::vector<weighed_lobe>& lobes) {
   if constexpr (std::same_as<Model, formula_brdf>) {
@@ -128,24 +128,24 @@ void weigh_lobes(const Model& f, std::vector<weighed_lobe>& lobes) {
   }
 }
 
-/// Each lobe as often as its albedo is of the sum's, and one in a hundred at least: within an interval of viewers a
-/// lobe may be brighter than in its middle.
+/// Samples each lobe in proportion to its albedo, with a minimum share of about 1 %, because a lobe may be brighter
+/// elsewhere in a viewer's interval than in its middle.
 [[nodiscard]] direction_mixture mixture_of(const std::vector<weighed_lobe>& lobes);
 
 }  // namespace detail
 
-/// Importance sampling of an analytic BRDF, which it holds: of any lobe, `lambertian`, `ggx`, a `sum_of_lobes`, an
-/// `analytic_brdf` such as a fit returns, or a `formula_brdf`.
+/// Importance sampling of an analytic BRDF, of which it holds a copy: any lobe, `lambertian`, `ggx`, a `sum_of_lobes`,
+/// an `analytic_brdf` such as a fit's result, or a `formula_brdf`.
 /// ```cpp
 /// const gonio::model::lobe_sampler paint{gonio::model::sum_of_lobes{gonio::model::lambertian{}, gonio::model::ggx{}}};
 /// const auto drawn = paint.sample(wo, u1, u2);
 /// ```
-/// `sample`, `pdf` and the BRDF itself agree: the weight times pdf is f cos(theta_i), and pdf integrates to 1 over the
-/// sphere of directions. Some directions fall below the horizon: these have weight 0 and are counted by pdf.
+/// `sample`, `pdf` and the BRDF are consistent: the weight times pdf is f cos(theta_i), and pdf integrates to 1 over
+/// the sphere of directions. Directions below the horizon can be drawn. They have weight 0, and pdf includes them.
 ///
-/// Lobes whose weights are bounded by their form are drawn by their own density alone; the others (Ward, Ward-Duer,
-/// Phong-Blinn) and those that are wide have cosine-weighted directions among theirs. A sum draws each lobe as often as
-/// its albedo, for that viewer, is of the sum's; construction measures that by some 5,000 evaluations for each lobe.
+/// A lobe whose weights are bounded analytically is sampled by its own density alone. The others (Ward, Ward-Duer,
+/// Phong-Blinn) and wide lobes also draw cosine-weighted directions. A sum draws each lobe in proportion to its albedo
+/// for the viewer. Construction estimates the albedos with about 5,000 evaluations per lobe.
 template <brdf Brdf>
 class lobe_sampler {
  public:
@@ -159,7 +159,7 @@ class lobe_sampler {
 
   [[nodiscard]] const Brdf& brdf() const noexcept { return f_; }
 
-  /// Draws a direction by two numbers from 0 up to 1. Zero weight and density if wo is not above the horizon.
+  /// Draws a direction from two numbers in [0, 1). Weight and density are zero if wo is not above the horizon.
   [[nodiscard]] sampled_direction sample(const direction& wo, double u1, double u2) const noexcept {
     if (!is_above_horizon(wo)) return {};
     sampled_direction drawn;
@@ -169,7 +169,7 @@ class lobe_sampler {
     return drawn;
   }
 
-  /// The density in sr^-1 with which `sample` draws wi, anywhere on the sphere.
+  /// Returns the density in sr^-1 with which `sample` draws wi, anywhere on the sphere.
   [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
     return is_above_horizon(wo) ? mixture_.pdf(wi, wo) : 0.0;
   }
@@ -184,7 +184,7 @@ class lobe_sampler {
 static_assert(direction_sampler<lobe_sampler<lambertian>> && direction_sampler<lobe_sampler<ward>>);
 static_assert(direction_sampler<lobe_sampler<sum_of_lobes<lambertian, ggx>>>);
 
-/// What a renderer holds after a fit.
+/// The sampler of a fitted model.
 using analytic_sampler = lobe_sampler<analytic_brdf>;
 
 static_assert(direction_sampler<analytic_sampler>);

@@ -1,6 +1,6 @@
 #pragma once
-/// Whether measurements keep what a physical BRDF keeps: tables and samples. J. B. Nielsen's thesis (2016), Sec. 2.2;
-/// for a BRDF of any kind model/physical_properties.hpp.
+/// Checks the properties of physical BRDFs on measured tables and samples. J. B. Nielsen's thesis (2016), Sec. 2.2.
+/// model/physical_properties.hpp has checks for any BRDF.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/table/brdf_table.hpp>
@@ -10,49 +10,49 @@
 
 namespace gonio::model {
 
-/// The values of a table.
+/// Statistics of a table's values.
 struct table_values {
   rgb minimum, mean, maximum;       ///< of each channel over all cells, sr^-1
-  Eigen::Index negative_cells = 0;  ///< with a negative value in any channel
-  Eigen::Index lowest_cell = 0;     ///< which has the least value of any channel
+  Eigen::Index negative_cells = 0;  ///< number of cells with a negative value in any channel
+  Eigen::Index lowest_cell = 0;     ///< the cell with the smallest value of any channel
 };
 
 /// O(cells).
 [[nodiscard]] table_values summarise(const brdf_table& table);
 
-/// Where reflectance rises along theta_h although its peak has been passed.
+/// A rise of reflectance along theta_h after its peak.
 struct tail_rise {
-  double amount = 0.0;       ///< relative to the least value before it; 0: the tails are monotone
-  double theta_h = 0.0;      ///< in radians, where it ends
+  double amount = 0.0;       ///< relative to the smallest value before it; 0: the tails are monotone
+  double theta_h = 0.0;      ///< in radians, where the rise ends
   double theta_d = 0.0;      ///< in radians
   Eigen::Index channel = 0;  ///< red, green or blue
 };
 
-/// The largest rise of the mean over phi_d along theta_h, from the peak on: (v - least) / (least + 0.001 sr^-1) for the
-/// least value since the peak. A measurement that rises there is noise, stray light, or a second lobe. Only where
-/// theta_h + theta_d is at most 70 degrees, so that neither light nor viewer grazes the surface. O(cells).
+/// Returns the largest rise after the peak, along theta_h, of the mean over phi_d: (v - least) / (least + 0.001 sr^-1)
+/// for the smallest value since the peak. Such a rise is noise, stray light or a second lobe. Only uses theta_h +
+/// theta_d of at most 70 degrees, so that neither light nor viewer grazes the surface. O(cells).
 [[nodiscard]] tail_rise largest_tail_rise(const brdf_table& table);
 
-/// Samples that a property makes equal, and by how much they differ: the largest difference of a channel as a share of
+/// Pairs of samples that a symmetry makes equal, and their differences: the largest difference of a channel relative to
 /// the largest value.
 struct equal_samples {
   Eigen::Index pairs = 0;
   double median = 0.0, worst = 0.0;    ///< 0 if there are no pairs
-  Eigen::Index first = 0, second = 0;  ///< the worst pair's numbers in the set, from 0
+  Eigen::Index first = 0, second = 0;  ///< indices of the worst pair in the set, from 0
 };
 
-/// Which samples ought to be equal, up to a tolerance.
+/// Samples that should be equal within a tolerance, by symmetry.
 struct sample_symmetries {
   equal_samples repeated;    ///< the same directions: the noise
-  equal_samples turned;      ///< both turned about the normal, by ten tolerances at least: isotropy
-  equal_samples reciprocal;  ///< light and viewer swapped, and perhaps turned: reciprocity
+  equal_samples turned;      ///< both rotated about the normal by more than ten tolerances: isotropy
+  equal_samples reciprocal;  ///< light and viewer exchanged, possibly also rotated: reciprocity
 };
 
-/// Compares all pairs of samples whose directions agree to `tolerance` (radians, above 0 and at most 0.1) after a turn
-/// about the normal or a swap, each sample with at most a hundred others that come after it. Weights do not count: a
-/// sample of weight 0 is compared, too. Where all half vectors have the azimuth 0, as which half and difference angles
-/// are read, nothing is turned. O(n log n) where samples are spread. Throws gonio::error for unusable samples
-/// (`require_usable`) and a tolerance out of its range.
+/// Compares all pairs of samples whose directions agree within `tolerance` (radians, above 0 and at most 0.1) after a
+/// rotation about the normal or an exchange. Each sample is compared with at most 100 later ones. Weights are ignored,
+/// so samples of weight 0 are compared too. If all half vectors have azimuth 0, as for files with half and difference
+/// angles, no rotated pairs are counted. O(n log n) if samples are spread out. Throws gonio::error for unusable samples
+/// (`require_usable`) and for a tolerance out of range.
 [[nodiscard]] sample_symmetries compare_equal_samples(const sample_set& samples, double tolerance = radians(0.5));
 
 }  // namespace gonio::model

@@ -1,5 +1,5 @@
 #pragma once
-/// What a fit of lobes to measurements makes small: a norm of residuals, as a function of shapes and colours.
+/// The objective of a fit of lobes to measurements: a norm of residuals, as a function of shapes and colours.
 
 #include <gonio/metric/lin.hpp>
 #include <gonio/model/analytic_brdf.hpp>
@@ -18,23 +18,24 @@
 
 namespace gonio::model {
 
-/// How residuals add up.
+/// The norm of the residuals.
 enum class fit_norm {
-  l2,    ///< half their squares: follows the tops of highlights
-  l1,    ///< their sizes, rounded off at zero (see `model_fit_options::rounding`): follows their base
-  huber  ///< squares when small, sizes when large
+  l2,    ///< half their squares: follows the peaks of highlights
+  l1,    ///< their sizes, smoothed at zero (see `model_fit_options::rounding`): follows the base of highlights
+  huber  ///< squares if small, sizes if large
 };
 
 struct model_fit_options {
   fit_norm norm = fit_norm::l2;
-  /// Reflectance is multiplied by the cosine of the light before it is mapped.
+  /// Multiplies reflectance by the cosine of the light before mapping it.
   bool cosine_weighted = false;
-  /// Where L1 and Huber's norm turn from squares to sizes, as a share of the median size of the mapped measurements: L1
-  /// is sqrt(r^2 + (rounding median)^2), so that its error in the minimum is below that.
+  /// The residual at which the L1 and Huber norms change from squares to sizes, relative to the median size of the
+  /// mapped measurements. L1 is sqrt(r^2 + (rounding median)^2), so that the error of its minimum is smaller than
+  /// rounding times median.
   double rounding = 1e-3, huber_width = 0.1;
-  /// What a channel of the model may reflect at most of light that falls in at up to 88 degrees; 1 is all of it.
+  /// The largest fraction of light, from up to 88 degrees, that a channel of the model may reflect; 1 is all.
   double largest_albedo = std::numeric_limits<double>::infinity();
-  /// Random starts beside the consecutive scheme, of which the best end counts.
+  /// Random starts in addition to the consecutive scheme. The best result is kept.
   Eigen::Index random_starts = 0;
   std::uint64_t seed = 0;
   Eigen::Index iteration_limit = 200;
@@ -43,7 +44,7 @@ struct model_fit_options {
 
 namespace detail {
 
-/// A metric that is chosen at run time: what follows compiles once, not for each metric.
+/// A metric chosen at run time, so that the code below is compiled only once.
 struct chosen_metric {
   std::function<double(double)> forward, slope;
   bool linear = false;
@@ -55,7 +56,7 @@ struct chosen_metric {
         linear(std::is_same_v<Metric, lin>) {}
 };
 
-/// One loss for all channels of all observations, as a function of the lobes' parameters and colours.
+/// The loss over all channels of all observations, as a function of the lobes' parameters and colours.
 class model_loss {
  public:
   model_loss(std::vector<const lobe_kind*> kinds, std::span<const fit_observation> observations, chosen_metric metric,
@@ -66,7 +67,7 @@ class model_loss {
   /// Shape parameters first, then the colours, lobe by lobe for each channel.
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return shapes() + 3 * lobes(); }
 
-  /// Logarithms of those parameters whose steps are factors.
+  /// Returns the parameters, with logarithms of those marked logarithmic.
   [[nodiscard]] Eigen::VectorXd coded(std::span<const lobe_kind::values> parameters) const;
   [[nodiscard]] std::vector<lobe_kind::values> parameters_of(const Eigen::VectorXd& u) const;
 
@@ -74,33 +75,33 @@ class model_loss {
 
   [[nodiscard]] analytic_brdf model(const Eigen::VectorXd& x) const;
 
-  /// The products of all columns with one another: L values of shapes, then P slopes by coded parameters, then three
-  /// measured channels. Everything that is linear in the colours follows from them. One matrix for all channels if each
-  /// observation counts the same in them, else one for each. O(N (L + P)^2).
+  /// Returns the products of all columns with one another: L values of shapes, P slopes by coded parameters, and three
+  /// measured channels. They determine all quantities that are linear in the colours. One matrix for all channels if
+  /// each observation has the same weight in all, otherwise one per channel. O(N (L + P)^2).
   [[nodiscard]] std::vector<Eigen::MatrixXd> products(const Eigen::VectorXd& u) const;
 
-  /// The best colours by squares of linear residuals, L x 3. Lobes that are dark everywhere stay black.
+  /// Returns the best colours in least squares of linear residuals, L x 3. Lobes that are dark everywhere stay black.
   [[nodiscard]] Eigen::MatrixXd solve_colours(const std::vector<Eigen::MatrixXd>& products) const;
 
   /// Half the mean square of linear residuals with the best colours, as a function of the shapes alone.
   [[nodiscard]] local_parabola projected(const Eigen::VectorXd& u) const;
 
-  /// The loss as a function of shapes and colours, and Gauss and Newton's parabola of it, whose norm is that of squares
-  /// weighted by how far each residual is out. Half the square of what an albedo exceeds the largest one by is added,
-  /// times the steepness, relative to the loss of a black model.
+  /// The loss as a function of shapes and colours, with its Gauss-Newton parabola. Other norms than squares are
+  /// reweighted squares, with weights that depend on each residual. Adds half the squared excess of each albedo over
+  /// the largest one allowed, times the steepness times the loss of a black model.
   [[nodiscard]] local_parabola joint(const Eigen::VectorXd& x, double albedo_steepness = 0.0) const;
 
-  /// Whether the colours are linear in the residuals, which are squared.
+  /// Whether residuals are linear in the colours and are squared.
   [[nodiscard]] bool separates() const noexcept { return metric_.linear && options_.norm == fit_norm::l2; }
 
-  /// The loss of a model that is black.
+  /// The loss of a black model.
   [[nodiscard]] double of_nothing() const noexcept { return loss_of_nothing_; }
 
-  /// The largest albedo of each channel of a model, relative to the one that it may have. By the midpoint rule over
+  /// Returns the largest albedo of each channel, relative to the largest one allowed. Uses the midpoint rule over
   /// `bins`^2 half vectors at each angle.
   [[nodiscard]] rgb relative_albedo(const Eigen::VectorXd& x, int bins) const;
 
-  /// Shapes and the colours that are best for them by squares of linear residuals.
+  /// Returns shapes and their best colours in least squares of linear residuals.
   [[nodiscard]] Eigen::VectorXd with_colours(const Eigen::VectorXd& u) const;
 
  private:
@@ -119,14 +120,14 @@ class model_loss {
   /// L x 3.
   [[nodiscard]] Eigen::MatrixXd colours(const Eigen::VectorXd& x) const;
 
-  /// The albedos of the lobes and their slopes by coded parameters: a column of L + P for each of `albedo_angles`.
+  /// Returns the lobes' albedos and their slopes by coded parameters: a column of L + P for each of `albedo_angles`.
   [[nodiscard]] Eigen::MatrixXd lobe_albedos(const std::vector<lobe_kind::values>& parameters, int bins) const;
   void add_albedo_penalty(const std::vector<lobe_kind::values>& parameters, const Eigen::MatrixXd& colour,
                           double steepness, local_parabola& to) const;
 
-  /// The products with the weights of one channel.
+  /// Returns the products with the weights of one channel.
   [[nodiscard]] Eigen::MatrixXd products(const Eigen::VectorXd& u, Eigen::Index channel) const;
-  /// The best colours of `channels` channels from `first` on, which have these products in common.
+  /// Returns the best colours of `channels` channels from `first` on, which share these products.
   [[nodiscard]] Eigen::MatrixXd solve_colours(const Eigen::MatrixXd& products, Eigen::Index first,
                                               Eigen::Index channels) const;
 
@@ -137,12 +138,12 @@ class model_loss {
     return metric_.forward(reflectance * cosine(seen));
   }
 
-  /// The values of all shapes, then their slopes by coded parameters.
+  /// Writes the values of all shapes, then their slopes by coded parameters.
   void evaluate(const lobe_geometry& at, const std::vector<lobe_kind::values>& parameters,
                 Eigen::Ref<Eigen::VectorXd> out) const;
 
   struct norm_value {
-    double loss, curvature;  ///< of a residual; the slope of the loss is the curvature times the residual
+    double loss, curvature;  ///< of a residual; the loss has the slope curvature times residual
   };
   [[nodiscard]] norm_value norm_of(double residual) const;
 

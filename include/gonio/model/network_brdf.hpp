@@ -1,7 +1,7 @@
 #pragma once
-/// Measured materials as small neural networks, 6 -> 21 -> 21 -> 3 with rectified hidden layers.
-/// Sztrajman, Rainer, Ritschel and Weyrich, "Neural BRDF Representation and Importance Sampling", Computer
-/// Graphics Forum 2021 (doi:10.1111/cgf.14335).
+/// Measured materials as small neural networks, 6 -> 21 -> 21 -> 3 with rectified hidden layers. Sztrajman, Rainer,
+/// Ritschel and Weyrich, "Neural BRDF Representation and Importance Sampling", Computer Graphics Forum 2021
+/// (doi:10.1111/cgf.14335).
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
@@ -21,17 +21,17 @@
 
 namespace gonio::model {
 
-/// A BRDF given by the 675 parameters of a network, `[W1 6x21][b1][W2 21x21][b2][W3 21x3][b3]`, matrices
-/// row-major and multiplied from the right to a row vector.
+/// A BRDF given by the 675 parameters of a network, `[W1 6x21][b1][W2 21x21][b2][W3 21x3][b3]`. Matrices are row-major
+/// and multiply a row vector from the right.
 ///
-/// The input is the half vector and the difference vector at phi_h = 0: (sin theta_h, 0, cos theta_h) and
-/// (sin theta_d cos phi_d, sin theta_d sin phi_d, cos theta_d); the output y gives max(exp(y) - 1, 0) in
-/// sr^-1. phi_d is folded, which makes the BRDF reciprocal. Parameters are finite.
+/// The input is the half vector and the difference vector at phi_h = 0: (sin theta_h, 0, cos theta_h) and (sin theta_d
+/// cos phi_d, sin theta_d sin phi_d, cos theta_d). The output y gives max(exp(y) - 1, 0) in sr^-1. phi_d is folded,
+/// which makes the BRDF reciprocal. Parameters are finite.
 class network_brdf {
  public:
   static constexpr std::size_t parameter_count = 675;
   static constexpr std::size_t width = 21;
-  /// exp of more than this is no longer a float.
+  /// The exp of a larger output overflows float.
   static constexpr double largest_output = 88.0;
 
   explicit network_brdf(std::span<const float, parameter_count> parameters) noexcept {
@@ -39,7 +39,7 @@ class network_brdf {
   }
 
   [[nodiscard]] std::span<const float, parameter_count> parameters() const noexcept { return parameters_; }
-  /// Reflectance in sr^-1 from float weights in double arithmetic; zero below the horizon.
+  /// Returns reflectance in sr^-1, computed in double from float weights; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
     const half_difference angles = to_half_difference(wi, wo);
@@ -53,7 +53,7 @@ class network_brdf {
     return {value(y[0]), value(y[1]), value(y[2])};
   }
 
-  /// Where each layer's weights start among the parameters; its biases follow them.
+  /// Index of each layer's first weight among the parameters. Its biases follow the weights.
   static constexpr std::size_t first_layer = 0, second_layer = 147, third_layer = 609;
 
  private:
@@ -79,7 +79,7 @@ class network_brdf {
 
 static_assert(brdf<network_brdf>);
 
-/// Networks and the names of their materials, as many of the one as of the other.
+/// Networks and the names of their materials, one for each network.
 struct named_networks {
   std::vector<std::string> names;
   std::vector<network_brdf> networks;
@@ -87,8 +87,8 @@ struct named_networks {
 
 namespace detail {
 
-/// Evaluates networks at a block of cells in float. A layer is stored unit by unit, each with all cells, so that
-/// the loops run along the cells and vectorise.
+/// Evaluates networks at a block of cells in float. A layer stores each unit with all cells, so that the loops run
+/// along the cells and vectorise.
 class network_block {
  public:
   static constexpr std::size_t cells = 256;
@@ -130,12 +130,12 @@ class network_block {
 
 }  // namespace detail
 
-/// Evaluates networks at every valid cell: `out` becomes (cells, 3 networks). Same bytes for any number of
-/// threads; agrees with the networks' own double arithmetic to 1e-4 of the value or 1e-6 sr^-1.
+/// Evaluates networks at every valid cell: `out` becomes (cells, 3 networks). The bytes do not depend on the number of
+/// threads. The values agree with the networks' double arithmetic to 1e-4 of the value or 1e-6 sr^-1.
 void tabulate_networks(std::span<const network_brdf> networks, const valid_cells& cells, cell_matrix& out,
                        thread_count threads = {}, const progress& listener = {});
 
-/// The tables of named networks.
+/// Returns the tables of named networks.
 [[nodiscard]] material_set tabulate_networks(const named_networks& materials, const valid_cells& cells,
                                              thread_count threads = {}, const progress& listener = {});
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Cosine lobes about the mirror direction and about the normal, and what lies between.
+/// Cosine lobes about the mirror direction and about the normal, and a variant between them.
 /// J. B. Nielsen, J. R. Frisvad, K. Conradsen and H. Aanaes, "Addressing Grazing Angle Reflections in Phong Models",
-/// SIGGRAPH Asia 2014 posters; its normalisations are those of Akenine-Moeller, Haines and Hoffman, "Real-Time
+/// SIGGRAPH Asia 2014 posters. The normalisations are those of Akenine-Moeller, Haines and Hoffman, "Real-Time
 /// Rendering", 2008.
 
 #include <gonio/model/lobe.hpp>
@@ -14,7 +14,7 @@ namespace detail {
 
 inline constexpr shape_parameter shininess_bounds{"shininess", "", 0.01, 1e6, 50.0, true};
 
-/// base^exponent for a base that may be negative, whose power counts as zero.
+/// Returns base^exponent; zero if the base is negative.
 template <class Base, class Real>
 [[nodiscard]] Real cosine_power(const Base& base, const Real& exponent) {
   using std::exp, std::log;
@@ -54,8 +54,8 @@ struct blinn_phong_shape {
 };
 static_assert(lobe_shape<blinn_phong_shape>);
 
-/// The variant between the two: ((1 - alpha) (wr . wo) + alpha (h . n)^4)^s, whose colour is the k_s of the paper: it
-/// has no normalisation. 2014, Eq. 3. A negative base counts as zero.
+/// The variant between the two: ((1 - alpha) (wr . wo) + alpha (h . n)^4)^s. 2014, Eq. 3. It has no normalisation, so
+/// its colour is the paper's k_s. A negative base counts as zero.
 template <class Real>
 struct phong_blinn_shape {
   static constexpr std::string_view name = "phong-blinn";
@@ -63,7 +63,7 @@ struct phong_blinn_shape {
   static auto members(auto& self) { return std::tie(self.shininess, self.alpha); }
 
   Real shininess = Real(detail::shininess_bounds.typical);  ///< s
-  Real alpha = Real(0.5);                                   ///< 0: like Phong, 1: like Blinn-Phong of exponent 4 s
+  Real alpha = Real(0.5);                                   ///< 0: like Phong, 1: like Blinn-Phong with exponent 4 s
 
   [[nodiscard]] Real operator()(const lobe_geometry& at) const {
     const double squared = at.h.z() * at.h.z(), mirrored = at.mirrored_cosine();

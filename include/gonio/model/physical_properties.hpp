@@ -1,6 +1,6 @@
 #pragma once
-/// What a physical BRDF keeps, as measurements of any BRDF: is it reciprocal, never negative, isotropic, and how much
-/// does it reflect? J. B. Nielsen's thesis (2016), Sec. 2.2.
+/// Checks of the properties of a physical BRDF, for any BRDF: reciprocity, non-negative values, isotropy, and albedo.
+/// J. B. Nielsen's thesis (2016), Sec. 2.2.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/statistics.hpp>
@@ -12,22 +12,22 @@
 
 namespace gonio::model {
 
-/// The worst that was met, and where.
+/// The largest violation found, and where.
 struct worst_pair {
-  double amount = 0.0;  ///< 0: nothing is wrong
+  double amount = 0.0;  ///< 0 if there is no violation
   direction_pair at{direction(0.0, 0.0, 1.0), direction(0.0, 0.0, 1.0)};
-  double median = 0.0;  ///< of the amounts of all pairs that were tried
+  double median = 0.0;  ///< of the amounts of all pairs tested
 };
 
-/// How densely pairs of directions are tried: `steps`^3 of them, about the normal and denser near highlights.
+/// The density of the tested pairs of directions: `steps`^3 half vectors and viewers, denser near highlights.
 struct pair_grid {
   int steps = 24;
 };
 
 namespace detail {
 
-/// The worst of all pairs by `amount(wi, wo)`. The viewer is at an azimuth of its own, so that models which are not
-/// isotropic are met off their axes.
+/// Returns the pair with the largest `amount(wi, wo)`. The viewer has an azimuth off the axes, so that anisotropic
+/// models are tested off their axes.
 template <class Amount>
 [[nodiscard]] worst_pair worst_of_pairs(const pair_grid& grid, Amount&& amount) {
   constexpr double pi = std::numbers::pi, azimuth = 0.4;
@@ -38,7 +38,7 @@ template <class Amount>
     for (int j = 0; j < grid.steps; ++j)
       for (int k = 0; k < grid.steps; ++k) {
         const direction wo = spherical_direction(share(i) * pi / 2.0, azimuth);
-        // Half vectors about the normal: lights about the mirror direction.
+        // Half vectors near the normal give lights near the mirror direction.
         const direction h = spherical_direction(share(j) * share(j) * pi / 2.0, 2.0 * pi * share(k));
         const direction wi = 2.0 * h.dot(wo) * h - wo;
         if (!(wi.z() > 0.0 && h.dot(wo) > 0.0)) continue;
@@ -53,7 +53,7 @@ template <class Amount>
 
 }  // namespace detail
 
-/// The largest difference of f(wi, wo) and f(wo, wi), as a share of the larger.
+/// Returns the largest difference between f(wi, wo) and f(wo, wi), relative to the larger value.
 template <brdf Brdf>
 [[nodiscard]] worst_pair worst_asymmetry(const Brdf& f, const pair_grid& grid = {}) {
   return detail::worst_of_pairs(grid, [&](const direction& wi, const direction& wo) {
@@ -61,14 +61,14 @@ template <brdf Brdf>
   });
 }
 
-/// How far below zero the reflectance falls, in sr^-1.
+/// Returns how far the reflectance falls below zero, in sr^-1.
 template <brdf Brdf>
 [[nodiscard]] worst_pair worst_negative(const Brdf& f, const pair_grid& grid = {}) {
   return detail::worst_of_pairs(grid,
                                 [&](const direction& wi, const direction& wo) { return -rgb(f(wi, wo)).minCoeff(); });
 }
 
-/// The largest change when both directions turn about the normal, by a third of a turn, as a share of the larger.
+/// Returns the largest change if both directions rotate about the normal by 120 degrees, relative to the larger value.
 template <brdf Brdf>
 [[nodiscard]] worst_pair worst_anisotropy(const Brdf& f, const pair_grid& grid = {}) {
   constexpr double angle = 2.0 * std::numbers::pi / 3.0;
@@ -79,7 +79,7 @@ template <brdf Brdf>
 
 namespace detail {
 
-/// Calls `add(wi, wo, weight)` for a viewer at an angle from the normal, such that the sum of f times weight is
+/// Calls `add(wi, wo, weight)` for a viewer at an angle from the normal. The sum of f times weight is
 /// `directional_albedo`.
 template <class Add>
 void for_each_light(double theta, int bins, const Add& add) {
@@ -99,10 +99,10 @@ void for_each_light(double theta, int bins, const Add& add) {
 
 }  // namespace detail
 
-/// The directional-hemispherical reflectance: the integral over wi of f cos theta_i, for a viewer (by reciprocity, a
-/// light) at an angle from the normal, in radians and below pi / 2. The midpoint rule over half vectors in
-/// sqrt(theta_h), which resolves highlights wider than about 1e-4 radians: `bins`^2 evaluations, an error of about 2e-3
-/// where the lobe meets the horizon.
+/// Returns the directional-hemispherical reflectance: the integral over wi of f cos theta_i, for a viewer (by
+/// reciprocity, a light) at an angle from the normal, in radians and below pi / 2. Uses the midpoint rule over half
+/// vectors in sqrt(theta_h) with `bins`^2 evaluations. It resolves highlights wider than about 1e-4 radians. The error
+/// is about 2e-3 where the lobe meets the horizon.
 template <brdf Brdf>
 [[nodiscard]] rgb directional_albedo(const Brdf& f, double theta, int bins = 400) {
   rgb sum = rgb::Zero();
@@ -111,13 +111,13 @@ template <brdf Brdf>
   return sum;
 }
 
-/// What is reflected of the light that falls in at an angle from the normal, in radians.
+/// The reflected fraction of light from an angle to the normal, in radians.
 struct albedo_at_angle {
   double theta = 0.0;
   rgb value{0.0, 0.0, 0.0};
 };
 
-/// `directional_albedo` in steps of five degrees up to 85, and at 88.
+/// Returns `directional_albedo` in steps of five degrees up to 85, and at 88.
 template <brdf Brdf>
 [[nodiscard]] std::vector<albedo_at_angle> albedo_by_angle(const Brdf& f, int bins = 400) {
   std::vector<albedo_at_angle> all;
@@ -128,14 +128,14 @@ template <brdf Brdf>
   return all;
 }
 
-/// The largest albedo, over the channels, and the angle where it is reached. More than 1 is more than falls in.
+/// The largest albedo over the channels, and its angle. A value above 1 means that more light leaves than arrives.
 struct largest_albedo {
   double value = 0.0, theta = 0.0;
 };
 
 [[nodiscard]] largest_albedo largest_of(const std::vector<albedo_at_angle>& albedos);
 
-/// Over the angles of `albedo_by_angle`.
+/// Returns the largest over the angles of `albedo_by_angle`.
 template <brdf Brdf>
 [[nodiscard]] largest_albedo find_largest_albedo(const Brdf& f, int bins = 400) {
   return largest_of(albedo_by_angle(f, bins));

@@ -1,6 +1,6 @@
 #pragma once
-/// Isotropic materials on a uniform grid of both polar angles and the difference of the azimuths, as renderers of
-/// NVIDIA's Material Definition Language hold measurements (MDL specification 1.10.2, appendix B).
+/// Isotropic materials on a uniform grid of both polar angles and the azimuth difference, the format of measurements in
+/// renderers for NVIDIA's Material Definition Language (MDL specification 1.10.2, appendix B).
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
@@ -14,7 +14,7 @@
 
 namespace gonio::model {
 
-/// How many cells there are, all of the same size in angle. An azimuth of 0 is the light's own side, 180 degrees that
+/// The number of cells along each axis, all of equal angular size. Azimuth 0 is the light's side, 180 degrees the side
 /// of the mirror direction.
 struct polar_grid {
   Eigen::Index polar = 90;     ///< of theta_i from 0 to 90 degrees, and of theta_o
@@ -25,15 +25,15 @@ struct polar_grid {
   friend bool operator==(const polar_grid&, const polar_grid&) = default;
 };
 
-/// A BRDF in sr^-1 given at the centres of the cells of a polar grid, trilinear between them, constant beyond the
-/// outermost. A value type whose copies share the values.
+/// A BRDF in sr^-1 given at the centres of the cells of a polar grid. It is trilinear between centres and constant
+/// outside the outermost. A value type; copies share the values.
 ///
-/// Measurements are not reciprocal. As the `brdf` concept asks for it, and as MDL's renderers do, the value is the mean
-/// of both orders of the directions; `as_measured` has each.
+/// Measurements are not reciprocal. The `brdf` concept requires reciprocity, so the value is the mean of both orders of
+/// the directions, as in MDL's renderers. `as_measured` returns a single order.
 class polar_grid_brdf {
  public:
-  /// Takes one value for each cell, or three (linear Rec. 709), theta_i slowest, then theta_o, then the azimuth. Throws
-  /// gonio::error unless there are that many, all finite.
+  /// Takes one value for each cell, or three (linear Rec. 709). theta_i varies slowest, then theta_o, then the azimuth.
+  /// Throws gonio::error unless the number of values matches and all are finite.
   polar_grid_brdf(const polar_grid& grid, std::vector<float> values);
 
   [[nodiscard]] const polar_grid& grid() const noexcept { return grid_; }
@@ -41,12 +41,12 @@ class polar_grid_brdf {
   /// 1 or 3.
   [[nodiscard]] Eigen::Index channels() const noexcept { return channels_; }
 
-  /// Zero below the horizon. O(1).
+  /// Returns zero below the horizon. O(1).
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     return 0.5 * (as_measured(wi, wo) + as_measured(wo, wi));
   }
 
-  /// The same with the light at `wi` and the viewer at `wo`.
+  /// Returns the value with the light at `wi` and the viewer at `wo`.
   [[nodiscard]] rgb as_measured(const direction& wi, const direction& wo) const noexcept;
 
  private:
@@ -57,16 +57,16 @@ class polar_grid_brdf {
 
 static_assert(brdf<polar_grid_brdf>);
 
-/// The directions at the centre of a cell; the light's azimuth is 0.
+/// Returns the directions at the centre of a cell. The light's azimuth is 0.
 [[nodiscard]] direction_pair directions_of(const polar_grid& grid, Eigen::Index cell) noexcept;
 
-/// Throws gonio::error unless there is a cell along each axis, and at most 360 along theta and 720 along phi (1.1 GB).
+/// Throws gonio::error unless each axis has a cell, theta has at most 360 and phi at most 720 (1.1 GB).
 void require_polar_grid(const polar_grid& grid);
 
-/// Evaluates a BRDF at the centres of all cells: one channel if it is grey everywhere, else three. A grid has one value
-/// for both sides of the plane of light and normal, from which tables of measurements may differ: it is the mean.
-/// Throws gonio::error as `require_polar_grid` does, and for values that are not finite. Same bytes for any number of
-/// threads.
+/// Evaluates a BRDF at the centres of all cells: one channel if it is grey everywhere, otherwise three. A grid has one
+/// value for both sides of the plane of light and normal. Measured tables may differ between the sides, so the value is
+/// their mean. Throws gonio::error like `require_polar_grid`, and for values that are not finite. The bytes do not
+/// depend on the number of threads.
 template <brdf Brdf>
 [[nodiscard]] polar_grid_brdf tabulate_polar(const Brdf& f, const polar_grid& grid = {}, thread_count threads = {}) {
   require_polar_grid(grid);

@@ -1,11 +1,10 @@
 #pragma once
-/// Densities in closed form by which directions are drawn where a lobe is bright, and which of them each lobe takes.
-/// B. Walter, "Notes on the Ward BRDF", Cornell PCG-05-06, 2005 (Gaussian slopes); B. Walter, S. R. Marschner, H. Li
-/// and K. E. Torrance, EGSR 2007 (doi:10.2312/EGWR/EGSR07/195-206), Eq. 14 (reflected half vectors); E. Heitz,
-/// "Sampling the GGX Distribution of Visible Normals", JCGT 2018; J. Dupuy and A. Benyoub, "Sampling Visible GGX
-/// Normals with Spherical Caps", HPG 2023 (doi:10.1111/cgf.14867); E. P. F. Lafortune, S.-C. Foo, K. E. Torrance and D.
-/// P. Greenberg, "Non-Linear Approximation of Reflectance Functions", SIGGRAPH 1997 (doi:10.1145/258734.258801; cosine
-/// lobes).
+/// Sampling densities in closed form, and the choice of densities for each lobe. B. Walter, "Notes on the Ward BRDF",
+/// Cornell PCG-05-06, 2005 (Gaussian slopes); B. Walter, S. R. Marschner, H. Li and K. E. Torrance, EGSR 2007
+/// (doi:10.2312/EGWR/EGSR07/195-206), Eq. 14 (reflected half vectors); E. Heitz, "Sampling the GGX Distribution of
+/// Visible Normals", JCGT 2018; J. Dupuy and A. Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023
+/// (doi:10.1111/cgf.14867); E. P. F. Lafortune, S.-C. Foo, K. E. Torrance and D. P. Greenberg, "Non-Linear
+/// Approximation of Reflectance Functions", SIGGRAPH 1997 (doi:10.1145/258734.258801; cosine lobes).
 
 #include <gonio/core/sampled_direction.hpp>
 #include <gonio/model/analytic_brdf.hpp>
@@ -19,12 +18,12 @@
 
 namespace gonio::model {
 
-// ---- densities of directions: draw wi given wo above the horizon, and tell the density in sr^-1 ------------------
+// ---- densities of directions: each draws wi given wo above the horizon, and returns its density in sr^-1 ---------
 
 namespace detail {
 
-/// The polar angle about which cos^exponent, normalised by (exponent + 1) / (2 pi), is below u of its integral.
-/// Accurate for large exponents, whose cosines are all near 1.
+/// Returns the polar angle up to which (exponent + 1) / (2 pi) cos^exponent has the integral u. Accurate for large
+/// exponents, whose cosines are all near 1.
 [[nodiscard]] inline double power_cosine_angle(double exponent, double u) noexcept {
   const double log_cosine = std::log1p(-u) / (exponent + 1.0);
   return std::atan2(std::sqrt(-std::expm1(2.0 * log_cosine)), std::exp(log_cosine));
@@ -38,9 +37,9 @@ namespace detail {
   return (2.0 * wo.dot(h) * h - wo).normalized();
 }
 
-/// The density of wi whose half vector, the one above the horizon, has a density: dh / d wi = 1 / (4 |wo . h|), and
-/// |wo . h| is half the length of wi + wo. One wi, opposite to wo, is reflected by many half vectors; it counts as
-/// never drawn.
+/// Returns the density of wi, given the density of its half vector above the horizon: dh / d wi = 1 / (4 |wo . h|), and
+/// |wo . h| is half the length of wi + wo. If wi is opposite to wo, many half vectors reflect it. It counts as never
+/// drawn.
 template <class Density>
 [[nodiscard]] double reflected_density(const direction& wi, const direction& wo, const Density& of_half) noexcept {
   const direction sum = wi + wo;
@@ -51,7 +50,7 @@ template <class Density>
 
 }  // namespace detail
 
-/// cos(theta_i) / pi.
+/// Density cos(theta_i) / pi.
 struct cosine_directions {
   [[nodiscard]] direction sample(const direction& /*wo*/, double u1, double u2) const noexcept {
     return cosine_weighted_direction(u1, u2);
@@ -61,11 +60,11 @@ struct cosine_directions {
   }
 };
 
-/// (n + 1) / (2 pi) cos^n of the angle with M wo, M = diag(tangential, tangential, normal): Phong's lobe about the
-/// mirror direction, and Lafortune's.
+/// Density (n + 1) / (2 pi) cos^n of the angle to M wo, M = diag(tangential, tangential, normal): Phong's lobe about
+/// the mirror direction, and Lafortune's lobe.
 struct power_cosine_directions {
   double exponent = 1.0;                   ///< n
-  double tangential = -1.0, normal = 1.0;  ///< of M: the mirror
+  double tangential = -1.0, normal = 1.0;  ///< of M; the default is the mirror direction
 
   [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
     return turned(axis(wo), detail::power_cosine_angle(exponent, u1), 2.0 * std::numbers::pi * u2);
@@ -82,7 +81,7 @@ struct power_cosine_directions {
   }
 };
 
-/// Half vectors of density (n + 1) / (2 pi) (h . n)^n: Blinn-Phong's.
+/// Half vectors with density (n + 1) / (2 pi) (h . n)^n: Blinn-Phong's.
 struct power_cosine_half_vectors {
   double exponent = 1.0;
 
@@ -96,8 +95,8 @@ struct power_cosine_half_vectors {
   }
 };
 
-/// Half vectors whose slopes are Gaussian: exp(-(h_x / alpha_x)^2 - (h_y / alpha_y)^2, both over h_z^2) over
-/// pi alpha_x alpha_y h_z^3. Walter 2005; of one alpha it is Beckmann's distribution times the cosine.
+/// Half vectors with Gaussian slopes: the density is exp(-(h_x / alpha_x)^2 - (h_y / alpha_y)^2, both over h_z^2) over
+/// pi alpha_x alpha_y h_z^3. Walter 2005. With a single alpha it is Beckmann's distribution times the cosine.
 struct gaussian_half_vectors {
   double alpha_x = 0.2, alpha_y = 0.2;
 
@@ -115,22 +114,22 @@ struct gaussian_half_vectors {
   }
 };
 
-/// Half vectors of those GGX facets that wo sees: G1(wo) D(h) max(wo . h, 0) / cos(theta_o). Heitz 2018, drawn as Dupuy
-/// and Benyoub 2023.
+/// Half vectors of the GGX facets visible from wo: density G1(wo) D(h) max(wo . h, 0) / cos(theta_o). Heitz 2018,
+/// sampled as in Dupuy and Benyoub 2023.
 struct ggx_visible_normals {
   double alpha = 0.2;
 
   [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
     // Stretch the viewer's direction so that the facets become a hemisphere.
     const direction seen = direction(alpha * wo.x(), alpha * wo.y(), wo.z()).normalized();
-    // Reflections by the hemisphere fill a cap evenly: draw one, take its half vector, and undo the stretching.
+    // Reflections by the hemisphere fill a cap uniformly. Draw one, take its half vector, and undo the stretching.
     const double z = (1.0 - u1) * (1.0 + seen.z()) - seen.z(), azimuth = 2.0 * std::numbers::pi * u2;
     const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
     const direction half = direction(sine * std::cos(azimuth), sine * std::sin(azimuth), z) + seen;
     return detail::reflected(wo, direction(alpha * half.x(), alpha * half.y(), half.z()).normalized());
   }
   [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
-    // wo . h of the density cancels against that of the reflection.
+    // wo . h of the density cancels against wo . h of the reflection.
     const direction sum = wi + wo;
     if (!(sum.z() > 0.0)) return 0.0;
     return 0.5 * detail::ggx_distribution(sum.normalized(), alpha) *
@@ -138,9 +137,9 @@ struct ggx_visible_normals {
   }
 };
 
-// ---- which of them a lobe takes ----------------------------------------------------------------------------------
+// ---- the densities of each lobe ----------------------------------------------------------------------------------
 
-/// One of the densities, and the share of a lobe's directions that are drawn by it.
+/// A density, and the fraction of a lobe's directions that it draws.
 struct sampling_technique {
   using density_type = std::variant<cosine_directions, power_cosine_directions, power_cosine_half_vectors,
                                     gaussian_half_vectors, ggx_visible_normals>;
@@ -148,21 +147,20 @@ struct sampling_technique {
   double share = 1.0;
 };
 
-/// A lobe's densities, whose shares sum to 1. A shape of yours gets its own by a function `techniques_of(shape)` in
-/// its namespace.
+/// A lobe's densities, whose shares sum to 1. For a shape of your own, define `techniques_of(shape)` in its namespace.
 using sampling_techniques = std::vector<sampling_technique>;
 
 namespace detail {
 
-/// A tenth of the directions cosine-weighted, for lobes whose weights have no bound of their own: so none exceeds
-/// 10 pi f.
+/// A tenth of the directions is cosine-weighted if a lobe's weights are otherwise unbounded. No weight then exceeds 10
+/// pi f.
 inline constexpr double defensive_share = 0.1;
 
-/// A wide lobe is like a diffuse one, a narrow one not at all.
+/// Adds cosine-weighted directions with share 1 / (1 + exponent): a wide lobe is nearly diffuse, a narrow one is not.
 [[nodiscard]] sampling_techniques with_cosine_if_wide(const sampling_technique::density_type& density, double exponent);
 
-/// Ward's lobe by Gaussian slopes has the weight (wo . h) h_z^3 sqrt(cos theta_i / cos theta_o) (Walter 2005),
-/// or without the root, which grows without bound towards grazing viewers.
+/// With Gaussian slopes, Ward's lobe has the weight (wo . h) h_z^3 sqrt(cos theta_i / cos theta_o) (Walter 2005).
+/// Ward-Duer's has no root and grows without bound towards grazing viewers.
 [[nodiscard]] inline sampling_techniques ward_techniques(double alpha_x, double alpha_y) {
   return {{gaussian_half_vectors{alpha_x, alpha_y}, 1.0 - defensive_share}, {cosine_directions{}, defensive_share}};
 }
@@ -180,8 +178,8 @@ inline constexpr double defensive_share = 0.1;
 [[nodiscard]] inline sampling_techniques techniques_of(const blinn_phong::shape_type& shape) {
   return detail::with_cosine_if_wide(power_cosine_half_vectors{shape.shininess}, shape.shininess);
 }
-/// Powers are convex: ((1 - alpha) a + alpha b)^s <= (1 - alpha) a^s + alpha b^s for s >= 1, so that the mixture of
-/// Phong's and Blinn-Phong's directions bounds the weights.
+/// Powers are convex: ((1 - alpha) a + alpha b)^s <= (1 - alpha) a^s + alpha b^s for s >= 1. A mixture of Phong's and
+/// Blinn-Phong's directions therefore bounds the weights.
 [[nodiscard]] sampling_techniques techniques_of(const phong_blinn::shape_type& shape);
 [[nodiscard]] sampling_techniques techniques_of(const lafortune::shape_type& shape);
 
@@ -205,7 +203,7 @@ inline constexpr double defensive_share = 0.1;
   return {{gaussian_half_vectors{shape.roughness_x, shape.roughness_y}, 1.0}};
 }
 
-/// The weight is F min((wo . h) / (cos theta_o h_z), 2 cos theta_i / the larger cosine): at most 2.
+/// The weight is F min((wo . h) / (cos theta_o h_z), 2 cos theta_i / max(cos theta_i, cos theta_o)): at most 2.
 [[nodiscard]] inline sampling_techniques techniques_of(const torrance_sparrow::shape_type& shape) {
   return {{gaussian_half_vectors{shape.slope, shape.slope}, 1.0}};
 }
@@ -215,7 +213,7 @@ inline constexpr double defensive_share = 0.1;
   return {{ggx_visible_normals{shape.alpha}, 1.0}};
 }
 
-/// Shape times a Fresnel factor: as Shape.
+/// A shape times a Fresnel factor has the techniques of the shape.
 template <class Shape>
 requires requires(const Shape& shape) {
   techniques_of(shape.lobe);
@@ -230,7 +228,7 @@ template <template <class> class Shape>
 
 namespace detail {
 
-/// Those of the shape if the lobe is of this kind.
+/// Takes the techniques of the shape if the lobe is of this kind.
 template <template <class> class Shape>
 [[nodiscard]] bool take_if_same(const analytic_lobe& f, sampling_techniques& taken) {
   if (f.kind().name() != Shape<double>::name) return false;
@@ -249,8 +247,8 @@ template <template <class> class... Shapes>
 
 }  // namespace detail
 
-/// By the name of its kind. A kind that is not of this library is drawn by cosine-weighted directions: never wrong, but
-/// noisy where it shines.
+/// Chooses by the name of the lobe's kind. A kind outside this library uses cosine-weighted directions, which is
+/// unbiased, but noisy at its highlight.
 [[nodiscard]] sampling_techniques techniques_of(const analytic_lobe& f);
 
 }  // namespace gonio::model

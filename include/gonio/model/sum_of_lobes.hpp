@@ -9,7 +9,7 @@
 
 namespace gonio::model {
 
-/// f = f_1 + f_2 + ... The lobes keep their own parameters; nothing here keeps the sum's albedo below 1.
+/// f = f_1 + f_2 + ... The lobes keep their own parameters. The sum's albedo may exceed 1.
 /// ```cpp
 /// const gonio::model::sum_of_lobes paint{gonio::model::lambertian{}, gonio::model::ggx{}};
 /// ```

@@ -1,11 +1,10 @@
 #pragma once
-/// Tables of the RGL database's kind, made of any BRDF: `tabulate_adaptively(f)`.
+/// Tables like those of the RGL database, computed from any BRDF: `tabulate_adaptively(f)`.
 ///
-/// Dupuy and Jakob 2018 (doi:10.1145/3272127.3275059; see model/adaptive_brdf.hpp). The distribution of normals comes
-/// from what the material reflects back to the light: D(m) = f(m, m) cos(m) sigma(m) up to a factor, where sigma is the
-/// projected area of D itself; the fixed point is found by power iterations (Dupuy, Heitz, Iehl, Poulin, Ostromoukhov,
-/// "Extracting Microfacet-based BRDF Parameters from Arbitrary Materials with Power Iterations", EGSR 2015,
-/// doi:10.1111/cgf.12675).
+/// Dupuy and Jakob 2018 (doi:10.1145/3272127.3275059; see model/adaptive_brdf.hpp). The distribution of normals is
+/// computed from the retroreflection: D(m) = f(m, m) cos(m) sigma(m) up to a factor, where sigma is the projected area
+/// of D itself. Power iterations find this fixed point (Dupuy, Heitz, Iehl, Poulin, Ostromoukhov, "Extracting
+/// Microfacet-based BRDF Parameters from Arbitrary Materials with Power Iterations", EGSR 2015, doi:10.1111/cgf.12675).
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
@@ -21,7 +20,7 @@
 
 namespace gonio::model {
 
-/// How many numbers the tables have. docs/results/renderers.md has what is lost by which.
+/// The sizes of the tables. docs/results/renderers.md lists the error of each size.
 struct adaptive_resolution {
   Eigen::Index theta_i = 32;           ///< polar angles of wi, uniform from 0 to pi/2
   Eigen::Index values = 96;            ///< rows and columns of the reflectance at each theta_i
@@ -40,12 +39,12 @@ using brdf_function = std::function<rgb(const direction& wi, const direction& wo
 
 }  // namespace detail
 
-/// A BRDF's tables. `as_measured(wi, wo)` of the result is f(wi, wo) at the nodes of all tables, and interpolated
-/// between them. Where wo is below the horizon, f(wi, wo) cos(theta_o) is continued linearly and so less than zero:
-/// cells that the horizon crosses are interpolated without a bend.
+/// Returns the tables of a BRDF. `as_measured(wi, wo)` of the result is f(wi, wo) at the nodes of all tables, and
+/// interpolated between them. If wo is below the horizon, f(wi, wo) cos(theta_o) continues linearly, with negative
+/// values. Cells that the horizon crosses are then interpolated without a bend.
 ///
-/// Throws gonio::error for fewer than 2 numbers along any axis, and for values that are not finite. Same bytes for any
-/// number of threads. O(theta_i values^2) evaluations of f.
+/// Throws gonio::error for fewer than 2 or more than 4096 numbers along any axis, and for values that are not finite.
+/// The bytes do not depend on the number of threads. O(theta_i values^2) evaluations of f.
 template <brdf Brdf>
 [[nodiscard]] adaptive_brdf tabulate_adaptively(const Brdf& f, const adaptive_resolution& resolution = {},
                                                 thread_count threads = {}) {
@@ -53,11 +52,11 @@ template <brdf Brdf>
   return adaptive_brdf(detail::tabulated_adaptively(evaluated, resolution, threads));
 }
 
-/// What tables may change a material's albedo by, relative to it, unless a user says otherwise.
+/// The default limit of the relative change of a material's albedo by its tables.
 inline constexpr double usual_albedo_tolerance = 0.006;
 
-/// The largest difference between the albedos of a BRDF and of its tables as measured, relative to the former, at 0,
-/// 20, 40, 60 and 80 degrees of wi: a certificate of the tables. 800,000 evaluations of both.
+/// Returns the largest relative difference between the albedos of a BRDF and of its tables as measured, at 0, 20, 40,
+/// 60 and 80 degrees of wi. 800,000 evaluations of each.
 template <brdf Brdf>
 [[nodiscard]] double albedo_error(const Brdf& f, const adaptive_brdf& tables, thread_count threads = {}) {
   std::array<double, 5> errors{};
@@ -65,7 +64,7 @@ template <brdf Brdf>
       std::ssize(errors), 1,
       [&](Eigen::Index i) {
         const double theta = radians(20.0 * static_cast<double>(i));
-        // Of the two directions directional_albedo draws the first: light and viewer are exchanged.
+        // `directional_albedo` integrates over its first direction, so light and viewer are exchanged.
         const auto exchanged = [&f](const direction& wo, const direction& wi) noexcept -> rgb { return f(wi, wo); };
         const auto measured = [&tables](const direction& wo, const direction& wi) noexcept -> rgb {
           return tables.as_measured(wi, wo);
@@ -77,9 +76,10 @@ template <brdf Brdf>
   return *std::ranges::max_element(errors);
 }
 
-/// A BRDF's tables of the usual resolution if these keep its albedo within `tolerance`; else of nearly twice the
-/// angles, or of these and half as many rows and columns more: where a narrow highlight grows towards grazing angles,
-/// what is linear between nodes is too bright. A file of them has 7, 13 or 24 MB. Throws as `tabulate_adaptively`.
+/// Returns a BRDF's tables at the default resolution if they keep its albedo within `tolerance`. Otherwise uses nearly
+/// twice the angles, and if needed also half as many rows and columns again. Linear interpolation is too bright where a
+/// narrow highlight grows towards grazing angles. A file of the tables has 7, 13 or 24 MB. Throws like
+/// `tabulate_adaptively`.
 template <brdf Brdf>
 [[nodiscard]] adaptive_brdf tabulate_keeping_albedo(const Brdf& f, double tolerance = usual_albedo_tolerance,
                                                     thread_count threads = {}) {
@@ -90,8 +90,8 @@ template <brdf Brdf>
   return tabulate_adaptively(f, {.theta_i = 60, .values = 144}, threads);
 }
 
-/// The reflectance of another BRDF over a material's own normals, as `adaptive_brdf_parts` has it: three wavelengths of
-/// a material, say, that is tabulated in colours. O(theta_i values^2) evaluations of f.
+/// Returns the reflectance table of another BRDF over a material's own normals, for `adaptive_brdf_parts`: for example
+/// three wavelengths of a material that is tabulated in colours. O(theta_i values^2) evaluations of f.
 template <brdf Brdf>
 [[nodiscard]] unit_square_tables tabulate_over(const adaptive_brdf& material, const Brdf& f,
                                                thread_count threads = {}) {

@@ -1,7 +1,7 @@
 #pragma once
-/// The microfacet model of K. E. Torrance and E. M. Sparrow 1967 (doi:10.1364/JOSA.57.001105), as R. L. Cook and K. E.
-/// Torrance, "A Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293), have it: J. B.
-/// Nielsen's thesis, Eq. 2.19-2.22.
+/// The microfacet model of K. E. Torrance and E. M. Sparrow 1967 (doi:10.1364/JOSA.57.001105), in the form of R. L.
+/// Cook and K. E. Torrance, "A Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293): J.
+/// B. Nielsen's thesis, Eq. 2.19-2.22.
 
 #include <gonio/model/fresnel.hpp>
 #include <gonio/model/lobe.hpp>
@@ -11,8 +11,8 @@
 namespace gonio::model {
 
 /// D F G / (4 cos theta_i cos theta_o): Beckmann's distribution, Schlick's Fresnel factor, and the masking of
-/// V-cavities. Eq. 2.21 is printed with cos theta_i, which is not reciprocal; as in its source the angle here is
-/// that with the half vector.
+/// V-cavities. Eq. 2.21 is printed with cos theta_i, which is not reciprocal. Here, as in its source, the angle is to
+/// the half vector.
 template <class Real>
 struct torrance_sparrow_shape {
   static constexpr std::string_view name = "torrance-sparrow";
@@ -21,18 +21,18 @@ struct torrance_sparrow_shape {
   static auto members(auto& self) { return std::tie(self.slope, self.f0); }
 
   Real slope = Real(0.2);  ///< m, the root mean square slope of the facets
-  Real f0 = Real(0.1);     ///< reflectance of a facet at normal incidence, beside which the colour scales all
+  Real f0 = Real(0.1);     ///< reflectance of a facet at normal incidence; the lobe's colour also scales the whole
 
   [[nodiscard]] Real operator()(const lobe_geometry& at) const {
     const double cosine_h = at.h.z();
     const double largest_cosine = std::max(at.cosine_i, at.cosine_o);
-    // G over 4 cos theta_i cos theta_o, with the cosines cancelled where light is masked.
+    // G over 4 cos theta_i cos theta_o. The cosines cancel where light is masked.
     const double masking = std::min(
         {0.25 / (at.cosine_i * at.cosine_o), 0.5 * cosine_h / at.cosine_d / largest_cosine, largest_reflectance});
     return distribution(at.squared_tangent_h()) * fresnel_schlick(at.cosine_d, f0) * masking;
   }
 
-  /// D of Eq. 2.20, in sr^-1, of facets whose tan^2 of the angle with the normal is given.
+  /// D of Eq. 2.20, in sr^-1, given tan^2 of the angle between facet and normal.
   [[nodiscard]] Real distribution(double squared_tangent) const {
     using std::exp;
     const Real squared_slope = slope * slope;

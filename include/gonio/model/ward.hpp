@@ -14,10 +14,10 @@ inline constexpr shape_parameter ward_roughness{"roughness", "slope", 0.002, 2.0
 inline constexpr shape_parameter ward_roughness_x{"roughness_x", "slope", 0.002, 2.0, 0.15, true};
 inline constexpr shape_parameter ward_roughness_y{"roughness_y", "slope", 0.002, 2.0, 0.15, true};
 
-/// How the Gaussian is divided by the cosines of light and viewer.
+/// The cosines of light and viewer that divide the Gaussian.
 enum class ward_normalisation { geometric_mean, product, bounded };
 
-/// exp(-exponent) times that, over 4 pi.
+/// Returns exp(-exponent) with this normalisation, over 4 pi.
 template <ward_normalisation Normalisation, class Real>
 [[nodiscard]] Real normalised_gaussian(const lobe_geometry& at, const Real& exponent) {
   using std::exp;
@@ -95,8 +95,8 @@ using ward = lobe<detail::isotropic_ward<detail::ward_normalisation::geometric_m
 using ward_duer = lobe<detail::isotropic_ward<detail::ward_normalisation::product>::shape>;
 using ward_bounded = lobe<detail::isotropic_ward<detail::ward_normalisation::bounded>::shape>;
 
-/// Brushed metal: rougher along one axis than along the other. These are the only models here that are not isotropic;
-/// a table over half and difference angles cannot hold them.
+/// Brushed metal, rougher along one axis than along the other. These are the only anisotropic models here. A table over
+/// half and difference angles cannot hold them.
 using anisotropic_ward = lobe<detail::anisotropic_ward<detail::ward_normalisation::geometric_mean>::shape>;
 using anisotropic_ward_duer = lobe<detail::anisotropic_ward<detail::ward_normalisation::product>::shape>;
 using anisotropic_ward_bounded = lobe<detail::anisotropic_ward<detail::ward_normalisation::bounded>::shape>;

@@ -1,24 +1,24 @@
 #pragma once
-/// A material as a renderer asks for it: `eval`, `eval_pdf` and `sample`, by numbers of the standard library alone.
-/// This header needs no other and compiles as C++17, too, so that a renderer's own files need neither Eigen nor the
-/// rest of the library: one file makes the material, the others see a `bsdf_view`. docs/learn/renderer.md has recipes
-/// for pbrt-v4, Mitsuba 3 and Cycles.
+/// A material's interface for a renderer: `eval`, `eval_pdf` and `sample`, with standard library types only. This
+/// header includes no other gonio header and also compiles as C++17, so a renderer's own files need neither Eigen nor
+/// the rest of the library: one file makes the material, the others use a `bsdf_view`. docs/learn/renderer.md has
+/// recipes for pbrt-v4, Mitsuba 3 and Cycles.
 
 #include <array>
 
 namespace gonio::render {
 
-/// Any material that samples itself, such as `half_vector_sampler` or `lobe_sampler`, behind three functions: a view of
-/// four pointers. What it views must outlive it. It does not allocate, lock or throw.
+/// A view of any material that samples itself, such as `half_vector_sampler` or `lobe_sampler`: four pointers. The
+/// material must outlive it. It does not allocate, lock or throw.
 ///
-/// All directions are unit vectors that point away from the surface, in its local frame, whose z axis is the normal: wi
+/// All directions are unit vectors that point away from the surface, in its local frame with z along the normal: wi
 /// towards the light, wo towards the viewer. Values are linear Rec. 709 (sRGB without its curve), in sr^-1.
 class bsdf_view {
  public:
   using vector = std::array<float, 3>;
   using colour = std::array<float, 3>;
 
-  /// A direction towards the light, f cos(theta_i) / pdf there, and pdf in sr^-1. Light is carried if `pdf` is positive
+  /// A direction towards the light, f cos(theta_i) / pdf there, and pdf in sr^-1. It carries light if `pdf` is positive
   /// and the weight is not black.
   struct sampled {
     vector wi{0.0f, 0.0f, 1.0f};
@@ -32,19 +32,19 @@ class bsdf_view {
         eval_(&value_of<Sampler>),
         eval_pdf_(&density_of<Sampler>),
         sample_(&drawn_from<Sampler>) {}
-  /// A material that ends with the statement cannot be viewed.
+  /// A temporary material cannot be viewed.
   template <class Sampler>
   explicit bsdf_view(const Sampler&&) = delete;
 
-  /// f, without the cosine. Black below the horizon, and where a number is none.
+  /// Returns f without the cosine. Black below the horizon and for NaN components.
   [[nodiscard]] colour eval(const vector& wi, const vector& wo) const noexcept { return eval_(material_, wi, wo); }
 
-  /// The density in sr^-1 with which `sample` draws wi.
+  /// Returns the density in sr^-1 with which `sample` draws wi.
   [[nodiscard]] float eval_pdf(const vector& wi, const vector& wo) const noexcept {
     return eval_pdf_(material_, wi, wo);
   }
 
-  /// Draws a direction towards the light by two numbers from 0 up to 1.
+  /// Draws a direction towards the light from two numbers in [0, 1).
   [[nodiscard]] sampled sample(const vector& wo, float u1, float u2) const noexcept {
     return sample_(material_, wo, u1, u2);
   }

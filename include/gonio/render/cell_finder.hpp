@@ -1,11 +1,11 @@
 #pragma once
-/// The cell of a MERL-like grid in which a pair of directions lies, without trigonometric functions: for the inner loop
-/// of a renderer. S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998
+/// Finds the cell of a MERL-like grid that contains a pair of directions, without trigonometric functions, for the
+/// inner loop of a renderer. S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998
 /// (doi:10.1007/978-3-7091-6453-2_2); the grid is that of Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH
 /// 2003 (doi:10.1145/882262.882343).
 ///
-/// An angle in a quadrant is told by its sine's share of sine plus cosine, s / (s + c), which rises from 0 to 1 nearly
-/// evenly, and whatever length both are multiplied by. The shares at the cells' borders are tabulated once.
+/// An angle in a quadrant is identified by s / (s + c) with its sine s and cosine c. This ratio rises almost evenly
+/// from 0 to 1 and is independent of a common factor. Its values at the cells' borders are tabulated once.
 
 #include <gonio/table/grid.hpp>
 
@@ -23,31 +23,31 @@ namespace gonio::render {
 
 namespace detail {
 
-/// Counts how many of some ascending borders a number has reached: a table of the numbers' range says where to begin,
-/// and one comparison ends it.
+/// Counts how many ascending borders a number has reached. A table over the range gives the starting point, and one
+/// comparison finishes the search.
 template <std::floating_point Real>
 class border_counter {
  public:
   border_counter() = default;
 
-  /// Borders of numbers from 0 up to `end`.
+  /// Takes borders from 0 up to `end`.
   border_counter(const std::vector<double>& borders, double end) : borders_(borders.begin(), borders.end()) {
-    borders_.push_back(static_cast<Real>(2.0 * end));  // reached by none
+    borders_.push_back(static_cast<Real>(2.0 * end));  // never reached
     Eigen::Index bins = 64;
     while (!fill(bins, static_cast<Real>(end))) bins *= 2;
   }
 
-  /// For a number from 0 to `end`.
+  /// Returns the count for a number from 0 to `end`.
   [[nodiscard]] Eigen::Index operator()(Real number) const noexcept {
     const Eigen::Index before = before_[static_cast<Eigen::Index>(number * bins_per_unit_)];
     return before + (number >= borders_[before] ? 1u : 0u);
   }
 
  private:
-  /// False if a bin has two borders.
+  /// Returns false if a bin has two borders.
   bool fill(Eigen::Index bins, Real end) {
     bins_per_unit_ = static_cast<Real>(bins) / end;
-    before_.assign(bins + 1, 0);  // the last is for `end` itself
+    before_.assign(bins + 1, 0);  // the last bin is for `end` itself
     std::vector<int> in_bin(bins + 1, 0);
     for (Eigen::Index i = 0; i + 1 < std::ssize(borders_); ++i)
       ++in_bin[static_cast<Eigen::Index>(borders_[i] * bins_per_unit_)];
@@ -64,22 +64,21 @@ class border_counter {
 
 }  // namespace detail
 
-/// Finds the cells of a grid that `grid::nearest` finds with arc functions, in a fraction of the time. For one pair
-/// after the other: for many at once, and for places between the cells, there is `to_grid_coordinates`, whose
-/// polynomials are more instructions than a processor can look ahead, so that it waits for each value
-/// (bench/render/lookup_table.cpp). Where rounding decides, `float` may find the neighbour, within 1e-6 radians of the
-/// border: some in a million pairs; `double` found no other in ten million. Both directions may be multiplied by the
-/// same positive factor.
+/// Finds the same cells as `grid::nearest`, which uses arc functions, in a fraction of the time. Use it for one pair at
+/// a time. For many pairs at once, or positions between cells, use `to_grid_coordinates`: its polynomials have more
+/// instructions than a processor can look ahead, so single pairs wait for each value (bench/render/lookup_table.cpp).
+/// Near a border, rounding in `float` may give the neighbour: within 1e-6 radians, some pairs in a million. `double`
+/// gave no other cell in ten million pairs. Both directions may have the same positive factor.
 ///
-/// Construction allocates some kilobytes; after that there is no allocation, no lock, no exception, and it may be used
-/// from many threads.
+/// Construction allocates some kilobytes. After that it does not allocate, lock or throw, and may be used from many
+/// threads.
 template <std::floating_point Real = float>
 class cell_finder {
  public:
   /// O(theta_h + theta_d + phi_d).
   explicit cell_finder(const grid& cells = grid()) : rows_(cells.extents().theta_d), columns_(cells.extents().phi_d) {
     const auto [theta_h, theta_d, phi_d] = cells.extents();
-    // The border before node k is half a cell from it, which on the axis of theta_h is not the middle of two angles.
+    // The border before node k is half a cell from it. On the theta_h axis, that is not the middle of two angles.
     const double shift = cells.anchor() == cell_anchor::centre ? 0.0 : -0.5;
     constexpr double half_pi = std::numbers::pi / 2.0;
     std::vector<double> h, d, phi;
@@ -88,7 +87,7 @@ class cell_finder {
       h.push_back(std::sqrt(share(half_pi * fraction * fraction)));
     }
     for (int k = 1; k < theta_d; ++k) d.push_back(share(half_pi * (k + shift) / theta_d));
-    // Behind the last node of an axis that wraps there may be a border to the first.
+    // After the last node of a periodic axis there may be a border to the first.
     for (int k = 1; k + shift < phi_d; ++k) {
       const double angle = std::numbers::pi * (k + shift) / phi_d;
       phi.push_back(angle < half_pi ? share(angle) : 1.0 + share(angle - half_pi));
@@ -98,17 +97,17 @@ class cell_finder {
     phi_d_ = {phi, 2.0};
   }
 
-  /// The number where there is no cell.
+  /// The number that stands for no cell.
   static constexpr Eigen::Index none = std::numeric_limits<Eigen::Index>::max();
 
-  /// The cell of a pair, and whether there is one.
+  /// The cell of a pair, and whether it exists.
   struct place {
     Eigen::Index theta_h = 0, theta_d = 0, phi_d = 0;
     bool exists = false;
   };
 
-  /// The linear number of the cell, phi_d fastest and theta_h slowest; `none` if a direction is at or below the
-  /// horizon, or not finite. Directions are anything with three components `[0]`, `[1]`, `[2]`.
+  /// Returns the linear number of the cell, phi_d fastest and theta_h slowest; `none` if a direction is at or below the
+  /// horizon, or not finite. Directions are any type with components `[0]`, `[1]`, `[2]`.
   template <class Direction>
   [[nodiscard]] Eigen::Index operator()(const Direction& wi, const Direction& wo) const noexcept {
     return at(wi[0], wi[1], wi[2], wo[0], wo[1], wo[2]);
@@ -122,10 +121,10 @@ class cell_finder {
   [[nodiscard]] place find(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) const noexcept {
     const Real sx = ix + ox, sy = iy + oy, sz = iz + oz, dx = ix - ox, dy = iy - oy, dz = iz - oz;
     const Real across = sx * sx + sy * sy, sum = across + sz * sz, difference = dx * dx + dy * dy + dz * dz;
-    // Also false for what is not a number.
+    // Also false for NaN.
     if (!(iz > 0 && oz > 0 && sum + difference <= largest)) return {};
     const Real length = std::sqrt(sum), radius = std::sqrt(across), apart = std::sqrt(difference);
-    // The difference vector turned with the half vector to the pole, times the radius: on the axis it is not turned.
+    // The difference vector, rotated with the half vector to the pole, times the radius. On the axis it is not rotated.
     const bool on_axis = !(across > 0);
     const Real along = sx * dx + sy * dy;
     const Real x = on_axis ? dx : (sz * along - across * dz) / length, y = on_axis ? dy : sx * dy - sy * dx;
@@ -142,7 +141,7 @@ class cell_finder {
     return s / (s + c);
   }
 
-  /// From 0 to 2 as an azimuth, folded to half a turn, goes from 0 to pi, which is 0 again.
+  /// Maps an azimuth, folded to half a turn, to [0, 2). The fold maps pi to 0.
   [[nodiscard]] static Real half_turn_share(Real x, Real y) noexcept {
     const bool is_below = y < 0;
     const Real up = is_below ? -y : y, right = is_below ? -x : x, side = std::abs(x);

@@ -1,8 +1,8 @@
 #pragma once
-/// Reconstructed BRDFs that are evaluated from their weights when they are asked: many materials that share their
-/// principal components need a few hundred bytes each. J. B. Nielsen, H. W. Jensen and R. Ramamoorthi, "On Optimal,
-/// Minimal BRDF Sampling for Reflectance Acquisition", SIGGRAPH Asia 2015 (doi:10.1145/2816795.2818085), Eq. 1-4 (the
-/// log-relative mapping) and 10 (the reconstruction Q c + mu).
+/// Reconstructed BRDFs that are evaluated from their weights on demand. Many materials that share principal components
+/// need only a few hundred bytes each. J. B. Nielsen, H. W. Jensen and R. Ramamoorthi, "On Optimal, Minimal BRDF
+/// Sampling for Reflectance Acquisition", SIGGRAPH Asia 2015 (doi:10.1145/2816795.2818085), Eq. 1-4 (the log-relative
+/// mapping) and 10 (the reconstruction Q c + mu).
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
@@ -22,8 +22,7 @@
 
 namespace gonio::render {
 
-/// What components can be taken from: a basis of principal components relative to a reference, as
-/// `gonio::log_relative_pca` is one.
+/// A source of components: a basis of principal components relative to a reference, such as `gonio::log_relative_pca`.
 template <class Basis>
 concept log_relative_components = requires(const Basis& basis, Eigen::Index cell) {
   { basis.cells().grid() } -> std::convertible_to<grid>;
@@ -34,12 +33,12 @@ concept log_relative_components = requires(const Basis& basis, Eigen::Index cell
   { basis.metric().epsilon } -> std::convertible_to<double>;
 };
 
-/// Principal components Q of log-relative BRDFs, their mean mu and the logarithm of the reference, at the cells of a
-/// grid: what materials share. Read by any number of threads.
+/// The data that materials share: principal components Q of log-relative BRDFs, their mean mu and the logarithm of the
+/// reference, at the cells of a grid. Any number of threads may read it.
 template <stored_number Stored = float>
 class shared_components {
  public:
-  /// The first `count` components of a basis, or all. Throws gonio::error if it has fewer. O(cells x components).
+  /// Takes the first `count` components of a basis, or all. Throws gonio::error if it has fewer. O(cells x components).
   template <log_relative_components Basis>
   explicit shared_components(const Basis& basis, std::optional<Eigen::Index> count = {})
       : index_(basis.cells().grid()),
@@ -52,8 +51,8 @@ class shared_components {
     });
   }
 
-  /// Combinations of a basis' components, a column of weights for each (k x r): the functions of a map of a spatially
-  /// varying BRDF (`io::svbrdf_header`). Throws gonio::error unless there are k rows. O(cells k r).
+  /// Takes combinations of a basis' components, a column of weights for each (k x r): the functions of a spatially
+  /// varying BRDF map (`io::svbrdf_header`). Throws gonio::error unless there are k rows. O(cells k r).
   template <log_relative_components Basis>
   shared_components(const Basis& basis, const Eigen::Ref<const Eigen::MatrixXf>& combinations)
       : index_(basis.cells().grid()), size_(combinations.cols()), epsilon_(static_cast<float>(basis.metric().epsilon)) {
@@ -70,22 +69,22 @@ class shared_components {
     });
   }
 
-  /// The number of components.
+  /// Returns the number of components.
   [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
   [[nodiscard]] const gonio::grid& grid() const noexcept { return index_.grid(); }
   [[nodiscard]] const horizon_index& index() const noexcept { return index_; }
   [[nodiscard]] float epsilon() const noexcept { return epsilon_; }
 
-  /// Of a cell: the logarithm of the reference, mu, and `size()` components.
+  /// Returns the row of a cell: the logarithm of the reference, mu, and `size()` components.
   [[nodiscard]] const Stored* row(Eigen::Index number) const noexcept { return values_.data() + number * stride(); }
 
-  /// In bytes.
+  /// Returns the memory in bytes.
   [[nodiscard]] Eigen::Index memory() const noexcept { return values_.size() * sizeof(Stored) + index_.memory(); }
 
  private:
   [[nodiscard]] Eigen::Index stride() const noexcept { return size_ + 2; }
 
-  /// Fills all cells; `read_row(cell, out)` writes the `size()` components of one.
+  /// Fills all cells. `read_row(cell, out)` writes the `size()` components of a cell.
   template <class Basis, class ReadRow>
   void read(const Basis& basis, const ReadRow& read_row) {
     values_.resize(index_.size() * stride());
@@ -96,7 +95,7 @@ class shared_components {
           const Eigen::Index number = index_(h, d, p);
           const Eigen::Index cell = basis.cells().representative(grid().linear(cell_index{h, d, p}));
           Stored* const row = values_.data() + number * stride();
-          // Zeros are far below epsilon and are floored, as in `log_relative`.
+          // Zeros are far below epsilon and are clamped to a floor, as in `log_relative`.
           const double reference = static_cast<double>(basis.metric().reference()[cell]);
           row[0] = static_cast<Stored>(static_cast<float>(std::log(std::max(reference, 1e-8))));
           row[1] = static_cast<Stored>(static_cast<float>(basis.offset(cell)));
@@ -112,8 +111,8 @@ class shared_components {
 
 namespace detail {
 
-/// Q c + mu of the three channels, and the logarithm of the reference. `weights` has the three weights of a component
-/// beside each other.
+/// Returns Q c + mu of the three channels, and the logarithm of the reference. In `weights`, the three weights of a
+/// component are adjacent.
 template <std::floating_point Real, stored_number Stored>
 [[nodiscard]] Eigen::Array<Real, 4, 1> mapped_components(const shared_components<Stored>& components,
                                                          const float* weights, Eigen::Index number) noexcept {
@@ -127,7 +126,7 @@ template <std::floating_point Real, stored_number Stored>
   return {sum[0], sum[1], sum[2], static_cast<Real>(static_cast<float>(row[0]))};
 }
 
-/// Reflectance of weights in a pair of unit vectors, at least zero.
+/// Returns the reflectance for some weights at a pair of unit vectors, at least zero.
 template <interpolation Interpolation, stored_number Stored, std::floating_point Real>
 [[nodiscard]] Eigen::Array<Real, 3, 1> evaluate_components(const shared_components<Stored>& components,
                                                            const float* weights, const Eigen::Matrix<Real, 3, 1>& wi,
@@ -143,7 +142,7 @@ template <interpolation Interpolation, stored_number Stored, std::floating_point
     for (Eigen::Index k = 0; k < 8; ++k)
       mapped += corners.weight[k] * mapped_components<Real>(components, weights, corners.number[k]);
   }
-  // The inverse of the mapping.
+  // Invert the mapping.
   const auto small = static_cast<Real>(components.epsilon());
   const Real weight = std::max(iz * oz, small);  // Eq. 2
   const Eigen::Array<Real, 4, 1> powers = mapped.exp();
@@ -152,29 +151,31 @@ template <interpolation Interpolation, stored_number Stored, std::floating_point
 
 }  // namespace detail
 
-/// A BRDF of k weights for each channel. Evaluation costs a row of k + 2 numbers, or eight for trilinear look-up, and
-/// three exponentials; it does not allocate, lock or throw. A view of the components, which must outlive it.
+/// A BRDF with k weights per channel. Evaluation reads one row of k + 2 numbers, or eight for trilinear look-up, and
+/// computes three exponentials. It does not allocate, lock or throw. It is a view of the components, which must outlive
+/// it.
 /// ```cpp
 /// const gonio::render::shared_components<Eigen::half> components(prior);
 /// const gonio::render::component_brdf paint(components, fit.weights());
 /// ```
-/// Black where `lookup_table` is. Both directions must be of unit length, because the mapping depends on their cosines.
+/// It is black where `lookup_table` is. Both directions must be of unit length, because the mapping depends on their
+/// cosines.
 template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>
 class component_brdf {
  public:
-  /// `weights` is k x 3, a column for each channel. Throws gonio::error if it is not or one is not finite.
+  /// `weights` is k x 3, a column for each channel. Throws gonio::error for another size or infinite or NaN weights.
   explicit component_brdf(const shared_components<Stored>& components, const Eigen::Ref<const Eigen::MatrixXd>& weights)
       : components_(&components), weights_(weights.size(), 0.0f) {
     if (weights.rows() != components.size() || weights.cols() != 3 || !weights.allFinite())
       refuse("a BRDF of " + std::to_string(components.size()) +
              " components needs as many finite weights for each of " + "3 channels, not " +
              std::to_string(weights.rows()) + " x " + std::to_string(weights.cols()));
-    // The three weights of a component beside each other.
+    // Store the three weights of a component adjacently.
     for (Eigen::Index k = 0; k < weights.rows(); ++k)
       for (Eigen::Index c = 0; c < 3; ++c) weights_[3 * k + c] = static_cast<float>(weights(k, c));
   }
 
-  /// Reflectance in sr^-1 of a pair, `float` or `double`.
+  /// Returns reflectance in sr^-1 for a pair in `float` or `double`.
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Array<Real, 3, 1> operator()(const Eigen::Matrix<Real, 3, 1>& wi,
                                                     const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
@@ -183,7 +184,7 @@ class component_brdf {
 
   [[nodiscard]] const shared_components<Stored>& components() const noexcept { return *components_; }
 
-  /// In bytes, without the components that are shared.
+  /// Returns the memory in bytes, without the shared components.
   [[nodiscard]] Eigen::Index memory() const noexcept { return sizeof(*this) + weights_.size() * sizeof(float); }
 
  private:

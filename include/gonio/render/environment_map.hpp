@@ -1,9 +1,9 @@
 #pragma once
-/// Light measured all around, as a latitude-longitude image (P. Debevec, "Rendering Synthetic Objects into Real
-/// Scenes", SIGGRAPH 1998, doi:10.1145/280814.280864), and as directional lights: one for each pixel, or a few drawn by
+/// Light from all directions as a latitude-longitude image (P. Debevec, "Rendering Synthetic Objects into Real Scenes",
+/// SIGGRAPH 1998, doi:10.1145/280814.280864), and as directional lights: one for each pixel, or a few drawn by
 /// importance along a Hilbert curve (M. Steigleder and M. McCool, "Generalized Stratified Sampling Using the Hilbert
-/// Curve", Journal of Graphics Tools 8(3), 2003). The light under which Noell et al. 2014, Sec. 3.1, judge BRDFs: their
-/// spheres stand in Debevec's Grace Cathedral.
+/// Curve", Journal of Graphics Tools 8(3), 2003). Noell et al. 2014, Sec. 3.1, evaluate BRDFs in such light: spheres in
+/// Debevec's Grace Cathedral.
 
 #include <gonio/core/error.hpp>
 #include <gonio/render/grid_coordinates.hpp>
@@ -24,21 +24,21 @@
 
 namespace gonio::render {
 
-/// Radiance from everywhere, constant within each pixel of an image that is twice as wide as high.
+/// Radiance from all directions, constant within each pixel of an image that is twice as wide as high.
 ///
-/// The image is what someone sees who stands at the sphere, upright, and turns around. World axes are those of
-/// render/lighting.hpp, and the convention is that of Debevec's High-Resolution Light Probe Image Gallery: its centre
-/// is what the camera looks at, behind the sphere (-z); its left and right edges are what is behind the camera (+z); a
-/// quarter from the right is the camera's right (+x); the top row is up (+y). The point u of the way from left to right
-/// and v from top to bottom is the direction (sin t sin l, cos t, -sin t cos l) with t = pi v, l = 2 pi u - pi.
+/// The image is the view of an upright observer at the sphere who turns around. World axes are those of
+/// render/lighting.hpp. The convention is that of Debevec's High-Resolution Light Probe Image Gallery. The centre is
+/// behind the sphere, in the camera's viewing direction (-z). The left and right edges are behind the camera (+z). A
+/// quarter from the right is the camera's right (+x). The top row is up (+y). The point u from left to right and v from
+/// top to bottom is the direction (sin t sin l, cos t, -sin t cos l) with t = pi v, l = 2 pi u - pi.
 class environment_map {
  public:
-  /// Takes an image of linear radiance. Throws gonio::error unless it has shape (n, 2 n, 3) and every value is finite
-  /// and not negative and at least one is positive. O(pixels).
+  /// Takes an image of linear radiance. Throws gonio::error unless it has shape (n, 2 n, 3), every value is finite and
+  /// not negative, and at least one is positive. O(pixels).
   explicit environment_map(gonio::image latitude_longitude);
 
-  /// Tabulates radiance given by a function of world directions, at pixel centres: `environment_map::of(
-  /// formula_environment{})` for those who have no light probe. Throws gonio::error as the constructor does.
+  /// Tabulates a function of world directions at the pixel centres. `environment_map::of(formula_environment{})` needs
+  /// no light probe. Throws gonio::error as the constructor does.
   template <class Radiance>
   requires std::is_invocable_r_v<rgb, const Radiance&, const direction&>
   [[nodiscard]] static environment_map of(const Radiance& radiance, std::size_t rows = 256) {
@@ -53,18 +53,18 @@ class environment_map {
   [[nodiscard]] std::size_t rows() const noexcept { return image_.shape(0); }
   [[nodiscard]] std::size_t columns() const noexcept { return image_.shape(1); }
 
-  /// The radiance that comes from a world direction other than zero, not necessarily of unit length.
+  /// Returns the radiance from a world direction, which must not be zero and may have any length.
   [[nodiscard]] rgb operator()(const direction& d) const noexcept {
-    // Half turns from +y downwards, and from +z (the left edge) on.
+    // In half turns: downwards from +y, and around from +z (the left edge).
     const double down = half_turns(d.y(), std::sqrt(d.x() * d.x() + d.z() * d.z()));
     const double around = half_turns(-d.z(), d.x()) + (std::signbit(d.x()) ? 0.0 : 1.0);
-    // The south pole, and the direction +z from the left, lie on the far edges of the last row and column.
+    // The south pole, and the direction +z from the left, are at the far edges of the last row and column.
     const auto row = std::min(static_cast<std::size_t>(down * static_cast<double>(rows())), rows() - 1);
     const auto column = std::min(static_cast<std::size_t>(around * static_cast<double>(rows())), columns() - 1);
     return pixel(image_, row, column);
   }
 
-  /// Towards the centre of a pixel, a unit vector.
+  /// Returns the unit vector towards the centre of a pixel.
   [[nodiscard]] direction towards(std::size_t row, std::size_t column) const noexcept {
     return towards(row, column, rows());
   }
@@ -73,17 +73,17 @@ class environment_map {
   struct height {
     double along = 0.0, across = 0.0;
   };
-  /// Towards a height, and a place along the rows counted in columns: 0 is the left edge of the first one. A unit
-  /// vector.
+  /// Returns the unit vector towards a height and a position along the row, in columns from the left edge of the first
+  /// one.
   [[nodiscard]] static direction towards(const height& up, double column, std::size_t rows) noexcept {
     const double longitude = column * std::numbers::pi / static_cast<double>(rows) - std::numbers::pi;
     return {up.across * std::sin(longitude), up.along, -up.across * std::cos(longitude)};
   }
 
-  /// The exact solid angle of each pixel of a row, in sr.
+  /// Returns the exact solid angle of each pixel of a row, in sr.
   [[nodiscard]] double solid_angle(std::size_t row) const noexcept { return row_solid_angles_[row]; }
 
-  /// Radiance times solid angle of a pixel: the irradiance of a surface that faces it.
+  /// Returns radiance times solid angle of a pixel: the irradiance of a surface that faces it.
   [[nodiscard]] rgb irradiance(std::size_t row, std::size_t column) const noexcept {
     return solid_angle(row) * pixel(image_, row, column);
   }
@@ -95,7 +95,7 @@ class environment_map {
     return towards({std::cos(polar), std::sin(polar)}, static_cast<double>(column) + 0.5, rows);
   }
 
-  /// The azimuth of a point from the x axis, by half turns; below the axis that of the opposite point.
+  /// Returns the azimuth of a point from the x axis in half turns; below the axis, that of the opposite point.
   [[nodiscard]] static double half_turns(double x, double y) noexcept {
     const detail::azimuth_terms<double> phi(x, y);
     return detail::half_turns(detail::quarter_turns(phi.tangent, phi.tangent * phi.tangent, phi.steep), phi.left);
@@ -109,20 +109,20 @@ class environment_map {
   std::vector<double> row_solid_angles_;
 };
 
-/// Every pixel that is not black as a directional light: brute force, O(pixels) for each point of a sphere. Lights are
-/// in row-major order.
+/// Returns every pixel that is not black as a directional light, in row-major order. Brute force: O(pixels) for each
+/// point of a sphere.
 [[nodiscard]] directional_lighting all_lights(const environment_map& map);
 
 namespace detail {
 
-/// Calls `visit(row, column)` for all pixels in the order of Hilbert's curve through the smallest square of a power of
-/// two that holds the image: pixels that are near in the order are near in the image.
+/// Calls `visit(row, column)` for all pixels along Hilbert's curve through the smallest square with a power of two as
+/// side that contains the image. Pixels near in this order are near in the image.
 template <class Visit>
 void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&& visit) {
   const std::size_t side = std::bit_ceil(std::max(rows, columns));
   for (std::size_t place = 0; place < side * side; ++place) {
-    // Two bits of the place choose a quadrant at each level, from the finest on; the curve within is turned to fit. It
-    // runs through both columns' quadrants of the upper half first, so that an image twice as wide as high has no gap.
+    // Two bits of the place choose a quadrant at each level, from the finest on, and the curve within it is rotated to
+    // fit. The curve visits both quadrants of the upper half first, so an image twice as wide as high has no gap.
     std::size_t row = 0, column = 0, rest = place;
     for (std::size_t half = 1; half < side; half *= 2, rest /= 4) {
       const bool lower = (rest & 2) != 0, right = lower != ((rest & 1) != 0);
@@ -137,21 +137,20 @@ void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&&
   }
 }
 
-/// One number in each of [0, 1), [1, 2), ... [count - 1, count), the same on every platform.
+/// Returns one number in each of [0, 1), [1, 2), ... [count - 1, count), the same on every platform.
 [[nodiscard]] std::vector<double> stratified_draws(std::size_t count, std::uint64_t seed);
 
 }  // namespace detail
 
-/// A fixed set of directional lights that stands for the map: `count` pixels drawn with probability proportional to
-/// luminance times solid angle, one in each of `count` equal strata of the total along a Hilbert curve. Each has the
-/// pixel's radiance * solid angle / (count * probability), hence the same luminance; a pixel drawn several times is one
-/// light with the sum. The expectation over seeds of any image is its image under `all_lights`.
+/// Approximates the map by directional lights. Draws `count` pixels with probability proportional to luminance times
+/// solid angle, one in each of `count` equal strata along a Hilbert curve. Each light has the pixel's radiance * solid
+/// angle / (count * probability), so all have the same luminance. A pixel drawn several times becomes one light with
+/// the sum. The expected image over seeds is the image under `all_lights`.
 ///
-/// The rougher the surface, the fewer lights stand for the map: a mirror shows each of them as a dot, and no affordable
-/// number helps. There `environment_lighting(90, 72, map)`, whose bins are dense where highlights are, is the better
-/// way.
+/// Rough surfaces need fewer lights. A mirror shows each light as a dot for any affordable number; use
+/// `environment_lighting(90, 72, map)` there, whose bins are dense at highlights.
 ///
-/// Throws gonio::error if count is 0. O(pixels); `seed` alone decides.
+/// Throws gonio::error if count is 0. O(pixels). The result depends only on `seed`.
 [[nodiscard]] directional_lighting important_lights(const environment_map& map, std::size_t count, std::uint64_t seed);
 
 static_assert(std::is_invocable_r_v<rgb, const environment_map&, const direction&>);

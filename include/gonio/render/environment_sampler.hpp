@@ -1,9 +1,8 @@
 #pragma once
-/// Directions towards the bright parts of an environment map, drawn in proportion to its luminance: what importance
-/// sampling of a BRDF alone misses, a small bright lamp. M. Pharr, W. Jakob and G. Humphreys, "Physically Based
-/// Rendering", 4th edition 2023, Sec. 12.5.2; the weights for a draw that two samplers could have made are E. Veach and
-/// L. Guibas's, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995
-/// (doi:10.1145/218380.218498).
+/// Draws directions towards the bright parts of an environment map, in proportion to its luminance. Importance sampling
+/// of a BRDF alone misses a small bright lamp. M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 4th
+/// edition 2023, Sec. 12.5.2; to combine two samplers, weight as in E. Veach and L. Guibas, "Optimally Combining
+/// Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995 (doi:10.1145/218380.218498).
 
 #include <gonio/render/environment_map.hpp>
 
@@ -16,28 +15,28 @@
 
 namespace gonio::render {
 
-/// A world direction that light comes from, its radiance, and the density in sr^-1 with which it was drawn.
+/// A world direction towards light, its radiance, and the density in sr^-1 with which it was drawn.
 struct sampled_light {
   direction towards = direction::UnitY();
   rgb radiance = rgb::Zero();
   double pdf = 0.0;
 };
 
-/// Draws directions of an environment map: a pixel in proportion to its luminance times solid angle, and any direction
-/// within it. Holds the map.
+/// Draws directions of an environment map: a pixel in proportion to its luminance times solid angle, and a uniform
+/// direction within it. Holds the map.
 ///
-/// Pixels are in the order of Hilbert's curve (M. Steigleder and M. McCool, "Generalized Stratified Sampling Using the
-/// Hilbert Curve", Journal of Graphics Tools 8(3), 2003): first numbers spread evenly give directions spread evenly.
+/// Pixels are ordered along Hilbert's curve (M. Steigleder and M. McCool, "Generalized Stratified Sampling Using the
+/// Hilbert Curve", Journal of Graphics Tools 8(3), 2003), so evenly spread first numbers give evenly spread directions.
 class environment_sampler {
  public:
-  /// O(pixels); sixteen bytes each.
+  /// O(pixels); 16 bytes each.
   explicit environment_sampler(environment_map map);
 
   [[nodiscard]] const environment_map& map() const noexcept { return map_; }
 
-  /// Draws a direction by two numbers from 0 up to 1. The pixel is found in O(1) on average (H.-C. Chen and Y. Asau,
-  /// "On Generating Random Variates from an Empirical Distribution", AIIE Transactions 6(2), 1974: a table of first
-  /// guesses).
+  /// Draws a direction from two numbers in [0, 1). Finds the pixel in O(1) on average with a table of first guesses
+  /// (H.-C. Chen and Y. Asau, "On Generating Random Variates from an Empirical Distribution", AIIE Transactions 6(2),
+  /// 1974).
   [[nodiscard]] sampled_light sample(double u1, double u2) const noexcept {
     const double share = u1 * reached_.back();
     const auto guess = guesses_.begin() + static_cast<std::ptrdiff_t>(u1 * static_cast<double>(guesses_.size() - 1));
@@ -45,7 +44,7 @@ class environment_sampler {
     const auto above = std::upper_bound(first + guess[0], first + guess[1], share);
     const std::size_t place = above - first, pixel_number = order_[place];
     const std::size_t row = pixel_number / map_.columns(), column = pixel_number % map_.columns();
-    // Where in its pixel the first number fell is as good as a third one.
+    // The position of the first number within its pixel serves as a third random number.
     const double within = std::clamp((share - reached_[place]) / (*above - reached_[place]), 0.0, 1.0);
     const double height = edges_[row] + within * (edges_[row + 1] - edges_[row]);
     const double across = std::sqrt(std::max(0.0, 1.0 - height * height));
@@ -53,10 +52,10 @@ class environment_sampler {
                     pixel(map_.image(), row, column));
   }
 
-  /// The light from a world direction, and the density in sr^-1 with which `sample` draws it.
+  /// Returns the light from a world direction, and the density in sr^-1 with which `sample` draws it.
   [[nodiscard]] sampled_light from(const direction& towards) const noexcept { return light_of(towards, map_(towards)); }
 
-  /// The density in sr^-1 with which `sample` draws a world direction.
+  /// Returns the density in sr^-1 with which `sample` draws a world direction.
   [[nodiscard]] double pdf(const direction& towards) const noexcept { return from(towards).pdf; }
 
  private:
@@ -65,10 +64,11 @@ class environment_sampler {
   }
 
   environment_map map_;
-  std::vector<std::uint32_t> order_;    ///< the number of each pixel along the curve
-  std::vector<double> reached_;         ///< the sum of luminance times solid angle before each of them, and of all
-  std::vector<std::uint32_t> guesses_;  ///< the places along the curve at even steps of that sum
-  std::vector<double> edges_;           ///< cosines of the angles from +y between rows
+  std::vector<std::uint32_t> order_;  ///< the pixels along the curve
+  std::vector<double>
+      reached_;  ///< the sums of luminance times solid angle before each pixel on the curve, and the total
+  std::vector<std::uint32_t> guesses_;  ///< positions along the curve at equal steps of that sum
+  std::vector<double> edges_;           ///< cosines of the angles from +y at the borders between rows
   double pdf_per_luminance_ = 0.0;
 };
 

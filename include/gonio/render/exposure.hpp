@@ -1,5 +1,5 @@
 #pragma once
-/// How bright images are shown: those of spheres that are compared with one another, all alike.
+/// Exposure of images: spheres that are compared all have the same exposure.
 
 #include <gonio/table/image.hpp>
 
@@ -7,16 +7,16 @@
 
 namespace gonio::render {
 
-/// What a share of a sphere's pixels does not exceed in its brightest channel; `picture` is one of `render_sphere`,
-/// whose surroundings do not count. Throws gonio::error if the image is not square.
+/// Returns the quantile `share` of the brightest channel over a sphere's pixels. `picture` is an image of
+/// `render_sphere`; pixels around the sphere are ignored. Throws gonio::error if the image is not square.
 [[nodiscard]] double brightness_of_sphere(const image& picture, double share = 0.99);
 
-/// The factor at which the brightest of some spheres is white at its 99th percentile: what is brighter, a highlight of
-/// a hundredth of the sphere, is clipped. 1 if all are black.
+/// Returns the factor that makes the 99th percentile of the brightest sphere white. Brighter pixels, a highlight of a
+/// hundredth of the sphere, are clipped. 1 if all are black.
 [[nodiscard]] double exposure_of_spheres(std::span<const image> images);
 
-/// The factor at which an image is white at the 99th percentile of its pixels' brightest channels, of those that are
-/// not black, or of every n-th, some 100,000. 1 if all are black.
+/// Returns the factor that makes the 99th percentile of an image white. Uses the brightest channel of the pixels that
+/// are not black, or of every n-th pixel if there are more than 100,000. 1 if all are black.
 [[nodiscard]] double exposure_of(const image& picture);
 
 /// Multiplies all values.

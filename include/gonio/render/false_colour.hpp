@@ -1,8 +1,7 @@
 #pragma once
-/// Numbers as colours. From blue over green to red, for images of how large a difference is: Noell, Koehler and
-/// Stricker 2014, Fig. 3, CIELAB differences "from blue (0.0), over green to red (20.0 and higher)". From blue over
-/// white to red, for what has a sign. From light to dark, and in colours that are told apart by all who see colours
-/// differently, for maps.
+/// Numbers as colours. Blue, green, red for the size of a difference: Noell, Koehler and Stricker 2014, Fig. 3, CIELAB
+/// differences "from blue (0.0), over green to red (20.0 and higher)". Blue, white, red for signed values. Light to
+/// dark for shares, and distinct colours for categories; both suit all kinds of colour vision.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/rgb.hpp>
@@ -20,9 +19,9 @@ struct false_colour_range {
   double red = 20.0;
 };
 
-/// The linear colour of a value: blue up to `range.blue`, red from `range.red` on, through green, two neighbours
-/// mixed in proportion. The paper does not say how its colours are mixed; here it is in linear light, so that for any
-/// value in the range red - blue is twice its place in the range minus 1. NaN is not a value.
+/// Returns the linear colour of a value: blue up to `range.blue`, red from `range.red` on, through green, mixing two
+/// neighbours in proportion. The paper does not say how its colours are mixed. Here it is in linear light: within the
+/// range, red - blue is twice the relative position minus 1. Values must not be NaN.
 [[nodiscard]] inline rgb false_colour(double value, const false_colour_range& range = {}) noexcept {
   GONIO_ASSERT(range.blue < range.red);
   GONIO_ASSERT(value == value);
@@ -31,8 +30,8 @@ struct false_colour_range {
   return {std::max(place, 0.0), 1.0 - std::abs(place), std::max(-place, 0.0)};
 }
 
-/// The linear colour of a value with a sign: white at zero, red from `limit` on, blue up to minus that, mixed in linear
-/// light between them, so that for any value from -limit to limit red - blue is value / limit. NaN is not a value.
+/// Returns the linear colour of a signed value: white at zero, red from `limit` on, blue from -limit down, mixed in
+/// linear light. From -limit to limit, red - blue is value / limit. Values must not be NaN.
 [[nodiscard]] inline rgb diverging_colour(double value, double limit) noexcept {
   GONIO_ASSERT(limit > 0.0);
   GONIO_ASSERT(value == value);
@@ -40,12 +39,12 @@ struct false_colour_range {
   return {1.0 + std::min(share, 0.0), 1.0 - std::abs(share), 1.0 - std::max(share, 0.0)};
 }
 
-/// The linear colour of a share from 0, light, to 1, dark blue; others are clipped. Lightness falls evenly and tells
-/// the order by itself, to all who see colours differently, too. Black is left for where there is no value. NaN is not
-/// a share.
+/// Returns the linear colour of a share from 0 (light) to 1 (dark blue); others are clipped. Lightness decreases
+/// evenly, so the order is visible to all kinds of colour vision. Black is reserved for missing values. Shares must not
+/// be NaN.
 [[nodiscard]] inline rgb sequential_colour(double share) noexcept {
   GONIO_ASSERT(share == share);
-  // From #f3ecd2 to #123a63, as examples/report has it: quarters of what a display mixes, in linear light.
+  // From #f3ecd2 to #123a63, as in examples/report: quarters of the display's mixture, in linear light.
   constexpr std::array<std::array<double, 3>, 5> quarters{{{0.8963, 0.8388, 0.6445},
                                                            {0.4955, 0.5241, 0.4692},
                                                            {0.2251, 0.2918, 0.3255},
@@ -59,22 +58,22 @@ struct false_colour_range {
           (1.0 - above) * low[2] + above * high[2]};
 }
 
-/// Where a value stands on a scale with equal steps for equal factors: 0 up to `lowest`, which is positive, 1 at
-/// `highest`, more above.
+/// Returns the position of a value on a logarithmic scale: 0 up to `lowest`, which must be positive, 1 at `highest`,
+/// more above.
 [[nodiscard]] inline double place_by_factors(double value, double lowest, double highest) noexcept {
   return std::log(std::max(value, lowest) / lowest) / std::log(highest / lowest);
 }
 
-/// The linear colour of a relative uncertainty: light up to 2 %, dark from 100 % on.
+/// Returns the linear colour of a relative uncertainty: light up to 2 %, dark from 100 % on.
 [[nodiscard]] inline rgb uncertainty_colour(double uncertainty) noexcept {
   return sequential_colour(place_by_factors(uncertainty, 0.02, 1.0));
 }
 
-/// So many categories have colours.
+/// The number of categories that have colours.
 inline constexpr int categories = 8;
 
-/// The linear colour of one of 8 categories: those of Okabe and Ito (Color Universal Design, 2002), with light grey
-/// instead of black, which is left for what is of no category.
+/// Returns the linear colour of one of 8 categories: those of Okabe and Ito (Color Universal Design, 2002), with light
+/// grey instead of black, which is reserved for no category.
 [[nodiscard]] inline rgb category_colour(int category) noexcept {
   GONIO_ASSERT(category >= 0 && category < categories);
   constexpr std::array<std::array<double, 3>, categories> colours{{{0.791, 0.347, 0.0},

@@ -1,11 +1,11 @@
 #pragma once
-/// Where a pair of directions lies on a MERL-like grid, without trigonometric functions: for the inner loop of a
-/// renderer. S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998
+/// Maps a pair of directions to a MERL-like grid without trigonometric functions, for the inner loop of a renderer. S.
+/// Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998
 /// (doi:10.1007/978-3-7091-6453-2_2); the grid is that of Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH
 /// 2003 (doi:10.1145/882262.882343).
 ///
-/// The three angles come from ratios of sums and differences of the two directions, and their arc tangents from one
-/// polynomial, which a compiler can evaluate for several pairs at once.
+/// The three angles follow from ratios of sums and differences of the two directions. One polynomial gives their arc
+/// tangents; a compiler can evaluate it for several pairs at once.
 
 #include <gonio/core/arc_tangent.hpp>
 #include <gonio/table/grid.hpp>
@@ -22,8 +22,8 @@
 
 namespace gonio::render {
 
-/// Shares of the way along the axes of a MERL-like grid, from 0 to 1: sqrt(theta_h / (pi / 2)), theta_d / (pi / 2) and
-/// phi_d / pi. The last wraps. Times the number of cells they count cells.
+/// Relative positions along the axes of a MERL-like grid, from 0 to 1: sqrt(theta_h / (pi / 2)), theta_d / (pi / 2) and
+/// phi_d / pi. phi_d is periodic. Multiply by the number of cells to count cells.
 template <std::floating_point Real>
 struct grid_coordinates {
   Real theta_h = 0;
@@ -37,13 +37,13 @@ using gonio::detail::azimuth_terms;
 using gonio::detail::half_turns;
 using gonio::detail::quarter_turns;
 
-/// Of the first node of a grid's axis from the axis' beginning, in cells.
+/// Returns the distance of the first node from the beginning of a grid's axis, in cells.
 template <std::floating_point Real>
 [[nodiscard]] inline Real first_node(const gonio::grid& cells) noexcept {
   return cells.anchor() == cell_anchor::centre ? Real(0.5) : Real(0);
 }
 
-/// The nodes nearest to a place. That of phi_d may be its extent, which is the first again.
+/// Returns the nodes nearest to a position. The phi_d node may equal its extent, which stands for the first.
 template <std::floating_point Real>
 [[nodiscard]] inline cell_index nearest_nodes(const gonio::grid& cells, const grid_coordinates<Real>& place) noexcept {
   const auto [heights, rows, columns] = cells.extents();
@@ -55,17 +55,17 @@ template <std::floating_point Real>
           node(place.phi_d, columns)};
 }
 
-/// What is asked of a pair of directions, before the square roots are taken.
+/// The terms of a pair of directions, before square roots are taken.
 template <std::floating_point Real>
 struct pair_terms {
-  Real squared_h;         ///< of the tangent of theta_h, or one over it if that is more than 1
-  Real squared_d;         ///< the same of theta_d
+  Real squared_h;         ///< of the tangent of theta_h, or its inverse if that is more than 1
+  Real squared_d;         ///< likewise for theta_d
   Real squared_sum;       ///< |wi + wo|^2
-  Real along, beside;     ///< the difference vector seen from the half vector is along : beside |wi + wo|
-  Real steep_h, steep_d;  ///< 1 if theta_h, theta_d is more than pi / 4, otherwise 0
+  Real along, beside;     ///< relative to the half vector, the difference vector has the ratio along : beside |wi + wo|
+  Real steep_h, steep_d;  ///< 1 if theta_h or theta_d is more than pi / 4, otherwise 0
 
-  /// Of directions above the horizon. There are no selections here but of numbers at hand: g++ does not vectorise
-  /// a loop in which one of two computations that may trap is chosen.
+  /// Takes directions above the horizon. Selections are only among computed numbers: g++ does not vectorise a loop that
+  /// chooses between two computations that may trap.
   pair_terms(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) noexcept {
     const Real sx = ix + ox, sy = iy + oy, sz = iz + oz, dx = ix - ox, dy = iy - oy, dz = iz - oz;
     const Real across = sx * sx + sy * sy, up = sz * sz, difference = dx * dx + dy * dy + dz * dz;
@@ -74,7 +74,7 @@ struct pair_terms {
     squared_h = std::min(across, up) / std::max(across, up);
     steep_d = difference > squared_sum ? Real(1) : Real(0);
     squared_d = std::min(difference, squared_sum) / std::max(difference, squared_sum);
-    // The difference vector turned with the half vector to the pole, times both their lengths.
+    // The difference vector, rotated with the half vector to the pole, times both lengths.
     along = sz * (sx * dx + sy * dy) - across * dz;
     beside = sx * dy - sy * dx;
   }
@@ -82,16 +82,16 @@ struct pair_terms {
 
 }  // namespace detail
 
-/// Is the pair above the horizon, and every component a number, at most 1e7 in sum?
+/// Whether the pair is above the horizon, every component is a number, and their magnitudes sum to at most 1e7.
 template <std::floating_point Real>
 [[nodiscard]] inline bool is_above_horizon(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) noexcept {
   const Real sum = std::abs(ix) + std::abs(iy) + std::abs(iz) + std::abs(ox) + std::abs(oy) + std::abs(oz);
-  return std::min(iz, oz) > 0 && sum <= Real(1e7);  // not what is not a number
+  return std::min(iz, oz) > 0 && sum <= Real(1e7);  // false for NaN
 }
 
-/// The coordinates of a pair of directions above the horizon, within 4e-7 (`float`) or 1e-13 (`double`) of those of
-/// `to_half_difference`, but that phi_d is 0 where the half vector is the normal. Both directions may be multiplied by
-/// the same positive factor. Four square roots and four divisions.
+/// Returns the coordinates of a pair of directions above the horizon. They agree with `to_half_difference` within 4e-7
+/// (`float`) or 1e-13 (`double`), except that phi_d is 0 if the half vector is the normal. Both directions may have the
+/// same positive factor. Four square roots and four divisions.
 template <std::floating_point Real>
 [[nodiscard]] inline grid_coordinates<Real> to_grid_coordinates(Real ix, Real iy, Real iz, Real ox, Real oy,
                                                                 Real oz) noexcept {
@@ -111,19 +111,19 @@ struct component_arrays {
   [[nodiscard]] Eigen::Index size() const noexcept { return x.size(); }
 };
 
-/// The coordinates of several pairs, computed side by side: each step of `to_grid_coordinates` is a loop that compilers
-/// turn into instructions for several numbers (bench/render/lookup_table.cpp).
+/// Computes the coordinates of several pairs side by side. Each step of `to_grid_coordinates` is a loop that compilers
+/// vectorise (bench/render/lookup_table.cpp).
 template <std::floating_point Real>
 class grid_coordinates_block {
  public:
   static constexpr Eigen::Index size = 32;
 
-  /// Of pairs `first` to `first + count` of the arrays; at most `size`. Coordinates are from 0 to 1 also of pairs that
-  /// are not above the horizon.
+  /// Computes pairs `first` to `first + count` of the arrays; at most `size`. Coordinates are from 0 to 1 even for
+  /// pairs that are not above the horizon.
   void compute(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo, Eigen::Index first,
                Eigen::Index count) noexcept {
     if (count == size) return compute(wi, wo, first);
-    // The last few are filled up with the normal.
+    // Pad the last few pairs with the normal.
     std::array<lanes, 6> copies;
     const std::array sources{wi.x, wi.y, wi.z, wo.x, wo.y, wo.z};
     for (Eigen::Index k = 0; k < std::ssize(copies); ++k) {
@@ -178,13 +178,13 @@ class grid_coordinates_block {
     for (Eigen::Index i = 0; i < size; ++i) tangents[i] = detail::quarter_turns(tangents[i], squares[i], steep[i]);
   }
 
-  /// By Eigen: a compiler's own loop would set errno for negative numbers, one by one.
+  /// Uses Eigen, because a compiler's loop would set errno for negative numbers one by one.
   static void take_roots(lanes& squares) noexcept {
     Eigen::Map<Eigen::Array<Real, static_cast<int>(size), 1>, Eigen::Aligned64> values(squares.data());
     values = values.sqrt();
   }
 
-  /// 0 for what is not a number.
+  /// Clamps to [0, 1]; 0 for NaN.
   [[nodiscard]] static Real within(Real share) noexcept { return std::min(std::max(Real(0), share), Real(1)); }
 
   alignas(64) lanes theta_h_{}, theta_d_{}, phi_d_{};

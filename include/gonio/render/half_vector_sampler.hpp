@@ -1,10 +1,9 @@
 #pragma once
-/// Directions for a renderer to follow, drawn where an isotropic BRDF is bright: half vectors from a distribution
-/// tabulated for each of some viewers, or cosine-weighted directions, in a ratio of their own for each viewer. After J.
-/// Lawrence, S. Rusinkiewicz and R. Ramamoorthi, "Efficient BRDF Importance Sampling Using a Factored Representation",
-/// SIGGRAPH 2004 (doi:10.1145/1015706.1015751), whose factor of half vectors this tabulates without factoring it, and
-/// M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 2023, Sec. 9.6 (densities of reflected
-/// directions).
+/// Importance sampling of isotropic BRDFs for a renderer. Draws half vectors from a distribution tabulated for each of
+/// some viewers, or cosine-weighted directions, with a ratio for each viewer. After J. Lawrence, S. Rusinkiewicz and R.
+/// Ramamoorthi, "Efficient BRDF Importance Sampling Using a Factored Representation", SIGGRAPH 2004
+/// (doi:10.1145/1015706.1015751), whose half-vector factor is tabulated here without factorisation, and M. Pharr, W.
+/// Jakob and G. Humphreys, "Physically Based Rendering", 2023, Sec. 9.6 (densities of reflected directions).
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/sampled_direction.hpp>
@@ -25,13 +24,13 @@ namespace gonio::render {
 
 namespace detail {
 
-/// Rings about the normal, finer towards it like MERL's, each cut into sectors of azimuth from the viewer's: those of
-/// the left stand for those of the right. A distribution over them is constant in solid angle within each.
+/// Rings about the normal, finer towards it like MERL's, each divided into sectors of azimuth from the viewer's.
+/// Sectors on the left stand for those on the right too. A distribution is constant in solid angle within each bin.
 template <std::floating_point Real>
 class half_vector_bins {
  public:
   static constexpr Eigen::Index rings = 60, sectors = 8, count = rings * sectors;
-  /// How much of a distribution is before each bin, and 1.
+  /// The part of a distribution before each bin, and 1 at the end.
   using cumulative = std::array<float, count + 1>;
 
   half_vector_bins() {
@@ -39,17 +38,17 @@ class half_vector_bins {
       const double share = static_cast<double>(ring) / static_cast<double>(rings);
       const double s = std::sin(share * share * (std::numbers::pi / 4.0));
       heights_[ring] =
-          static_cast<Real>(2.0 * s * s);  // 1 - cos: what is above it on the unit sphere is 2 pi times that
+          static_cast<Real>(2.0 * s * s);  // 1 - cos; the area above it on the unit sphere is 2 pi times that
     }
   }
 
-  /// The solid angle of a bin on both sides.
+  /// Returns the solid angle of a bin on both sides.
   [[nodiscard]] Real solid_angle(Eigen::Index bin) const noexcept {
     const Eigen::Index ring = bin / sectors;
     return (heights_[ring + 1] - heights_[ring]) * (2 * std::numbers::pi_v<Real> / static_cast<Real>(sectors));
   }
 
-  /// A half vector within a bin, on its left, for a viewer in the xz plane; both numbers from 0 to 1.
+  /// Returns a half vector within a bin, on its left side, for a viewer in the xz plane. Both numbers are from 0 to 1.
   [[nodiscard]] Eigen::Matrix<Real, 3, 1> within(Eigen::Index bin, Real along, Real around) const noexcept {
     const Eigen::Index ring = bin / sectors;
     const Real height = heights_[ring] + along * (heights_[ring + 1] - heights_[ring]);
@@ -59,7 +58,7 @@ class half_vector_bins {
     return {across * std::cos(azimuth), across * std::sin(azimuth), 1 - height};
   }
 
-  /// The bin of a half vector h above the horizon, of any length, for a viewer in the xz plane.
+  /// Returns the bin of a half vector h of any length above the horizon, for a viewer in the xz plane.
   [[nodiscard]] Eigen::Index bin_of(const Eigen::Matrix<Real, 3, 1>& h) const noexcept {
     const Real across = h.x() * h.x() + h.y() * h.y(), up = h.z() * h.z();
     const Real squared = std::min(across, up) / std::max(across, up);
@@ -79,14 +78,14 @@ class half_vector_bins {
 
 }  // namespace detail
 
-/// Importance sampling of any isotropic BRDF, in `float` or `double`. It holds the BRDF; give it a
-/// `brdf_view` where others need it too. Its own tables take 31 KB.
+/// Importance sampling of any isotropic BRDF, in `float` or `double`. It holds a copy of the BRDF; pass a `brdf_view`
+/// to share it. Its own tables need 31 KB.
 ///
-/// `sample`, `pdf` and the BRDF itself agree: the weight times pdf is f cos(theta_i), and pdf integrates to 1 over the
-/// sphere of directions. Some half vectors, one or two in a hundred, reflect the viewer below the horizon: these
-/// directions have weight 0 and are counted by pdf, as renderers expect who test it. Cosine-weighted directions are at
-/// least a tenth, so that a weight is at most 10 pi f. How much less its estimates vary than those of cosine-weighted
-/// directions: `gonio-papers importance-sampling`.
+/// `sample`, `pdf` and the BRDF are consistent: the weight times pdf is f cos(theta_i), and pdf integrates to 1 over
+/// the sphere of directions. One or two in a hundred half vectors reflect the viewer below the horizon. These
+/// directions have weight 0, and pdf includes them, as the tests of renderers expect. At least a tenth of the
+/// directions is cosine-weighted, so a weight is at most 10 pi f. `gonio-papers importance-sampling` compares its
+/// variance with that of cosine-weighted directions.
 template <class Brdf, std::floating_point Real = double>
 requires requires(const Brdf& f, const Eigen::Matrix<Real, 3, 1>& w) {
   { f(w, w) }
@@ -96,7 +95,7 @@ class half_vector_sampler {
  public:
   using vector = Eigen::Matrix<Real, 3, 1>;
 
-  /// Measures where the BRDF is bright: some 150,000 evaluations.
+  /// Measures the BRDF with about 150,000 evaluations.
   explicit half_vector_sampler(Brdf f) : f_(std::move(f)), distributions_(viewers), ratios_(viewers) {
     for (Eigen::Index viewer = 0; viewer < viewers; ++viewer) {
       distributions_[viewer] = distribution_for(viewer);
@@ -106,7 +105,7 @@ class half_vector_sampler {
 
   [[nodiscard]] const Brdf& brdf() const noexcept { return f_; }
 
-  /// Draws a direction by two numbers from 0 up to 1. Zero weight and density if wo is not above the horizon.
+  /// Draws a direction from two numbers in [0, 1). Weight and density are zero if wo is not above the horizon.
   [[nodiscard]] basic_sampled_direction<Real> sample(const vector& wo, Real u1, Real u2) const noexcept {
     if (!(wo.z() > 0)) return {};
     const Eigen::Index viewer = viewer_of(wo);
@@ -120,7 +119,7 @@ class half_vector_sampler {
     return drawn;
   }
 
-  /// The density in sr^-1 with which `sample` draws wi, anywhere on the sphere.
+  /// Returns the density in sr^-1 with which `sample` draws wi, anywhere on the sphere.
   [[nodiscard]] Real pdf(const vector& wi, const vector& wo) const noexcept {
     if (!(wo.z() > 0)) return 0;
     const Eigen::Index viewer = viewer_of(wo);
@@ -128,19 +127,19 @@ class half_vector_sampler {
     return ratio * half_vector_pdf(viewer, wi, wo) + (1 - ratio) * cosine_weighted_pdf(wi);
   }
 
-  /// The share of half vectors for a viewer.
+  /// Returns the fraction of half vectors for a viewer.
   [[nodiscard]] Real ratio_of(const vector& wo) const noexcept { return ratios_[viewer_of(wo)]; }
 
  private:
   static constexpr Eigen::Index viewers = 16;
   using bins = detail::half_vector_bins<Real>;
 
-  /// Viewers are told apart by sqrt(1 - cos theta_o), nearly in even steps of the angle.
+  /// Returns the index of a viewer by sqrt(1 - cos theta_o), which gives nearly equal steps of the angle.
   [[nodiscard]] static Eigen::Index viewer_of(const vector& wo) noexcept {
     const Real place = std::sqrt(std::max(1 - wo.z(), Real(0))) * static_cast<Real>(viewers);
     return std::min<std::size_t>(static_cast<std::size_t>(place), viewers - 1);
   }
-  /// A viewer in the xz plane, `share` of the way through those of its number.
+  /// Returns a viewer in the xz plane, at the fraction `share` of its index's interval.
   [[nodiscard]] static vector a_viewer(Eigen::Index viewer, double share) {
     const double place = (static_cast<double>(viewer) + share) / static_cast<double>(viewers);
     const double z = 1.0 - place * place;
@@ -149,7 +148,7 @@ class half_vector_sampler {
 
   [[nodiscard]] static vector mirrored(const vector& wo, const vector& h) noexcept { return 2 * wo.dot(h) * h - wo; }
 
-  /// How far the plane of viewer and normal is turned from the xz plane: cosine and sine. A viewer on the normal is in
+  /// The rotation from the xz plane to the plane of viewer and normal: cosine and sine. A viewer at the normal is in
   /// the xz plane.
   struct viewer_turn {
     Real c = 1, s = 0;
@@ -168,7 +167,7 @@ class half_vector_sampler {
     }
   };
 
-  /// A half vector of a viewer in the xz plane. One half of the second number's range is the right side.
+  /// Draws a half vector for a viewer in the xz plane. The upper half of the second number's range is the right side.
   [[nodiscard]] vector half_vector(Eigen::Index viewer, Real u1, Real u2) const noexcept {
     const auto& before = distributions_[viewer];
     const auto above = std::upper_bound(before.begin() + 1, before.end() - 1, static_cast<float>(u1));
@@ -183,7 +182,7 @@ class half_vector_sampler {
 
   [[nodiscard]] Real half_vector_pdf(Eigen::Index viewer, const vector& wi, const vector& wo) const noexcept {
     vector h = wi + wo;
-    if (h.z() < 0) h = -h;  // the same direction is reflected by both
+    if (h.z() < 0) h = -h;  // both h and -h reflect the same direction
     const Real length = h.norm();
     if (!(length > 0)) return 0;
     const Eigen::Index bin = bins_.bin_of(viewer_turn(wo).to_plane(h));
@@ -192,8 +191,8 @@ class half_vector_sampler {
     return density * length / (4 * std::abs(wo.dot(h)));
   }
 
-  /// The density of half vectors with which an estimate of the light from everywhere varies least: in each bin the root
-  /// of the mean square of f cos(theta_i) per solid angle of half vectors. And a little everywhere.
+  /// Returns the density of half vectors that minimises the variance under uniform illumination: in each bin
+  /// proportional to the root mean square of f cos(theta_i) per solid angle of half vectors, plus a small uniform part.
   [[nodiscard]] typename bins::cumulative distribution_for(Eigen::Index viewer) const {
     std::array<double, bins::count> share{};
     double sum = 0.0;
@@ -229,18 +228,18 @@ class half_vector_sampler {
     return std::sqrt(squares);
   }
 
-  /// f cos(theta_i), the mean of the channels.
+  /// Returns f cos(theta_i), averaged over the channels.
   [[nodiscard]] double mean_of(const vector& wi, const vector& wo) const {
     const Eigen::Array<Real, 3, 1> value = f_(wi, wo);
     return std::max(static_cast<double>(value.mean()), 0.0) * static_cast<double>(wi.z());
   }
 
-  /// The share of half vectors that makes the weights of a viewer vary least.
+  /// Returns the fraction of half vectors that minimises the variance of a viewer's weights.
   [[nodiscard]] Real best_ratio(Eigen::Index viewer) const {
     const vector wo = a_viewer(viewer, 0.5);
     constexpr std::array ratios{0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
     std::array<double, ratios.size()> second_moment{};
-    // Directions of an even mixture, stratified, each with the moments under the other ratios.
+    // Stratified directions of an equal mixture, each with its moments under every ratio.
     constexpr int side = 24;
     for (int i = 0; i < side; ++i)
       for (int j = 0; j < side; ++j)
@@ -260,8 +259,8 @@ class half_vector_sampler {
 
   Brdf f_;
   bins bins_;
-  std::vector<typename bins::cumulative> distributions_;  ///< by viewer
-  std::vector<Real> ratios_;                              ///< by viewer
+  std::vector<typename bins::cumulative> distributions_;  ///< per viewer
+  std::vector<Real> ratios_;                              ///< per viewer
 };
 
 }  // namespace gonio::render

@@ -1,6 +1,6 @@
 #pragma once
-/// Numbers the cells of a MERL-like grid that are above the horizon, for the inner loop of a renderer: what
-/// `valid_cells` tells by 10 MB of numbers, in 100 KB that stay in the processor's cache.
+/// Numbers the cells of a MERL-like grid above the horizon, for the inner loop of a renderer. It replaces the 10 MB of
+/// `valid_cells` by 100 KB, which stay in the processor's cache.
 
 #include <gonio/render/grid_coordinates.hpp>
 #include <gonio/table/grid.hpp>
@@ -16,7 +16,7 @@
 
 namespace gonio::render {
 
-/// The eight cells around a place, by their numbers, and weights that sum to 1.
+/// The eight cells around a position, with weights that sum to 1.
 template <std::floating_point Real>
 struct trilinear_corners {
   std::array<Eigen::Index, 8> number{};
@@ -25,14 +25,14 @@ struct trilinear_corners {
 
 namespace detail {
 
-/// The two nodes of an axis around a place, and how far it is from the lower to the upper.
+/// The two nodes of an axis around a position, and the fraction of the way from the lower to the upper.
 template <std::floating_point Real>
 struct node_interval {
   Eigen::Index lower, upper;
   Real share;
 };
 
-/// Of a place counted in nodes. Before the first and behind the last their values hold.
+/// Returns the nodes around a position, in units of nodes. Positions outside are clamped to the first or last node.
 template <std::floating_point Real>
 [[nodiscard]] inline node_interval<Real> clamped_nodes(Real place, int extent) noexcept {
   const Real inside = std::clamp(place, Real(0), static_cast<Real>(extent - 1));
@@ -40,7 +40,7 @@ template <std::floating_point Real>
   return {lower, std::min(lower + 1, extent - 1), inside - static_cast<Real>(lower)};
 }
 
-/// On an axis that wraps; places are from -1/2 to its extent.
+/// Returns the nodes on a periodic axis, for positions from -1/2 to its extent.
 template <std::floating_point Real>
 [[nodiscard]] inline node_interval<Real> periodic_nodes(Real place, int extent) noexcept {
   const auto upper = static_cast<int>(place + 1);
@@ -52,48 +52,49 @@ template <std::floating_point Real>
 
 }  // namespace detail
 
-/// The cells at whose node both directions are above the horizon, numbered as `valid_cells` numbers them: in the grid's
-/// linear order.
+/// The cells at whose node both directions are above the horizon, numbered in the grid's linear order like
+/// `valid_cells`.
 ///
-/// For a theta_d and phi_d they are those up to some theta_h; for a theta_h and theta_d they are neighbours. So a
-/// number is the sum of one for each row and phi_d.
+/// For a given theta_d and phi_d, these cells reach up to some theta_h. For a given theta_h and theta_d they are
+/// contiguous, so a number is the offset of its row plus phi_d.
 class horizon_index {
  public:
-  /// O(cells of the grid). Throws gonio::error if there is a theta_d and phi_d at which no cell is above the horizon,
-  /// which takes a grid with more than twice the square of theta_h's extent along theta_d.
+  /// O(cells of the grid). Throws gonio::error if no cell is above the horizon at some theta_d and phi_d. This requires
+  /// more cells along theta_d than twice the square of theta_h's extent.
   explicit horizon_index(const gonio::grid& cells = gonio::grid());
 
-  /// The number of cells above the horizon.
+  /// Returns the number of cells above the horizon.
   [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
   [[nodiscard]] const gonio::grid& grid() const noexcept { return grid_; }
 
-  /// The number of a cell or, if it is below the horizon, of the one above that has the same theta_d and phi_d and the
-  /// largest theta_h: that continues a table, so that no look-up near the horizon finds a hole.
+  /// Returns the number of a cell. For a cell below the horizon, returns that of the cell above it with the same
+  /// theta_d and phi_d and the largest theta_h. This extends a table, so that look-ups near the horizon find no hole.
   [[nodiscard]] Eigen::Index operator()(Eigen::Index theta_h, Eigen::Index theta_d, Eigen::Index phi_d) const noexcept {
     const Eigen::Index layer = std::min<Eigen::Index>(theta_h, last_[theta_d * columns_ + phi_d]);
     return begin_[layer * rows_ + theta_d] + static_cast<std::uint32_t>(phi_d);  // modulo 2^32
   }
 
-  /// The same cell's number among all of the grid, as `grid::linear` counts them.
+  /// Returns the same cell's number among all cells of the grid, as in `grid::linear`.
   [[nodiscard]] Eigen::Index linear(Eigen::Index theta_h, Eigen::Index theta_d, Eigen::Index phi_d) const noexcept {
     const Eigen::Index layer = std::min<Eigen::Index>(theta_h, last_[theta_d * columns_ + phi_d]);
     return (layer * rows_ + theta_d) * columns_ + phi_d;
   }
 
-  /// The number of the cell whose node is nearest to a place.
+  /// Returns the number of the cell whose node is nearest to a position.
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Index nearest(const grid_coordinates<Real>& place) const noexcept {
     const auto [theta_h, theta_d, phi_d] = detail::nearest_nodes(grid_, place);
     return (*this)(theta_h, theta_d, phi_d < columns_ ? phi_d : 0);
   }
 
-  /// The cells around a place: theta_h and theta_d end with their first and last nodes, phi_d wraps.
+  /// Returns the cells around a position. theta_h and theta_d are clamped to their first and last nodes; phi_d is
+  /// periodic.
   template <std::floating_point Real>
   [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& place) const noexcept {
     return around(place, *this);
   }
 
-  /// The same, by the numbers that `number_of(theta_h, theta_d, phi_d)` gives cells.
+  /// Likewise, with the numbers that `number_of(theta_h, theta_d, phi_d)` returns.
   template <std::floating_point Real, class NumberOf>
   [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& place,
                                                const NumberOf& number_of) const noexcept {
@@ -115,7 +116,7 @@ class horizon_index {
     return corners;
   }
 
-  /// In bytes.
+  /// Returns the memory in bytes.
   [[nodiscard]] Eigen::Index memory() const noexcept {
     return begin_.size() * sizeof(std::uint32_t) + last_.size() * sizeof(std::uint16_t);
   }
@@ -127,7 +128,7 @@ class horizon_index {
 
   gonio::grid grid_;
   Eigen::Index rows_, columns_;
-  std::vector<std::uint32_t> begin_;  ///< by theta_h and theta_d: the number of the first cell less its phi_d
+  std::vector<std::uint32_t> begin_;  ///< by theta_h and theta_d: the number of the first cell minus its phi_d
   std::vector<std::uint16_t> last_;   ///< by theta_d and phi_d: the largest theta_h above the horizon
   std::uint32_t size_ = 0;
   Eigen::Index row_of_last_ = -1;

@@ -1,11 +1,11 @@
 #pragma once
-/// A table as images show it: between cells the reflected light is interpolated, f times both cosines, instead of f.
+/// Look-up in a table for images. Between cells it interpolates the reflected light, f times both cosines, instead of
+/// f.
 ///
-/// A cell whose centre lies just above the horizon says nearly nothing of f: in Eq. 1 of Nielsen, Jensen and
-/// Ramamoorthi 2015 (doi:10.1145/2816795.2818085) a deviation of epsilon is one of epsilon / (cos theta_i cos theta_o)
-/// in f, and an estimate is easily ten times too bright there. Interpolation of f carries that a whole cell inwards,
-/// where there is light to show it: a dotted line along the terminator. Weighted by its cosines, such a cell counts by
-/// what it reflects.
+/// A cell just above the horizon hardly determines f: in Eq. 1 of Nielsen, Jensen and Ramamoorthi 2015
+/// (doi:10.1145/2816795.2818085), an error of epsilon becomes epsilon / (cos theta_i cos theta_o) in f, and an estimate
+/// may be ten times too bright. Interpolating f carries this error one cell inwards, where it is visible as a dotted
+/// line along the terminator. With cosine weights such a cell counts by the light it reflects.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/table/brdf_table.hpp>
@@ -16,7 +16,7 @@
 
 namespace gonio::render {
 
-/// A BRDF in sr^-1; zero below the horizon. A view: the table must outlive it.
+/// A BRDF in sr^-1; zero below the horizon. It is a view; the table must outlive it.
 class horizon_lookup {
  public:
   explicit horizon_lookup(const brdf_table& table) noexcept : table_(&table) {}
@@ -34,7 +34,7 @@ class horizon_lookup {
   }
 
  private:
-  /// Of cells that are on the horizon itself.
+  /// The weight of cells on the horizon itself.
   static constexpr double smallest_weight = 1e-9;
 
   const brdf_table* table_;

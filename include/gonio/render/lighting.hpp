@@ -1,10 +1,9 @@
 #pragma once
-/// What shines on the sphere: J. B. Nielsen's two directional lights (thesis 2016, Sec. 4.2: an oblique one in
-/// front, a grazing one behind), and environments integrated over the half vector.
+/// Light on the sphere: J. B. Nielsen's two directional lights (thesis 2016, Sec. 4.2: an oblique one in front, a
+/// grazing one behind), and environments integrated over the half vector.
 ///
-/// World axes: x to the right, y up, z towards a camera at infinity. The sum over everything that a
-/// lighting enumerates of f * weight is the radiance towards the camera, the reflected part of the
-/// rendering equation (thesis, Eq. 2.7).
+/// World axes: x to the right, y up, z towards a camera at infinity. The sum of f * weight over all incident directions
+/// of a lighting is the radiance towards the camera: the reflected part of the rendering equation (thesis, Eq. 2.7).
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/direction.hpp>
@@ -43,14 +42,14 @@ struct surface_frame {
   direction normal;
 };
 
-/// Light that falls on a point of a sphere seen from the direction +z.
+/// Incident light at a point of a sphere seen from the direction +z.
 ///
-/// `for_each_incident(normal, visit)` calls `visit(wi, wo, weight)` for every direction that light comes
-/// from. What the compiler cannot check, and a model must keep:
-/// - wi (towards the light) and wo (towards the camera) are unit vectors in surface_frame{normal}, both
-///   above the horizon;
+/// `for_each_incident(normal, visit)` calls `visit(wi, wo, weight)` for every direction of incident light. A model must
+/// keep rules that the compiler cannot check:
+/// - wi (towards the light) and wo (towards the camera) are unit vectors in surface_frame{normal}, both above the
+///   horizon;
 /// - weight is incident radiance * cos(theta_i) * solid angle, one value per colour channel, not negative;
-/// - the calls depend on the normal alone and come in the same order every time, and the function is thread safe.
+/// - the calls depend only on the normal and always come in the same order, and the function is thread-safe.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -92,14 +91,14 @@ concept sphere_lighting = requires(const Lighting& lighting, const direction& no
   lighting.for_each_incident(normal, visit);
 };
 
-/// Any number of directional lights, in world axes; their directions need not be of unit length.
+/// Any number of directional lights in world axes. Their directions may have any length.
 class directional_lighting {
  public:
   explicit directional_lighting(std::vector<directional_light> lights) : lights_(std::move(lights)) {
     for (directional_light& light : lights_) light.towards.normalize();
   }
 
-  /// The lights, their directions of unit length.
+  /// Returns the lights, with directions of unit length.
   [[nodiscard]] const std::vector<directional_light>& lights() const noexcept { return lights_; }
 
   template <class Visit>
@@ -119,25 +118,25 @@ class directional_lighting {
 
 static_assert(sphere_lighting<directional_lighting>);
 
-/// The thesis's lights: from [1, 1, 1] in front, and from [-1, -1, -3] behind the sphere, whose light
-/// reaches the camera at grazing angles on the lower left rim only. Both white, of irradiance 1.
+/// Returns the thesis's lights: from [1, 1, 1] in front, and from [-1, -1, -3] behind the sphere. The second reaches
+/// the camera only at grazing angles, on the lower left rim. Both are white, of irradiance 1.
 [[nodiscard]] inline directional_lighting two_lights() {
   return directional_lighting({{{1.0, 1.0, 1.0}}, {{-1.0, -1.0, -3.0}}});
 }
 
-/// The radiance that comes from direction `d` (a unit vector in world axes, y up) of an environment given
-/// by a formula: a sky gradient, brownish ground, and six soft windows, two of them behind the sphere. Not from
-/// a paper: it is the light under which this project's colour differences are measured, so it must not change.
+/// Returns the radiance from direction `d` (a unit vector in world axes, y up) of an environment given by a formula: a
+/// sky gradient, brownish ground, and six soft windows, two of them behind the sphere. It is not from a paper. This
+/// project measures its colour differences under it, so it must not change.
 [[nodiscard]] inline rgb environment_radiance(const direction& d) noexcept {
   struct window {
     direction centre;
-    double width;  // radians: radiance falls to 1/e there
+    double width;  // radians, where radiance falls to 1/e
     rgb radiance;
     double cosine_of_edge;
   };
   static const auto windows = [] {
     const auto make = [](const direction& towards, double width, double intensity, const rgb& colour) {
-      // At 2.6 widths exp(-x^4) is 1e-20, lost beside the sky in double precision: no need to evaluate it.
+      // At 2.6 widths exp(-x^4) is 1e-20, which is lost next to the sky in double precision.
       return window{towards.normalized(), radians(width), intensity * colour, std::cos(radians(2.6 * width))};
     };
     return std::array{make({-0.5, 0.55, 0.67}, 6.0, 40.0, {1.0, 0.82, 0.55}),
@@ -165,12 +164,12 @@ struct formula_environment {
   [[nodiscard]] rgb operator()(const direction& d) const noexcept { return environment_radiance(d); }
 };
 
-/// Light from everywhere, integrated over the half vector: bins of equal steps in sqrt(theta_h) (the warp of
-/// MERL's grid, dense where highlights are) and in phi_h, with their exact solid angles dw_h, each of which
-/// stands for dw_i = 4 cos(theta_d) dw_h of incident directions.
+/// Light from all directions, integrated over the half vector. Bins have equal steps in sqrt(theta_h) (MERL's warp,
+/// dense at highlights) and in phi_h, with exact solid angles dw_h. Each bin stands for dw_i = 4 cos(theta_d) dw_h of
+/// incident directions.
 ///
-/// A light narrower than a bin, 4 degrees of the default's phi_h, shows as rings on matte spheres.
-/// `Radiance` is any `rgb(const direction&)` over world directions that is safe to call concurrently.
+/// A light narrower than a bin (4 degrees of the default's phi_h) gives rings on matte spheres. `Radiance` is any
+/// `rgb(const direction&)` over world directions that is safe to call concurrently.
 template <class Radiance = formula_environment>
 requires std::is_invocable_r_v<rgb, const Radiance&, const direction&>
 class environment_lighting {

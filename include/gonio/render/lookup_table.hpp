@@ -1,6 +1,6 @@
 #pragma once
-/// A tabulated BRDF for the inner loop of a renderer: nearest or trilinear look-up, one pair of directions at a time or
-/// many, in float or double, its values stored as float, double or half. The grid is that of Matusik et al., "A
+/// A tabulated BRDF for the inner loop of a renderer. Look-up is nearest or trilinear, for one pair of directions or
+/// many, in float or double. Values are stored as float, double or half. The grid is that of Matusik et al., "A
 /// Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 
 #include <gonio/core/assertion.hpp>
@@ -27,10 +27,10 @@
 
 namespace gonio::render {
 
-/// How a table is read between its values: as the nearest has it, or in proportion to the eight around.
+/// How values are looked up: at the nearest cell, or interpolated between the eight cells around.
 enum class interpolation { nearest, trilinear };
 
-/// What a table can be made of: values of the cells of a grid, such as a `brdf_table` has.
+/// A source of a table: values at the cells of a grid, such as a `brdf_table`.
 template <class Table>
 concept table_over_cells = requires(const Table& table, Eigen::Index linear) {
   { table.cells().grid() } -> std::convertible_to<grid>;
@@ -38,18 +38,16 @@ concept table_over_cells = requires(const Table& table, Eigen::Index linear) {
   { table.values()[linear] } -> std::convertible_to<double>;
 };
 
-/// A number that a table can store: `Eigen::half` has eleven bits, which are three digits.
+/// A type that a table can store. `Eigen::half` has eleven bits, about three digits.
 template <class Stored>
 concept stored_number =
     std::same_as<Stored, float> || std::same_as<Stored, double> || std::same_as<Stored, Eigen::half>;
 
-/// Values in sr^-1 of the cells above the horizon, at least zero, times a power of two that keeps half numbers in their
-/// range; and the look-up. After construction there is no allocation, no lock and no exception, and any number of
-/// threads may read.
+/// Stores values in sr^-1 of the cells above the horizon, at least zero, times a power of two that keeps half numbers
+/// in range. After construction it does not allocate, lock or throw, and any number of threads may read.
 ///
-/// Look-up is black if a direction is at or below the horizon or has a component that is not a number, or if the
-/// magnitudes of all components sum to more than 1e7. Directions need not be of unit length, as long as both have the
-/// same.
+/// Look-up is black if a direction is at or below the horizon, if a component is NaN, or if the magnitudes of all
+/// components sum to more than 1e7. Directions need not be of unit length, but must have the same length.
 /// ```cpp
 /// const auto paint = gonio::render::lookup_table<Eigen::half>::of(table);  // a brdf_table
 /// const Eigen::Array3f f = paint(wi, wo);                          // sr^-1, without the cosine
@@ -57,7 +55,7 @@ concept stored_number =
 template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>
 class lookup_table {
  public:
-  /// Of a `brdf_table`, or what is like one. Throws gonio::error if a value is not finite.
+  /// Converts a `brdf_table` or a similar type. Throws gonio::error if a value is not finite.
   template <table_over_cells Table>
   [[nodiscard]] static lookup_table of(const Table& table) {
     const auto& values = table.values();
@@ -67,15 +65,15 @@ class lookup_table {
     });
   }
 
-  /// Of what a MERL file holds after its header: three planes in the file's scale. Where in its cells the values were
-  /// taken, the cells without a value tell (`infer_convention`), as they tell `read_merl`. Negative values, by which a
-  /// file marks these cells, are black. Throws gonio::error if the planes do not have the grid's size or a value is not
-  /// finite.
+  /// Converts the data of a MERL file after its header: three planes in the file's scale. The position of the values
+  /// within their cells is inferred from the cells without a value (`infer_convention`), as in `read_merl`. Negative
+  /// values, which mark these cells in a file, become black. Throws gonio::error if the planes do not have the grid's
+  /// size, or if a value is not finite.
   [[nodiscard]] static lookup_table from_merl(std::span<const double> planes, const grid_extents& extents = {}) {
     return from_merl(planes, gonio::grid(extents, infer_convention(planes, extents).anchor));
   }
 
-  /// The same on a grid whose anchor is known.
+  /// Likewise, on a grid with a known anchor.
   [[nodiscard]] static lookup_table from_merl(std::span<const double> planes, const gonio::grid& cells) {
     const Eigen::Index plane = cells.size();
     if (std::ssize(planes) != 3 * plane)
@@ -88,7 +86,7 @@ class lookup_table {
     });
   }
 
-  /// Of any BRDF, evaluated at the nodes of a grid.
+  /// Evaluates any BRDF at the nodes of a grid.
   template <brdf Brdf>
   [[nodiscard]] static lookup_table tabulated(const Brdf& f, const gonio::grid& cells = gonio::grid()) {
     return lookup_table(cells, [&](const cell_index& cell) {
@@ -98,7 +96,7 @@ class lookup_table {
     });
   }
 
-  /// Reflectance in sr^-1 of a pair, `float` or `double`.
+  /// Returns reflectance in sr^-1 for a pair in `float` or `double`.
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Array<Real, 3, 1> operator()(const Eigen::Matrix<Real, 3, 1>& wi,
                                                     const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
@@ -112,9 +110,9 @@ class lookup_table {
     }
   }
 
-  /// Reflectance of many pairs, whose directions and results stand in arrays of equal length: several pairs at once as
-  /// far as the processor can (compile with -O3 and for your processor), with the same results as one by one up to
-  /// rounding. Precondition: the lengths are equal.
+  /// Evaluates many pairs, with directions and results in arrays of equal length. It vectorises if the processor allows
+  /// (compile with -O3 and for your processor). Results agree with single look-ups up to rounding. Precondition: the
+  /// lengths are equal.
   template <std::floating_point Real>
   void evaluate(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo,
                 const component_arrays<Real>& out) const noexcept {
@@ -130,7 +128,7 @@ class lookup_table {
     for (Eigen::Index first = 0; first < out.size(); first += size) {
       const Eigen::Index count = std::min(size, out.size() - first);
       block.compute(wi, wo, first, count);
-      // One step for all pairs after the other: while the processor waits for one value it asks for the next.
+      // Do each step for all pairs: while the processor waits for one value, it requests the next.
       for (Eigen::Index i = 0; i < size; ++i) places[i] = place(block[i]);
       for (Eigen::Index i = 0; i < size; ++i) read(places[i], stored.data() + i * read_of_place);
       const computed* values = widened(stored, wide);
@@ -150,15 +148,17 @@ class lookup_table {
 
   [[nodiscard]] const gonio::grid& grid() const noexcept { return cells_.grid(); }
 
-  /// In bytes, of the values.
+  /// Returns the memory of the values in bytes.
   [[nodiscard]] Eigen::Index memory() const noexcept { return values_.size() * sizeof(storage); }
 
  private:
   static constexpr bool is_half = std::is_same_v<Stored, Eigen::half>;
-  using computed = std::conditional_t<std::is_same_v<Stored, double>, double, float>;  ///< what values are blended in
-  using storage = std::conditional_t<is_half, std::uint16_t, Stored>;  ///< compilers see no numbers in Eigen's class
+  using computed =
+      std::conditional_t<std::is_same_v<Stored, double>, double, float>;  ///< type in which values are blended
+  using storage =
+      std::conditional_t<is_half, std::uint16_t, Stored>;  ///< compilers do not see Eigen's class as numbers
 
-  /// `value_of(cell_index)` is red, green and blue.
+  /// `value_of(cell_index)` returns red, green and blue.
   template <class ValueOf>
   lookup_table(const gonio::grid& cells, const ValueOf& value_of) : cells_(cells), finder_(cells) {
     const auto [heights, rows, columns] = cells.extents();
@@ -182,7 +182,7 @@ class lookup_table {
     store(index, values);
   }
 
-  /// From values of the cells above the horizon.
+  /// Stores values of the cells above the horizon.
   void store(const horizon_index& index, const std::vector<double>& values) {
     const auto [heights, rows, columns] = grid().extents();
     scale_ = scale_of(values);
@@ -197,7 +197,7 @@ class lookup_table {
     values_.resize(values_.size() + read_beyond, storage(0));
   }
 
-  /// What is read for a pair: a cell, or eight with weights.
+  /// The location read for a pair: one cell, or eight with weights.
   template <std::floating_point Real>
   using place_of = std::conditional_t<Interpolation == interpolation::nearest, std::int32_t, cell_corner<Real>>;
 
@@ -209,8 +209,8 @@ class lookup_table {
       return cells_.around(coordinates);
   }
 
-  /// How many numbers are read for a place: three, or the three of both neighbours along phi_d in four rows, and as
-  /// many more as make vectors of them.
+  /// The number of values read for a location: three, or in each of four rows the three of both neighbours along phi_d,
+  /// padded to whole vectors.
   static constexpr Eigen::Index read_of_place = Interpolation == interpolation::nearest ? 4 : 4 * 8;
 
   void read(std::int32_t nearest, storage* out) const noexcept {
@@ -228,7 +228,7 @@ class lookup_table {
     }
   }
 
-  /// Of what was read, times a factor.
+  /// Blends the values that were read, times a factor.
   template <std::floating_point Real>
   [[nodiscard]] static Eigen::Array<Real, 3, 1> blended(const place_of<Real>& where, const computed* values,
                                                         computed factor) noexcept {
@@ -253,8 +253,8 @@ class lookup_table {
     return blended<Real>(where, widened(stored, wide), static_cast<computed>(scale_));
   }
 
-  /// What is stored as numbers to compute with: where they are, or of half numbers, which are at least zero, in `wide`:
-  /// their bits moved, times 2^112.
+  /// Returns the stored values as numbers to compute with, in place. Half numbers, which are at least zero, are
+  /// converted into `wide`: their bits are shifted, times 2^112.
   template <std::size_t Size>
   [[nodiscard]] static const computed* widened(const std::array<storage, Size>& stored,
                                                std::array<computed, Size>& wide) noexcept {
@@ -267,14 +267,14 @@ class lookup_table {
     }
   }
 
-  /// 1 or, of half numbers, the power of two that brings the largest value near the end of their range, 65504.
+  /// Returns 1; for half numbers, the power of two that brings the largest value near the end of their range, 65504.
   [[nodiscard]] static double scale_of(const std::vector<double>& values) {
     const double largest = *std::ranges::max_element(values);
     if (!is_half || !(largest > 0.0)) return 1.0;
     return std::exp2(std::ceil(std::log2(largest)) - 15.0);
   }
 
-  static constexpr Eigen::Index read_beyond = 2;  ///< numbers behind the last cell's
+  static constexpr Eigen::Index read_beyond = 2;  ///< padding after the last cell
 
   padded_grid cells_;
   cell_finder<double> finder_;

@@ -1,7 +1,7 @@
 #pragma once
-/// A MERL table in memory that a renderer already holds, read where it is: nothing is copied. The grid is that of
-/// Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343). A `lookup_table` is
-/// smaller and quicker, because the three channels of a cell stand side by side in it.
+/// A view of a MERL table in a renderer's memory, without a copy. The grid is that of Matusik et al., "A Data-Driven
+/// Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343). A `lookup_table` is smaller and faster, because it
+/// stores the three channels of a cell together.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/render/cell_finder.hpp>
@@ -20,33 +20,33 @@
 
 namespace gonio::render {
 
-/// A view of three planes of red, green and blue in the scale of MERL's files, phi_d fastest and theta_h slowest; they
-/// must outlive it. Reads as `lookup_table::from_merl` of the same planes does: negative values, by which a file marks
-/// cells without one, are black, and cells below the horizon continue those above. It holds an index of the grid, 100
-/// KB. After construction there is no allocation, no lock and no exception, and any number of threads may read.
+/// A view of three planes of red, green and blue in the scale of MERL's files, phi_d fastest and theta_h slowest. The
+/// planes must outlive it. It reads them like `lookup_table::from_merl`: negative values, which mark cells without a
+/// value, are black, and cells below the horizon extend those above. It holds an index of the grid, 100 KB. After
+/// construction it does not allocate, lock or throw, and any number of threads may read.
 /// ```cpp
 /// const gonio::render::merl_view paint(planes);  // what the file holds behind its header, 3 x 90 x 90 x 180
 /// const Eigen::Array3f f = paint(wi, wo);        // sr^-1, without the cosine
 /// ```
-/// Values are not looked at before they are asked for: one that is not finite comes back as it is.
+/// Values are not checked in advance. A value that is not finite is returned as it is.
 template <interpolation Interpolation = interpolation::nearest>
 class merl_view {
  public:
-  /// O(cells of the grid). Where in its cells the values were taken, the cells without a value tell
-  /// (`infer_convention`), as they tell `read_merl`. Throws gonio::error if the planes do not have the grid's size.
+  /// O(cells of the grid). Infers the position of the values within their cells from the cells without a value
+  /// (`infer_convention`), as in `read_merl`. Throws gonio::error if the planes do not have the grid's size.
   explicit merl_view(std::span<const double> planes, const grid_extents& extents = {})
       : merl_view(planes, gonio::grid(extents, infer_convention(planes, extents).anchor)) {}
-  /// The same on a grid whose anchor is known.
+  /// Likewise, on a grid with a known anchor.
   merl_view(std::span<const double> planes, const gonio::grid& cells) : planes_(planes), index_(cells), finder_(cells) {
     if (std::ssize(planes) != 3 * cells.size())
       refuse("three planes of " + std::to_string(cells.size()) + " values were expected of a MERL table, not " +
              std::to_string(planes.size()) + " values");
   }
-  /// Planes that end with the statement cannot be viewed.
+  /// Temporary planes cannot be viewed.
   explicit merl_view(std::vector<double>&& planes, const grid_extents& extents = {}) = delete;
   merl_view(std::vector<double>&& planes, const gonio::grid& cells) = delete;
 
-  /// Reflectance in sr^-1 of a pair, `float` or `double`.
+  /// Returns reflectance in sr^-1 for a pair in `float` or `double`.
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Array<Real, 3, 1> operator()(const Eigen::Matrix<Real, 3, 1>& wi,
                                                     const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
@@ -66,7 +66,7 @@ class merl_view {
 
   [[nodiscard]] const gonio::grid& grid() const noexcept { return index_.grid(); }
 
-  /// The planes, where they are.
+  /// Returns the planes that it views.
   [[nodiscard]] std::span<const double> planes() const noexcept { return planes_; }
 
  private:

@@ -1,8 +1,8 @@
 #pragma once
-/// Numbers the cells of a MERL-like grid such that the cells around a place are found without a look-up and the two
-/// along phi_d are neighbours in memory: for the inner loop of a renderer. Rows of phi_d have the last cell again
-/// before the first and the first again behind the last, since the axis wraps. The grid is that of Matusik et al., "A
-/// Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
+/// Numbers the cells of a MERL-like grid so that the cells around a position are found without a table and neighbours
+/// along phi_d are adjacent in memory, for the inner loop of a renderer. Because phi_d is periodic, each row repeats
+/// its last cell before the first and its first cell after the last. The grid is that of Matusik et al., "A Data-Driven
+/// Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 
 #include <gonio/core/error.hpp>
 #include <gonio/render/grid_coordinates.hpp>
@@ -18,7 +18,7 @@
 
 namespace gonio::render {
 
-/// The first of the eight cells around a place, and how far the place is from it to the next along each axis, from 0
+/// The first of the eight cells around a position, and the fraction of the way to the next cell along each axis, from 0
 /// to 1.
 template <std::floating_point Real>
 struct cell_corner {
@@ -26,17 +26,17 @@ struct cell_corner {
   Real theta_h = 0, theta_d = 0, phi_d = 0;
 };
 
-/// All cells of a grid, those below the horizon too, and two more in each row. Of MERL's grid that is a third more than
-/// the cells above the horizon, which `horizon_index` numbers; in return nothing is read to find a cell.
+/// All cells of a grid, including those below the horizon, and two more per row. For MERL's grid this is a third more
+/// than the cells above the horizon, which `horizon_index` numbers. In return, finding a cell reads no memory.
 class padded_grid {
  public:
-  /// Throws gonio::error if there are 2^31 cells or more.
+  /// Throws gonio::error if there are more than (2^31 - 1) / 3 cells.
   explicit padded_grid(const gonio::grid& cells = gonio::grid())
       : grid_(cells),
         columns_(cells.extents().phi_d + 2),
         step_h_(cells.extents().theta_h > 1 ? cells.extents().theta_d * columns_ : 0),
         step_d_(cells.extents().theta_d > 1 ? columns_ : 0) {
-    // With the margins, up to three times as many have to be counted.
+    // With the margins, up to three times as many cells are numbered.
     constexpr Eigen::Index largest = std::numeric_limits<std::int32_t>::max() / 3;
     if (cells.size() > largest)
       refuse("a grid for rendering has " + std::to_string(cells.size()) + " cells, more than " +
@@ -47,23 +47,23 @@ class padded_grid {
   [[nodiscard]] Eigen::Index size() const noexcept {
     return Eigen::Index{grid_.extents().theta_h} * grid_.extents().theta_d * columns_;
   }
-  /// From a cell to the next along theta_h, along theta_d: 0 if there is but one.
+  /// The offset to the next cell along theta_h and along theta_d; 0 if there is only one.
   [[nodiscard]] Eigen::Index step_h() const noexcept { return step_h_; }
   [[nodiscard]] Eigen::Index step_d() const noexcept { return step_d_; }
 
-  /// phi_d from -1, which is the last, to its extent, which is the first.
+  /// Takes phi_d from -1, which stands for the last, to its extent, which stands for the first.
   [[nodiscard]] std::int32_t operator()(Eigen::Index theta_h, Eigen::Index theta_d, Eigen::Index phi_d) const noexcept {
     return static_cast<std::int32_t>((theta_h * grid_.extents().theta_d + theta_d) * columns_ + phi_d + 1);
   }
 
-  /// The number of the cell whose node is nearest to a place.
+  /// Returns the number of the cell whose node is nearest to a position.
   template <std::floating_point Real>
   [[nodiscard]] std::int32_t nearest(const grid_coordinates<Real>& place) const noexcept {
     const auto [theta_h, theta_d, phi_d] = detail::nearest_nodes(grid_, place);
     return (theta_h * grid_.extents().theta_d + theta_d) * columns_ + phi_d + 1;
   }
 
-  /// The cells around a place. Before the first node of theta_h or theta_d and behind the last their values hold.
+  /// Returns the cells around a position. theta_h and theta_d are clamped to their first and last nodes.
   template <std::floating_point Real>
   [[nodiscard]] cell_corner<Real> around(const grid_coordinates<Real>& place) const noexcept {
     const auto [heights, rows, columns] = grid_.extents();

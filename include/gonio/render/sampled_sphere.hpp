@@ -1,7 +1,7 @@
 #pragma once
-/// A sphere in an environment as a path tracer sees it: light drawn by importance of the BRDF and of the environment,
-/// combined. E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH
-/// 1995 (doi:10.1145/218380.218498): the balance heuristic. Light that is reflected once is all there is on a sphere.
+/// Renders a sphere in an environment like a path tracer: combines importance sampling of the BRDF and of the
+/// environment. E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH
+/// 1995 (doi:10.1145/218380.218498): the balance heuristic. A sphere only has light that is reflected once.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
@@ -26,27 +26,27 @@ namespace gonio::render {
 /// A camera at infinity in front of the sphere, as in render/sphere.hpp.
 struct sampled_sphere_view {
   int size = 256;                 ///< rows and columns of the image
-  int samples = 64;               ///< pairs of directions for each pixel, by the BRDF and by the environment
-  std::uint64_t seed = 1;         ///< decides all draws
+  int samples = 64;               ///< pairs of directions per pixel: one by the BRDF, one by the environment
+  std::uint64_t seed = 1;         ///< determines all draws
   double white = 1.0;             ///< the mean luminance that a white Lambertian sphere would have
   bool shows_environment = true;  ///< around the sphere; otherwise black
 };
 
-/// The mean luminance of a white Lambertian sphere in an environment, of all points of its disc: the sphere's phase
-/// function, 2/3 (sin a + (pi - a) cos a) / pi of a parallel light at the angle a from the camera, summed over the
-/// pixels. O(pixels).
+/// Returns the mean luminance of a white Lambertian sphere in an environment over all points of its disc: the sum over
+/// the pixels of the sphere's phase function, 2/3 (sin a + (pi - a) cos a) / pi for a parallel light at the angle a
+/// from the camera. O(pixels).
 [[nodiscard]] double white_sphere_luminance(const environment_map& map);
 
 namespace detail {
 
-/// Two numbers for the place of a sample within its pixel, two for its direction.
+/// Two numbers for the position of a sample within its pixel, two for its direction.
 struct sample_numbers {
   double x = 0.0, y = 0.0, u = 0.0, v = 0.0;
 };
 
-/// So many quadruples of numbers from 0 to 1 that fill the space evenly, from a place drawn at random: u in even steps
-/// in increasing order, the others in steps by the powers of the root of t^4 = t + 1 (M. Roberts, "The Unreasonable
-/// Effectiveness of Quasirandom Sequences", 2018). Any few in a row fill the other three dimensions evenly, too.
+/// A sequence of quadruples that fill [0, 1)^4 evenly from a random start. u increases in equal steps. The others step
+/// by powers of the root of t^4 = t + 1 (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
+/// Any short run also fills the other three dimensions evenly.
 class even_numbers {
  public:
   even_numbers(Eigen::Index count, std::mt19937_64& generator);
@@ -66,12 +66,12 @@ class even_numbers {
   sample_numbers first_;
 };
 
-/// Light towards the camera by a direction that was drawn, and the densities in sr^-1 of the two ways to draw it.
+/// Light towards the camera from a drawn direction, and the densities in sr^-1 of both ways to draw it.
 struct drawn_light {
   rgb reflected = rgb::Zero();  ///< BRDF times radiance times cosine
   double by_material = 0.0, by_light = 0.0;
 
-  /// The density when a share of all draws is by the material.
+  /// Returns the density if a fraction `share` of all draws is by the material.
   [[nodiscard]] double density(double share) const noexcept { return share * by_material + (1.0 - share) * by_light; }
 };
 
@@ -93,7 +93,7 @@ template <direction_sampler Sampler>
   return {rgb(material.brdf()(wi, wo)) * lamp.radiance * wi.z(), material.pdf(wi, wo), lamp.pdf};
 }
 
-/// Renders parts of the sphere.
+/// Renders tiles of the sphere.
 template <direction_sampler Sampler>
 class sphere_tiles {
  public:
@@ -114,7 +114,7 @@ class sphere_tiles {
   }
 
  private:
-  /// Of what is seen at a place of the image, counted in pixels: x to the right and y upwards, from -1 to 1.
+  /// A position in the image: x to the right and y upwards, from -1 to 1.
   struct location {
     double x, y, squared;
     [[nodiscard]] bool is_on_sphere() const noexcept { return squared < 1.0; }
@@ -125,8 +125,8 @@ class sphere_tiles {
     return {x, y, x * x + y * y};
   }
 
-  /// The share of draws by the material, in eighths, with which draws from a tile, as many of both kinds, have the
-  /// least second moment under the balance heuristic.
+  /// Returns the fraction of draws by the material, in eighths, with the smallest second moment under the balance
+  /// heuristic. Estimates it from a tile, with equally many draws of both kinds.
   [[nodiscard]] double share_of_material(Eigen::Index top, Eigen::Index left, std::mt19937_64& generator) const {
     std::array<double, 7> second_moments{};
     constexpr Eigen::Index pairs = side * side;
@@ -178,10 +178,10 @@ class sphere_tiles {
 
 }  // namespace detail
 
-/// An image of a sphere, in linear light. The environment is scaled such that a white Lambertian sphere would have the
-/// mean luminance `view.white`. The material samples itself and has its BRDF as `brdf()`, such as
-/// `half_vector_sampler`. How many of a pixel's directions are by the BRDF is chosen for each tile of 8 x 8 pixels.
-/// Same bytes for any number of threads. O(pixels x samples).
+/// Renders an image of a sphere in linear light. Scales the environment so that a white Lambertian sphere would have
+/// the mean luminance `view.white`. The material samples itself and returns its BRDF from `brdf()`, like
+/// `half_vector_sampler`. The fraction of a pixel's directions drawn by the BRDF is chosen for each tile of 8 x 8
+/// pixels. The bytes do not depend on the number of threads. O(pixels x samples).
 template <direction_sampler Sampler>
 [[nodiscard]] image render_sphere(const Sampler& material, const environment_sampler& light,
                                   const sampled_sphere_view& view = {}, thread_count threads = {},

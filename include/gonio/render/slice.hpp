@@ -1,6 +1,6 @@
 #pragma once
-/// The slice of a BRDF at phi_d = 90 degrees: one image that shows diffuse colour, highlight, Fresnel effect and
-/// retro-reflection apart. B. Burley, "Physically-Based Shading at Disney", SIGGRAPH 2012 course; J. B. Nielsen's
+/// The slice of a BRDF at phi_d = 90 degrees: one image that separates diffuse colour, highlight, Fresnel effect and
+/// retro-reflection. B. Burley, "Physically-Based Shading at Disney", SIGGRAPH 2012 course; J. B. Nielsen's
 /// thesis (2016), Sec. 2.2.3 and Fig. 2.8.
 
 #include <gonio/core/brdf.hpp>
@@ -12,22 +12,22 @@
 
 namespace gonio::render {
 
-/// How theta_h runs along the image.
+/// The scale of theta_h along the image.
 enum class slice_axis {
-  /// In steps of sqrt(theta_h), as in MERL's tables: a highlight of a few degrees fills a quarter of the image.
+  /// Steps of sqrt(theta_h), as in MERL's tables: a highlight of a few degrees fills a quarter of the image.
   square_root,
-  /// In steps of theta_h.
+  /// Steps of theta_h.
   linear,
 };
 
-/// What a slice shows.
+/// The size and scale of a slice.
 struct slice_view {
   int rows = 90;
   int columns = 90;
   slice_axis axis = slice_axis::square_root;
 };
 
-/// Where a pixel of a slice is: theta_h and theta_d at its centre, phi_d = 90 degrees, in radians. Row 0 is at the top.
+/// Returns theta_h and theta_d at a pixel's centre, and phi_d = 90 degrees, in radians. Row 0 is at the top.
 [[nodiscard]] inline half_difference slice_angles(const slice_view& view, Eigen::Index row, Eigen::Index column) {
   GONIO_ASSERT(row >= 0 && row < view.rows && column >= 0 && column < view.columns);
   const grid nodes({view.columns, view.rows, 1}, cell_anchor::centre);
@@ -38,11 +38,11 @@ struct slice_view {
   return {theta_h, nodes.theta_d(view.rows - 1 - static_cast<int>(row)), right_angle};
 }
 
-/// f * pi over theta_h (along x, 0 at the left) and theta_d (along y, 0 at the bottom), both from 0 to 90 degrees
-/// and taken at pixel centres. The factor pi shows a white Lambertian surface as white; nothing is clipped. Grazing
-/// reflection is in the top row, mirror reflection in the left column, retro-reflection at the bottom, and all of
-/// it is above the horizon. On MERL's grid the default image has one pixel for each cell; read through a
-/// nearest_lookup, whose cells there are at 90.5 degrees, the grazing corner at the top right is black.
+/// Returns f * pi over theta_h (along x, 0 at the left) and theta_d (along y, 0 at the bottom), both from 0 to 90
+/// degrees, at pixel centres. The factor pi shows a white Lambertian surface as white; nothing is clipped. Grazing
+/// reflection is in the top row, mirror reflection in the left column, retro-reflection at the bottom. All of it is
+/// above the horizon. On MERL's grid the default image has one pixel for each cell. Through a nearest_lookup, the
+/// grazing corner at the top right is black, because its cells are at 90.5 degrees.
 template <brdf Brdf>
 [[nodiscard]] image render_slice(const Brdf& f, const slice_view& view = {}, thread_count threads = {}) {
   GONIO_ASSERT(view.rows >= 1 && view.columns >= 1);

@@ -1,10 +1,10 @@
 #pragma once
-/// Orthographic images of a sphere made of a BRDF, for any `brdf`, and the same image as a linear map of
-/// a table's values for judging many tables quickly.
+/// Orthographic images of a sphere with a BRDF, for any `brdf`, and the same image as a linear map of a table's values,
+/// for evaluating many tables quickly.
 ///
-/// Pixel centres are a regular grid over the square around the unit disc; those strictly inside belong to the
-/// sphere (1020 of 36 x 36). Exposure: the lighting is scaled such that a white Lambertian sphere (f = 1/pi)
-/// has mean luminance 1 over the sphere's pixels. Nothing else about the image depends on the BRDF.
+/// Pixel centres form a regular grid over the square around the unit disc. Those strictly inside belong to the sphere
+/// (1020 of 36 x 36). Exposure: the lighting is scaled so that a white Lambertian sphere (f = 1/pi) has mean luminance
+/// 1 over the sphere's pixels. Nothing else about the image depends on the BRDF.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
@@ -22,13 +22,13 @@
 
 namespace gonio::render {
 
-/// What the camera sees of the sphere.
+/// The camera's view of the sphere.
 struct sphere_view {
   /// Rows and columns of the image.
   int size = 256;
   /// Samples per pixel along each axis.
   int supersampling = 1;
-  /// Shown around the sphere, and blended into pixels that it covers in part (if supersampling > 1).
+  /// Shown around the sphere, and blended into partly covered pixels (if supersampling > 1).
   rgb background = rgb::Zero();
 };
 
@@ -40,15 +40,15 @@ struct sphere_point {
   direction normal;
 };
 
-/// The samples of a size x size grid that lie on the sphere, row by row from the top.
+/// Returns the samples of a size x size grid that lie on the sphere, row by row from the top.
 [[nodiscard]] std::vector<sphere_point> sphere_points(int size);
 
 namespace detail {
 
-/// Samples on which one thread works at a time.
+/// Number of samples in a thread's block.
 inline constexpr Eigen::Index sphere_block = 32;
 
-/// The factor that brings the mean of a white sphere's luminances to 1; 1 if no light reaches it.
+/// Returns the factor that scales the mean of a white sphere's luminances to 1; 1 if no light reaches it.
 [[nodiscard]] inline double exposure_from(const std::vector<double>& white_luminances) noexcept {
   const double sum = std::accumulate(white_luminances.begin(), white_luminances.end(), 0.0);
   return sum > 0.0 ? static_cast<double>(white_luminances.size()) / sum : 1.0;
@@ -56,7 +56,7 @@ inline constexpr Eigen::Index sphere_block = 32;
 
 }  // namespace detail
 
-/// An image of a sphere, in linear light. Same bytes for any number of threads.
+/// Renders an image of a sphere in linear light. The bytes do not depend on the number of threads.
 template <brdf Brdf, sphere_lighting Lighting>
 [[nodiscard]] image render_sphere(const Brdf& f, const Lighting& lighting, const sphere_view& view = {},
                                   thread_count threads = {}) {
@@ -75,7 +75,7 @@ template <brdf Brdf, sphere_lighting Lighting>
       },
       threads);
 
-  // Replace each sample's share of the background by what it sees of the sphere.
+  // Replace each sample's part of the background by the light from the sphere.
   const std::size_t side = view.size;
   const auto samples = static_cast<std::uint32_t>(view.supersampling);
   const double exposure = detail::exposure_from(white);
@@ -92,15 +92,15 @@ template <brdf Brdf, sphere_lighting Lighting>
 /// One colour for each point of a sphere, in the order of `sphere_points`; linear light.
 using sphere_colours = Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// The image of a sphere as a sparse linear map of the values of a table over given cells. Look-up is at the
-/// nearest cell, and a direction whose cell is invalid contributes nothing: `apply(table)` equals
+/// The image of a sphere as a sparse linear map of the values of a table over given cells. Look-up is at the nearest
+/// cell; a direction whose cell is invalid contributes nothing. `apply(table)` equals
 /// `render_sphere(nearest_lookup{table}, ...)` up to the rounding of weights to float.
 ///
 /// Memory: 16 bytes per incident direction and point; 73 MB for the default environment at 36 x 36 points, 14 kB
 /// for two lights.
 class sphere_operator {
  public:
-  /// Enumerates the light once, on several threads.
+  /// Enumerates the incident light once, on several threads.
   template <sphere_lighting Lighting>
   sphere_operator(valid_cells cells, const Lighting& lighting, int size = 36, thread_count threads = {})
       : cells_(std::move(cells)), size_(size), points_(sphere_points(size)), rows_(points_.size()) {
@@ -116,7 +116,7 @@ class sphere_operator {
                                          row.push_back(entry_of(wi, wo, weight));
                                          white[point] += luminance(weight) * std::numbers::inv_pi;
                                        });
-            // Number the valid cells in a loop of its own, in which the processor can overlap the cache misses.
+            // Number the valid cells in a separate loop, in which the processor can overlap the cache misses.
             std::erase_if(row, [&](const entry& e) { return !cells_.contains(e.cell); });
             for (entry& e : row) e.cell = static_cast<std::uint32_t>(cells_.representative(e.cell));
             rows_[point].assign(row.begin(), row.end());
@@ -128,16 +128,16 @@ class sphere_operator {
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
 
-  /// The points whose colours `apply` returns.
+  /// Returns the points whose colours `apply` returns.
   [[nodiscard]] const std::vector<sphere_point>& points() const noexcept { return points_; }
 
-  /// Number of entries that are not zero, for each of the three channels.
+  /// Returns the number of non-zero entries for each of the three channels.
   [[nodiscard]] Eigen::Index entries() const noexcept {
     return std::accumulate(rows_.begin(), rows_.end(), Eigen::Index{0},
                            [](Eigen::Index sum, const std::vector<entry>& row) { return sum + row.size(); });
   }
 
-  /// Calls `visit(cell, weight)` for each cell that light reaches a point by: the point's colour is the sum of
+  /// Calls `visit(cell, weight)` for each cell that reflects light at a point. The point's colour is the sum of
   /// reflectance times weight.
   template <class Visit>
   void for_each_entry(Eigen::Index point, Visit&& visit) const {
@@ -146,11 +146,11 @@ class sphere_operator {
       visit(Eigen::Index{cell}, rgb(exposure_ * rgb(weight[0], weight[1], weight[2])));
   }
 
-  /// The colours of a sphere made of this table. Same bytes for any number of threads. Throws gonio::error if
-  /// the table is over other cells.
+  /// Returns the colours of a sphere with this table. The bytes do not depend on the number of threads. Throws
+  /// gonio::error if the table is over other cells.
   [[nodiscard]] sphere_colours apply(const brdf_table& table, thread_count threads = {}) const;
 
-  /// The colours as an image.
+  /// Returns the colours as an image.
   [[nodiscard]] image to_image(const sphere_colours& colours, const rgb& background = rgb::Zero()) const;
 
  private:

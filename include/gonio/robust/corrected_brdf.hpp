@@ -11,18 +11,18 @@
 
 namespace gonio {
 
-/// What a round of the correction iteration did.
+/// The effect of one round of the correction iteration.
 struct correction_round {
   /// Weighted root mean square of sigma - 1 at the samples before the round, over all channels: the relative error of
-  /// the estimate as the round saw it.
+  /// the estimate as seen by the round.
   double error = 0.0;
-  /// Mean of |sigma - 1| of the correction that was found, at the samples.
+  /// Mean of |sigma - 1| at the samples for the correction that was found.
   double change = 0.0;
-  /// Share of the samples' channels that counted less than half.
+  /// Share of the samples' channels with an inlier weight below one half.
   double down_weighted = 0.0;
 };
 
-/// An initial estimate, and the product of all corrections that were applied to it, as a table of factors.
+/// An initial estimate and the product of all corrections applied to it, as a table of factors.
 template <tabulated_brdf Initial>
 class corrected_brdf {
  public:
@@ -35,13 +35,13 @@ class corrected_brdf {
         history_(std::move(history)) {}
 
   [[nodiscard]] const Initial& initial() const noexcept { return initial_; }
-  /// The product of all rounds' corrections, without a unit.
+  /// Returns the product of all rounds' corrections, without a unit.
   [[nodiscard]] const brdf_table& correction() const noexcept { return correction_; }
-  /// The weights of the correction functions in each round: functions x 3.
+  /// Returns the weights of the correction functions in each round: functions x 3.
   [[nodiscard]] const std::vector<Eigen::MatrixXd>& weights() const noexcept { return weights_; }
   [[nodiscard]] const std::vector<correction_round>& history() const noexcept { return history_; }
 
-  /// Reflectance in sr^-1, at least zero; zero below the horizon.
+  /// Returns the reflectance in sr^-1, at least zero; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
     const rgb estimate = initial_(wi, wo);
@@ -49,7 +49,7 @@ class corrected_brdf {
     return corrected(estimate, sigma);
   }
 
-  /// Same bytes for any number of threads.
+  /// Tabulates the corrected estimate. Same bytes for any number of threads.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
     brdf_table table = initial_.tabulate(cells, threads);
     const brdf_table sigma = resample(correction_, cells, threads);

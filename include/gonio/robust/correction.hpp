@@ -1,6 +1,6 @@
 #pragma once
-/// Correction functions: what the approximation of each measured material by the others must be multiplied by to become
-/// that material. Noell, Koehler and Stricker 2014, section 2, Eq. 3-6.
+/// Correction functions: the factors from the approximation of each measured material by the others to the material
+/// itself. Noell, Koehler and Stricker 2014, section 2, Eq. 3-6.
 
 #include <gonio/basis/measured.hpp>
 #include <gonio/metric/lin.hpp>
@@ -22,28 +22,30 @@
 
 namespace gonio {
 
-/// What an estimate must be multiplied by, Eq. 4, 5 and 12, kept finite where the estimate is zero or tiny: measured
-/// materials have cells that are exactly zero.
+/// The factor that corrects an estimate, Eq. 4, 5 and 12. It is finite even if the estimate is zero or tiny, because
+/// measured materials have cells that are exactly zero.
 struct correction_factor {
-  /// Added to measurement and estimate, in sr^-1: differences well below it do not matter. A white surface has 0.318.
+  /// Added to measurement and estimate, in sr^-1: differences well below it have little effect. A white surface has
+  /// 0.318.
   float offset = 1e-3f;
-  /// The denominator is at least this.
+  /// The smallest denominator.
   float smallest = 1e-6f;
 
-  /// Factors and estimates count as at most these: a combination of materials that is extrapolated from a few bad
-  /// samples leaves the range of float, and so do products of some rounds.
+  /// Factors and estimates are clamped to these. A combination of materials extrapolated from a few bad samples may
+  /// exceed the range of float, and so may products of several rounds.
   static constexpr float largest_factor = 1e12f, largest_estimate = 1e24f;
 
-  /// The quotient as the paper prints it; only a denominator below a millionth is replaced by that.
+  /// Returns the quotient as printed in the paper, except that denominators below a millionth are replaced by a
+  /// millionth.
   [[nodiscard]] static constexpr correction_factor as_printed() noexcept { return {0.0f, 1e-6f}; }
 
-  /// sigma from a measurement and its estimate (numbers, or arrays of them). Negative measurements count as zero.
+  /// Returns sigma of a measurement and its estimate (numbers, or arrays of them). Negative measurements count as zero.
   template <class Values>
   [[nodiscard]] auto quotient(const Values& measured, const Values& estimate) const {
     return ((measured.max(0.0f) + offset) / (estimate + offset).max(smallest)).min(largest_factor);
   }
 
-  /// The estimate corrected by sigma, at least zero.
+  /// Returns the estimate corrected by sigma, at least zero.
   template <class Values>
   [[nodiscard]] auto correct(const Values& estimate, const Values& sigma) const {
     return (sigma.min(largest_factor) * (estimate.min(largest_estimate) + offset).max(smallest) - offset).max(0.0f);
@@ -53,11 +55,11 @@ struct correction_factor {
 /// How correction functions are made and used.
 struct correction_rule {
   correction_factor factor = {};
-  /// Is the constant function 1 among them? It stops the iteration from drifting: where nothing is left to correct,
-  /// the others can only come near to 1.
+  /// Whether the constant function 1 is one of them. It prevents drift of the iteration: if nothing is left to correct,
+  /// the others can only approximate 1.
   bool has_constant = true;
 
-  /// The correction functions of the paper: one for each material, nothing else.
+  /// Returns the rule of the paper: one correction function for each material, nothing else.
   [[nodiscard]] static constexpr correction_rule as_printed() noexcept {
     return {correction_factor::as_printed(), false};
   }
@@ -65,7 +67,7 @@ struct correction_rule {
 
 namespace detail {
 
-/// Turns an array of mapped values, a row for each cell, into reflectances, at least zero. A metric that is chosen at
+/// Converts an array of mapped values, a row for each cell, to reflectances, at least zero. A metric that is chosen at
 /// run time has `held()`.
 template <error_metric Metric, class Values>
 void unmap_at_cells(const Metric& metric, const valid_cells& cells, Eigen::Index first, Values& values) {
@@ -84,7 +86,7 @@ void unmap_at_cells(const Metric& metric, const valid_cells& cells, Eigen::Index
   }
 }
 
-/// The approximations of the materials of a basis by the others that take part, and the factors that correct them.
+/// The approximations of a basis' materials by the others that take part, and the factors that correct them.
 template <error_metric Metric, normal_solver Solver>
 class leave_one_out_approximations {
  public:
@@ -103,7 +105,7 @@ class leave_one_out_approximations {
 
   [[nodiscard]] const measured<Metric>& materials() const noexcept { return materials_; }
 
-  /// The approximations without the materials of these names. One that made no use of them stays as it is.
+  /// Returns the approximations without the materials of these names. Approximations that did not use them are kept.
   [[nodiscard]] leave_one_out_approximations without(const std::vector<std::string>& excluded) const {
     leave_one_out_approximations fewer(*this);
     fewer.materials_ = at_least_two(materials_.without(excluded));
@@ -119,11 +121,11 @@ class leave_one_out_approximations {
     return fewer;
   }
 
-  /// Writes the factors of the approximations that were made last into their columns of cells x 3 `functions`.
+  /// Writes the factors of the last computed approximations into their columns of cells x 3 `functions`.
   void write_factors(const correction_factor& factor, cell_matrix& tables, Eigen::Index functions) const {
     for (Eigen::Index c = 0; c < 3; ++c) {
       auto channel = tables.middleCols(c * functions, functions);
-      if (std::ssize(renewed_[c]) == materials_.size())  // no need to look columns up one by one
+      if (std::ssize(renewed_[c]) == materials_.size())  // no need to look up single columns
         write_columns(c, Eigen::seqN(Eigen::Index{0}, weights_[c].cols()), factor, channel);
       else
         write_columns(c, renewed_[c], factor, channel);
@@ -178,16 +180,16 @@ class leave_one_out_approximations {
   Solver solver_;
   thread_count threads_;
   std::array<Eigen::MatrixXf, 3> weights_;            // column i explains material i
-  std::array<std::vector<Eigen::Index>, 3> renewed_;  // columns that were solved for last
+  std::array<std::vector<Eigen::Index>, 3> renewed_;  // columns that were solved last
 };
 
 }  // namespace detail
 
-/// Corrections C_i of the materials of a basis, one for each, and the constant function 1 as the last, with which an
-/// estimate that needs no correction is left as it is. Their metric is linear (Eq. 16).
+/// Corrections C_i of the materials of a basis, one for each, followed by the constant function 1, which leaves a
+/// correct estimate unchanged. Their metric is linear (Eq. 16).
 ///
-/// A material that is left out, of the `measured` basis or by `without`, takes no part in any correction: neither has
-/// it one of its own, nor is it in the approximation of another. For that, corrections keep the materials alive.
+/// A material that is excluded, in the `measured` basis or by `without`, takes no part in any correction: it has none
+/// of its own and is not in the approximation of others. Corrections therefore keep the materials alive.
 ///
 /// ```cpp
 /// const gonio::measured materials{gonio::expand(prior), gonio::log{}};
@@ -202,16 +204,16 @@ class correction : public material_functions<lin> {
                       thread_count threads = {})
       : correction(detail::leave_one_out_approximations<Metric, Solver>(materials, solver, threads), rule, nullptr) {}
 
-  /// How the corrections were made, and how they are to be applied.
+  /// Returns how the corrections were made and how to apply them.
   [[nodiscard]] const correction_rule& rule() const noexcept { return rule_; }
 
-  /// The corrections without the materials of these names. Those whose approximations made use of one of them are made
-  /// anew, which costs as much as making as many corrections, and all are copied. Throws gonio::error for a name that
-  /// there is not, or if fewer than two materials are left.
+  /// Returns the corrections without the materials of these names. Corrections whose approximations used one of them
+  /// are computed again, at the cost of making that many corrections. All are copied. Throws gonio::error for an
+  /// unknown name, or if fewer than two materials are left.
   [[nodiscard]] correction without(const std::vector<std::string>& excluded) const { return without_(*this, excluded); }
 
  private:
-  /// From approximations of which the renewed ones are computed, and the others taken from `known`, if any.
+  /// Computes the renewed approximations, and takes the others from `known`, if given.
   template <class Approximations>
   correction(Approximations approximations, const correction_rule& rule, const correction* known)
       : material_functions<lin>(approximations.materials().names(), approximations.materials().cells(), lin{},
@@ -245,7 +247,7 @@ class correction : public material_functions<lin> {
   }
 
   correction_rule rule_;
-  /// Remembers the materials and their approximations, of whatever metric.
+  /// Keeps the materials and their approximations, for any metric.
   std::function<correction(const correction&, const std::vector<std::string>&)> without_;
 };
 

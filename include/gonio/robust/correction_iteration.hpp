@@ -1,5 +1,5 @@
 #pragma once
-/// Repairs an estimate by iterated correction functions while it learns which measurements to distrust: Noell, Koehler
+/// Corrects an estimate by iterated correction functions while learning which measurements are outliers: Noell, Koehler
 /// and Stricker 2014, section 2.4, steps 1 to 5 (Eq. 12-17).
 
 #include <gonio/estimate/located_samples.hpp>
@@ -17,33 +17,33 @@
 
 namespace gonio {
 
-/// When the iteration ends.
+/// The end of the iteration.
 struct correction_limits {
   int rounds = 10;
-  /// Sigma is 1 almost everywhere if it differs from 1 by less than this in the mean over the samples.
+  /// Converged if sigma differs from 1 by less than this, on average over the samples.
   double smallest_change = 1e-3;
-  /// Added to the diagonal of the normal equations, with its counterweight on the constant function: as many samples
-  /// say that nothing needs to be corrected. What a few samples say about a hundred functions is mostly noise.
+  /// Added to the diagonal of the normal equations, with its counterpart on the constant function, like as many samples
+  /// that need no correction. A few samples say little about a hundred functions except noise.
   double inertia = 1.0;
 };
 
 namespace detail {
 
-/// What a round did, given the inlier weight of each measurement, what it counted, the factor that was wanted for its
-/// estimate and the one that was found.
+/// Summarises a round, given the inlier weight of each measurement, its total weight, the wanted factor of its
+/// estimate, and the factor that was found.
 [[nodiscard]] correction_round describe_round(const channel_values& inlier_weights, const channel_values& weights,
                                               const channel_values& wanted, const channel_values& found,
                                               thread_count threads);
 
-/// The product of all rounds' corrections over the cells, given the weights of the functions in each. O(cells k
-/// rounds).
+/// Returns the product of all rounds' corrections over the cells, given the weights of the functions in each round.
+/// O(cells k rounds).
 [[nodiscard]] brdf_table total_correction(const correction& corrections, const std::vector<Eigen::MatrixXd>& weights,
                                           thread_count threads);
 
 }  // namespace detail
 
-/// The iteration as an object that steps. Its rows are read where the basis has them; a round costs O(samples k^2) for
-/// k functions, and O(samples k) if the weights are those of the round before.
+/// The iteration as an object that steps. Reads rows in place if the basis stores them. A round costs O(samples k^2)
+/// for k functions, and O(samples k) if the weights are those of the round before.
 ///
 /// ```cpp
 /// gonio::correction_run run{initial, corrections, gonio::locate_samples(corrections.cells(), samples)};
@@ -69,19 +69,19 @@ class correction_run {
         started_(values_at(initial_, corrections_.cells(), samples.locations, threads)),
         total_(channel_values::Ones(3, measured_.cols())) {}
 
-  /// The measurements, and the present estimates of them.
+  /// Return the measurements, and their current estimates.
   [[nodiscard]] const channel_values& measured() const noexcept { return measured_; }
   [[nodiscard]] channel_values estimated() const { return factor().correct(started_, total_); }
 
-  /// The inlier weight of each measurement now (Eq. 13), and what its estimate must be multiplied by (Eq. 12).
+  /// Return the current inlier weight of each measurement (Eq. 13), and the factor that its estimate needs (Eq. 12).
   [[nodiscard]] channel_values inlier_weights() const { return weighting_.weigh(measured_, estimated()); }
   [[nodiscard]] channel_values sigma() const { return factor().quotient(measured_, estimated()); }
 
-  /// One round with the weights of the weighting.
+  /// Makes one round with the weights of the weighting.
   correction_round step() { return step(inlier_weights()); }
 
-  /// One round with given outlier weights. As long as they stay the same, only the right-hand sides of the normal
-  /// equations are new (Eq. 9-10 with Eq. 16).
+  /// Makes one round with given inlier weights. If they are those of the round before, only the right-hand sides of the
+  /// normal equations are computed again (Eq. 9-10 with Eq. 16).
   correction_round step(const channel_values& inlier_weights) {
     const channel_values wanted = sigma(), weights = inlier_weights * confidence_;
     if (weights.cols() != gram_weights_.cols() || (weights != gram_weights_).any())
@@ -97,7 +97,7 @@ class correction_run {
     return history_.back();
   }
 
-  /// Is the last correction 1 almost everywhere, or the number of rounds reached?
+  /// Returns true if the last correction is 1 almost everywhere, or the number of rounds is reached.
   [[nodiscard]] bool converged() const noexcept {
     if (history_.empty()) return limits_.rounds <= 0;
     return std::ssize(history_) >= limits_.rounds || history_.back().change < limits_.smallest_change;
@@ -105,7 +105,7 @@ class correction_run {
 
   [[nodiscard]] const std::vector<correction_round>& history() const noexcept { return history_; }
 
-  /// The estimate of another run, after its rounds so far, at the samples of this one.
+  /// Returns the estimate of another run, after its rounds so far, at the samples of this one.
   [[nodiscard]] channel_values estimated_by(const correction_run& other) const {
     const channel_values started = values_at(other.initial_, corrections_.cells(), locations_, threads_);
     channel_values total = channel_values::Ones(3, started.cols());
@@ -114,7 +114,7 @@ class correction_run {
     return factor().correct(started, total);
   }
 
-  /// The estimate after the rounds so far. O(cells k rounds).
+  /// Returns the estimate after the rounds so far. O(cells k rounds).
   [[nodiscard]] corrected_brdf<Initial> result() const {
     return {initial_, detail::total_correction(corrections_, weights_, threads_), factor(), weights_, history_};
   }
@@ -154,7 +154,7 @@ class correction_run {
   channel_values measured_;
   channel_values confidence_;
   channel_values started_, total_;
-  channel_values gram_weights_;  // for which these were built:
+  channel_values gram_weights_;  // the weights for which these were built:
   std::array<Eigen::MatrixXd, 3> grams_;
   Eigen::MatrixXd rhs_;
   std::vector<Eigen::MatrixXd> weights_;
@@ -163,14 +163,14 @@ class correction_run {
 
 /// An initial estimator whose estimate is corrected until it agrees with the inliers.
 ///
-/// The method as its paper prints it, with gamma = 3:
+/// The method as printed in the paper, with gamma = 3:
 /// ```cpp
 /// const gonio::measured materials{database, gonio::log{}};
 /// const gonio::correction corrections{materials, gonio::correction_rule::as_printed()};
 /// const auto paint = gonio::correction_iteration{gonio::decomposition{materials, gonio::nnls{}}, corrections,
 ///                                                gonio::relative_deviation_weights{3.0}}.fit(samples);
 /// ```
-/// For samples of unknown quality `robust_reconstruction` chooses everything.
+/// For samples of unknown quality, `robust_reconstruction` chooses everything.
 template <estimator Initial, outlier_weighting Weighting = automatic_weights, normal_solver Solver = nnls>
 class correction_iteration {
  public:
@@ -183,8 +183,8 @@ class correction_iteration {
         limits_(limits),
         threads_(threads) {}
 
-  /// The initial estimate of samples, or of a table, each cell of which is one: what is returned steps through its
-  /// corrections. Throws gonio::error for unusable samples, or if a solver gives up.
+  /// Returns a run that starts from the initial estimate and steps through its corrections. Takes samples, or a table
+  /// whose cells are samples. Throws gonio::error for unusable samples, or if a solver gives up.
   template <class Samples>
   [[nodiscard]] auto initialise(const Samples& samples) const {
     const located_samples located = in_colours(locate_samples(corrections_.cells(), samples, threads_));

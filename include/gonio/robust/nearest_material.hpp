@@ -1,7 +1,7 @@
 #pragma once
-/// The measured material that comes nearest to measurements of which most may be outliers: a robust start for
-/// estimators that need one. A linear combination of materials is dragged along by outliers; one material that is only
-/// brightened or darkened cannot follow them.
+/// Finds the measured material nearest to measurements, most of which may be outliers: a robust start for other
+/// estimators. Outliers distort a linear combination of materials, but a single material times a factor cannot follow
+/// them.
 
 #include <gonio/basis/measured.hpp>
 #include <gonio/core/random.hpp>
@@ -31,17 +31,17 @@ struct scaled_material {
   double factor = 1.0;
 };
 
-/// For each colour channel the material, and its factor, under which the measurements are most likely a mixture of good
-/// ones and outliers (estimate/outlier_mixture.hpp). A few samples tell which materials are out of the question, but
-/// where four of five are outliers it takes thousands to tell the others apart: 1,500 of the samples choose twenty
-/// materials, and 20,000 one of them. O(materials) after that.
+/// For each colour channel, finds the material and its factor under which the measurements are most likely a mixture of
+/// inliers and outliers (estimate/outlier_mixture.hpp). A few samples exclude most materials, but if four of five
+/// samples are outliers, thousands are needed to distinguish the rest. So 1,500 samples select twenty materials, and
+/// 20,000 samples one of these. With more samples the cost stays O(materials).
 template <error_metric Metric>
 class nearest_material {
  public:
   explicit nearest_material(measured<Metric> materials, std::uint64_t seed = 0, thread_count threads = {})
       : materials_(std::move(materials)), seed_(seed), threads_(threads) {}
 
-  /// The choice for each channel.
+  /// Returns the choice for each channel.
   [[nodiscard]] std::array<scaled_material, 3> choose(const located_samples& samples) const {
     const located_samples few = samples.subset(random_choice(samples.size(), 1'500, seed_));
     const located_samples many = samples.subset(random_choice(samples.size(), 20'000, seed_));
@@ -54,7 +54,7 @@ class nearest_material {
     return chosen;
   }
 
-  /// Throws gonio::error for unusable samples.
+  /// Fits a table of the chosen material. Throws gonio::error for unusable samples.
   template <class Samples>
   [[nodiscard]] completed_table fit(const Samples& samples) const {
     const auto chosen = choose(in_colours(locate_samples(materials_.cells(), samples, threads_)));
@@ -65,10 +65,10 @@ class nearest_material {
     return completed_table(brdf_table(cells, std::vector<float>(found.data(), found.data() + found.size())));
   }
 
-  /// What is chosen, at given locations on the materials' cells.
+  /// Returns the chosen materials at given locations on the materials' cells.
   [[nodiscard]] channel_values values(const std::array<scaled_material, 3>& chosen,
                                       const std::vector<location>& locations) const {
-    // A factor found from a few bright samples may lead out of the range of float.
+    // A factor from a few bright samples may exceed the range of float.
     constexpr double largest = std::numeric_limits<float>::max();
     channel_values found(3, std::ssize(locations));
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -81,7 +81,7 @@ class nearest_material {
   }
 
  private:
-  /// The reflectance of a material at a location, at least zero.
+  /// Returns the reflectance of a material at a location, at least zero.
   [[nodiscard]] double reflectance(const material_channel<Metric>& functions, Eigen::Index material,
                                    const location& at) const {
     const double mapped = interpolate(
@@ -89,7 +89,7 @@ class nearest_material {
     return reflectance_of(materials_.metric(), mapped, at);
   }
 
-  /// Samples of one channel as a mixture sees them.
+  /// Samples of one channel as data of a mixture.
   struct evidence {
     evidence(const located_samples& samples, Eigen::Index channel, double offset_of_logarithm)
         : locations(&samples.locations), offset(offset_of_logarithm) {
@@ -110,7 +110,7 @@ class nearest_material {
     detail::scaled_likelihood found;
   };
 
-  /// The logarithms of measurements less those of a material.
+  /// Returns the logarithms of measurements minus those of a material.
   [[nodiscard]] std::vector<double> differences(const evidence& seen, const material_channel<Metric>& functions,
                                                 Eigen::Index material) const {
     std::vector<double> values(seen.logarithms);

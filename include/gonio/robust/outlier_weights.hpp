@@ -1,7 +1,6 @@
 #pragma once
 /// The inlier weight of a measurement, given an estimate of it: the concept, and weights of a single residual. Noell,
-/// Koehler and Stricker 2014, Eq. 13; for `automatic_weights`, which need no parameter, see
-/// estimate/outlier_mixture.hpp.
+/// Koehler and Stricker 2014, Eq. 13. estimate/outlier_mixture.hpp has `automatic_weights`, which need no parameter.
 
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
@@ -13,12 +12,12 @@
 
 namespace gonio {
 
-/// Sees all measurements beside their estimates and says how much each counts, from 0 (an outlier) to 1.
+/// Compares all measurements with their estimates and returns the weight of each, from 0 (an outlier) to 1.
 ///
-/// What the compiler cannot check, and a model must keep: `weigh` returns one number from 0 to 1 for each channel of
-/// each sample; estimates are at least zero, measurements may be negative, both are finite; the order of the samples
-/// does not matter but for rounding; all members are const and thread safe. While weights stay the same from round to
-/// round, an iteration builds its normal equations once.
+/// Requirements that the compiler cannot check: `weigh` returns one number from 0 to 1 for each channel of each sample;
+/// estimates are at least zero, measurements may be negative, both are finite; the order of the samples has no effect
+/// except for rounding; all members are const and thread safe. If weights stay the same from round to round, an
+/// iteration builds its normal equations only once.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -62,7 +61,7 @@ concept outlier_weighting = requires(const Weighting& weighting, const channel_v
   { weighting.weigh(measured, measured) } -> std::convertible_to<channel_values>;
 };
 
-/// Every measurement counts in full: gamma = 0.
+/// Gives every measurement full weight: gamma = 0.
 struct trust_all {
   [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& /*estimated*/) const {
     return channel_values::Ones(3, measured.cols());
@@ -71,9 +70,9 @@ struct trust_all {
 
 static_assert(outlier_weighting<trust_all>);
 
-/// exp(-gamma |rho - estimate| / estimate), Eq. 13, with the estimate at least a millionth. The weight is at least
-/// e^-gamma where the estimate is above the measurement, so that a start that is too bright can come down; a highlight
-/// that the estimate does not have yet looks like outliers.
+/// exp(-gamma |rho - estimate| / estimate), Eq. 13, with the estimate at least a millionth. If the estimate is above
+/// the measurement, the weight is at least e^-gamma, so that a start that is too bright can decrease. A highlight that
+/// the estimate does not have yet looks like outliers.
 struct relative_deviation_weights {
   double gamma = 3.0;
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Correction functions with everything chosen: reconstructs a BRDF from measurements of unknown quality. Goes beyond
-/// Noell, Koehler and Stricker 2014 by a start that outliers cannot drag along and by weights without a parameter.
+/// Reconstructs a BRDF from measurements of unknown quality by correction functions, with everything chosen. Extends
+/// Noell, Koehler and Stricker 2014 by a start that resists outliers and by weights without a parameter.
 
 #include <gonio/core/random.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
@@ -20,22 +20,22 @@ namespace gonio {
 
 namespace detail {
 
-/// Combinations of materials fitted to the same samples with other weights each time.
+/// Combinations of materials fitted repeatedly to the same samples with different weights.
 template <error_metric Metric>
 class reweighted_combination {
  public:
   reweighted_combination(measured<Metric> materials, const located_samples& samples, thread_count threads);
 
-  /// Weights of the materials, k x 3, with x >= 0.
+  /// Returns the weights of the materials, k x 3, with x >= 0.
   [[nodiscard]] solution solve(const channel_values& inlier_weights) const;
-  /// Weights that follow other samples as well, all of which are inliers.
+  /// Returns weights that also fit other samples, all of which are inliers.
   [[nodiscard]] solution solve(const channel_values& inlier_weights, const reweighted_combination& others) const;
 
-  /// The combination's reflectance at the samples.
+  /// Returns the combination's reflectance at the samples.
   [[nodiscard]] channel_values values(const solution& found) const;
 
-  /// The factors that turn squared errors of the mapped reflectance into relative ones: the square of the slope of
-  /// ln(rho + offset) over that of the metric, at the estimates.
+  /// Returns the factors that convert squared errors of the mapped reflectance to relative ones: the square of the
+  /// slope of ln(rho + offset) over that of the metric, at the estimates.
   [[nodiscard]] channel_values relative(const channel_values& estimates, const std::array<float, 3>& offsets) const;
 
  private:
@@ -51,32 +51,32 @@ class reweighted_combination {
 
 }  // namespace detail
 
-/// What the start of `robust_reconstruction` costs. The defaults were chosen on the ten test materials of Nielsen et
+/// Settings of the start of `robust_reconstruction`. The defaults were chosen on the ten test materials of Nielsen et
 /// al. 2015 (doi:10.1145/2816795.2818085) and fifteen difficult ones (docs/results/robust-estimation.md).
 struct robust_start {
-  /// Samples that it looks at, chosen at random,
+  /// The number of random samples for the start.
   Eigen::Index samples = 20'000;
-  /// and those that the final iteration looks at: more do not make a hundred unknowns any better known.
+  /// The number of samples for the final iteration: more do not improve the estimate of a hundred unknowns.
   Eigen::Index most_samples = 50'000;
   int combinations = 5;
   int corrections = 4;
-  /// As many samples as this say, all over the cells, that the surface is like the nearest material. It decides where
-  /// nothing was measured: a combination that fits all samples but sees no highlight may have any highlight.
+  /// The weight, in samples, of the expectation that the surface is like the nearest material at all cells. It decides
+  /// where nothing was measured: a combination that fits all samples, none of them in the highlight, may have any
+  /// highlight.
   double expectation = 1.0;
-  /// Rounds of the final iteration that still have the inlier weights of the start.
+  /// Rounds of the final iteration that use the inlier weights of the start.
   int initial_weight_rounds = 3;
   std::uint64_t seed = 0;
 };
 
-/// The final iteration of `robust_reconstruction` as an object that steps, as `correction_run` does.
+/// The final iteration of `robust_reconstruction` as an object that steps, like `correction_run`.
 template <error_metric Metric>
 class robust_run {
  public:
   using run_type = correction_run<fitted_brdf<gonio::measured<Metric>>>;
   using result_type = corrected_brdf<fitted_brdf<gonio::measured<Metric>>>;
 
-  /// The first `initial_weight_rounds` count each measurement as much as `inlier_weights` says, those that follow as
-  /// `run` does.
+  /// The first `initial_weight_rounds` rounds use `inlier_weights`, the following ones the weights of `run`.
   robust_run(run_type run, channel_values inlier_weights, int initial_weight_rounds);
 
   correction_round step();
@@ -93,18 +93,18 @@ class robust_run {
   int initial_weight_rounds_;
 };
 
-/// Fits samples of which any share may be outliers, in these steps:
-/// 1. Take the material that comes nearest (`nearest_material`), on at most 20,000 of the samples.
-/// 2. Combine materials for relative errors, five times, and correct the combination four times, down-weighting
-///    outliers anew each time: the result is rough, but knows the inliers.
-/// 3. Combine materials again under their own metric from the samples that are good; where there are none the nearest
-///    material is expected.
-/// 4. Correct that by more samples: three rounds with the inlier weights of step 2, then with its own.
+/// Fits samples with any share of outliers, in these steps:
+/// 1. Find the nearest material (`nearest_material`) by at most 20,000 of the samples.
+/// 2. Combine materials for relative errors five times, and correct the combination four times, with new outlier
+///    weights each time. The result is rough, but identifies the inliers.
+/// 3. Combine materials again under their own metric from the inliers; where there are none, the nearest material is
+///    expected.
+/// 4. Correct this with more samples: three rounds with the inlier weights of step 2, then with its own.
 ///
-/// Outliers are told from good samples in each of the samples' regions by itself: a fit that is good elsewhere would
-/// take a highlight that it misses for outliers, and then never learn better.
+/// Outliers are identified separately in each region of the samples. Otherwise a fit that is good elsewhere would take
+/// a highlight that it misses for outliers, and never recover.
 ///
-/// There is no parameter to choose for the data: see `automatic_weights`.
+/// No parameter depends on the data: see `automatic_weights`.
 ///
 /// ```cpp
 /// const gonio::measured materials{gonio::expand(prior), gonio::log{}};
@@ -118,18 +118,18 @@ class robust_reconstruction {
 
   explicit robust_reconstruction(measured<Metric> materials, thread_count threads = {});
 
-  /// With corrections that are at hand, over the same cells (else gonio::error).
+  /// Takes existing corrections, which must be over the same cells (else gonio::error).
   robust_reconstruction(measured<Metric> materials, correction corrections, const correction_limits& limits = {},
                         const robust_start& start = {}, thread_count threads = {});
 
-  /// Steps 1 to 3 for samples, or a table, each cell of which is one: what is returned steps through 4. Throws
+  /// Makes steps 1 to 3 and returns a run that makes step 4. Takes samples, or a table whose cells are samples. Throws
   /// gonio::error for unusable samples.
   template <class Samples>
   [[nodiscard]] robust_run<Metric> initialise(const Samples& samples) const {
     return initialise_located(in_colours(locate_samples(corrections_.cells(), samples, threads_)));
   }
 
-  /// All steps. Throws gonio::error for unusable samples.
+  /// Makes all steps. Throws gonio::error for unusable samples.
   template <class Samples>
   [[nodiscard]] corrected_brdf<initial_type> fit(const Samples& samples) const {
     robust_run run = initialise(samples);
@@ -140,14 +140,14 @@ class robust_reconstruction {
  private:
   struct initial_state {
     initial_type initial;
-    run_type guide;  // whose inlier weights the first rounds have
+    run_type guide;  // the first rounds use its inlier weights
   };
 
   [[nodiscard]] robust_run<Metric> initialise_located(const located_samples& all) const;
   [[nodiscard]] located_samples some_of(const located_samples& samples, Eigen::Index count) const;
-  /// Steps 1 to 3.
+  /// Makes steps 1 to 3.
   [[nodiscard]] initial_state initial_state_of(const located_samples& some) const;
-  /// What is expected of a surface that was never measured, at cells all over the grid.
+  /// Returns the expected values of a surface without measurements, at cells all over the grid.
   [[nodiscard]] located_samples expectation(const nearest_material<Metric>& nearest,
                                             const std::array<scaled_material, 3>& chosen) const;
 
@@ -158,7 +158,7 @@ class robust_reconstruction {
   thread_count threads_;
 };
 
-// ---- bodies, outside their classes so that those of the metric `log` can be compiled once -----------------------
+// ---- bodies, outside of the classes so that those of the metric `log` can be compiled once ---------------------
 
 namespace detail {
 
@@ -225,15 +225,15 @@ solution reweighted_combination<Metric>::combine(const std::array<normal_equatio
   return scatter_columns(concatenate_columns(found), functions_.columns(), functions_.unknowns());
 }
 
-/// A step with given inlier weights, in which a sample counts less by its factor where that is above 1. Otherwise some
-/// outliers would decide whatever they count: where the estimate is near zero, the factor is in the hundreds, and the
-/// error that is minimised is its square.
+/// Makes a step in which a sample's weight is divided by its factor if this is above 1. Without it some outliers would
+/// dominate despite their small weights: where the estimate is near zero, the factor is in the hundreds, and its
+/// squared error is minimised.
 template <class Run>
 correction_round damped_step(Run& run, const channel_values& inlier_weights) {
   return run.step(inlier_weights / run.sigma().max(1.0f));
 }
 
-/// Outliers are told from inliers in each of the samples' regions by itself.
+/// Returns weights that identify outliers separately in each region of the samples.
 [[nodiscard]] inline automatic_weights weights_by_region(const located_samples& samples, thread_count threads) {
   return {.regions = std::make_shared<const sample_regions>(samples.locations), .threads = threads};
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The functions of a basis at given locations, for iterations that solve for their weights again and again with the
-/// same rows and other weights of the samples: Noell, Koehler and Stricker 2014, Eq. 7-10.
+/// The functions of a basis at given locations, for iterations that solve for their weights repeatedly with the same
+/// rows and different weights of the samples: Noell, Koehler and Stricker 2014, Eq. 7-10.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/vector_kernels.hpp>
@@ -20,7 +20,7 @@
 
 namespace gonio {
 
-/// Rows at cells are read where they are; rows between cells are interpolated once and kept, 12 bytes a function.
+/// Rows at cells are read in place. Rows between cells are interpolated once and stored, 12 bytes a function.
 template <colour_basis Basis>
 requires tabulated_basis<std::remove_cvref_t<decltype(channel_of(std::declval<const Basis&>(), 0))>>
 class sampled_functions {
@@ -37,17 +37,17 @@ class sampled_functions {
         if (locations[i].count == 1) rows_[c][i] = channels_[c].row(locations[i].cell[0]).data();
   }
 
-  /// Number of locations.
+  /// Returns the number of locations.
   [[nodiscard]] Eigen::Index size() const noexcept { return rows_[0].size(); }
-  /// All functions of the basis, those that are left out included.
+  /// Returns the number of functions of the basis, including excluded ones.
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return unknowns_; }
-  /// The functions that take part, ascending.
+  /// Returns the functions that take part, ascending.
   [[nodiscard]] const std::vector<Eigen::Index>& columns() const noexcept { return columns_; }
 
-  /// Q = A'VA and m = A'Vb of one channel, where `weights` (the diagonal of V) and `values` (b) are arrays of n floats.
-  /// Rows whose weight, times the value if that is above 1, is less than a millionth of the largest weight are taken
-  /// for rows of weight zero, which cost nothing. Products are double: a Gram matrix of float products is indefinite
-  /// where columns nearly depend on one another, and no solver can vouch for its optimum. n k^2 operations at most.
+  /// Returns Q = A'VA and m = A'Vb of one channel, where `weights` (the diagonal of V) and `values` (b) are arrays of n
+  /// floats. Skips rows whose weight, times the value if that is above 1, is less than a millionth of the largest
+  /// weight. Products are double: a Gram matrix of float products is indefinite if columns nearly depend on each other,
+  /// and no solver can certify its optimum. At most n k^2 operations.
   template <class Weights, class Values>
   [[nodiscard]] normal_equations normal(Eigen::Index channel, const Weights& weights, const Values& values) const {
     using sum_type = detail::product_sum<double>;
@@ -68,8 +68,8 @@ class sampled_functions {
     return {all.topLeftCorner(unknowns_, unknowns_), all.topRightCorner(unknowns_, 1), all.diagonal().tail(1)};
   }
 
-  /// m = A'Vb alone, k x 3 for the three channels, where Q is known; weights and values are 3 x n. The rows that count
-  /// are those of `normal`, and rounding leaves m where Q can reach it. Reads the rows once, which is what it costs.
+  /// Returns m = A'Vb alone, k x 3 for the three channels, for a known Q. Weights and values are 3 x n. Skips the same
+  /// rows as `normal`, so that m is in the range of Q except for rounding. Reads the rows once, which is its cost.
   [[nodiscard]] Eigen::MatrixXd rhs(const channel_values& weights, const channel_values& values) const {
     const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(unknowns_, 3);
     std::array<float, 3> least{};
@@ -89,7 +89,7 @@ class sampled_functions {
         threads_);
   }
 
-  /// A x at all locations, 3 x n, for weights of the functions in each channel, k x 3. Reads the rows once.
+  /// Returns A x at all locations, 3 x n, for weights of the functions in each channel, k x 3. Reads the rows once.
   [[nodiscard]] channel_values apply(const Eigen::MatrixXd& x) const {
     const Eigen::MatrixXf weights = x.cast<float>();
     channel_values values(3, size());
@@ -119,7 +119,7 @@ class sampled_functions {
     return Eigen::Map<const Eigen::RowVectorXf>(rows_[channel][place], unknowns_);
   }
 
-  /// Asks for the row of a location that comes soon: of locations apart the processor cannot guess where that is.
+  /// Prefetches the row of a later location: the hardware cannot predict scattered rows.
   void prefetch_row_after(Eigen::Index channel, Eigen::Index place) const noexcept {
     const Eigen::Index next = place + 4;
     if (next >= size()) return;
@@ -150,7 +150,7 @@ class sampled_functions {
 
   std::vector<Eigen::Index> columns_;
   Eigen::Index unknowns_;
-  std::array<channel_type, 3> channels_;  // they keep the rows alive
+  std::array<channel_type, 3> channels_;  // keep the rows alive
   std::array<std::vector<const float*>, 3> rows_;
   std::shared_ptr<cell_matrix> interpolated_;  // copies read the same rows
   thread_count threads_;

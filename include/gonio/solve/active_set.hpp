@@ -1,6 +1,6 @@
 #pragma once
-/// A primal active-set method for min 1/2 x'Q x - m'x + lambda |x|_1, with or without x >= 0: NNLS, Lasso and
-/// non-negative Lasso are one algorithm that differs in the signs it allows.
+/// A primal active-set method for min 1/2 x'Q x - m'x + lambda |x|_1, with or without x >= 0. NNLS, Lasso and
+/// non-negative Lasso are the same algorithm with different allowed signs.
 ///
 /// With x >= 0 and lambda = 0 it is Lawson and Hanson's (Solving Least Squares Problems, 1974,
 /// doi:10.1137/1.9781611971217, algorithm NNLS) on the normal equations (Bro and de Jong, J. Chemometrics 11, 1997,
@@ -24,12 +24,12 @@
 
 namespace gonio {
 
-/// Weights are passive (free, with a sign they must keep) or zero. A step lets the column enter that promises most, and
-/// then moves to the optimum of the passive ones, where those that would change sign leave. As long as the passive
-/// columns are independent the objective falls with every step, so that no passive set comes back. One that turns out
-/// to depend on others but for rounding leaves again, which may raise the objective: it is barred until another has
-/// entered, and `step_limit` is the end of what goes in circles. One step costs O(k p + p^2) for p passive columns, and
-/// O(p^2) more for each that leaves.
+/// Weights are passive (free, but with a fixed sign) or zero. A step lets the most promising column enter, then moves
+/// to the optimum of the passive columns; columns that would change sign leave. As long as the passive columns are
+/// independent, every step lowers the objective, so that no passive set recurs. A column that turns out to depend on
+/// others except for rounding leaves again, which may raise the objective. It is barred until another column has
+/// entered, and `step_limit` ends cycles. A step costs O(k p + p^2) for p passive columns, and O(p^2) more for each
+/// that leaves.
 template <sign_rule Signs>
 class active_set {
  public:
@@ -49,7 +49,7 @@ class active_set {
     choose_entering();
   }
 
-  /// Starts from weights near the optimum, as those of a neighbouring problem are: their signs become the passive set.
+  /// Starts from weights near the optimum, such as those of a similar problem. Their signs become the passive set.
   void start_from(const Eigen::VectorXd& near_optimum) {
     for (Eigen::Index j = 0; j < near_optimum.size(); ++j) {
       const bool allowed = Signs == sign_rule::any ? near_optimum[j] != 0.0 : near_optimum[j] > 0.0;
@@ -61,7 +61,7 @@ class active_set {
     update_descent();
     look_for_entering();
     if (entering_ >= 0) return;
-    // Of columns that depend on each other but for rounding so many may have left that one of them is needed again.
+    // If columns depend on each other except for rounding, so many may have left that one of them is needed again.
     barred_.assign(barred_.size(), false);
     choose_entering();
   }
@@ -84,7 +84,7 @@ class active_set {
   [[nodiscard]] const Eigen::VectorXd& result() const noexcept { return x_; }
 
  private:
-  /// Returns false if the column cannot enter because of rounding alone.
+  /// Returns false if only rounding keeps the column from entering.
   [[nodiscard]] bool enter(Eigen::Index column) {
     if (!append(column)) return exchange(column);
     const Eigen::VectorXd z = optimum_of_passive();
@@ -104,8 +104,8 @@ class active_set {
     return true;
   }
 
-  /// A column that depends on the passive ones can only shorten |x|_1: move along the direction that leaves A x as it
-  /// is until a passive weight is zero, whose place it takes.
+  /// Lets a column enter that depends on the passive ones, which can only shorten |x|_1. Moves along the direction that
+  /// leaves A x unchanged until a passive weight is zero, and replaces that column.
   [[nodiscard]] bool exchange(Eigen::Index column) {
     if (lambda_ == 0.0) return false;
     Eigen::VectorXd combination(std::ssize(passive_));
@@ -137,7 +137,7 @@ class active_set {
     passive_.erase(place);
   }
 
-  /// Q_PP z = m_P - lambda s_P.
+  /// Solves Q_PP z = m_P - lambda s_P.
   [[nodiscard]] Eigen::VectorXd optimum_of_passive() const {
     Eigen::VectorXd z(std::ssize(passive_));
     for (Eigen::Index i = 0; i < z.size(); ++i) {
@@ -148,8 +148,8 @@ class active_set {
     return z;
   }
 
-  /// Moves to the optimum of the passive columns; as long as signs would change on the way, stops at the first change
-  /// and lets that column leave. If the optimum is `refined`, those that leave are barred: rounding had let them in.
+  /// Moves to the optimum of the passive columns. Stops at the first sign change on the way and lets that column leave,
+  /// until no sign changes. If the optimum is `refined`, leaving columns are barred, because they entered by rounding.
   void settle(bool refined = false) {
     for (int round = 0; !passive_.empty(); ++round) {
       if (round > step_limit(x_.size())) refuse("an active set does not settle: the normal equations overflow");
@@ -179,8 +179,8 @@ class active_set {
     }
   }
 
-  /// Iterative refinement with residuals in twice the precision: it makes the optimum z of an ill-conditioned passive
-  /// set independent of the order in which its columns came. Signs may change.
+  /// Refines z iteratively with residuals in twice the precision. The optimum of an ill-conditioned passive set is then
+  /// independent of the order in which its columns entered. Signs may change.
   void refine(Eigen::VectorXd& z) const {
     Eigen::VectorXd correction(z.size());
     for (int round = 0; round < 3; ++round) {
@@ -201,13 +201,13 @@ class active_set {
     }
   }
 
-  /// m - Q x.
+  /// Computes m - Q x.
   void update_descent() {
     descent_ = rhs_;
     for (const Eigen::Index j : passive_) descent_ -= x_[j] * gram_.col(j);
   }
 
-  /// Refines before it decides that nothing can enter any more.
+  /// Chooses the entering column. Refines the weights before deciding that none can enter.
   void look_for_entering() {
     choose_entering();
     if (entering_ >= 0) return;
@@ -218,8 +218,9 @@ class active_set {
     choose_entering();
   }
 
-  /// A column that depends on others but for rounding may have become passive, and then the passive weights are not at
-  /// their optimum: the one with the smallest pivot goes, and is barred. Returns whether there was one.
+  /// Drops and bars the passive column with the smallest pivot, if the passive weights are not at their optimum. This
+  /// happens if a column became passive although it depends on others except for rounding. Returns whether a column was
+  /// dropped.
   [[nodiscard]] bool drop_unresolved() {
     double worst = 0.0, least = std::numeric_limits<double>::infinity();
     std::ptrdiff_t weakest = -1;
@@ -237,14 +238,14 @@ class active_set {
     return true;
   }
 
-  /// The size of what cancels in the gradient, in columns of length 1.
+  /// Returns the size of the terms that cancel in the gradient, for columns of length 1.
   [[nodiscard]] double terms() const {
     double sum = rhs_scale_;
     for (const Eigen::Index j : passive_) sum += std::abs(x_[j]) * norms_[j];
     return sum;
   }
 
-  /// The column outside whose entering lowers the objective fastest per length of A x, if that is more than rounding.
+  /// Chooses the zero column that lowers the objective fastest per length of A x, if by more than rounding.
   void choose_entering() {
     double best = 1e-15 * terms();
     entering_ = -1;
@@ -270,8 +271,8 @@ class active_set {
 };
 static_assert(solver_iteration<active_set<sign_rule::any>>);
 
-/// The optimum, from weights near it: what a method that finds the support ends with. Throws gonio::error naming the
-/// `method` without convergence.
+/// Returns the optimum, from weights near it: the last stage of a method that finds the support. Throws gonio::error
+/// naming the `method` if it does not converge.
 template <sign_rule Signs>
 [[nodiscard]] Eigen::VectorXd finish_by_active_set(const normal_equations& normal, Eigen::Index right_hand_side,
                                                    double lambda, const Eigen::VectorXd& near_optimum,
@@ -282,8 +283,8 @@ template <sign_rule Signs>
   return exact.result();
 }
 
-/// Minimises 1/2 x'Q x - m'x + lambda |x|_1 under a sign rule, every right-hand side by the iteration that
-/// `start(column)` makes, and certifies what it finds (`detail::certified`). `problem` is a least_squares_problem or
+/// Minimises 1/2 x'Q x - m'x + lambda |x|_1 under a sign rule, for every right-hand side by the iteration
+/// `start(column)`, and certifies the result (`detail::certified`). `problem` is a least_squares_problem or
 /// normal_equations. Throws gonio::error naming the `method` if no optimum can be certified.
 template <sign_rule Signs, quadratic_problem Problem, class Start>
 [[nodiscard]] solution solve_signed(const Problem& problem, double lambda, const std::string& method, Start&& start) {
@@ -295,7 +296,7 @@ template <sign_rule Signs, quadratic_problem Problem, class Start>
       auto run = start(column);
       iterations += run_to_convergence(run, step_limit(normal.unknowns()), method);
       weights.col(column) = run.result();
-    } catch (const error&) {  // it goes in circles: what certifies finds the optimum in another way
+    } catch (const error&) {  // it cycles: the certification finds the optimum in another way
       weights.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
     }
   }

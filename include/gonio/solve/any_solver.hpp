@@ -1,5 +1,5 @@
 #pragma once
-/// A solver chosen at run time, for command lines and benchmarks. Programs that know theirs name it instead.
+/// A solver chosen at run time, for command lines and benchmarks. If the solver is known, use its type instead.
 
 #include <gonio/solve/solver.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace gonio {
 
-/// Holds any solver; copies of the held one are made as this is copied.
+/// Holds a copy of any solver.
 ///
 /// ```cpp
 /// gonio::any_solver chosen = fast ? gonio::any_solver(gonio::nnls()) : gonio::any_solver(gonio::quadratic_program());
@@ -22,7 +22,7 @@ class any_solver {
 
   [[nodiscard]] solution solve(const least_squares_problem& problem) const { return solve_(problem); }
 
-  /// Do all solutions of the one held have weights that are not negative? `solves_non_negative`, known at run time.
+  /// Returns true if the weights of the held solver are never negative: `solves_non_negative` at run time.
   [[nodiscard]] bool non_negative() const noexcept { return non_negative_; }
 
  private:

@@ -6,29 +6,29 @@
 
 namespace gonio {
 
-/// A A', both triangles, of m x k: m^2 k operations.
+/// Returns A A', both triangles, for m x k: m^2 k operations.
 [[nodiscard]] Eigen::MatrixXd product_with_transpose(const matrix_view& a);
 
-/// The Cholesky factorisation A = L L' of a symmetric matrix, whose lower triangle is read; k^3 / 3 operations.
+/// The Cholesky factorisation A = L L' of a symmetric matrix. Reads its lower triangle; k^3 / 3 operations.
 class cholesky {
  public:
   explicit cholesky(const matrix_view& a);
 
-  /// Was A positive definite? If it was not, `solve` means nothing.
+  /// Returns true if A is positive definite. Otherwise the solutions are meaningless.
   [[nodiscard]] bool positive_definite() const noexcept { return positive_definite_; }
 
-  /// A^-1 B: 2 k^2 operations for each column of B.
+  /// Returns A^-1 B: 2 k^2 operations for each column of B.
   [[nodiscard]] Eigen::MatrixXd solve(const matrix_view& b) const;
-  /// A^-1: 2 k^3 operations.
+  /// Returns A^-1: 2 k^3 operations.
   [[nodiscard]] Eigen::MatrixXd inverse() const;
-  /// L^-1 B: k^2 operations for each column of B.
+  /// Returns L^-1 B: k^2 operations for each column of B.
   [[nodiscard]] Eigen::MatrixXd solve_lower(const matrix_view& b) const;
-  /// L'^-1 B: k^2 operations for each column of B.
+  /// Returns L'^-1 B: k^2 operations for each column of B.
   [[nodiscard]] Eigen::MatrixXd solve_upper(const matrix_view& b) const;
-  /// L^-1 b of k contiguous numbers, in their place.
+  /// Replaces k contiguous numbers b by L^-1 b.
   void solve_lower_in_place(double* b) const noexcept;
 
-  /// The logarithm of A's determinant.
+  /// Returns the logarithm of A's determinant.
   [[nodiscard]] double log_determinant() const;
 
  private:

@@ -1,9 +1,9 @@
 #pragma once
-/// The penalty of a Tikhonov solver, chosen by how well each observation is predicted from the others.
-/// Leave-one-out (PRESS): Allen, Technometrics 16, 1974 (doi:10.1080/00401706.1974.10489157). Generalised
-/// cross-validation: Golub, Heath and Wahba, Technometrics 21, 1979 (doi:10.1080/00401706.1979.10489751). Both take the
-/// rows' errors for independent and fail where they go together, as those of an image's pixels do if light or camera
-/// are off their places (docs/results/directions.md, docs/results/eta.md).
+/// Chooses the penalty of a Tikhonov solver by how well each observation is predicted from the others. Leave-one-out
+/// (PRESS): Allen, Technometrics 16, 1974 (doi:10.1080/00401706.1974.10489157). Generalised cross-validation: Golub,
+/// Heath and Wahba, Technometrics 21, 1979 (doi:10.1080/00401706.1979.10489751). Both assume independent errors of the
+/// rows. They fail for shared errors, such as those of an image's pixels if light or camera are misplaced
+/// (docs/results/directions.md, docs/results/eta.md).
 
 #include <gonio/solve/tikhonov.hpp>
 
@@ -17,29 +17,30 @@
 
 namespace gonio {
 
-/// Which penalties are plausible: 0 <= lowest <= highest, which is not 0.
+/// The range of plausible penalties: 0 <= lowest <= highest, and highest is not 0.
 struct eta_range {
   double lowest = 0.0;
   double highest = std::numeric_limits<double>::infinity();
 };
 
-/// What a choice of eta minimises. With the residual r = W^(1/2) (A x - b) at eta, the leverages
-/// h_i = w_i a_i (A'WA + eta I)^-1 a_i', and all sums over the n rows of positive weight:
+/// The criteria for choosing eta. With the residual r = W^(1/2) (A x - b) at eta, the leverages h_i = w_i a_i (A'WA +
+/// eta I)^-1 a_i', and sums over the n rows of positive weight:
 enum class eta_criterion {
-  generalised_cross_validation,  ///< n sum r_i^2 / (n - sum h_i)^2: leave-one-out with the leverages' mean for each
+  generalised_cross_validation,  ///< n sum r_i^2 / (n - sum h_i)^2: leave-one-out with every leverage replaced by their
+                                 ///< mean
   leave_one_out,  ///< sum (r_i / (1 - h_i))^2: the weighted squared error of each row predicted from all others
 };
 
-/// `count` numbers from `first` to `last` with equal ratios.
+/// Returns `count` numbers from `first` to `last` with equal ratios.
 [[nodiscard]] Eigen::VectorXd geometric_sequence(double first, double last, Eigen::Index count);
 
 namespace detail {
 
-/// Where the least score is; of those that are equal but for rounding, the last.
+/// Returns the position of the least score; the last one if several are equal except for rounding.
 [[nodiscard]] Eigen::Index last_least(const Eigen::VectorXd& scores);
 
-/// Where a function of many eta has its least value: of eight a decade from first to last, then of 31 between the
-/// neighbours of the best.
+/// Minimises a function of many etas: among eight per decade from first to last, then among 31 between the neighbours
+/// of the best.
 template <class Scores>
 [[nodiscard]] double eta_of_least(const Scores& scores, double first, double last) {
   const auto steps = std::max<Eigen::Index>(std::llround(8.0 * std::log10(last / first)), 1);
@@ -50,7 +51,8 @@ template <class Scores>
   return fine[last_least(scores(fine))];
 }
 
-/// Scores of one eta for several problems: their sum. `largest` of each is the largest eigenvalue of its A'WA.
+/// The sum of the scores of several problems with the same eta. `largest` of each is the largest eigenvalue of its
+/// A'WA.
 template <class Scores>
 struct summed_scores {
   std::vector<Scores> parts;
@@ -71,35 +73,36 @@ void require_etas(const eta_range& range);
 
 }  // namespace detail
 
-/// The criterion at each eta, summed over all right-hand sides, in the squared units of W^(1/2) b. Throws gonio::error
-/// unless every eta is positive and finite, and as `choose_eta` does, whose complexity it has.
+/// Returns the criterion at each eta, summed over all right-hand sides, in the squared units of W^(1/2) b. Throws
+/// gonio::error unless every eta is positive and finite, and as `choose_eta` does. Its complexity is that of
+/// `choose_eta`.
 [[nodiscard]] Eigen::VectorXd cross_validate(const least_squares_problem& problem, eta_criterion criterion,
                                              const Eigen::VectorXd& etas);
 
-/// The eta of `tikhonov` that minimises a criterion, one for all right-hand sides together.
+/// Returns the eta of `tikhonov` that minimises a criterion for all right-hand sides together.
 ///
-/// Eight candidates a decade, from 1e-10 of the largest eigenvalue of A'WA, below which rounding decides, to a hundred
-/// times that eigenvalue; then 31 between the neighbours of the best. Of equal scores the largest eta wins: where
-/// nothing speaks for a smaller one, x stays near 0. A choice at the lower end means that no penalty is needed, one at
-/// the upper end that the rows do not predict each other. With few rows that happens by chance: whoever knows more
-/// says which etas are plausible, and the choice is among these (`plausible_etas` asks a prior).
+/// Tries eight candidates per decade, from 1e-10 of the largest eigenvalue of A'WA, below which rounding dominates, to
+/// 100 times that eigenvalue; then 31 between the neighbours of the best. Of equal scores the largest eta wins: x stays
+/// near 0 unless the data favour a smaller eta. A choice at the lower end means that no penalty is needed, one at the
+/// upper end that the rows do not predict each other. With few rows this happens by chance, so pass a `plausible` range
+/// if one is known (`plausible_etas` computes it from a prior).
 ///
-/// Only rows of positive weight are observations. With fewer than two observations, returns `plausible.highest` if
-/// finite; otherwise throws. Throws gonio::error also if all observations are zero, if one is not finite, and for an
-/// impossible range.
+/// Only rows of positive weight are observations. With fewer than two, returns `plausible.highest` if it is finite,
+/// otherwise throws. Also throws gonio::error if all observations are zero, if one is not finite, and for an impossible
+/// range.
 ///
-/// n x n dual: O(n^2 k + n^3). Tall: O(n k^2 + k^3), and leave-one-out reads the rows twice for O(n k (k + E r)) with
-/// the number of candidates E.
+/// n x n dual: O(n^2 k + n^3). Tall: O(n k^2 + k^3); leave-one-out also reads the rows twice, in O(n k (k + E r)) for E
+/// candidates.
 [[nodiscard]] double choose_eta(const least_squares_problem& problem, eta_criterion criterion,
                                 const eta_range& plausible = {});
 
-/// The same for several problems whose eta is one: the sum of their criteria is minimised. Problems with less than two
-/// observations say nothing, if others do.
+/// Returns one eta for several problems, which minimises the sum of their criteria. Ignores problems with fewer than
+/// two observations if others have more.
 [[nodiscard]] double choose_eta(std::span<const least_squares_problem> problems, eta_criterion criterion,
                                 const eta_range& plausible = {});
 
-/// `tikhonov` with the eta that `choose_eta` chooses for each problem. It needs the rows: normal equations alone do not
-/// tell observations apart. The penalty in the objective and in the KKT residual is that of the chosen eta.
+/// `tikhonov` with the eta that `choose_eta` chooses for each problem. It needs the rows, because normal equations do
+/// not distinguish observations. The objective and the KKT residual use the chosen eta.
 class automatic_tikhonov {
  public:
   /// Throws gonio::error for an impossible range.

@@ -1,5 +1,5 @@
 #pragma once
-/// Dot products as if in twice the precision: the residuals with which solutions are refined.
+/// Sums of products as if in twice the precision, for the residuals of iterative refinement.
 /// Ogita, Rump and Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26, 2005 (doi:10.1137/030601818),
 /// algorithm 5.3 (Dot2).
 
@@ -7,7 +7,7 @@
 
 namespace gonio {
 
-/// A sum of products that keeps what rounding loses.
+/// A sum of products that also accumulates the rounding errors.
 class compensated_sum {
  public:
   explicit compensated_sum(double start = 0.0) noexcept : sum_(start) {}

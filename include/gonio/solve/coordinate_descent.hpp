@@ -13,9 +13,9 @@
 
 namespace gonio {
 
-/// A step sweeps over all weights once, and then a few times over those that are not zero. Sweeps find the support soon
-/// and its weights slowly, at a rate that falls with the condition number: once a step has left the signs as they were,
-/// `active_set` finishes from there. A sweep costs O(k) for each weight that changes.
+/// A step sweeps over all weights once, and then a few times over those that are not zero. Sweeps find the support
+/// quickly, but the weights slowly, at a rate that decreases with the condition number. Once a step leaves the signs
+/// unchanged, `active_set` finishes from there. A sweep costs O(k) for each weight that changes.
 template <sign_rule Signs>
 class coordinate_descent {
  public:
@@ -27,7 +27,7 @@ class coordinate_descent {
         x_(Eigen::VectorXd::Zero(normal.unknowns())),
         descent_(normal.rhs().col(right_hand_side)) {}
 
-  /// Sweeps, or finishes.
+  /// Sweeps, or finishes by the active set.
   void step() {
     const Eigen::VectorXd before = x_.cwiseSign();
     for (Eigen::Index j = 0; j < x_.size(); ++j) relax(j);
@@ -42,9 +42,9 @@ class coordinate_descent {
 
  private:
   static constexpr int sweeps_over_support = 4;
-  static constexpr int patience = 20;  // steps; the active set does not need the right support
+  static constexpr int patience = 20;  // steps; the active set does not need the exact support
 
-  /// The optimum over one weight, the others fixed: a soft threshold.
+  /// Moves one weight to its optimum with the others fixed: a soft threshold.
   void relax(Eigen::Index j) {
     const double square = normal_.gram()(j, j);
     if (square == 0.0) return;

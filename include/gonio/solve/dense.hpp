@@ -1,10 +1,10 @@
 #pragma once
-/// Dense algebra in double precision, through few instantiations of Eigen's templates.
+/// Dense algebra in double precision, with few instantiations of Eigen's templates.
 ///
-/// Each kind of product or factorisation that a file names costs its compiler up to two seconds, since Eigen generates
-/// its kernels for every combination of types. Whoever needs one calls these functions instead: all of them take
-/// matrices stored by columns, and `gonio::compiled` has them compiled already. An expression that is no matrix with
-/// contiguous columns, such as a transpose, is copied into one: O(m n) beside the O(m n k) of the product.
+/// Each kind of product or factorisation in a file costs up to two seconds of compilation, because Eigen generates its
+/// kernels for every combination of types. Call these functions instead. All take matrices stored by columns, and
+/// `gonio::compiled` has them compiled. An expression that is not a matrix with contiguous columns, such as a
+/// transpose, is copied into one: O(m n), compared with O(m n k) for the product.
 
 #include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/product.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-/// Gram matrices of tall matrices, a block of rows at a time.
+/// Gram matrices of tall matrices, computed a block of rows at a time.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/solve/product_sum.hpp>
@@ -10,12 +10,12 @@
 
 namespace gonio {
 
-/// A'A of a tall row-major n x k matrix of floats. n k (k + 1) floating-point operations; same bytes for any number of
-/// threads.
+/// Returns A'A of a tall row-major n x k matrix of floats. n k (k + 1) floating-point operations; same bytes for any
+/// number of threads.
 ///
-/// `Products` is the precision of the products and of their sums over 128 rows; these sums are added in double. With
-/// `float` it takes about 0.6 times as long, and on measured materials entries are off by up to 1e-7 of their columns'
-/// lengths (docs/results/solvers.md has what that does to each solver).
+/// `Products` is the precision of the products and of their sums over 128 rows; these sums are added in double. `float`
+/// takes about 0.6 times as long, and on measured materials changes entries by up to 1e-7 of their columns' lengths.
+/// docs/results/solvers.md shows the effect on each solver.
 template <class Products = double, class Derived>
 requires(std::same_as<typename Derived::Scalar, float>&& bool(Derived::IsRowMajor)) [[nodiscard]] Eigen::MatrixXd
     gram(const Eigen::MatrixBase<Derived>& rows, thread_count threads = {}) {

@@ -1,7 +1,8 @@
 #pragma once
 /// QR factorisation by Householder reflections, one column after the other: Golub and Van Loan, Matrix Computations,
-/// 4th ed. 2013, 5.2.2. Eigen's works on blocks of columns, is faster from some hundred columns on, and costs whoever
-/// includes it five seconds; the solvers need one where normal equations are not enough, which is seldom.
+/// 4th ed. 2013, 5.2.2. Eigen's works on blocks of columns and is faster from some hundred columns on, but costs every
+/// includer five seconds. The solvers only need a factorisation in the rare cases where normal equations are not
+/// enough.
 
 #include <Eigen/Core>
 
@@ -9,16 +10,16 @@ namespace gonio {
 
 namespace detail {
 
-/// x becomes (r, v) where the reflection I - f (1, v)(1, v)' takes x to (r, 0, ...); returns f, 0 where x is so
-/// already.
+/// Replaces x by (r, v), where the reflection I - f (1, v)(1, v)' maps x to (r, 0, ...). Returns f; 0 if x already has
+/// that form.
 [[nodiscard]] double make_reflection(double* x, Eigen::Index count);
 
-/// y becomes y - f (1, v)(1, v)'y: `count` numbers, of which v has one less.
+/// Replaces y by y - f (1, v)(1, v)'y. y has `count` numbers, v one less.
 void reflect(double factor, const double* v, double* y, Eigen::Index count);
 
 }  // namespace detail
 
-/// A = Q R for n x k: R is min(n, k) x k, upper triangular, with either sign on its diagonal. 2 k^2 (n - k/3)
+/// A = Q R for n x k. R is min(n, k) x k and upper triangular, with either sign on its diagonal. 2 k^2 (n - k/3)
 /// operations.
 class householder_qr {
  public:
@@ -27,23 +28,23 @@ class householder_qr {
   [[nodiscard]] Eigen::Index rows() const noexcept { return packed_.rows(); }
   [[nodiscard]] Eigen::Index cols() const noexcept { return packed_.cols(); }
 
-  /// R(row, column) for row <= column.
+  /// Returns R(row, column) for row <= column.
   [[nodiscard]] double triangle(Eigen::Index row, Eigen::Index column) const { return packed_(row, column); }
-  /// The norm of a column of R down to its diagonal: that of the column of A.
+  /// Returns the norm of a column of R down to its diagonal, which is that of the column of A.
   [[nodiscard]] double length(Eigen::Index column) const;
 
-  /// y becomes Q'y, or Q y: n numbers. O(n k).
+  /// Replace y, n numbers, by Q'y or by Q y. O(n k).
   void apply_transposed(double* y) const;
   void apply(double* y) const;
 
-  /// z becomes R^-1 z, or R'^-1 z: k numbers, for k <= n and no zero on the diagonal of R. O(k^2).
+  /// Replace z, k numbers, by R^-1 z or by R'^-1 z, for k <= n and no zero on the diagonal of R. O(k^2).
   void solve(double* z) const;
   void solve_transposed(double* z) const;
 
  private:
   void reflect(Eigen::Index number, double* y) const;
 
-  Eigen::MatrixXd packed_;   // R, and below its diagonal the reflections I - f v v' with v = (1, below)
+  Eigen::MatrixXd packed_;   // R, and below its diagonal the v of the reflections I - f (1, v)(1, v)'
   Eigen::VectorXd factors_;  // f
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Iterative solvers as objects that step, and the one loop around them.
+/// Iterative solvers as objects that step, and the loop around them.
 
 #include <gonio/solve/solver.hpp>
 
@@ -8,10 +8,10 @@
 
 namespace gonio {
 
-/// One right-hand side on its way to the optimum. Whoever wants convergence plots owns the loop.
+/// An iteration towards the optimum of one right-hand side. For convergence plots, write the loop yourself.
 ///
-/// What the compiler cannot check: a step does not raise the objective (a primal method) or does not lower it (a dual
-/// method) beyond rounding, and `converged` is cheap.
+/// Requirements that the compiler cannot check: except for rounding, a step does not raise the objective (primal
+/// method) or does not lower it (dual method); `converged` is cheap.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -68,7 +68,7 @@ concept solver_iteration = requires(Iteration& run, const Iteration& seen) {
 };
 
 /// Steps until convergence and returns the number of steps. Throws gonio::error naming the `method` after `limit`
-/// steps: an iteration that does not end is never an answer.
+/// steps: an iteration that has not converged is never a result.
 template <solver_iteration Iteration>
 int run_to_convergence(Iteration& run, int limit, const std::string& method) {
   int steps = 0;
@@ -79,7 +79,8 @@ int run_to_convergence(Iteration& run, int limit, const std::string& method) {
   return steps;
 }
 
-/// Steps that no problem of so many unknowns has needed by far: whoever takes more goes in circles.
+/// Returns a number of steps far above the needs of any problem with so many unknowns. An iteration that takes more
+/// cycles.
 [[nodiscard]] inline int step_limit(Eigen::Index unknowns) { return static_cast<int>(10 * unknowns + 100); }
 
 }  // namespace gonio

@@ -11,39 +11,39 @@ namespace gonio {
 
 /// Minimises |W^(1/2) (A x - b)|^2; of all minimisers, the x of the smallest norm.
 ///
-/// A problem that has rows is solved by orthogonal factorisation of W^(1/2) A and never through its Gram matrix, which
-/// would square the condition number: Householder QR, a block of rows at a time if there are more than about a
-/// thousand, then QR with column pivoting of the triangle that remains. The rank is decided with all columns scaled to
-/// length 1, and hence does not depend on their units; the norm that is smallest is that of x itself. O(n k^2) tall,
-/// O(n^2 k) wide.
+/// A problem with rows is solved by orthogonal factorisation of W^(1/2) A, never through its Gram matrix, which would
+/// square the condition number. It uses Householder QR, a block of rows at a time if there are more than about a
+/// thousand, then QR with column pivoting of the remaining triangle. The rank is determined with all columns scaled to
+/// length 1, so it does not depend on their units. The minimised norm is that of x itself. O(n k^2) tall, O(n^2 k)
+/// wide.
 ///
-/// Normal equations alone are solved by an eigendecomposition of Q scaled to unit diagonal, O(k^3). Rounding hides
-/// there whatever is below about sqrt(epsilon) of the largest singular value: see `gram_threshold`.
+/// Normal equations without rows are solved by an eigendecomposition of Q scaled to unit diagonal, O(k^3). There,
+/// rounding hides everything below about sqrt(epsilon) of the largest singular value: see `gram_threshold`.
 ///
-/// The KKT residual is that all of the gradient vanishes, also where the rank was truncated: `stationarity` for normal
-/// equations, and the same from the rows (relative to |b| + sum of |a_i| |x_i|) where there are rows. Truncation leaves
-/// at most about its threshold there. That is far below 1e-9 by default where there are rows. For normal equations
-/// alone it can be up to 1e-7, if the columns have singular values which Q cannot tell from zero: the KKT residual then
-/// says how much of the gradient they hold, and only the rows can give a better solution.
+/// The KKT residual tests that the whole gradient vanishes, even if the rank was truncated: `stationarity` for normal
+/// equations, and for a problem with rows the same from the rows, relative to |b| + sum of |a_i| |x_i|. Truncation
+/// leaves at most about its threshold. With rows this is far below 1e-9 by default. With normal equations alone it can
+/// be up to 1e-7, if some singular values of the columns cannot be distinguished from zero in Q. The KKT residual then
+/// states their share of the gradient, and only the rows can give a better solution.
 class least_squares {
  public:
-  /// Singular values of normal equations below this share of the largest are taken for zero, or below the rank
-  /// threshold if that is more. Rounding leaves about 1e-16 times a few of the largest eigenvalue, the square of a
-  /// singular value, in those that should be zero.
+  /// Singular values of normal equations below this share of the largest count as zero, or below the rank threshold if
+  /// that is larger. Rounding leaves a few times 1e-16 of the largest eigenvalue in eigenvalues that should be zero,
+  /// and an eigenvalue is the square of a singular value.
   static constexpr double gram_threshold = 1e-7;
 
-  /// A column is taken for a linear combination of others if these say it to `rank_threshold` of its length. Throws
+  /// `rank_threshold` is the share of a column's length up to which it counts as a linear combination of others. Throws
   /// gonio::error unless it is at least 0 and less than 1.
   explicit least_squares(double rank_threshold = 1e-12);
 
   [[nodiscard]] double rank_threshold() const noexcept { return threshold_; }
 
-  /// Throws gonio::error if a row is not finite, naming it, or if weights of zero explain more than those found:
-  /// columns that depend on each other but for 1e-12 can take weights of 1e12 |b|, in which nothing is left of b.
+  /// Throws gonio::error if a row is not finite, naming it, or if the weights found explain less than zeros would.
+  /// Columns that depend on each other up to 1e-12 can get weights of 1e12 |b|, which have no digits left for b.
   [[nodiscard]] solution solve(const least_squares_problem& problem) const;
   [[nodiscard]] solution solve(const normal_equations& normal) const;
 
-  /// How many columns are linearly independent, as `solve` counts them.
+  /// Returns the number of linearly independent columns, as used by `solve`.
   [[nodiscard]] Eigen::Index rank(const least_squares_problem& problem) const;
   [[nodiscard]] Eigen::Index rank(const normal_equations& normal) const;
 

@@ -21,30 +21,29 @@
 
 namespace gonio {
 
-/// The equations of a least-squares problem, tall (a million rows by 99) or wide (5 rows by 300). The
-/// normal equations are built once, on demand, in double precision; asking for them is thread safe, and
-/// copies share them. The rows are read where they are (`row_source`) and not kept.
+/// The equations of a least-squares problem, tall (a million rows by 99) or wide (5 rows by 300). The normal equations
+/// are built once, on demand, in double precision. Requesting them is thread safe, and copies share them. The rows are
+/// read in place (`row_source`) and not stored.
 class least_squares_problem {
  public:
-  /// `rows` is n x k, `right_hand_side` n x r, `weights` n (all 1 if empty). Throws gonio::error if the
-  /// sizes do not match, the problem is empty, a number is not finite or a weight is negative, naming the
-  /// first offending row.
+  /// `rows` is n x k, `right_hand_side` n x r, `weights` n (all 1 if empty). Throws gonio::error naming the first
+  /// offending row if the sizes do not match, the problem is empty, a number is not finite or a weight is negative.
   least_squares_problem(row_matrix rows, Eigen::MatrixXd right_hand_side, Eigen::VectorXd weights = {})
       : least_squares_problem(rows_of(std::move(rows)), std::move(right_hand_side), std::move(weights)) {
     read_all();
   }
 
-  /// The same from rows that are read when they are needed. Whatever reads them throws gonio::error naming the row and
-  /// the column (of the whole, for a subset) of a number that is not finite: every member function but sizes,
-  /// right-hand side and weights.
+  /// Takes rows that are read on demand. All member functions but sizes, right-hand side and weights read them, and
+  /// throw gonio::error for a number that is not finite. The message names its row and its column (of the whole, for a
+  /// subset).
   least_squares_problem(row_source rows, Eigen::MatrixXd right_hand_side, Eigen::VectorXd weights = {},
                         thread_count threads = {})
       : equations_(std::make_shared<const stored>(std::move(rows), std::move(right_hand_side), std::move(weights))),
         threads_(threads) {}
 
-  /// b: n x r.
+  /// Returns b: n x r.
   [[nodiscard]] const Eigen::MatrixXd& right_hand_side() const noexcept { return equations_->right_hand_side; }
-  /// The diagonal of W: n.
+  /// Returns the diagonal of W: n.
   [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return equations_->weights; }
 
   [[nodiscard]] Eigen::Index equations() const noexcept { return equations_->rows.rows; }
@@ -52,32 +51,31 @@ class least_squares_problem {
     return columns_ ? std::ssize(*columns_) : equations_->rows.columns;
   }
 
-  /// A, gathered: n x k, in double precision. For small problems.
+  /// Returns A as a copy: n x k, in double precision. For small problems.
   [[nodiscard]] row_matrix rows() const;
 
-  /// How many rows have a positive weight: all others say nothing.
+  /// Returns the number of rows of positive weight.
   [[nodiscard]] Eigen::Index observations() const;
 
-  /// W^(1/2) A, gathered from the rows of positive weight: observations() x k. For small problems.
+  /// Returns W^(1/2) A for the rows of positive weight: observations() x k. For small problems.
   [[nodiscard]] row_matrix weighted_rows() const;
 
-  /// W^(1/2) b of the same rows: observations() x r.
+  /// Returns W^(1/2) b for the same rows: observations() x r.
   [[nodiscard]] Eigen::MatrixXd weighted_right_hand_side() const;
 
-  /// O(n k^2) the first time; O(k^2) for a subset whose whole has them already. Throws gonio::error naming the first
-  /// row that is not finite, or a column or right-hand side that is so small that its squares underflow (numbers of
-  /// about 1e-154 and below).
+  /// Returns the normal equations. O(n k^2) the first time; O(k^2) for a subset of a problem that already has them.
+  /// Throws gonio::error naming the first row that is not finite, or a column or right-hand side so small that its
+  /// squares underflow (numbers of about 1e-154 and below).
   [[nodiscard]] const normal_equations& normal() const;
 
-  /// The same equations in some of the unknowns, in the order given. Its normal equations are a submatrix of the
-  /// whole's.
+  /// Returns the same equations in some of the unknowns, in the given order. Their normal equations are a submatrix.
   [[nodiscard]] least_squares_problem subset(std::span<const Eigen::Index> columns) const;
 
-  /// sqrt(sum of w (a x - b)^2) for each right-hand side, given its solution as a column of `x`. Reads the rows: O(n k
-  /// r). Throws gonio::error if one is not finite.
+  /// Returns sqrt(sum of w (a x - b)^2) for each right-hand side, given its solution as a column of `x`. Reads the
+  /// rows: O(n k r). Throws gonio::error if one is not finite.
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::MatrixXd& x) const;
 
-  /// Calls `use(range, rows)` for blocks of A in double precision, in order, one after the other.
+  /// Calls `use(range, rows)` for consecutive blocks of A in double precision, one after the other.
   template <class Use>
   void for_each_row_block(Use&& use) const {
     const Eigen::Index n = equations();
@@ -103,7 +101,7 @@ class least_squares_problem {
     std::optional<normal_equations> equations;
   };
 
-  /// The one place where rows come in.
+  /// Reads rows. All rows are read here.
   [[nodiscard]] row_matrix read(block range) const;
 
   static void require_finite(const row_matrix& part, Eigen::Index first_row);
@@ -114,13 +112,13 @@ class least_squares_problem {
 
   [[nodiscard]] normal_equations assemble_finite() const;
 
-  /// Throws gonio::error naming a column or right-hand side that is not zero, but whose sum of squares is.
+  /// Throws gonio::error naming a column or right-hand side that is not zero although its sum of squares is.
   void require_no_underflow(const normal_equations& normal) const;
 
   std::shared_ptr<const stored> equations_;
   thread_count threads_;
-  std::optional<std::vector<Eigen::Index>> columns_;    // of the whole; absent: all
-  std::shared_ptr<const least_squares_problem> whole_;  // whose normal equations hold ours
+  std::optional<std::vector<Eigen::Index>> columns_;    // of the whole; absent if all
+  std::shared_ptr<const least_squares_problem> whole_;  // has the normal equations of a subset
   std::shared_ptr<lazy_normal_equations> normal_ = std::make_shared<lazy_normal_equations>();
 };
 

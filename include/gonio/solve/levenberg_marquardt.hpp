@@ -1,6 +1,6 @@
 #pragma once
-/// Non-linear least squares of a few unknowns within bounds, on normal equations: J. J. More, "The Levenberg-Marquardt
-/// Algorithm: Implementation and Theory", 1978 (doi:10.1007/BFb0067700), with the steps held within the box.
+/// Non-linear least squares of a few unknowns within bounds, by normal equations: J. J. More, "The Levenberg-Marquardt
+/// Algorithm: Implementation and Theory", 1978 (doi:10.1007/BFb0067700), with steps restricted to the bounds.
 
 #include <gonio/core/assertion.hpp>
 
@@ -15,67 +15,69 @@
 
 namespace gonio {
 
-/// A function at a point, and the parabola that is taken for it there. Of 1/2 |r|^2 these are J'r and J'J.
+/// The value of a function at a point, with the parabola that approximates it there. For 1/2 |r|^2, gradient and
+/// Hessian are J'r and J'J.
 struct local_parabola {
   double value = 0.0;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;  ///< symmetric and positive semidefinite
 };
 
-/// Bounds of each unknown. Where both are equal it is held fixed.
+/// Bounds of each unknown. An unknown with equal bounds is fixed.
 struct unknown_bounds {
   Eigen::VectorXd lowest, highest;
 };
 
 struct levenberg_marquardt_options {
   Eigen::Index iteration_limit = 200;
-  /// Ends where no unknown moves by more than this share of itself, or of 1 if it is smaller.
+  /// Converged if no unknown moves by more than this share of itself, or of 1 if it is smaller.
   double smallest_step = 1e-12;
-  /// Ends where the parabola promises less than this share of the value.
+  /// Converged if the parabola promises a gain below this share of the value.
   double smallest_gain = 1e-15;
-  /// Smaller differences of values are rounding: ends where the parabola promises less.
+  /// Converged if the parabola promises a smaller gain: smaller differences of values are rounding.
   double resolution = 0.0;
 };
 
-/// Where the descent ended.
+/// The end point of the descent.
 struct local_minimum {
   Eigen::VectorXd unknowns;
   double value = 0.0;
   Eigen::Index evaluations = 0;
-  bool converged = false;  ///< false: the limit of iterations came first
-  /// The KKT residual: by how much the parabola still falls within the bounds, as a share of the value at the start.
+  bool converged = false;  ///< false: stopped by the limit of iterations
+  /// The KKT residual: the gain that the parabola still promises within the bounds, as a share of the value at the
+  /// start.
   double promised_gain = 0.0;
 };
 
 namespace detail {
 
-/// Minimises g's + s'Hs / 2 over steps that stay within the bounds, approximately: an unknown whose step leaves the
-/// box is held at its border, and the others are solved for again. O(n^4) at worst.
+/// Approximately minimises g's + s'Hs / 2 over steps within the bounds: holds an unknown whose step leaves the box at
+/// its border, and solves for the others again. O(n^4) at worst.
 [[nodiscard]] Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
                                            const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest);
 
-/// The step from x to the minimum of the damped parabola, (H + damping diag H) s = -g, within the bounds.
+/// Returns the step from x to the minimum of the damped parabola, (H + damping diag H) s = -g, within the bounds.
 [[nodiscard]] Eigen::VectorXd damped_parabola_step(const Eigen::VectorXd& x, const local_parabola& here, double damping,
                                                    const unknown_bounds& bounds);
 
-/// By how much a parabola falls along a step.
+/// Returns the decrease of a parabola along a step.
 [[nodiscard]] double promised_gain(const local_parabola& here, const Eigen::VectorXd& step);
 
-/// What steps have told of how far the parabola can be trusted.
+/// Adapts the trust in the parabola to the results of previous steps.
 struct step_control {
   static constexpr double largest_damping = 1e12;
 
   double damping = 1e-3;
-  double bend = 1.0;  ///< the curvature that is met, as a share of the parabola's
+  double bend = 1.0;  ///< observed curvature as a share of the parabola's
 
-  /// Adapts both to a step that changed the value by `change` where `promised` was expected to be gained.
+  /// Adapts both to a step that changed the value by `change` and was expected to lower it by `promised`.
   void learn(const local_parabola& here, const Eigen::VectorXd& step, double change, double promised);
 };
 
 }  // namespace detail
 
-/// Descends from a start, which is first moved into the bounds. `function(unknowns)` returns a `local_parabola`; every
-/// evaluation is asked for it. O(n^3) beside an evaluation.
+/// Descends from a start, which is first moved into the bounds. `function(unknowns)` returns a `local_parabola` and is
+/// called once for each evaluation. O(n^3) in addition to an evaluation.
 ///
 /// ```cpp
 /// const auto found = gonio::levenberg_marquardt(f, start, {lowest, highest});
@@ -107,7 +109,7 @@ template <class Function>
     local_parabola flatter = here;
     flatter.hessian *= control.bend;
     const Eigen::VectorXd step = detail::damped_parabola_step(found.unknowns, flatter, control.damping, bounds);
-    if (!step.allFinite()) break;  // a start at which the function is no number
+    if (!step.allFinite()) break;  // the function is NaN at the start
     const double promised = detail::promised_gain(flatter, step);
     // Stop where steps are tiny or promise no gain.
     const bool tiny = (step.array().abs() <= options.smallest_step * found.unknowns.array().abs().max(1.0)).all();
@@ -125,7 +127,7 @@ template <class Function>
     found.unknowns = candidate;
     here = std::move(there);
   }
-  // Report the value, and the gain that an undamped step still promises.
+  // Report the value, and the gain that an undamped step would still promise.
   found.value = here.value;
   const Eigen::VectorXd undamped = detail::damped_parabola_step(found.unknowns, here, 0.0, bounds);
   found.promised_gain = detail::promised_gain(here, undamped) / scale;

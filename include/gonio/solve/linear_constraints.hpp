@@ -17,7 +17,7 @@
 
 namespace gonio {
 
-/// D x <= d, E x = e and, if `non_negative`, x >= 0, which costs no rows. Either part may be empty.
+/// D x <= d, E x = e and, if `non_negative`, x >= 0, which needs no rows. D and E may be empty.
 struct linear_constraints {
   Eigen::MatrixXd D = {};  ///< inequalities x k
   Eigen::VectorXd d = {};  ///< inequalities
@@ -25,11 +25,11 @@ struct linear_constraints {
   Eigen::VectorXd e = {};  ///< equalities
   bool non_negative = false;
 
-  /// Throws gonio::error unless the sizes match each other and `unknowns` and all numbers are finite, naming the row.
+  /// Throws gonio::error, naming the row, unless the sizes match each other and `unknowns` and all numbers are finite.
   void require_consistent(Eigen::Index unknowns) const;
 
-  /// The constraints as their own policy (`constraint_policy`): the same for every problem. Throws as
-  /// `require_consistent`.
+  /// Returns the constraints themselves, which makes them a `constraint_policy`: the same for every problem. Throws as
+  /// `require_consistent` does.
   [[nodiscard]] linear_constraints operator()(Eigen::Index unknowns) const;
 
  private:
@@ -37,8 +37,8 @@ struct linear_constraints {
                                  const std::string& kind);
 };
 
-/// Makes the constraints of a problem with so many unknowns. A policy all of whose constraints include x >= 0 says so
-/// by `static constexpr bool non_negative = true;`.
+/// Makes the constraints of a problem with a given number of unknowns. If all constraints of a policy include x >= 0,
+/// it states so by `static constexpr bool non_negative = true;`.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -86,7 +86,7 @@ struct non_negative_weights {
   [[nodiscard]] linear_constraints operator()(Eigen::Index) const { return {.non_negative = true}; }
 };
 
-/// x >= 0 and the weights sum to 1.
+/// x >= 0, and the weights sum to 1.
 struct convex_weights {
   static constexpr bool non_negative = true;
   [[nodiscard]] linear_constraints operator()(Eigen::Index unknowns) const;
@@ -95,28 +95,29 @@ struct convex_weights {
 static_assert(constraint_policy<linear_constraints> && constraint_policy<non_negative_weights> &&
               constraint_policy<convex_weights>);
 
-/// Does a policy promise x >= 0 to the compiler? (linear_constraints has the flag at run time only: it does not.)
+/// True if a policy promises x >= 0 at compile time. (linear_constraints has its flag at run time only, so it does
+/// not.)
 template <class Policy>
 inline constexpr bool promises_non_negative = false;
 template <class Policy>
 requires requires { typename std::bool_constant<Policy::non_negative>; }
 inline constexpr bool promises_non_negative<Policy> = Policy::non_negative;
 
-/// The Lagrange multipliers of the rows: at the optimum Q x - m + D' `inequality` + E' `equality` is zero, or not
+/// The Lagrange multipliers of the rows. At the optimum Q x - m + D' `inequality` + E' `equality` is zero, or not
 /// negative where x >= 0 holds with equality.
 struct constraint_multipliers {
   Eigen::VectorXd inequality;  ///< >= 0, as many as rows of D
   Eigen::VectorXd equality;    ///< of any sign, as many as rows of E
 };
 
-/// What one unit of each weight is measured by: sqrt(Q_jj), the length of its column. A column of zeros has the size of
-/// its coefficients in the rows instead, relative to the rows' largest coefficient per unit of the other weights; 1
+/// Returns the unit of each weight: sqrt(Q_jj), the length of its column. For a column of zeros it is the size of the
+/// column's coefficients in the rows, relative to the rows' largest coefficient per unit of the other weights; 1
 /// without any. O(k rows).
 [[nodiscard]] Eigen::VectorXd column_lengths(const normal_equations& normal, const linear_constraints& constraints);
 
 namespace detail {
 
-/// One row at x, in units in which the columns have length 1.
+/// A row of the constraints at x, in units in which the columns have length 1.
 struct judged_row {
   double activity = 0.0;  ///< D_i x
   double largest = 0.0;   ///< |D_ij| / length_j
@@ -126,7 +127,7 @@ struct judged_row {
   [[nodiscard]] double relative_slack(double bound, double size) const;
 };
 
-/// The gradient Q x - m + D' inequality + E' equality of the Lagrangian.
+/// Returns the gradient Q x - m + D' inequality + E' equality of the Lagrangian.
 [[nodiscard]] scaled_gradient lagrangian_gradient(const normal_equations& normal, Eigen::Index right_hand_side,
                                                   const Eigen::Ref<const Eigen::VectorXd>& x,
                                                   const linear_constraints& constraints,
@@ -134,15 +135,16 @@ struct judged_row {
 
 }  // namespace detail
 
-/// The KKT conditions of min 1/2 x'Q x - m'x under linear constraints for one right-hand side: the worst of
+/// Returns the violation of the KKT conditions of min 1/2 x'Q x - m'x under linear constraints for one right-hand side:
+/// the largest of
 /// - stationarity of the Lagrangian (only the sign of its gradient where x_j = 0 under x >= 0), in units of
-///   `column_lengths` and relative to the largest sum of terms in it, as in `scaled_gradient`, or to the largest weight
-///   in these units, if that is more, as it can be where columns are zero;
+///   `column_lengths`, relative to the largest sum of terms as in `scaled_gradient`, or to the largest weight in these
+///   units, if that is larger, as may happen with columns of zeros;
 /// - each row's violation, relative to |d_i| and the size of its coefficients times that of the weights;
-/// - a negative multiplier of an inequality, relative to the gradient's terms;
+/// - a negative multiplier of an inequality, relative to the terms of the gradient;
 /// - complementarity: the smaller of an inequality's relative multiplier and its relative slack.
-/// With x >= 0 alone it is `kkt_violation(normal, x, 0.0, sign_rule::non_negative)`. O(k (r + s)) for r rows and s
-/// weights that are not zero.
+/// With x >= 0 alone it equals `kkt_violation(normal, x, 0.0, sign_rule::non_negative)`. O(k (r + s)) for r rows and s
+/// nonzero weights.
 [[nodiscard]] double kkt_violation(const normal_equations& normal, Eigen::Index right_hand_side,
                                    const Eigen::Ref<const Eigen::VectorXd>& x, const linear_constraints& constraints,
                                    const constraint_multipliers& multipliers);

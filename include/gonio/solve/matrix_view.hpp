@@ -1,5 +1,5 @@
 #pragma once
-/// How matrices are handed to functions that are compiled once.
+/// The parameter type of functions on matrices that are compiled once.
 
 #include <gonio/core/compiled_alignment.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace gonio {
 
-/// A matrix or a block of one, its columns contiguous; anything else of doubles is copied into one.
+/// A matrix or a block of one, with contiguous columns. Any other expression of doubles is copied into one.
 using matrix_view = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
 }  // namespace gonio

@@ -7,8 +7,8 @@
 
 namespace gonio {
 
-/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0. Throws gonio::error if no optimum can be certified, by the rows where
-/// there are rows (solve/signed_solution.hpp).
+/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0. Throws gonio::error if no optimum can be certified, by the rows if
+/// there are any (solve/signed_solution.hpp).
 ///
 /// ```cpp
 /// const gonio::solution found = gonio::nnls().solve(problem);   // a least_squares_problem, or normal_equations

@@ -1,5 +1,5 @@
 #pragma once
-/// Sums of outer products: the loop that Gram matrices, A'A and A A', spend their time in.
+/// Sums of outer products: the inner loop of Gram matrices, A'A and A A'.
 /// Goto and van de Geijn, "Anatomy of High-Performance Matrix Multiplication" (doi:10.1145/1356052.1356053).
 
 #include <gonio/core/vector_kernels.hpp>
@@ -15,19 +15,19 @@ namespace gonio {
 
 namespace detail {
 
-/// Sums A'A over blocks of the rows of A: products and their sums within a block are `Scalar`, blocks are added in
-/// double. A'A is a sum of outer products, of which a tile stays in registers while it reads a block row by row. A
-/// block is held in strips of as many columns as a line of the cache has numbers, each with its rows one after the
-/// other: a tile reads one strip, and a part of another, from end to end.
+/// Sums A'A over blocks of the rows of A. Products and their sums within a block are `Scalar`; blocks are added in
+/// double. A'A is a sum of outer products. A tile of it stays in registers while a block is read row by row. A block is
+/// stored in strips of as many columns as a cache line has numbers, each strip row by row. A tile reads one strip, and
+/// part of another, from end to end.
 template <class Scalar>
 class product_sum {
  public:
   static constexpr Eigen::Index block_rows = 128;
   static constexpr Eigen::Index strip_columns = 64 / Eigen::Index{sizeof(Scalar)};
-  /// As many as make eight vector registers of sums, which hide the latency of a multiply-add.
+  /// This many columns fill eight vector registers with sums, which hides the latency of a multiply-add.
   static constexpr Eigen::Index tile_columns = std::max(EIGEN_MAX_ALIGN_BYTES, 16) / 8;
 
-  /// Takes at most `rows` rows at a time.
+  /// Makes room for blocks of at most `rows` rows.
   explicit product_sum(Eigen::Index columns, Eigen::Index rows = block_rows)
       : columns_(columns), strips_((columns + strip_columns - 1) / strip_columns), strip_size_(rows * strip_columns) {
     block_.resize(strips_ * strip_size_);
@@ -36,12 +36,12 @@ class product_sum {
     std::fill_n(sum_.data(), sum_.size(), 0.0);
   }
 
-  /// A number of the block.
+  /// Returns a number of the block.
   [[nodiscard]] Scalar& operator()(Eigen::Index row, Eigen::Index column) {
     return block_[column / strip_columns * strip_size_ + row * strip_columns + column % strip_columns];
   }
 
-  /// Puts numbers times a factor into a row of the block, from its first column on.
+  /// Writes numbers times a factor into a row of the block, from its first column on.
   template <class Number>
   void put(Eigen::Index row, const Number* numbers, Eigen::Index count, Scalar factor = 1) {
     const Eigen::Index whole = count / strip_columns * strip_columns;
@@ -53,7 +53,7 @@ class product_sum {
 
   /// Adds the products of the first `rows` rows of the block.
   void add(Eigen::Index rows) {
-    // So few strips at once that they stay in the cache while each of those below passes.
+    // So few strips at once that they stay in the cache while all strips below pass.
     constexpr Eigen::Index together = 14;
     for (Eigen::Index first = 0; first < strips_; first += together)
       for (Eigen::Index left = first; left < strips_; ++left)
@@ -67,7 +67,7 @@ class product_sum {
     return *this;
   }
 
-  /// A'A, both triangles.
+  /// Returns A'A, both triangles.
   [[nodiscard]] Eigen::MatrixXd symmetric() const {
     Eigen::MatrixXd full(columns_, columns_);
     for (Eigen::Index j = 0; j < columns_; ++j)
@@ -78,8 +78,8 @@ class product_sum {
  private:
   using piece = Eigen::Array<Scalar, strip_columns, 1>;
 
-  /// The products of a strip with some columns of another. A pack instead of loops over the columns: without unrolling,
-  /// the products would live in memory.
+  /// Adds the products of a strip with some columns of another. Uses a parameter pack instead of loops over the
+  /// columns: without unrolling, the products would be in memory.
   template <std::size_t... Column>
   void add_tile(Eigen::Index rows, Eigen::Index strip, Eigen::Index column,
                 std::index_sequence<Column...> /*columns*/) {

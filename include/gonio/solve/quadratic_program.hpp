@@ -1,8 +1,8 @@
 #pragma once
-/// Least squares under linear constraints: Noell, Koehler and Stricker 2014, Eq. 10, by the dual active-set method of
-/// Goldfarb and Idnani 1983 (doi:10.1007/BF02591962), and, where the Gram matrix is singular, by proximal points around
-/// it (Rockafellar, SIAM J. Control Optim. 14, 1976, doi:10.1137/0314056), which is how qpOASES regularises (Ferreau et
-/// al., Math. Prog. Comp. 6, 2014, doi:10.1007/s12532-014-0071-1).
+/// Least squares under linear constraints: Noell, Koehler and Stricker 2014, Eq. 10. Uses the dual active-set method of
+/// Goldfarb and Idnani 1983 (doi:10.1007/BF02591962). If the Gram matrix is singular, adds proximal points around it
+/// (Rockafellar, SIAM J. Control Optim. 14, 1976, doi:10.1137/0314056), the regularisation of qpOASES (Ferreau et al.,
+/// Math. Prog. Comp. 6, 2014, doi:10.1007/s12532-014-0071-1).
 
 #include <gonio/solve/dual_active_set.hpp>
 #include <gonio/solve/linear_constraints.hpp>
@@ -29,7 +29,7 @@ struct program_optimum {
   int iterations = 0;                                             ///< constraints added or dropped
 };
 
-/// The solver of one quadratic program, for any of its right-hand sides.
+/// Solves one quadratic program for any of its right-hand sides.
 class program_solver {
  public:
   using vector = Eigen::VectorXd;
@@ -39,13 +39,13 @@ class program_solver {
   program_solver(const normal_equations& normal, const linear_constraints& constraints)
       : normal_(normal), constraints_(constraints), program_(normal, constraints) {}
 
-  /// From x = 0 under x >= 0, and from the optimum without inequalities otherwise. Throws gonio::error if there is no
-  /// solution, because the constraints contradict one another or the objective falls for ever, or if it is not found.
+  /// Starts from x = 0 under x >= 0, otherwise from the optimum without inequalities. Throws gonio::error if there is
+  /// no solution, because the constraints contradict each other or the objective is unbounded, or if none is found.
   [[nodiscard]] program_optimum solve(Eigen::Index right_hand_side) const;
 
  private:
   static constexpr double good = 1e-11;        // KKT residual
-  static constexpr double sufficient = 1e-10;  // of the proximal points, which approach some optima slowly
+  static constexpr double sufficient = 1e-10;  // of proximal points, which approach some optima slowly
   static constexpr double largest_shift = 1e-9, smallest_shift = 1e-11;  // the diagonal of G is about 1
   static constexpr int patience = 20, proximal_limit = 200;              // points
 
@@ -55,25 +55,25 @@ class program_solver {
     for (int steps = 0; steps < limit && !run.converged(); ++steps) run.step();
   }
 
-  /// With x >= 0 all weights start at zero: far fewer than k become free, one after the other, as a rule.
+  /// Returns all weights at zero under x >= 0: usually far fewer than k become free, one after the other.
   [[nodiscard]] active_constraints origin() const;
 
   [[nodiscard]] program_optimum judge(const iteration& run, const vector& q, Eigen::Index right_hand_side) const;
 
-  /// Minimises the objective plus shift/2 |y - last y|^2, with falling shifts, until the last y is the optimum.
+  /// Minimises the objective plus shift/2 |y - last y|^2, with decreasing shifts, until the last y is the optimum.
   [[nodiscard]] program_optimum solve_by_proximal_points(Eigen::Index right_hand_side, const vector& q,
                                                          active_constraints active, int changes) const;
 
-  /// A KKT residual is relative to the gradient's terms, and weights that are large enough certify themselves. Are
-  /// these larger than a least-squares problem in double precision can explain, or unexplained and not optimal without
-  /// them?
+  /// Returns true if weights are larger than a least-squares problem in double precision can explain, or large and not
+  /// optimal without help of their size. A KKT residual is relative to the gradient's terms, so that large enough
+  /// weights would always pass.
   [[nodiscard]] bool is_suspicious(const program_optimum& found, const vector& y, const vector& q) const;
 
-  /// The proximal point, or what comes of it without the shift if that is good.
+  /// Returns the proximal point, or the result of polishing it without the shift if that is better.
   [[nodiscard]] program_optimum best(const iteration& run, const vector& q, Eigen::Index right_hand_side) const;
 
-  /// Is this a feasible direction without end, along which the objective has no curvature beyond rounding and falls? A
-  /// moment that comes from equations has at most |b| times the root of the curvature as its slope.
+  /// Returns true for an unbounded feasible direction along which the objective decreases without curvature beyond
+  /// rounding. If m comes from equations, the slope is at most |b| times the square root of the curvature.
   [[nodiscard]] bool falls_for_ever(const vector& movement, const vector& q, Eigen::Index right_hand_side) const;
 
   [[nodiscard]] static std::string falling(const vector& movement);
@@ -85,22 +85,23 @@ class program_solver {
 
 namespace detail {
 
-/// What `solve_program` makes of the optima: a solution that is certified. Throws gonio::error where it cannot be.
+/// Certifies the optima that `solve_program` found as a solution. Throws gonio::error if that fails.
 [[nodiscard]] solution certified_program(const normal_equations& normal, const linear_constraints& constraints,
                                          solution found);
 
-/// The same of a problem that has rows, whose residual it has. Without rows of constraints it is found again from the
-/// rows of the problem where the normal equations are not enough (`certified`), with them it is refused.
+/// Certifies the solution of a problem with rows and sets its residual from the rows. If the normal equations are not
+/// accurate enough, finds the solution again from the rows (`certified`) if there are no constraint rows, and otherwise
+/// throws gonio::error.
 [[nodiscard]] solution certified_program(const least_squares_problem& problem, const linear_constraints& constraints,
                                          solution found);
 
-/// Solves all right-hand sides by the solver's `solve_one(solver, column)`.
+/// Solves all right-hand sides by `solve_one(solver, column)`.
 template <quadratic_problem Problem, class SolveOne>
 [[nodiscard]] solution solve_program(const Problem& problem, const linear_constraints& constraints,
                                      const SolveOne& solve_one) {
   const normal_equations& normal = problem.normal();
   const program_solver solver(normal, constraints);
-  // Whoever has rows and x >= 0 alone can find the optimum without the normal equations.
+  // A problem with rows, and x >= 0 alone, can be solved without the normal equations.
   constexpr bool has_rows = std::same_as<Problem, least_squares_problem>;
   const bool second_chance = has_rows && constraints.d.size() == 0 && constraints.e.size() == 0;
   solution found;
@@ -148,10 +149,10 @@ class quadratic_program {
 
   [[nodiscard]] const Constraints& constraints() const noexcept { return constraints_; }
 
-  /// Throws gonio::error if the constraints do not fit the problem, if they contradict one another, if the objective is
-  /// unbounded, or if the optimum is not found within a number of steps that is proportional to k and the rows. Where
-  /// the normal equations are not enough for a problem that has rows, the optimum under x >= 0 alone is found from
-  /// those (solve/signed_solution.hpp); under rows of constraints it is refused.
+  /// Throws gonio::error if the constraints do not fit the problem or contradict each other, if the objective is
+  /// unbounded, or if the optimum is not found in a number of steps proportional to k and the constraint rows. If the
+  /// normal equations of a problem with rows are not accurate enough, solves it from the rows under x >= 0 alone
+  /// (solve/signed_solution.hpp), and refuses it under constraint rows.
   [[nodiscard]] solution solve(const least_squares_problem& problem) const { return solve_any(problem); }
   [[nodiscard]] solution solve(const normal_equations& normal) const { return solve_any(normal); }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The matrix of a least-squares problem, read a block of rows at a time wherever it lives: in an array, in the table
-/// of a basis, between its cells. A million rows by 99 need no second copy.
+/// The matrix of a least-squares problem, read a block of rows at a time from an array, from the table of a basis, or
+/// from interpolation between its cells. A million rows by 99 need no second copy.
 
 #include <gonio/core/compiled_alignment.hpp>
 #include <gonio/core/parallel.hpp>
@@ -13,17 +13,17 @@
 
 namespace gonio {
 
-/// A matrix whose rows are contiguous, as equations come in.
+/// A matrix with contiguous rows.
 using row_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Where a block of rows is written: contiguous rows, any distance between them.
+/// The destination of a block of rows: contiguous rows at any distance.
 using row_block = Eigen::Ref<row_matrix, 0, Eigen::OuterStride<>>;
 
-/// Some columns of a block, from `first` on.
+/// Returns some columns of a block, from `first` on.
 [[nodiscard]] row_block columns_of_block(row_block all, Eigen::Index first, Eigen::Index count);
 
-/// `rows` x `columns` numbers. `read(range, out)` writes the rows of a range into `out`, which has that many rows; it
-/// is called from several threads at once.
+/// A matrix of `rows` x `columns` numbers. `read(range, out)` writes the rows of a range into `out`, which has that
+/// many rows. It is called from several threads at once.
 ///
 /// ```cpp
 /// // The powers of 1,000,000 numbers, never stored.
@@ -38,7 +38,7 @@ struct row_source {
   std::function<void(block range, row_block out)> read;
 };
 
-/// A matrix that is at hand.
+/// Returns the source of a matrix in memory.
 [[nodiscard]] row_source rows_of(row_matrix matrix);
 
 }  // namespace gonio

@@ -11,16 +11,16 @@
 
 namespace gonio {
 
-/// Which inequalities hold with equality: where a solver starts, and what it found.
+/// The inequalities that hold with equality: the start of a solver, and its result.
 struct active_constraints {
   std::vector<bool> bounds;  ///< of each weight: x_j = 0; empty for none
   std::vector<bool> rows;    ///< of each row of D; empty for none
 };
 
 /// min 1/2 y'G y - q'y subject to n_i'y = b_i for the first `equalities` rows n_i, n_i'y >= b_i for the others, and, if
-/// `non_negative`, y >= 0. It is the program of normal equations in y = S x, with powers of two in the diagonal matrix
-/// S near the `column_lengths`, and each row by one that brings its largest coefficient to [1/2, 1): nothing is
-/// rounded. The diagonal of G is in [1/4, 1), or zero.
+/// `non_negative`, y >= 0. It is the program of normal equations in y = S x. The diagonal matrix S has powers of two
+/// near the `column_lengths`. Each row is multiplied by a power of two that brings its largest coefficient to [1/2, 1).
+/// Hence nothing is rounded. The diagonal of G is in [1/4, 1), or zero.
 struct scaled_program {
   using vector = Eigen::VectorXd;
 
@@ -29,24 +29,24 @@ struct scaled_program {
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return G.rows(); }
   [[nodiscard]] Eigen::Index rows() const noexcept { return b.size(); }
 
-  /// q of one right-hand side.
+  /// Returns q of one right-hand side.
   [[nodiscard]] vector rhs(const normal_equations& normal, Eigen::Index right_hand_side) const {
     return normal.rhs().col(right_hand_side).cwiseProduct(inverse_scale);
   }
-  /// x of y.
+  /// Returns x, given y.
   [[nodiscard]] vector weights(const vector& y) const { return y.cwiseProduct(inverse_scale); }
-  /// The multipliers of the constraints as they were given.
+  /// Returns the multipliers of the original constraints.
   [[nodiscard]] constraint_multipliers multipliers(const vector& of_rows) const;
 
   Eigen::Index equalities;
   bool non_negative;
-  vector inverse_scale, inverse_row_scale;  ///< 1 / S_jj, and what multiplies each row
+  vector inverse_scale, inverse_row_scale;  ///< 1 / S_jj, and the factor of each row
   Eigen::MatrixXd G;
   Eigen::MatrixXd normals;  ///< k x rows, n_i in column i
   vector b;
 
  private:
-  /// A power of two that brings a positive length to [1/2, 1).
+  /// Returns the power of two that brings a positive length to [1/2, 1).
   [[nodiscard]] static double near_inverse(double length) { return std::ldexp(1.0, -(std::ilogb(length) + 1)); }
 
   void set_row(Eigen::Index i, const vector& row, double right);

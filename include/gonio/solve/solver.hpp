@@ -1,5 +1,5 @@
 #pragma once
-/// The concept of a solver, and what it returns.
+/// The concept of a solver, and its result.
 
 #include <gonio/solve/kkt.hpp>
 #include <gonio/solve/least_squares_problem.hpp>
@@ -13,7 +13,7 @@
 
 namespace gonio {
 
-/// How good the weights are that a solver found, one entry for each right-hand side.
+/// The quality of the weights that a solver found, one entry for each right-hand side.
 struct solve_report {
   Eigen::VectorXd residual;      ///< weighted norm of A x - b
   Eigen::VectorXd objective;     ///< 1/2 x'Q x - m'x (Noell et al. 2014, Eq. 10), plus the solver's own penalty
@@ -21,41 +21,41 @@ struct solve_report {
   int iterations = 0;            ///< of all right-hand sides together; 0 for a direct solver
 };
 
-/// What a solver returns. Weights that no solver found have no report: whoever keeps such weights keeps a matrix.
+/// The result of a solver. Weights that no solver found have no report: store other weights as a matrix.
 struct solution {
   Eigen::MatrixXd weights;  ///< k x r, one column for each right-hand side
   solve_report report;
 };
 
-/// Solutions of several problems in the same unknowns as one, right-hand side by right-hand side.
+/// Joins solutions of several problems in the same unknowns, right-hand side by right-hand side.
 [[nodiscard]] solution concatenate_columns(std::span<const solution> parts);
 
-/// A solution in some of `unknowns` columns as one in all of them: the other weights are zero.
+/// Extends a solution in some of `unknowns` columns to all of them: the other weights are zero.
 [[nodiscard]] solution scatter_columns(solution found, std::span<const Eigen::Index> columns, Eigen::Index unknowns);
 
-/// A solution of a problem's normal equations as one of the problem: the residual is that of its rows, which normal
-/// equations hold to half of the digits only.
+/// Returns a solution of a problem's normal equations with the residual computed from the rows. Normal equations give
+/// it only to half of the digits.
 [[nodiscard]] solution with_residual_of_rows(solution found, const least_squares_problem& problem);
 
 namespace detail {
 
-/// At most this is the KKT residual of a success.
+/// The largest KKT residual of a success.
 inline constexpr double kkt_residual_limit = 1e-9;
 
-/// Throws gonio::error naming the solver unless its KKT residuals are that small.
+/// Throws gonio::error naming the solver if a KKT residual is larger.
 [[nodiscard]] solution require_certified(solution found, std::string_view solver);
 
 }  // namespace detail
 
 /// Finds the weights of a least-squares problem under the solver's own penalty or constraints.
 ///
-/// What the compiler cannot check, and a model must keep: the KKT residual is computed from the problem and
-/// the returned weights, not from the solver's internal state, and is at most 1e-9 on success (`least_squares` says
-/// where normal equations alone do not hold that much); a solver that does not reach it finds the optimum in another
-/// way or throws gonio::error; solving is const and thread safe.
+/// Requirements that the compiler cannot check: the KKT residual is computed from the problem and the returned weights,
+/// not from the solver's internal state, and is at most 1e-9 on success (`least_squares` documents an exception for
+/// normal equations alone). A solver that does not reach it finds the optimum in another way or throws gonio::error.
+/// Solving is const and thread safe.
 ///
-/// A solver whose weights cannot be negative says so, because no such combination of a basis whose functions have an
-/// arbitrary sign makes sense: `static constexpr bool non_negative = true;`.
+/// A solver whose weights cannot be negative declares `static constexpr bool non_negative = true;`, because such a
+/// combination makes no sense for basis functions of arbitrary sign.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -97,13 +97,13 @@ concept solver = requires(const Solver& candidate, const least_squares_problem& 
   { candidate.solve(problem) } -> std::same_as<solution>;
 };
 
-/// A solver that the normal equations suffice for. It takes subsets and leave-one-out problems without touching data.
+/// A solver that only needs the normal equations. It solves subsets and leave-one-out problems without reading data.
 template <class Solver>
 concept normal_solver = solver<Solver> && requires(const Solver& candidate, const normal_equations& normal) {
   { candidate.solve(normal) } -> std::same_as<solution>;
 };
 
-/// Do all solutions of a solver have weights that are not negative?
+/// True if the weights of a solver are never negative.
 template <class Solver>
 inline constexpr bool solves_non_negative = requires {
   requires bool(Solver::non_negative);

@@ -12,14 +12,14 @@ struct symmetric_eigen {
   Eigen::MatrixXd vectors;  ///< orthonormal columns
 };
 
-/// Of a symmetric matrix, whose lower triangle is read; about 9 k^3 operations. Throws gonio::error, naming `what` was
-/// decomposed, if the iteration does not converge.
+/// Decomposes a symmetric matrix, whose lower triangle is read; about 9 k^3 operations. Throws gonio::error naming
+/// `what` was decomposed if the iteration does not converge.
 [[nodiscard]] symmetric_eigen decompose_symmetric(const matrix_view& a, const char* what);
 
-/// The same without the vectors, ascending: about 4/3 k^3 operations.
+/// Returns the eigenvalues alone, ascending: about 4/3 k^3 operations.
 [[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const matrix_view& a, const char* what);
 
-/// Those of a symmetric tridiagonal matrix, ascending, given its diagonal and the numbers beside it: O(k^2).
+/// Returns the eigenvalues of a symmetric tridiagonal matrix, ascending, given its diagonal and subdiagonal: O(k^2).
 [[nodiscard]] Eigen::VectorXd tridiagonal_eigenvalues(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside,
                                                       const char* what);
 

@@ -1,15 +1,15 @@
 #pragma once
-/// Products with matrices of a few columns, such as the right-hand sides of three colour channels: reading the large
-/// matrix is what they cost, and no blocking saves any of it.
+/// Products with matrices of a few columns, such as the right-hand sides of three colour channels. Their cost is
+/// reading the large matrix, which no blocking reduces.
 
 #include <gonio/solve/matrix_view.hpp>
 
 namespace gonio {
 
-/// A B for m x k and k x n, as sums of columns of A: 2 m n k operations, reads A n times.
+/// Returns A B for m x k and k x n, as sums of columns of A: 2 m n k operations, reads A n times.
 [[nodiscard]] Eigen::MatrixXd thin_product(const matrix_view& a, const matrix_view& b);
 
-/// A' B for k x m and k x n, as products of their columns: 2 m n k operations, reads A n times.
+/// Returns A' B for k x m and k x n, as products of their columns: 2 m n k operations, reads A n times.
 [[nodiscard]] Eigen::MatrixXd thin_transposed_product(const matrix_view& a, const matrix_view& b);
 
 }  // namespace gonio

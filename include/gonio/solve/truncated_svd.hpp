@@ -1,24 +1,23 @@
 #pragma once
 /// Least squares in the directions that explain most of the matrix: regularisation by truncated singular value
-/// decomposition. Hansen, BIT 27, 1987 (doi:10.1007/BF01937276); the share of explained variance as Nielsen chooses it,
-/// "Statistical surface recovery" (doctoral thesis, DTU 2016, contribution C.V, Eq. 4-7).
+/// decomposition. Hansen, BIT 27, 1987 (doi:10.1007/BF01937276). The share of explained variance is chosen as by
+/// Nielsen, "Statistical surface recovery" (doctoral thesis, DTU 2016, contribution C.V, Eq. 4-7).
 
 #include <gonio/solve/solver.hpp>
 
 namespace gonio {
 
-/// Keeps the fewest singular values of W^(1/2) A whose squares sum to a given share of the sum of all squares, and
-/// returns the x of the smallest norm with the least |W^(1/2) (A x - b)| in the subspace of the kept right singular
-/// vectors.
+/// Keeps the fewest singular values of W^(1/2) A whose squares sum to a given share of the sum of all squares. Returns
+/// the x of the smallest norm that minimises |W^(1/2) (A x - b)| in the subspace of the kept right singular vectors.
 ///
 /// A wide problem (fewer rows than unknowns) is solved through its n x n dual in O(n^2 k), all others through the k x k
-/// normal equations. Both give the same x, as long as the share does not end within a group of equal singular values.
-/// The squares are computed as eigenvalues, so that a share of 1 means all but the smallest ones that sum to less than
-/// epsilon times their number of the total: they are rounding. Use `least_squares` where such directions matter.
+/// normal equations. Both give the same x, unless the share ends within a group of equal singular values. The squares
+/// are computed as eigenvalues. A share of 1 therefore drops the smallest ones whose sum is less than epsilon times
+/// their number of the total: they are rounding errors. If such directions matter, use `least_squares`.
 ///
 /// The KKT residual is computed from the problem and an orthonormal basis V of the subspace, and is the largest of
-/// - what A'WA leads out of the subspace, |(I - VV') A'WA V|, relative to the largest eigenvalue of A'WA: V is spanned
-///   by singular vectors;
+/// - the part of A'WA V outside of the subspace, |(I - VV') A'WA V|, relative to the largest eigenvalue of A'WA:
+///   zero if singular vectors span V;
 /// - the gradient in the subspace, |V'(A'W(A x - b))|, relative to |A'Wb| + that eigenvalue times |x|;
 /// - the part of x outside of the subspace, relative to |x|.
 /// Magnitudes are those of the largest entry.
@@ -32,7 +31,7 @@ class truncated_svd {
   [[nodiscard]] solution solve(const least_squares_problem& problem) const;
   [[nodiscard]] solution solve(const normal_equations& normal) const;
 
-  /// How many singular values `solve` keeps.
+  /// Returns the number of singular values that `solve` keeps.
   [[nodiscard]] Eigen::Index kept(const least_squares_problem& problem) const;
   [[nodiscard]] Eigen::Index kept(const normal_equations& normal) const;
 

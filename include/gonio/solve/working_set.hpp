@@ -1,6 +1,6 @@
 #pragma once
 /// The linear systems of active-set methods for quadratic programs: a set of constraints that hold with equality, and
-/// the Karush-Kuhn-Tucker system over it. Nocedal and Wright, Numerical Optimization, 2nd ed., section 16.2.
+/// its Karush-Kuhn-Tucker system. Nocedal and Wright, Numerical Optimization, 2nd ed., section 16.2.
 
 #include <gonio/solve/growing_cholesky.hpp>
 #include <gonio/solve/scaled_program.hpp>
@@ -15,49 +15,48 @@ namespace gonio {
 
 /// Solves
 ///   (G_FF + shift I) z - N r = a,  N'z = c
-/// over the free weights F, with the normals of the active rows (their entries of F) as columns of N: by the Cholesky
-/// factor of G_FF + shift I and an orthonormal basis of N,
-/// so that G has no say in which rows depend on one another. Below, p is the number of free weights and w that of
-/// active rows.
+/// over the free weights F, with the normals of the active rows (their entries of F) as columns of N. Uses the Cholesky
+/// factor of G_FF + shift I and an orthonormal basis of N, so that G does not affect which rows depend on each other.
+/// Below, p is the number of free weights and w that of active rows.
 class working_set {
  public:
   using vector = Eigen::VectorXd;
 
-  /// All weights are at zero and no row is active. Keeps a reference to `program`.
+  /// Starts with all weights at zero and no active row. Keeps a reference to `program`.
   working_set(const scaled_program& program, double shift);
 
-  /// In the order of z.
+  /// Returns the free weights in the order of z.
   [[nodiscard]] const std::vector<Eigen::Index>& free() const noexcept { return free_; }
-  /// In the order of r.
+  /// Returns the active rows in the order of r.
   [[nodiscard]] const std::vector<Eigen::Index>& rows() const noexcept { return rows_; }
   [[nodiscard]] bool is_free(Eigen::Index j) const { return is_free_[j]; }
   [[nodiscard]] bool has_row(Eigen::Index i) const { return std::ranges::find(rows_, i) != rows_.end(); }
 
-  /// Returns false and leaves the weight where it is if its column depends on the free ones. O(p^2).
+  /// Frees a weight. Returns false and changes nothing if its column depends on the free ones. O(p^2).
   bool release(Eigen::Index j);
   /// O(p^2).
   void fix(Eigen::Index j);
   void add_row(Eigen::Index i);
   void drop_row(Eigen::Index i);
 
-  /// To be called between changes and what follows. Leaves out rows that depend on earlier ones. O(w p^2 + w^2 p).
+  /// Call after changes, before solving. Leaves out rows that depend on earlier ones. O(w p^2 + w^2 p).
   void update();
 
-  /// The free weights' entries.
+  /// Returns the entries of the free weights.
   [[nodiscard]] vector gather(const Eigen::Ref<const vector>& all) const;
 
-  /// Takes out of `normal` (over the free weights) its `combination` of the active rows. Returns whether nothing but
+  /// Subtracts from `normal` (over the free weights) its `combination` of the active rows. Returns true if only
   /// rounding is left. O(w p).
   [[nodiscard]] bool depends(vector& normal, vector& combination) const;
 
-  /// z takes the place of a and r that of c. O(p^2 + w p + w^2).
+  /// Replaces a by z and c by r. O(p^2 + w p + w^2).
   void solve(vector& a, vector& c) const;
 
  private:
   [[nodiscard]] bool append_to_basis(Eigen::Index row, Eigen::Index at);
 
-  /// Takes out of `rest` what the first `count` vectors of the basis span, twice because once loses digits. Returns
-  /// false if only rounding is left.
+  /// Subtracts from `rest` the part that the first `count` vectors of the basis span, twice because one pass loses
+  /// digits. Returns false if only rounding is left.
   [[nodiscard]] bool orthogonalise(vector& rest, vector& coefficients, Eigen::Index count) const;
 
   /// Back substitution.

@@ -1,7 +1,7 @@
 #pragma once
-/// A reading is an integral: its lamp and its receiver are seen from the sample under cones of directions, and it is
-/// the mean of the reflectance over both. A receiver of half a degree in front of a mirror-like lobe a tenth as wide
-/// reads a hundredth of the peak.
+/// A reading is the mean of the reflectance over two cones of directions, under which lamp and receiver are seen from
+/// the sample. A receiver of half a degree in front of a mirror-like lobe a tenth as wide reads a hundredth of the
+/// peak.
 
 #include <gonio/core/direction.hpp>
 
@@ -12,7 +12,7 @@
 
 namespace gonio {
 
-/// The half angles of the two cones, radians. Zero: a single direction.
+/// The half angles of the two cones, radians. Zero is a single direction.
 struct aperture {
   double source = 0.0;
   double receiver = 0.0;
@@ -24,16 +24,16 @@ struct aperture {
 /// The largest half angle, radians.
 inline constexpr double largest_half_angle = radians(45.0);
 
-/// The half angle, in radians, of a cone of this solid angle, in steradians. Throws gonio::error unless it is from 0 to
-/// that of the largest half angle.
+/// Returns the half angle, in radians, of a cone with this solid angle, in steradians. Throws gonio::error unless the
+/// solid angle is from 0 to that of the largest half angle.
 [[nodiscard]] double half_angle_of(double solid_angle);
 
-/// `count` pairs of directions, spread evenly over both cones (Vogel 1979, "A better way to construct the sunflower
-/// head", doi:10.1016/0025-5564(79)90080-4); those below the horizon are left out. A power of two: rings of the one
-/// cone are paired with those of the other by their numbers read backwards, bit by bit (Hammersley's points).
+/// Returns `count` pairs of directions spread evenly over both cones (Vogel 1979, "A better way to construct the
+/// sunflower head", doi:10.1016/0025-5564(79)90080-4), without those below the horizon. `count` must be a power of two:
+/// ring i of one cone is paired with the bit-reversed ring of the other (Hammersley's points).
 [[nodiscard]] std::vector<direction_pair> pairs_within(const direction_pair& axes, const aperture& cones, int count);
 
-/// What a reading is: the mean over `count` such pairs of what `value` says of light and receiver.
+/// Returns the mean of `value(light, receiver)` over `count` such pairs, which is a reading.
 template <class Value>
 [[nodiscard]] auto mean_within(const direction_pair& axes, const aperture& cones, int count, Value&& value) {
   const std::vector<direction_pair> pairs = pairs_within(axes, cones, count);

@@ -14,17 +14,17 @@
 
 namespace gonio {
 
-/// A BRDF in sr^-1 tabulated over valid cells, cell-major: red, green and blue of a cell are adjacent.
-/// Values are as measured and may be negative; nothing is clamped here.
+/// A BRDF in sr^-1 tabulated over valid cells, cell-major: red, green and blue of a cell are adjacent. Values are as
+/// measured, may be negative and are not clamped.
 class brdf_table {
  public:
-  /// A table of zeros.
+  /// Makes a table of zeros.
   explicit brdf_table(valid_cells cells) : cells_(std::move(cells)), values_(3 * cells_.size(), 0.0f) {}
 
-  /// Copies values of shape (cells, 3). Throws gonio::error if their number is not 3 per cell.
+  /// Copies values of shape (cells, 3). Throws gonio::error unless there are 3 values per cell.
   brdf_table(valid_cells cells, const std::vector<float>& values);
 
-  /// A table without values, for whoever sets them all.
+  /// Returns a table without values, for callers that set all of them.
   [[nodiscard]] static brdf_table uninitialised(valid_cells cells) {
     return brdf_table(std::move(cells), without_values());
   }
@@ -43,13 +43,13 @@ class brdf_table {
       values_[3 * cell + channel] = static_cast<float>(value[channel]);
   }
 
-  /// Trilinear interpolation of the stored values; zero below the horizon.
+  /// Interpolates the stored values trilinearly; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     return at(locate(cells_, to_half_difference(wi, wo)));
   }
 
-  /// Trilinear interpolation of the stored values at a location on this table's cells.
+  /// Interpolates the stored values trilinearly at a location on this table's cells.
   [[nodiscard]] rgb at(const location& at) const noexcept {
     rgb sum(0.0, 0.0, 0.0);
     for (int corner = 0; corner < at.count; ++corner) {
@@ -70,8 +70,8 @@ class brdf_table {
 
 static_assert(brdf<brdf_table>);
 
-/// Looks a table up at the nearest cell, the way renderers read MERL files; zero below the horizon. A
-/// view: the table must outlive it.
+/// Reads a table at the nearest cell, as renderers read MERL files; zero below the horizon. A view: the table must
+/// outlive it.
 class nearest_lookup {
  public:
   explicit nearest_lookup(const brdf_table& table) noexcept : table_(&table) {}

@@ -5,7 +5,7 @@
 
 namespace gonio {
 
-/// Rows are cells, columns are observations: red, green and blue of the first material, then of the next.
+/// Rows are cells. Columns are observations: red, green and blue of the first material, then of the next.
 using cell_matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 }  // namespace gonio

@@ -1,5 +1,5 @@
 #pragma once
-/// The channels of measurements and of what is fitted to them: colours, wavelengths, or one value.
+/// The channels of measurements and of fits: colours, wavelengths, or one value.
 
 #include <gonio/core/rgb.hpp>
 #include <gonio/core/spectrum.hpp>
@@ -14,7 +14,7 @@
 
 namespace gonio {
 
-/// What each of c numbers is that belong to a pair of directions.
+/// The meaning of the c numbers that belong to a pair of directions.
 ///
 /// ```cpp
 /// const gonio::channels bands({450.0, 550.0, 650.0});
@@ -25,34 +25,34 @@ class channels {
   /// Red, green and blue, linear Rec. 709.
   channels() = default;
 
-  /// Wavelengths in nanometres, and the light under which they are seen. Throws gonio::error unless they are positive,
-  /// finite and ascending.
+  /// Takes wavelengths in nanometres, and the light under which they are seen. Throws gonio::error unless they are
+  /// positive, finite and ascending.
   explicit channels(std::vector<double> wavelengths, illuminant light = illuminant::d65);
 
-  /// One value of no stated wavelength, as a photometer reads it.
+  /// Returns the channel of a value without a stated wavelength, as read by a photometer.
   [[nodiscard]] static channels one_value();
 
-  /// The number of channels.
+  /// Returns the number of channels.
   [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
-  /// Red, green and blue?
+  /// Returns true for red, green and blue.
   [[nodiscard]] bool are_colours() const noexcept { return size_ == 3 && wavelengths_.empty(); }
-  /// Several wavelengths?
+  /// Returns true for several wavelengths.
   [[nodiscard]] bool are_wavelengths() const noexcept { return wavelengths_.size() > 1; }
-  /// Nanometres, ascending; none for colours, and for a value of no stated wavelength.
+  /// Returns the wavelengths in nanometres, ascending; none for colours, and for a value without a stated wavelength.
   [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return wavelengths_; }
-  /// Under which wavelengths are seen.
+  /// Returns the light under which wavelengths are seen.
   [[nodiscard]] illuminant light() const noexcept { return light_; }
-  /// "red", "550 nm", "value".
+  /// Returns "red", "550 nm", or "value", for example.
   [[nodiscard]] std::string name(Eigen::Index channel) const;
 
-  /// Do they make a colour? Wavelengths do if one of them is visible; one channel, whatever it is, makes a grey.
+  /// Returns true if the channels make a colour. Several wavelengths do if one of them is visible; one channel is grey.
   [[nodiscard]] bool have_colour() const noexcept { return !are_wavelengths() || colour_.has_value(); }
-  /// The linear Rec. 709 colour of as many values; black where no wavelength is visible.
+  /// Returns the linear Rec. 709 colour of a value for each channel; black if no wavelength is visible.
   [[nodiscard]] rgb colour(std::span<const double> values) const;
-  /// Three numbers for whoever looks at three and shows none: the colour or, where no wavelength is visible, the means
-  /// of the lower, the middle and the upper third of the wavelengths.
+  /// Returns three numbers for computing, not for display: the colour or, if no wavelength is visible, the means of the
+  /// lower, the middle and the upper third of the wavelengths.
   [[nodiscard]] rgb three(std::span<const double> values) const;
-  /// The same channels under another light.
+  /// Returns the same channels under another light.
   [[nodiscard]] channels under(illuminant light) const;
 
   [[nodiscard]] friend bool operator==(const channels& a, const channels& b) {
@@ -66,7 +66,7 @@ class channels {
   std::optional<spectral_colour> colour_;  ///< of several wavelengths, if one is visible
 };
 
-/// Refuses invisible wavelengths: throws gonio::error saying that `name` has no colour.
+/// Throws gonio::error, saying that `name` has no colour, if no wavelength is visible.
 void require_colour(const channels& all, const std::string& name);
 
 }  // namespace gonio

@@ -1,5 +1,5 @@
 #pragma once
-/// The concept of a domain: what the functions of a basis are functions of.
+/// The concept of a domain, over which the functions of a basis are defined.
 
 #include <gonio/table/location.hpp>
 
@@ -11,12 +11,12 @@
 
 namespace gonio {
 
-/// Places numbered from 0 to `size()`: the valid cells of a grid for BRDFs, the coordinates of vertices for shapes.
+/// Locations numbered from 0 to `size()`: the valid cells of a grid for BRDFs, the coordinates of vertices for shapes.
 ///
-/// What the compiler cannot check, and a model must keep: copies are cheap; two that are equal number the same
-/// locations alike; `locate_cell(locations, i)`, found beside the type, is the location that reads location i alone. A
-/// thing is observed over a domain in three channels of colour, unless the domain says otherwise: `static constexpr int
-/// channels = 1;`.
+/// Requirements that the compiler cannot check: copies are cheap; equal domains number the same locations in the same
+/// way; `locate_cell(locations, i)`, found by argument-dependent lookup, returns the location that reads only location
+/// i. Observations over a domain have three channels of colour, unless the domain declares otherwise: `static constexpr
+/// int channels = 1;`.
 ///
 /// ```cpp
 /// struct wavelengths {
@@ -37,7 +37,7 @@ concept domain = std::copyable<Places> && std::equality_comparable<Places> &&
 
 static_assert(domain<valid_cells>);
 
-/// In how many channels a thing is observed over a domain.
+/// The number of channels of an observation over a domain.
 template <domain Places>
 inline constexpr int channels_over = 3;
 
@@ -45,7 +45,7 @@ template <domain Places>
 requires requires { Places::channels; }
 inline constexpr int channels_over<Places> = Places::channels;
 
-/// The channels of what was observed at some wavelengths, or, without any, in colours.
+/// Returns the number of channels of an observation at some wavelengths or, without any, in colours.
 template <domain Places>
 [[nodiscard]] Eigen::Index channels_at(const std::vector<double>& wavelengths) noexcept {
   return wavelengths.empty() ? channels_over<Places> : std::ssize(wavelengths);

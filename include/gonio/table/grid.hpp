@@ -1,7 +1,7 @@
 #pragma once
-/// Regular grids over (theta_h, theta_d, phi_d) in MERL's layout: theta_d and phi_d are uniform over
-/// [0, pi/2] and [0, pi], theta_h is finer towards the highlight, with node position proportional to
-/// sqrt(theta_h). Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
+/// Regular grids over (theta_h, theta_d, phi_d) in MERL's layout. theta_d and phi_d are uniform over [0, pi/2] and [0,
+/// pi]. theta_h is finer towards the highlight: the node position is proportional to sqrt(theta_h). Matusik et al., "A
+/// Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
@@ -18,14 +18,14 @@
 
 namespace gonio {
 
-/// A value of a MERL file times this is reflectance in sr^-1: red, green and blue.
+/// Factors from the values of a MERL file to reflectance in sr^-1: red, green and blue.
 inline constexpr std::array<double, 3> merl_scale{1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
 
-/// Cosines up to this size are those of directions on the horizon, up to rounding: whether the cosine of a node there
-/// comes out as 1e-17 or -1e-17 depends on the compiler.
+/// Cosines up to this size count as the horizon. Whether the cosine of a node on the horizon is 1e-17 or -1e-17 depends
+/// on the compiler.
 inline constexpr double horizon_cosine = 1e-9;
 
-/// Where in its cell a table's value was taken.
+/// The position in a cell at which its value was taken.
 enum class cell_anchor { centre, lower_corner };
 
 /// Index of a cell along each axis.
@@ -48,8 +48,8 @@ struct grid_extents {
 
 /// A grid of any extents; the default is MERL's 90 x 90 x 180 with values at cell centres.
 ///
-/// Cells are numbered linearly with phi_d fastest and theta_h slowest, as in MERL's files. Along an axis
-/// a *coordinate* counts in cells such that node i has coordinate i, whichever the anchor.
+/// Cells are numbered linearly with phi_d fastest and theta_h slowest, as in MERL's files. A *coordinate* along an axis
+/// counts in cells such that node i has coordinate i, for either anchor.
 class grid {
  public:
   /// Throws gonio::error unless every extent is in [1, 4096].
@@ -62,7 +62,7 @@ class grid {
   [[nodiscard]] const grid_extents& extents() const noexcept { return extents_; }
   [[nodiscard]] cell_anchor anchor() const noexcept { return anchor_; }
 
-  /// Number of cells, valid or not.
+  /// Returns the number of cells, valid or not.
   [[nodiscard]] Eigen::Index size() const noexcept {
     return Eigen::Index{extents_.theta_h} * extents_.theta_d * extents_.phi_d;
   }
@@ -77,7 +77,7 @@ class grid {
             static_cast<int>(linear % phi)};
   }
 
-  /// theta_h of the node with this coordinate, in radians.
+  /// Returns theta_h of the node with this coordinate, in radians.
   [[nodiscard]] double theta_h(double coordinate) const noexcept {
     const double fraction = (coordinate + offset()) / extents_.theta_h;
     return fraction * fraction * half_pi;
@@ -89,7 +89,7 @@ class grid {
     return (coordinate + offset()) / extents_.phi_d * std::numbers::pi;
   }
 
-  /// The angles at which the value of a cell was taken.
+  /// Returns the angles at which the value of a cell was taken.
   [[nodiscard]] half_difference angles(const cell_index& cell) const noexcept {
     return {theta_h(cell.theta_h), theta_d(cell.theta_d), phi_d(cell.phi_d)};
   }
@@ -104,7 +104,7 @@ class grid {
     return extents_.phi_d * (fold_phi_d(phi_d) / std::numbers::pi) - offset();
   }
 
-  /// The cell whose node is nearest in coordinates; angles outside the grid go to its border, phi_d wraps.
+  /// Returns the cell whose node is nearest in coordinates. Angles outside of the grid go to its border; phi_d wraps.
   [[nodiscard]] cell_index nearest(const half_difference& angles) const noexcept {
     const int phi = static_cast<int>(std::floor(phi_d_coordinate(angles.phi_d) + 0.5));
     return {nearest_node(theta_h_coordinate(angles.theta_h), extents_.theta_h),
@@ -132,8 +132,8 @@ inline void grid::refuse_extents(const grid_extents& extents) {
                      " cells: every extent must be from 1 to 4096"}));
 }
 
-/// Calls `visit(linear, cosine)` for every cell of a grid in linear order with the smaller of the two cosines at
-/// its node, sum - |difference cos phi_d| in the terms of `cosines`: a few operations a cell instead of five
+/// Calls `visit(linear, cosine)` for every cell of a grid in linear order, with the smaller of the two cosines at its
+/// node: sum - |difference cos phi_d| in the terms of `cosines`. This takes a few operations a cell instead of five
 /// trigonometric functions.
 template <class Visit>
 void for_each_smaller_cosine(const grid& cells, Visit&& visit) {

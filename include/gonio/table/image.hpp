@@ -13,7 +13,7 @@ namespace gonio {
 /// An image of shape (rows, columns, 3), top row first: linear light in Rec. 709 primaries.
 using image = xt::xtensor<float, 3>;
 
-/// An image of one colour.
+/// Returns an image of one colour.
 [[nodiscard]] image uniform_image(std::size_t rows, std::size_t columns, const rgb& colour = rgb::Zero());
 
 [[nodiscard]] inline rgb pixel(const image& picture, std::size_t row, std::size_t column) noexcept {

@@ -1,6 +1,6 @@
 #pragma once
-/// A location on a grid at which a field over its valid cells is read: a cell itself, or the corners of the
-/// box around a direction pair with their trilinear weights.
+/// A location on a grid at which a field over its valid cells is read: a cell itself, or the corners of the box around
+/// a direction pair with their trilinear weights.
 
 #include <gonio/table/valid_cells.hpp>
 
@@ -14,8 +14,8 @@
 
 namespace gonio {
 
-/// Where a field is read: at most eight valid cells with weights that sum to 1, and the exact angles and
-/// cosines of the location, which metrics need and interpolation would blur.
+/// The cells from which a field is read: at most eight valid cells with weights that sum to 1. Also has the exact
+/// angles and cosines of the location, which metrics need and interpolation would blur.
 struct location {
   std::array<std::uint32_t, 8> cell{};
   std::array<double, 8> weight{};
@@ -23,11 +23,11 @@ struct location {
   half_difference angles;
   cosine_pair cosine;
 
-  /// Is the location above the horizon for both directions?
+  /// Returns true if both directions are above the horizon.
   [[nodiscard]] bool above_horizon() const noexcept { return cosine.i > 0.0 && cosine.o > 0.0; }
 };
 
-/// The location that reads one location alone. Without angles: the location may not have any.
+/// Returns the location that reads a single cell. It has no angles, because a domain may have none.
 [[nodiscard]] inline location location_of(Eigen::Index place) noexcept {
   location at;
   at.cell[0] = static_cast<std::uint32_t>(place);
@@ -36,7 +36,7 @@ struct location {
   return at;
 }
 
-/// The location of a cell's own node.
+/// Returns the location of a cell's own node.
 [[nodiscard]] inline location locate_cell(const valid_cells& cells, Eigen::Index cell) noexcept {
   location at = location_of(cell);
   at.angles = cells.angles(cell);
@@ -52,8 +52,8 @@ struct axis_interval {
   std::array<double, 2> weight;
 };
 
-/// The node at or below a coordinate and how far the coordinate lies beyond it. Nodes round to themselves:
-/// otherwise a node reached through an angle would drag in a neighbour with a weight of 1e-15.
+/// Returns the node at or below a coordinate, and the distance from it. A coordinate within 1e-9 of a node is the node:
+/// otherwise a node computed from an angle would read a neighbour with a weight of 1e-15.
 [[nodiscard]] inline std::pair<int, double> split_coordinate(double coordinate) noexcept {
   constexpr double snap = 1e-9;
   const double node = std::floor(coordinate + snap);
@@ -61,13 +61,13 @@ struct axis_interval {
   return {static_cast<int>(node), fraction < snap ? 0.0 : fraction};
 }
 
-/// On an axis that ends: beyond the first and last node their values hold.
+/// Returns the interval on an axis that ends: values of the first and last node continue outside.
 [[nodiscard]] inline axis_interval clamped_interval(double coordinate, int extent) noexcept {
   const auto [node, fraction] = split_coordinate(std::clamp(coordinate, 0.0, static_cast<double>(extent - 1)));
   return {{node, std::min(node + 1, extent - 1)}, {1.0 - fraction, fraction}};
 }
 
-/// On an axis that wraps.
+/// Returns the interval on an axis that wraps.
 [[nodiscard]] inline axis_interval periodic_interval(double coordinate, int extent) noexcept {
   const auto [node, fraction] = split_coordinate(coordinate);
   return {{(node + extent) % extent, (node + 1) % extent}, {1.0 - fraction, fraction}};
@@ -75,10 +75,9 @@ struct axis_interval {
 
 }  // namespace detail
 
-/// Trilinear interpolation in the grid's own coordinates. theta_h and theta_d are clamped to the first
-/// and last node, phi_d wraps (reciprocity), and a corner below the horizon is replaced by its
-/// representative, so no invalid cell is ever read. At a node the weights of the others are zero and
-/// left out.
+/// Interpolates trilinearly in the grid's own coordinates. theta_h and theta_d are clamped to the first and last node;
+/// phi_d wraps (reciprocity). A corner below the horizon is replaced by its representative, so that no invalid cell is
+/// read. Corners of weight zero are left out.
 [[nodiscard]] inline location locate(const valid_cells& cells, const half_difference& angles) noexcept {
   const grid& over = cells.grid();
   const grid_extents extents = over.extents();
@@ -101,7 +100,7 @@ struct axis_interval {
   return at;
 }
 
-/// The weighted mean of `value(cell)` over a location's cells; `zero` starts the sum.
+/// Returns the weighted mean of `value(cell)` over a location's cells; `zero` starts the sum.
 template <class Value, class Zero>
 [[nodiscard]] Zero interpolate(const location& at, Value&& value, Zero zero) {
   for (int corner = 0; corner < at.count; ++corner) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Tables of many materials that are read a block of cells at a time, wherever they live: 10,000 of them on MERL's grid
+/// Tables of many materials that are read a block of cells at a time from any source: 10,000 of them on MERL's grid
 /// take 130 GB.
 
 #include <gonio/core/parallel.hpp>
@@ -13,28 +13,29 @@
 
 namespace gonio {
 
-/// Where a block of cells is written: contiguous rows, any distance between them.
+/// The destination of a block of cells: contiguous rows at any distance.
 using cell_rows = Eigen::Ref<cell_matrix, 0, Eigen::OuterStride<>>;
 
-/// Named materials over common cells. `read(range, out)` writes the values of a block of cells, in sr^-1, into `out`,
-/// a row for each cell, all channels of the first material before those of the next. It is called from several threads
-/// at once, and may be asked for the same cells again.
+/// Named materials over common cells. `read(range, out)` writes the values of a block of cells, in sr^-1, into `out`: a
+/// row for each cell, with all channels of the first material before those of the next. It is called from several
+/// threads at once, and may be called repeatedly for the same cells.
 struct material_rows {
   valid_cells cells;
   std::vector<std::string> names;
   std::function<void(block range, cell_rows out)> read;
-  std::vector<double> wavelengths = {};  ///< of the channels of each, nanometres, ascending; none: red, green and blue
+  std::vector<double> wavelengths =
+      {};  ///< of the channels of each, nanometres, ascending; none for red, green and blue
 
-  /// The channels of each material: its wavelengths, or three.
+  /// Returns the number of channels of each material: its wavelengths, or three.
   [[nodiscard]] Eigen::Index channels() const noexcept { return channels_at<valid_cells>(wavelengths); }
   [[nodiscard]] Eigen::Index columns() const noexcept { return channels() * std::ssize(names); }
 };
 
-/// Those of a set that is at hand.
+/// Returns the materials of a set in memory.
 [[nodiscard]] material_rows rows_of(material_set materials);
 
-/// The materials of these numbers, in their order. Reading them reads all. Throws gonio::error if there is none of a
-/// number.
+/// Returns the materials at these positions, in this order. Reading a subset reads every material. Throws gonio::error
+/// for an invalid position.
 [[nodiscard]] material_rows subset(const material_rows& materials, const std::vector<Eigen::Index>& chosen);
 
 }  // namespace gonio

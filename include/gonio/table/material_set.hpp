@@ -25,21 +25,21 @@ struct material_set {
   std::vector<std::string> names;
   cell_matrix values;
 
-  /// Position of a material. Throws gonio::error if there is none of that name.
+  /// Returns the position of a material. Throws gonio::error if none has that name.
   [[nodiscard]] Eigen::Index find(const std::string& name) const;
 
-  /// A copy of one material's table.
+  /// Returns a copy of one material's table.
   [[nodiscard]] brdf_table table(Eigen::Index material) const;
 
-  /// A copy of some of the materials, by their positions. Throws gonio::error for a position that there is not.
+  /// Returns a copy of some of the materials, by their positions. Throws gonio::error for an invalid position.
   [[nodiscard]] material_set subset(const std::vector<Eigen::Index>& positions) const;
 };
 
-/// The family of a material, those of one maker: its name before the first underscore.
+/// Returns the family of a material, which identifies its maker: its name before the first underscore.
 [[nodiscard]] inline std::string material_family(const std::string& name) { return name.substr(0, name.find('_')); }
 
-/// What a basis is learned from: named things over a common domain, `cells`, with a row of `values` for each location
-/// of it and a column for each channel of each thing. Materials are, and shapes.
+/// Data from which a basis is learned: named things over a common domain, `cells`. `values` has a row for each location
+/// and a column for each channel of each thing. Materials and shapes are such sets.
 template <class Set>
 concept observation_set = requires(Set& things) {
   requires domain<std::remove_cvref_t<decltype(things.cells)>>;
@@ -49,11 +49,11 @@ concept observation_set = requires(Set& things) {
 
 static_assert(observation_set<material_set>);
 
-/// What the things of a set are observed over.
+/// The domain of a set.
 template <observation_set Set>
 using domain_of_set = std::remove_cvref_t<decltype(std::declval<Set&>().cells)>;
 
-/// Throws gonio::error unless there is a thing, with all of its columns and a row for each location.
+/// Throws gonio::error unless there is at least one thing, with all of its columns and a row for each location.
 template <observation_set Set>
 void require_complete(const Set& things) {
   constexpr Eigen::Index channels = channels_over<domain_of_set<Set>>;
@@ -63,8 +63,8 @@ void require_complete(const Set& things) {
         {"a basis needs at least one material, of ", channels, " columns each over ", things.cells.size(), " cells"});
 }
 
-/// Throws gonio::error naming the first material that is not finite at a cell. (Who observes other things
-/// checks them first, in their own words.)
+/// Throws gonio::error naming the first material that is not finite at a cell. (Code for other observations checks them
+/// first, with its own messages.)
 template <observation_set Set>
 void require_finite(const Set& things, Eigen::Index cell) {
   const auto row = things.values.row(cell);
@@ -75,8 +75,8 @@ void require_finite(const Set& things, Eigen::Index cell) {
   refuse({"material '", things.names[thing], "' is not finite at cell ", cell});
 }
 
-/// Replaces each value at a cell by `map` of it. Throws gonio::error naming the first thing that is not finite
-/// there, before or after: a map may hide an infinity, or overflow.
+/// Replaces each value at a cell by `map` of it. Throws gonio::error naming the first thing that is not finite there,
+/// before or after: a map may hide an infinity, or overflow.
 template <observation_set Set, class Map>
 void map_cell(Set& things, Eigen::Index cell, Map&& map) {
   require_finite(things, cell);

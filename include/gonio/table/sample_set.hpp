@@ -1,5 +1,5 @@
 #pragma once
-/// Scattered measurements of a BRDF: what a laboratory hands in, and every estimator takes.
+/// Scattered measurements of a BRDF: the input of every estimator.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>
@@ -22,7 +22,7 @@
 
 namespace gonio {
 
-/// How much a measurement counts in each colour channel. A number alone counts in all three: `sample.weight = 0.5`.
+/// The weight of a measurement in each colour channel. A single number applies to all three: `sample.weight = 0.5`.
 class channel_weights {
  public:
   channel_weights(double of_all = 1.0) : of_each_(of_all, of_all, of_all) {}
@@ -31,9 +31,9 @@ class channel_weights {
   [[nodiscard]] double operator[](Eigen::Index channel) const { return of_each_[channel]; }
   [[nodiscard]] const rgb& of_each() const noexcept { return of_each_; }
   [[nodiscard]] double mean() const { return of_each_.sum() / 3.0; }
-  /// Do all channels count alike?
+  /// Returns true if all channels have the same weight.
   [[nodiscard]] bool is_uniform() const noexcept { return of_each_[0] == of_each_[1] && of_each_[1] == of_each_[2]; }
-  /// Does the measurement count in any channel?
+  /// Returns true if the measurement has a positive weight in any channel.
   [[nodiscard]] bool counts() const noexcept { return of_each_[0] > 0.0 || of_each_[1] > 0.0 || of_each_[2] > 0.0; }
 
   [[nodiscard]] friend bool operator==(const channel_weights& a, const channel_weights& b) noexcept {
@@ -44,8 +44,8 @@ class channel_weights {
   rgb of_each_;
 };
 
-/// The directions of a measurement as they were given: a pair, which keeps light and viewer apart, or half and
-/// difference angles. Either is read from it; what was given is read back bit by bit.
+/// The directions of a measurement: a pair, which distinguishes light and viewer, or half and difference angles. Both
+/// can be read. The one that was given is stored bit by bit.
 class sample_directions {
  public:
   sample_directions() : sample_directions(half_difference{}) {}
@@ -62,8 +62,8 @@ class sample_directions {
   half_difference angles_;
 };
 
-/// One measurement: where, what (sr^-1, without the cosine; may be negative), how much it counts, and the cones of
-/// directions that it is the mean over.
+/// One measurement: directions, value (sr^-1, without the cosine; may be negative), weight, and the cones of directions
+/// over which the value is a mean.
 struct sample {
   sample_directions directions = {};
   rgb value{0.0, 0.0, 0.0};
@@ -73,7 +73,7 @@ struct sample {
   [[nodiscard]] const half_difference& angles() const noexcept { return directions.angles(); }
 };
 
-/// Any range of measurements in colours, of which a `sample_set` is made. A laboratory hands over a struct of its own:
+/// Any range of measurements in colours that a `sample_set` can be made of. To use a struct of your own:
 /// `estimator.fit(readings | std::views::transform(to_sample))`.
 ///
 /// With a model of the library:
@@ -123,9 +123,9 @@ concept sample_range = requires(Range& range) {
   std::ranges::end(range);
 };
 
-/// n measurements in the same channels: colours, unless it is told that they are others. Those of colours or of one
-/// value, which is the same in red, green and blue, are a sequence of `sample`. Those of several wavelengths are no
-/// colours, and whoever takes them for such is refused: `colours` makes some.
+/// n measurements in the same channels, by default colours. With colours, or with one value, which then is red, green
+/// and blue, the set is a sequence of `sample`. With several wavelengths it is not: access as a sequence throws, and
+/// `colours` converts them.
 ///
 /// ```cpp
 /// gonio::sample_set paint(gonio::channels({450.0, 550.0, 650.0}));
@@ -144,7 +144,7 @@ class sample_set {
   explicit sample_set(std::size_t count, const sample& each = {}) : rows_(count, each) {}
   template <std::input_iterator Iterator>
   sample_set(Iterator first, Iterator last) : rows_(first, last) {}
-  /// Any range of samples of colours.
+  /// Takes any range of samples in colours.
   template <sample_range Samples>
   requires(!std::same_as<std::remove_cvref_t<Samples>, sample_set>) sample_set(const Samples& some)
       : sample_set(std::ranges::begin(some), std::ranges::end(some)) {}
@@ -156,7 +156,7 @@ class sample_set {
 
   // ---- in any channels ----
 
-  /// Of as many values as there are channels, sr^-1.
+  /// Adds a measurement with a value for each channel, sr^-1.
   void add(const sample_directions& directions, std::span<const double> values, const channel_weights& weight = 1.0,
            const gonio::aperture& aperture = {});
   void add(const sample_directions& directions, const Eigen::ArrayXd& values, const channel_weights& weight = 1.0,
@@ -164,33 +164,33 @@ class sample_set {
     add(directions, std::span(values.data(), static_cast<std::size_t>(values.size())), weight, aperture);
   }
   [[nodiscard]] const sample_directions& directions(Eigen::Index i) const noexcept { return rows_[i].directions; }
-  /// As many as there are channels, sr^-1.
+  /// Returns a value for each channel, sr^-1.
   [[nodiscard]] std::span<const double> values(Eigen::Index i) const noexcept {
     const Eigen::Index count = channels_.size();
     const double* first = channels_.are_wavelengths() ? spectra_.data() + i * count : rows_[i].value.data();
     return {first, static_cast<std::size_t>(count)};
   }
-  /// Of several wavelengths, all weigh the same.
+  /// Returns the weight of a measurement. With several wavelengths it is the same for all.
   [[nodiscard]] const channel_weights& weight(Eigen::Index i) const noexcept { return rows_[i].weight; }
 
   [[nodiscard]] const gonio::aperture& aperture(Eigen::Index i) const noexcept { return rows_[i].aperture; }
-  /// Is one of the measurements a mean over cones?
+  /// Returns true if one of the measurements is a mean over cones.
   [[nodiscard]] bool have_apertures() const noexcept {
     return std::ranges::any_of(rows_, [](const sample& each) { return !each.aperture.is_point(); });
   }
-  /// The same measurements through one aperture.
+  /// Returns the same measurements through one aperture.
   [[nodiscard]] sample_set through(const gonio::aperture& aperture) const;
 
-  /// Some of the measurements, by their positions.
+  /// Returns some of the measurements, by their positions.
   [[nodiscard]] sample_set subset(std::span<const Eigen::Index> positions) const;
-  /// One channel of the measurements.
+  /// Returns one channel of the measurements.
   [[nodiscard]] sample_set channel(Eigen::Index c) const;
-  /// The same measurements, wavelengths being seen under another light.
+  /// Returns the same measurements with wavelengths seen under another light.
   [[nodiscard]] sample_set under(illuminant light) const;
-  /// The measurements as linear Rec. 709 under their light; those of one channel are grey. Throws gonio::error if none
-  /// of several wavelengths is visible.
+  /// Returns the measurements as linear Rec. 709 under their light; one channel becomes grey. Throws gonio::error if
+  /// none of several wavelengths is visible.
   [[nodiscard]] sample_set colours() const;
-  /// For whoever looks at three channels and shows none: see `channels::three`.
+  /// Returns the measurements in three channels for computing, not for display: see `channels::three`.
   [[nodiscard]] sample_set in_three_channels() const;
 
   // ---- a sequence; throws gonio::error for several wavelengths ----
@@ -223,25 +223,24 @@ class sample_set {
     return rows_;
   }
   [[noreturn]] void refuse_wavelengths() const;
-  /// The same measurements with another value each.
+  /// Returns the same measurements with other values.
   [[nodiscard]] sample_set with_values(gonio::channels kinds, const std::function<rgb(Eigen::Index)>& value) const;
 
   gonio::channels channels_;
   std::vector<sample> rows_;
-  std::vector<double> spectra_;  ///< of several wavelengths, n x channels; values of `rows_` mean nothing then
+  std::vector<double> spectra_;  ///< of several wavelengths, n x channels; `rows_` then has no values
 };
 static_assert(sample_range<sample_set>);
 
-/// Refuses what no estimator can use: throws gonio::error naming the first sample that is not finite or beyond the
-/// range of float, has a negative weight, or has a direction at or below the horizon, or saying that there is none at
-/// all.
+/// Throws gonio::error if there is no sample. Also throws, naming the first sample, if one is not finite or outside the
+/// range of float, has a negative weight, or has a direction at or below the horizon.
 void require_usable(const sample_set& samples);
 
-/// The positions of the measurements that count in any channel, which are those that estimators keep.
+/// Returns the positions of the measurements of positive weight in any channel, which estimators keep.
 [[nodiscard]] std::vector<Eigen::Index> counting_positions(const sample_set& samples);
 
-/// Does one of the measurements count more in one channel than in another? They are samples, or whatever else has a
-/// `weight` of type `channel_weights`.
+/// Returns true if the weight of any measurement differs between channels. Takes samples, or any type with a `weight`
+/// of type `channel_weights`.
 template <class Measurements>
 [[nodiscard]] bool weigh_channels_apart(const Measurements& measurements) {
   using value = std::iter_value_t<decltype(std::ranges::begin(measurements))>;

@@ -16,43 +16,44 @@
 namespace gonio {
 
 /// Reflectance in sr^-1 at w wavelengths, tabulated over valid cells, cell-major: the spectrum of a cell is contiguous.
-/// 31 wavelengths over MERL's grid take 136 MB. No `brdf`, whose values are colours, and no `brdf_table`, which
-/// renderers read by threes: `colours` and `at_wavelength` are.
+/// 31 wavelengths over MERL's grid take 136 MB. It does not model `brdf`, whose values are colours. `colours` and
+/// `at_wavelength` return a `brdf_table`, which does.
 class spectral_table {
  public:
-  /// A table of zeros. Wavelengths in nanometres. Throws gonio::error unless they are positive, finite and ascending.
+  /// Makes a table of zeros. Wavelengths are in nanometres. Throws gonio::error unless they are positive, finite and
+  /// ascending.
   spectral_table(valid_cells cells, std::vector<double> wavelengths);
 
-  /// Takes values of shape (cells, w). Throws gonio::error if they have another, too.
+  /// Takes values of shape (cells, w). Also throws gonio::error for another shape.
   spectral_table(valid_cells cells, std::vector<double> wavelengths, cell_matrix values);
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
-  /// Nanometres, ascending.
+  /// Returns the wavelengths in nanometres, ascending.
   [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return wavelengths_; }
-  /// The number of wavelengths, w.
+  /// Returns the number of wavelengths, w.
   [[nodiscard]] Eigen::Index bands() const noexcept { return values_.cols(); }
-  /// cells x w.
+  /// Returns the values, cells x w.
   [[nodiscard]] const cell_matrix& values() const noexcept { return values_; }
   [[nodiscard]] cell_matrix& values() noexcept { return values_; }
 
-  /// The w reflectances of a cell.
+  /// Returns the w reflectances of a cell.
   [[nodiscard]] std::span<const float> at(Eigen::Index cell) const noexcept {
     return {values_.data() + cell * bands(), static_cast<std::size_t>(bands())};
   }
 
-  /// The spectrum in a pair of directions by trilinear interpolation, w values; zero below the horizon.
+  /// Interpolates the spectrum of a pair of directions trilinearly, w values; zero below the horizon.
   [[nodiscard]] Eigen::ArrayXf operator()(const direction& wi, const direction& wo) const {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return Eigen::ArrayXf::Zero(bands());
     return at(locate(cells_, to_half_difference(wi, wo)));
   }
 
-  /// The same at a location on this table's cells.
+  /// Interpolates the spectrum at a location on this table's cells.
   [[nodiscard]] Eigen::ArrayXf at(const location& place) const;
 
-  /// One wavelength, the same in all three channels.
+  /// Returns one wavelength, the same in all three channels.
   [[nodiscard]] brdf_table at_wavelength(Eigen::Index band) const;
 
-  /// The table as linear Rec. 709 under an illuminant (`spectral_colour`); of one wavelength it is grey. Throws
+  /// Returns the table as linear Rec. 709 under an illuminant (`spectral_colour`); one wavelength is grey. Throws
   /// gonio::error if none of several wavelengths is visible.
   [[nodiscard]] brdf_table colours(illuminant light = illuminant::d65, thread_count threads = {}) const;
 
@@ -62,8 +63,8 @@ class spectral_table {
   cell_matrix values_;
 };
 
-/// A table by a table of colours for each three wavelengths, which stand in the places of red, green and blue; `three`
-/// is asked for those from a wavelength on, by its position. Those beyond the last are left out.
+/// Makes a table from tables of colours, each of which has three wavelengths in place of red, green and blue. Calls
+/// `three` with the position of the first of each three wavelengths. Ignores channels after the last wavelength.
 [[nodiscard]] spectral_table tabulate_by_threes(const valid_cells& cells, std::vector<double> wavelengths,
                                                 const std::function<brdf_table(Eigen::Index first)>& three);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What an image file stores before any meaning is given to it: the counts of a camera that writes such files.
+/// The numbers that an image file stores, before interpretation: the counts of a camera that writes such files.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace gonio {
 
-/// Three codes of each pixel. Files of one channel have three equal ones.
+/// Three codes for each pixel. For files of one channel, all three are equal.
 struct stored_codes {
   std::size_t rows = 0, columns = 0;
-  std::uint16_t largest = 255;        ///< that the file can hold: 65535 of a file of 16 bits
+  std::uint16_t largest = 255;        ///< the largest code of the file: 65535 for 16 bits
   std::vector<std::uint16_t> values;  ///< row by row, red, green and blue of a pixel adjacent
 
   [[nodiscard]] std::uint16_t at(std::size_t row, std::size_t column, std::size_t channel) const {

@@ -1,5 +1,5 @@
 #pragma once
-/// What each pixel of an image sees of a surface: the place of the point and its normal.
+/// The surface point and normal that each pixel of an image sees.
 
 #include <gonio/core/error.hpp>
 
@@ -9,14 +9,14 @@
 
 namespace gonio {
 
-/// A surface as a camera sees it: a column for each pixel, row by row, in the camera's world and unit of length. It
-/// may come from a formula, from a map of normals or from a mesh. 48 bytes a pixel.
+/// A surface as seen by a camera: a column for each pixel, row by row, in the camera's world frame and unit of length.
+/// It may come from a formula, from a normal map or from a mesh. 48 bytes a pixel.
 struct surface_image {
   std::size_t rows = 0, columns = 0;
   Eigen::Matrix3Xd positions;
-  Eigen::Matrix3Xd normals;  ///< of length 1; zero where a pixel does not see the surface
+  Eigen::Matrix3Xd normals;  ///< of length 1; zero if a pixel does not see the surface
 
-  /// An image of so many pixels that sees nothing yet.
+  /// Returns an image of this size that sees nothing.
   [[nodiscard]] static surface_image nothing(std::size_t rows, std::size_t columns) {
     const auto pixels = static_cast<Eigen::Index>(rows * columns);
     return {rows, columns, Eigen::Matrix3Xd::Zero(3, pixels), Eigen::Matrix3Xd::Zero(3, pixels)};

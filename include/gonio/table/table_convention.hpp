@@ -1,7 +1,7 @@
 #pragma once
-/// Where in its cells a table's values were taken, and how to tell that of a MERL file, which does not say: by its
-/// cells without a value, -1 in all three planes. Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003
-/// (doi:10.1145/882262.882343).
+/// Determines at which position in its cells a table's values were taken. A MERL file does not state it, but the
+/// pattern of its cells without a value, -1 in all three planes, reveals it. Matusik et al., "A Data-Driven Reflectance
+/// Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 
 #include <gonio/core/error.hpp>
 #include <gonio/table/grid.hpp>
@@ -17,7 +17,7 @@
 
 namespace gonio {
 
-/// Where in its cells a table's values were taken, and how far above the horizon they begin.
+/// The position in its cells at which a table's values were taken, and the smallest cosine of a cell with a value.
 struct table_convention {
   cell_anchor anchor = cell_anchor::centre;
   double minimum_cosine = 0.0;
@@ -27,23 +27,23 @@ struct table_convention {
 
 namespace detail {
 
-/// What the format writes into all three planes of a cell without a value.
+/// The value in all three planes of a cell without a value.
 inline constexpr double merl_empty = -1.0;
 
-/// How an anchor sorts the cells by the smaller of their two cosines.
+/// The range of the smaller cosines of marked and unmarked cells, for one anchor.
 struct mark_statistics {
   double largest_marked = -std::numeric_limits<double>::infinity();
   double smallest_unmarked = std::numeric_limits<double>::infinity();
 
-  /// How well the anchor explains the marks: 0 not at all; 1 by a threshold, but cells below the horizon
-  /// are filled; 2 by a threshold above the horizon; 3 by the horizon itself.
+  /// Returns how well the anchor explains the marks. 0: not at all. 1: by a threshold, but cells below the horizon are
+  /// filled. 2: by a threshold above the horizon. 3: by the horizon itself.
   [[nodiscard]] int rank() const noexcept {
     if (!std::isfinite(smallest_unmarked) || !(largest_marked + horizon_cosine < smallest_unmarked)) return 0;
     if (smallest_unmarked <= 0.0) return 1;
     return largest_marked > 0.0 ? 2 : 3;
   }
 
-  /// The threshold that belongs to it, never below the horizon.
+  /// Returns the corresponding threshold, never below the horizon.
   [[nodiscard]] double minimum_cosine() const noexcept {
     return rank() == 2 ? 0.5 * (largest_marked + smallest_unmarked) : 0.0;
   }
@@ -64,14 +64,13 @@ template <std::predicate<std::size_t> Marked>
 
 }  // namespace detail
 
-/// Finds the convention of a table from which of its cells are marked as empty.
+/// Infers the convention of a table from the cells that are marked as empty.
 ///
-/// An anchor explains the marks if at its nodes the smaller cosine of every marked cell lies below that of
-/// every unmarked one. Its minimum cosine is 0 unless marked cells lie above the horizon, then the middle
-/// of the gap. Where both anchors explain them, one with the horizon in its gap goes before one with a gap
-/// above it, and that before one with filled cells below the horizon; among equals the centre. Where
-/// neither does, as for the files of the MERL database itself, and where nothing is marked, the answer is
-/// centre and 0. Cells within 1e-9 of the horizon have no say.
+/// An anchor explains the marks if the smaller cosine of every marked cell, at the anchor's node, is below that of
+/// every unmarked one. Its minimum cosine is 0, or the middle of the gap if marked cells lie above the horizon. If both
+/// anchors explain the marks, an anchor with the horizon in its gap is preferred to one with a gap above it, and that
+/// to one with filled cells below the horizon; the centre wins ties. If neither does, as for the files of the MERL
+/// database itself, or if nothing is marked, the result is centre and 0. Cells within 1e-9 of the horizon are ignored.
 template <std::predicate<std::size_t> Marked>
 [[nodiscard]] table_convention infer_convention(const grid_extents& extents, const Marked& marked) {
   const detail::mark_statistics centre = detail::sort_marks(grid(extents, cell_anchor::centre), marked);
@@ -80,7 +79,7 @@ template <std::predicate<std::size_t> Marked>
   return {cell_anchor::centre, centre.minimum_cosine()};
 }
 
-/// The same of the three planes that stand behind a MERL file's header. Throws gonio::error if they do not have the
+/// Infers the convention from the three planes after a MERL file's header. Throws gonio::error if they do not have the
 /// size of the grid.
 [[nodiscard]] inline table_convention infer_convention(std::span<const double> planes, const grid_extents& extents) {
   const Eigen::Index plane = grid(extents).size();

@@ -1,5 +1,5 @@
 #pragma once
-/// The one place where the library's tables meet xtensor: zero-copy views, and dense arrays for export.
+/// The only interface between the library's tables and xtensor: zero-copy views, and dense arrays for export.
 
 #include <gonio/core/arrays.hpp>
 #include <gonio/table/brdf_table.hpp>
@@ -15,7 +15,7 @@
 
 namespace gonio {
 
-/// A view of shape (cells, 3) on a table's values; the table must outlive it.
+/// Returns a view of shape (cells, 3) on a table's values; the table must outlive it.
 [[nodiscard]] inline auto tensor_view(brdf_table& table) {
   const std::array<std::size_t, 2> shape{table.values().size() / 3, 3};
   return xt::adapt(table.values().data(), table.values().size(), xt::no_ownership(), shape);
@@ -26,7 +26,7 @@ namespace gonio {
   return xt::adapt(table.values().data(), table.values().size(), xt::no_ownership(), shape);
 }
 
-/// A copy of shape (theta_h, theta_d, phi_d, 3), NaN where a direction is below the horizon.
+/// Returns a copy of shape (theta_h, theta_d, phi_d, 3), with NaN if a direction is below the horizon.
 [[nodiscard]] xt::xtensor<float, 4> dense_tensor(const brdf_table& table);
 
 }  // namespace gonio

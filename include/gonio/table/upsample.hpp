@@ -1,8 +1,8 @@
 #pragma once
-/// Interpolates fields over the cells of one grid to all cells of another, a row at a time: what `locate` and
-/// `interpolate` give cell by cell, up to float rounding, at a few operations a value. Trilinear interpolation is a
-/// product of three linear ones, and along an axis it is an arithmetic progression from node to node. Its exponential
-/// is a geometric one: a multiplication a value instead of an exponential.
+/// Interpolates fields over the cells of one grid at all cells of another, a row at a time. The result is that of
+/// `locate` and `interpolate` for each cell, up to float rounding, at a few operations a value. Trilinear interpolation
+/// is a product of three linear ones. Along an axis it is an arithmetic progression from node to node, and its
+/// exponential is a geometric progression: a multiplication a value instead of an exponential.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/parallel.hpp>
@@ -23,12 +23,12 @@ namespace gonio {
 template <int Fields>
 using cell_fields = Eigen::Array<float, Fields, Eigen::Dynamic>;
 
-/// What `upsample` gives between nodes: the weighted mean of the fields there, or of their exponentials, of which the
-/// geometric mean is the exponential of the interpolated field.
+/// The value of `upsample` between nodes: the weighted mean of the fields, or the geometric mean of their exponentials,
+/// which is the exponential of the interpolated field.
 enum class weighted_mean { arithmetic, geometric };
 
-/// The valid cells of a grid with one theta_h and theta_d: neighbours along phi_d, because both cosines depend on
-/// |cos phi_d| alone, numbered one after the other.
+/// The valid cells of a grid with one theta_h and theta_d, numbered consecutively. They are adjacent along phi_d,
+/// because both cosines depend on |cos phi_d| alone.
 struct cell_row {
   Eigen::Index first = 0;        ///< number of the first cell
   Eigen::Index count = 0;        ///< number of cells, at least 1
@@ -39,7 +39,7 @@ struct cell_row {
   double sum = 0.0, difference = 0.0;
   const double* cos_phi_d = nullptr;  ///< by index along phi_d
 
-  /// The cosines of the i-th cell of the row.
+  /// Returns the cosines of the i-th cell of the row.
   [[nodiscard]] cosine_pair cosine(Eigen::Index i) const noexcept {
     const double part = difference * cos_phi_d[first_phi_d + i];
     return {sum - part, sum + part};
@@ -48,28 +48,29 @@ struct cell_row {
 
 namespace detail {
 
-/// Nodes of one grid's axis that follow each other between the same two nodes of another's. They are equally far apart,
-/// so that what is interpolated there is a progression.
+/// Consecutive nodes of one grid's axis between the same two nodes of another's. They are equally spaced, so that the
+/// interpolated values are a progression.
 struct axis_run {
-  /// Rounding grows along a progression: so many nodes at most.
+  /// The largest number of nodes: rounding errors grow along a progression.
   static constexpr Eigen::Index longest = 8;
-  /// Of nodes that are farther apart than this there are too few for a progression to be worth while.
+  /// The largest spacing. With a larger one there are too few nodes for a progression to be worthwhile.
   static constexpr double largest_step = 0.5;
 
   Eigen::Index first = 0, count = 1;
-  std::array<Eigen::Index, 2> around{};  ///< the other axis' nodes
-  float share = 0.0f;                    ///< of the second of them at the first node
-  float step = 0.0f;                     ///< and how much this grows from node to node
+  std::array<Eigen::Index, 2> around{};  ///< the nodes of the other axis
+  float share = 0.0f;                    ///< weight of the second of them at the first node
+  float step = 0.0f;                     ///< increase of this weight from node to node
 };
 
-/// The runs, of at most `longest` nodes, of an axis' nodes, of which `intervals` says where on the other axis they are.
+/// Returns the runs, of at most `longest` nodes, of an axis. `intervals` has the position of each node on the other
+/// axis.
 [[nodiscard]] std::vector<axis_run> axis_runs(std::span<const axis_interval> intervals, Eigen::Index longest);
 
 /// The runs of one grid's axes on those of another.
 struct grid_runs {
   grid_runs(const grid& source, const grid& target, Eigen::Index longest = axis_run::longest);
 
-  std::vector<axis_interval> theta_h;  ///< not equally far apart in angle, and few
+  std::vector<axis_interval> theta_h;  ///< not equally spaced in angle, and few
   std::vector<axis_run> theta_d, phi_d;
 };
 
@@ -78,10 +79,10 @@ class valid_rows {
  public:
   explicit valid_rows(valid_cells cells);
 
-  /// With a count of zero where no cell of the row is valid.
+  /// Returns a row; its count is zero if no cell of the row is valid.
   [[nodiscard]] cell_row row(Eigen::Index theta_h, Eigen::Index theta_d) const;
 
-  /// Is no cell valid between two rows with the same theta_h?
+  /// Returns true if no cell is valid in a range of rows with the same theta_h.
   [[nodiscard]] bool none(Eigen::Index theta_h, block theta_d) const {
     return cells_.row_begin(number(theta_h, theta_d.begin)) == cells_.row_begin(number(theta_h, theta_d.end));
   }
@@ -100,15 +101,15 @@ class valid_rows {
   std::vector<double> cos_phi_d_;
 };
 
-/// Logarithms of what a geometric progression can hold: with steps of a half, the change along both axes of the ratio
-/// from one value to the next is in the range of floats, too.
+/// The largest logarithm for a geometric progression. With steps of a half, the change of the ratio of successive
+/// values along both axes then also is within the range of floats.
 inline constexpr float largest_logarithm = 43.0f;
 
-/// Fields at all cells of a grid, so that blending needs no case for the horizon.
+/// Fields at all cells of a grid, so that blending does not need to treat the horizon separately.
 template <int Fields>
 struct extended_fields {
   cell_fields<Fields> values;
-  std::atomic<bool> fit_progressions = true;  ///< none is beyond `largest_logarithm`
+  std::atomic<bool> fit_progressions = true;  ///< no value exceeds `largest_logarithm`
 
   template <class Read>
   extended_fields(const valid_cells& from, const Read& read, thread_count threads)
@@ -130,7 +131,7 @@ struct extended_fields {
 template <int Fields>
 using fields_of_cell = Eigen::Array<float, Fields, 1>;
 
-/// The source's rows around a theta_h, blended, at the first theta_d of a run; and how much they grow to the next.
+/// Blends the source's rows around a theta_h, at the first theta_d of a run, and computes their growth to the next.
 template <int Fields>
 void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis_interval& h, const axis_run& run,
                 cell_fields<Fields>& first, cell_fields<Fields>& step) {
@@ -145,7 +146,7 @@ void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis
   step *= run.step;
 }
 
-/// Interpolates a line over the source's phi_d to all of the target's.
+/// Interpolates a line over the source's phi_d at all of the target's.
 template <int Fields, weighted_mean Mean>
 class phi_d_line {
  public:
@@ -180,16 +181,16 @@ class phi_d_line {
   }
 
   std::span<const axis_run> runs_;
-  // Of each run its first value, and the step from one of its nodes to the next; and zeros up to whole sixteens.
+  // The first value and the step of each run, padded with zeros to a multiple of sixteen numbers.
   cell_fields<Fields> progressions_;
 };
 
 }  // namespace detail
 
-/// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order; `values` is a
-/// Fields x count array of what the mean gives of the fields there. `read(cell, out)` writes the fields of a cell of
-/// the source. The relative error of a geometric mean is below 4e-7 (5 + |field|), and it is infinite where the field
-/// is beyond 88; if a field is beyond 43, it costs an exponential a value. O(target cells x Fields).
+/// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order. `values` is a Fields x
+/// count array of the mean of the fields there. `read(cell, out)` writes the fields of a cell of the source. The
+/// relative error of a geometric mean is below 4e-7 (5 + |field|); it is infinite for fields above 88. If a field
+/// exceeds 43, every value costs an exponential. O(target cells x Fields).
 template <int Fields, weighted_mean Mean, class Read, class Use>
 void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&& use, thread_count threads = {}) {
   const grid& source = from.grid();

@@ -1,5 +1,5 @@
 #pragma once
-/// The cells of a grid at which both directions are above the horizon. Tables and bases store these only.
+/// The cells of a grid at which both directions are above the horizon. Tables and bases store only these.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/direction.hpp>
@@ -17,13 +17,12 @@ namespace gonio {
 
 /// The valid cells of a grid, numbered from 0 in the grid's linear order.
 ///
-/// A cell is valid by geometry alone, never by the sign of a value stored there: both cosines at its node
-/// exceed `minimum_cosine` and `horizon` (whether the cosine of a node on the horizon comes out as 1e-17 or -1e-17
-/// depends on the compiler). A value type: copies share the index, which costs 4 bytes per grid cell and 4
-/// per valid cell.
+/// A cell is valid by geometry alone, never by the sign of its value: both cosines at its node must exceed
+/// `minimum_cosine` and `horizon`. (Whether the cosine of a node on the horizon is 1e-17 or -1e-17 depends on the
+/// compiler.) A value type; copies share the index, which costs 4 bytes per grid cell and 4 per valid cell.
 class valid_cells {
  public:
-  /// Cosines up to this size are those of directions on the horizon, up to rounding.
+  /// Cosines up to this size count as the horizon.
   static constexpr double horizon = horizon_cosine;
 
   /// O(cells of the grid). Throws gonio::error if no cell is valid.
@@ -33,10 +32,10 @@ class valid_cells {
   [[nodiscard]] const gonio::grid& grid() const noexcept { return index_->grid; }
   [[nodiscard]] double minimum_cosine() const noexcept { return index_->minimum_cosine; }
 
-  /// Number of valid cells.
+  /// Returns the number of valid cells.
   [[nodiscard]] Eigen::Index size() const noexcept { return index_->linear.size(); }
 
-  /// Linear index in the grid of valid cell number `cell`.
+  /// Returns the linear index in the grid of valid cell number `cell`.
   [[nodiscard]] Eigen::Index linear(Eigen::Index cell) const noexcept {
     GONIO_ASSERT(cell < size());
     return index_->linear[cell];
@@ -46,27 +45,27 @@ class valid_cells {
     return grid().angles(grid().cell(linear(cell)));
   }
 
-  /// Is the grid cell with this linear index valid?
+  /// Returns true if the grid cell with this linear index is valid.
   [[nodiscard]] bool contains(Eigen::Index linear) const noexcept {
     return index_->linear[index_->representative[linear]] == linear;
   }
 
-  /// Number of the valid cell that stands for a cell of the grid: the cell itself where it is valid,
-  /// otherwise the valid one with the same theta_d and phi_d and the largest smaller theta_h. This
-  /// continues a field beyond the horizon, so that interpolation near it reads valid cells only.
+  /// Returns the number of the valid cell that represents a cell of the grid: the cell itself if it is valid, otherwise
+  /// the valid one with the same theta_d and phi_d and the largest smaller theta_h. This continues a field below the
+  /// horizon, so that interpolation near it reads only valid cells.
   [[nodiscard]] Eigen::Index representative(Eigen::Index linear) const noexcept {
     return index_->representative[linear];
   }
 
-  /// Number of the first valid cell at or after grid row `row` (theta_h and theta_d fixed, phi_d running; rows
-  /// are numbered in linear order). The cells of a row are those from its own first to the next row's.
+  /// Returns the number of the first valid cell at or after grid row `row`. A row has fixed theta_h and theta_d; rows
+  /// are numbered in linear order. The cells of a row end at the first cell of the next row.
   [[nodiscard]] Eigen::Index row_begin(Eigen::Index row) const noexcept { return index_->row_begin[row]; }
 
-  /// Linear index in the grid of a row's first valid cell, if it has one: `linear` of `row_begin`, from a list that
-  /// stays in the cache.
+  /// Returns the linear index in the grid of a row's first valid cell, if it has one. Equals `linear` of `row_begin`,
+  /// from a list that stays in the cache.
   [[nodiscard]] Eigen::Index row_linear(Eigen::Index row) const noexcept { return index_->row_linear[row]; }
 
-  /// Do both describe the same cells of the same grid?
+  /// Returns true if both describe the same cells of the same grid.
   friend bool operator==(const valid_cells& a, const valid_cells& b) noexcept {
     return a.index_ == b.index_ || (a.grid() == b.grid() && a.index_->linear == b.index_->linear);
   }

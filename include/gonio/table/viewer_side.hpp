@@ -1,20 +1,20 @@
 #pragma once
-/// On which side of the normal the viewer is: instruments count angles and azimuths from the light or from the mirror
-/// direction, and a scan that is read the wrong way round has its highlight where the light comes from.
+/// Determines on which side of the normal the viewer is. Instruments count angles and azimuths from the light or from
+/// the mirror direction. A scan read with the wrong convention has its highlight in the direction of the light.
 
 #include <gonio/table/sample_set.hpp>
 
 namespace gonio {
 
-/// How much brighter samples in the plane of incidence are on the light's side of the normal, at the angle of
-/// incidence, than on the other side in the mirror direction or, where that was not measured, anywhere: the median over
-/// incidences of 10 degrees and more; 0 if none has both sides. O(n log n).
+/// Returns the ratio of brightness on the light's side of the normal, at the angle of incidence, to that on the other
+/// side, in the mirror direction or, if that was not measured, anywhere. Uses samples in the plane of incidence, and
+/// takes the median over incidences of 10 degrees and more; 0 if none has both sides. O(n log n).
 [[nodiscard]] double brightness_towards_light(const sample_set& samples);
 
-/// Materials that reflect more light back than this are rarer than scans the wrong way round.
+/// Materials that reflect more light back than this are rarer than scans read with the wrong convention.
 inline constexpr double implausible_brightness_towards_light = 2.0;
 
-/// The same values, with the viewer half a turn about the normal from where it was.
+/// Returns the same values, with each viewer rotated by half a turn about the normal.
 [[nodiscard]] sample_set with_viewers_turned(const sample_set& samples);
 
 }  // namespace gonio

@@ -1,6 +1,6 @@
 #pragma once
-/// The BRDFs of the texels of a flat sample, evaluated from their weights: what `component_brdf` is of one material, of
-/// as many as a map of a spatially varying BRDF has (io/materials/svbrdf_map.hpp). Nielsen et al. 2015
+/// The BRDFs of the texels of a flat sample, evaluated from their weights. Like `component_brdf` of a single material,
+/// for all texels of a map of a spatially varying BRDF (io/materials/svbrdf_map.hpp). Nielsen et al. 2015
 /// (doi:10.1145/2816795.2818085), Eq. 10.
 
 #include <gonio/core/half.hpp>
@@ -16,8 +16,8 @@
 
 namespace gonio::render {
 
-/// A view of the shared components and of all texels' weights, which must outlive it: the weights may lie in a file
-/// that is mapped into memory. Evaluation does not allocate, lock or throw.
+/// A view of the shared components and of all texels' weights, which must outlive it. The weights may be in a
+/// memory-mapped file. Evaluation does not allocate, lock or throw.
 /// ```cpp
 /// const gonio::io::svbrdf_map map("map.gsv");
 /// const gonio::render::shared_components<Eigen::half> functions(prior, map.header().functions);
@@ -28,11 +28,11 @@ namespace gonio::render {
 template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>
 class texel_brdf {
  public:
-  /// More are not shipped by anyone.
+  /// The largest number of components; larger priors are not in use.
   static constexpr Eigen::Index most_components = 512;
 
-  /// `weights` are half floats: of the first texel the components of red, of green, of blue, then of the next. Throws
-  /// gonio::error if they are not so many, or there are too many components.
+  /// `weights` are half floats: of the first texel the weights of red, then of green, then of blue, followed by the
+  /// next texel. Throws gonio::error if their number does not fit, or if there are too many components.
   texel_brdf(const shared_components<Stored>& components, std::span<const std::uint16_t> weights)
       : components_(&components), weights_(weights) {
     if (components.size() > most_components)
@@ -44,14 +44,14 @@ class texel_brdf {
 
   [[nodiscard]] Eigen::Index texels() const noexcept { return std::ssize(weights_) / (3 * components_->size()); }
 
-  /// Reflectance in sr^-1 of a texel in a pair of unit vectors, `float` or `double`; black where `component_brdf` is,
-  /// and if the texel is not of the sample: all of its weights are zeros.
+  /// Returns the reflectance in sr^-1 of a texel for a pair of unit vectors, `float` or `double`. Black where
+  /// `component_brdf` is black, and for a texel outside of the sample, whose weights are all zero.
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Array<Real, 3, 1> operator()(Eigen::Index texel, const Eigen::Matrix<Real, 3, 1>& wi,
                                                     const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
     GONIO_ASSERT(texel >= 0 && texel < texels());
     const Eigen::Index k = components_->size();
-    // The three weights of a component beside each other, as component_brdf has them.
+    // Interleave the three weights of each component, as in component_brdf.
     std::array<float, 3 * most_components> own;
     const std::uint16_t* const stored = weights_.data() + 3 * k * texel;
     if (std::all_of(stored, stored + 3 * k, [](std::uint16_t each) { return each == 0; }))

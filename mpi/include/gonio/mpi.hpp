@@ -1,5 +1,5 @@
 #pragma once
-/// Work beyond one machine: all of `mpi/`. Needs gonio::mpi (an MPI library), which the rest of the library does not.
+/// Work on several machines: includes all of `mpi/`. The rest of the library needs no MPI library (gonio::mpi).
 
 #include <gonio/mpi/best_of_ranks.hpp>
 #include <gonio/mpi/gather_in_order.hpp>

@@ -1,6 +1,6 @@
 #pragma once
-/// Statistical surface recovery: all of `shape/`, and its files. Needs gonio::shape (dlib, nanoflann), which the rest
-/// of the library does not.
+/// Statistical surface recovery: includes all of `shape/` and its file formats. It needs gonio::shape (dlib,
+/// nanoflann); the rest of the library does not.
 
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/assignment.hpp>

@@ -1,4 +1,4 @@
-/// gonio shape see, then gonio sphere: a photograph of a mesh, by the simulated laboratory, becomes samples.
+/// gonio shape see, then gonio sphere: turns a simulated photograph of a mesh into samples.
 
 #include "cli/tool.hpp"
 #include "io/scratch.hpp"
@@ -24,7 +24,7 @@ const std::string mesh_scene =
     "size 128 128\nfield_of_view 11.5\ndistortion -0.25 0.1 0.002 -0.001\nposition 0 0 12\ntarget 0 0 0\nup 0 1 0\n"
     "lamp 13.1 0 7.3\nintensity 700\n";
 
-/// A sphere of rings, with its poles on the x axis.
+/// Returns a sphere of rings, with its poles on the x axis.
 gonio::shape::triangle_mesh sphere_of_rings(const Eigen::Vector3d& centre, int rings) {
   const int around = 2 * rings;
   gonio::shape::triangle_mesh mesh;

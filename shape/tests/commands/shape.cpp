@@ -1,4 +1,4 @@
-/// gonio shape: what partial scans do not show.
+/// gonio shape: the missing parts of partial scans.
 
 #include "cli/tool.hpp"
 #include "io/scratch.hpp"
@@ -24,7 +24,7 @@ std::string run_shape(const std::string& arguments) {
   return result.output;
 }
 
-/// Bad input is told with these words and exit code 2.
+/// Checks that bad input gives this message and exit code 2.
 void refuses_shape(const std::string& arguments, const std::string& words) {
   const auto result = gonio_tool("shape " + arguments);
   CAPTURE(arguments);
@@ -33,7 +33,7 @@ void refuses_shape(const std::string& arguments, const std::string& words) {
   CHECK(result.output.find(words) != std::string::npos);
 }
 
-/// What `gonio shape demo` writes and says, made once: it is what takes long.
+/// The files and output of `gonio shape demo`, made once because it is slow.
 struct shape_demonstration {
   shape_demonstration() : report(run_shape("demo --shapes 40 --held-out 1 --json -o " + at("ears"))) {}
 
@@ -49,14 +49,14 @@ const shape_demonstration& demonstrated() {
   return made;
 }
 
-/// The number behind a word of what was printed.
+/// Returns the number after a word in the output.
 double number_behind(const std::string& text, const std::string& word) {
   const std::size_t place = text.find(word);
   REQUIRE_MESSAGE(place != std::string::npos, word, " is not in: ", text);
   return std::stod(text.substr(place + word.size()));
 }
 
-/// A mesh without the triangles that come near one of its vertices.
+/// Returns a mesh without the triangles near one of its vertices.
 gonio::shape::triangle_mesh with_hole(const gonio::shape::triangle_mesh& mesh, Eigen::Index vertex, double radius) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
@@ -112,7 +112,7 @@ TEST_CASE("shape recover: the scan of the demo, beside the truth") {
   CHECK(std::abs(number_behind(told, "signed mean ")) <= absolute);
   CHECK(number_behind(told, "largest ") >= absolute);
   CHECK(scratch::get(made.at("seen.png")).starts_with("\x89PNG"));
-  // The colours are those of the distance from the truth.
+  // The colours show the distance from the truth.
   CHECK(scratch::get(made.at("found.ply")).find("property uchar red") != std::string::npos);
   // The same pose and surface as the demo's, in the scan's space.
   const auto found = io::read_mesh(made.at("found.ply")), shown = io::read_mesh(made.ear("recovered.ply"));
@@ -129,7 +129,7 @@ TEST_CASE("shape recover: from a pose that was written down, which may be held")
     run_shape(files + options + " -o " + made.at("again.ply"));
     return (io::read_mesh(made.at("again.ply")).vertices - first.vertices).cwiseAbs().maxCoeff();
   };
-  // A fit that begins where another one ended ends there, to some of its tolerance.
+  // A fit that starts from the result of another stays there, within its tolerance.
   CHECK(off_by(" --pose " + made.at("pose.txt")) < 0.1);
   CHECK(off_by(" --pose " + made.at("pose.txt") + " --hold-pose") < 0.1);
   const auto pose = io::read_pose(made.at("pose.txt"));
@@ -169,7 +169,7 @@ TEST_CASE("shape learn: a model of meshes in correspondence, and what it recover
   REQUIRE(dozen.shapes() == 12);
   CHECK(dozen.basis().names()[10] == "ear10");
 
-  // The last ear is of the family, so its hole is filled nearly as it was.
+  // The last ear is of the family, so its hole is filled nearly as before.
   io::write_mesh(made.at("hole.ply"), with_hole(whole, model.vertices() / 2, 3.0));
   const std::string told = run_shape("recover " + made.at("hole.ply") + " --model " + made.at("dozen.shapes") +
                                      " --truth " + made.at("ear11.ply") + " -o " + made.at("filled.ply"));

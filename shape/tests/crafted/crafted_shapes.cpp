@@ -1,4 +1,4 @@
-/// Meshes and shape models that are made to hurt (tests/crafted/crafted_files.cpp).
+/// Adversarial meshes and shape models (tests/crafted/crafted_files.cpp).
 
 #include "crafted/made_files.hpp"
 #include "crafted/refusals.hpp"
@@ -16,7 +16,7 @@ TEST_CASE("a shape model's counts are not believed before its bytes are there") 
   refuses("shape_model", crafted::shapes_of({1, 1, 1, 100'000'000}, 100'000'000), "not believable");
   refuses("shape_model", crafted::shapes_of({1, 1, 1, 2'000'000 - 100}, 2'000'000), "impossible");
   refuses("shape_model", crafted::shapes_of({most, most, most, most}, 7 << 20), "impossible");
-  // 3 x vertices x components wraps round to a few bytes in 64 bits.
+  // In 64 bits, 3 x vertices x components overflows to a few bytes.
   refuses("shape_model", crafted::shapes_of({1u << 31, 1, 1u << 31, 1u << 31}, 7 << 20), "impossible");
   refuses("shape_model", crafted::shapes_of({200'000, 300'000, 1, 1}, 8 + 8 + 3'600'000 + 12 + 4'800'000),
           "one vertex twice");

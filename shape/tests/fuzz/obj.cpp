@@ -1,4 +1,4 @@
-/// OBJ meshes.
+/// Reads OBJ meshes.
 
 #include "fuzz/harness.hpp"
 #include <gonio/shape/io/mesh.hpp>

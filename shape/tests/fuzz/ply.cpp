@@ -1,4 +1,4 @@
-/// PLY meshes.
+/// Reads PLY meshes.
 
 #include "fuzz/harness.hpp"
 #include <gonio/shape/io/mesh.hpp>

@@ -1,4 +1,4 @@
-/// Shape models: whole files, or the payload of one, to which the checksum is added.
+/// Reads shape models: whole files, or the payload of one, to which the checksum is added.
 
 #include "fuzz/harness.hpp"
 #include <gonio/io/bytes/checked_file.hpp>

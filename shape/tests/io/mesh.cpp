@@ -38,7 +38,7 @@ triangle_mesh mesh_in(const scratch::folder& here, const std::string& name, cons
   return read_mesh(here / name);
 }
 
-/// The bytes of a number, the highest first where that is asked for.
+/// Returns the bytes of a number, in big-endian order if requested.
 template <class Number>
 std::string bytes_of_number(Number value, bool big_endian) {
   auto bytes = std::bit_cast<std::array<char, sizeof value>>(value);
@@ -46,7 +46,7 @@ std::string bytes_of_number(Number value, bool big_endian) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Any finite number: of any exponent, signed zeros and subnormal ones too.
+/// Returns any finite number, including signed zeros and subnormals.
 double any_finite() {
   const auto bits = *rc::gen::arbitrary<std::uint64_t>();
   const double some = *rc::gen::element(0.0, -0.0, 1.0 / 3.0, 5e-324, -1.7976931348623157e308, 12.5);
@@ -78,13 +78,13 @@ triangle_mesh single_triangle() {
 const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
 const std::string corner_list = "property list uchar int vertex_indices\n";
 
-/// An ascii PLY of so many vertices and faces, as the header says.
+/// Returns an ascii PLY with these counts in its header.
 std::string ascii_ply(const std::string& vertices, const std::string& face_count, const std::string& rows) {
   return "ply\nformat ascii 1.0\nelement vertex " + vertices + "\n" + xyz + "element face " + face_count + "\n" +
          corner_list + "end_header\n" + rows;
 }
 
-/// A square of two triangles and a pentagon, in binary: the last vertex lies on the first, the sixth is of no polygon.
+/// Returns a square of two triangles and a pentagon in binary. The last vertex repeats the first; the sixth is unused.
 std::string binary_ply(bool big_endian) {
   std::string text = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
                      "_endian 1.0\ncomment made by hand\nobj_info of no importance\nelement range_grid 2\n"
@@ -341,7 +341,7 @@ TEST_CASE("text that is cut off is refused where that can be told") {
   const std::string ply = ascii_ply("3", "1", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   for (std::size_t size = 0; size + 1 < ply.size(); ++size)
     check_refused([&] { return mesh_in(here, "a.ply", ply.substr(0, size)); }, {"a.ply"});
-  // No line of an OBJ says how many follow, but what is read is what was there.
+  // An OBJ does not state the number of its lines, but the lines that are read are correct.
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n";
   for (std::size_t size = 0; size < obj.size(); ++size) {
     if (size < 31 || (size > 32 && size < 39))

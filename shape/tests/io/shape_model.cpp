@@ -15,7 +15,7 @@ namespace io = gonio::io;
 
 namespace {
 
-/// Triangles round vertex 0.
+/// Returns triangles around vertex 0.
 gonio::shape::triangle_columns fan_of(int vertices) {
   gonio::shape::triangle_columns triangles(3, vertices - 2);
   for (int t = 0; t < vertices - 2; ++t) triangles.col(t) << 0, t + 1, t + 2;
@@ -29,7 +29,7 @@ gonio::shape::shape_model learned_fan() {
                                          fan_of(fan_vertices));
 }
 
-/// With a source and fewer components than shapes.
+/// Returns a model with a source and fewer components than shapes.
 gonio::shape::shape_model fan_model() {
   return {learned_fan().basis().truncated(2).with_source("four synthetic fans"), fan_of(fan_vertices)};
 }
@@ -52,14 +52,14 @@ void check_fan_refused(std::span<const std::byte> bytes, const std::string& word
   scratch::check_refused([&] { return io::read_shape_model(bytes, "fan.shapes"); }, {"fan.shapes: ", words});
 }
 
-/// What a payload says before its numbers.
+/// The header of a payload.
 struct fan_header {
   std::uint32_t vertices = fan_vertices, triangles = fan_vertices - 2, components = 2, shapes = fan_shapes;
   double explained_variance = 1.0;
-  std::size_t padding = 0;  ///< bytes that follow the last component
+  std::size_t padding = 0;  ///< bytes after the last component
 };
 
-/// A file with a right checksum, as a buggy writer might make it. Counts of more than a few numbers are not kept.
+/// Returns a file with a correct checksum, as from a buggy writer. It holds the same number of values for all counts.
 std::vector<std::byte> fan_file(const fan_header& header, const gonio::shape::triangle_columns& triangles,
                                 float number = 1) {
   io::byte_writer payload;
@@ -122,7 +122,7 @@ TEST_CASE("shape model: a flipped bit is refused, but for those that deflate doe
       CHECK(std::string(refusal.what()).starts_with("fan.shapes: "));
     }
   }
-  CHECK(unused < 16);  // the rest of the last block's byte, and a code that no value has
+  CHECK(unused < 16);  // the unused bits of the last block's byte, and a code without a value
 }
 
 TEST_CASE("shape model: other kinds of file and other versions are named") {
@@ -136,7 +136,7 @@ TEST_CASE("shape model: other kinds of file and other versions are named") {
 
 TEST_CASE("shape model: impossible counts are refused, with a right checksum too") {
   const gonio::shape::triangle_columns fan = fan_of(fan_vertices);
-  // Without a lie it is read.
+  // The unmodified file is read.
   CHECK(io::read_shape_model(fan_file({}, fan), "x").vertices() == fan_vertices);
   const auto refused = [&](const fan_header& header, const std::string& words) {
     check_fan_refused(fan_file(header, fan), words);
@@ -175,7 +175,7 @@ TEST_CASE("shape model: triangles that are no surface are refused") {
   refused(2, {0, 3, 5}, "triangle 2 names vertex 5");
   refused(1, {0, -1, 3}, "triangle 1 names vertex -1");
   refused(0, {0, 1, 1}, "triangle 0 of a mesh has one vertex twice");
-  refused(2, {0, 1, 4}, "not a surface");                             // an edge of two in one direction
+  refused(2, {0, 1, 4}, "not a surface");                             // two triangles use an edge in one direction
   refused(1, {0, 3, 2}, "not a surface");                             // turned over
   check_fan_refused(fan_file({.triangles = 0}, {}), "no triangles");  // and the model has no surface at all
 }

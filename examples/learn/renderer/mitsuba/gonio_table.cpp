@@ -33,7 +33,7 @@ public:
                 bs.eta = 1.f;
                 bs.sampled_type = +BSDFFlags::GlossyReflection;
                 bs.sampled_component = 0;
-                return { bs, Spectrum(drawn.weight[0], drawn.weight[1], drawn.weight[2]) };  // it has the cosine
+                return { bs, Spectrum(drawn.weight[0], drawn.weight[1], drawn.weight[2]) };  // with the cosine
             }
         }
         return { bs, 0.f };
@@ -44,7 +44,7 @@ public:
         MI_MASKED_FUNCTION(ProfilerPhase::BSDFEvaluate, active);
         if constexpr (Usable)
             if (ctx.is_enabled(BSDFFlags::GlossyReflection)) {
-                auto f = m_paint.bsdf.eval(array(wo), array(si.wi));  // the light is Mitsuba's wo
+                auto f = m_paint.bsdf.eval(array(wo), array(si.wi));  // the light's direction is Mitsuba's wo
                 return Spectrum(f[0], f[1], f[2]) * Frame3f::cos_theta(wo);
             }
         return 0.f;

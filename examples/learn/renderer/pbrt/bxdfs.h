@@ -14,7 +14,7 @@ class GonioBxDF {
         auto drawn = paint->sample(Front(wo, wo), float(u[0]), float(u[1]));
         if (!(drawn.pdf > 0 && drawn.wi[2] > 0)) return {};
         Vector3f wi(drawn.wi[0], drawn.wi[1], wo.z < 0 ? -drawn.wi[2] : drawn.wi[2]);
-        // f, not f cos / pdf.
+        // pbrt needs f, not f cos / pdf.
         return BSDFSample(Spectral(drawn.weight, drawn.pdf / drawn.wi[2]), wi, drawn.pdf, BxDFFlags::GlossyReflection);
     }
     Float PDF(Vector3f wo, Vector3f wi, TransportMode,
@@ -28,12 +28,12 @@ class GonioBxDF {
     std::string ToString() const { return "[ GonioBxDF ]"; }
 
   private:
-    // Seen from behind as from the front.
+    // The back looks the same as the front.
     static gonio::render::bsdf_view::vector Front(Vector3f w, Vector3f wo) {
         return {float(w.x), float(w.y), float(wo.z < 0 ? -w.z : w.z)};
     }
     SampledSpectrum Spectral(const gonio::render::bsdf_view::colour &c, float scale) const {
-        RGB rgb(scale * c[0], scale * c[1], scale * c[2]);  // more than 1 in a highlight: unbounded, no albedo
+        RGB rgb(scale * c[0], scale * c[1], scale * c[2]);  // above 1 in a highlight: unbounded, not an albedo
         return RGBUnboundedSpectrum(*RGBColorSpace::sRGB, rgb).Sample(lambda);
     }
     const gonio::render::bsdf_view *paint = nullptr;

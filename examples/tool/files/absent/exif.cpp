@@ -1,4 +1,4 @@
-/// EXIF data where libexif is not: says what it needs.
+/// Without libexif: refuses EXIF data and names the missing library.
 
 #include "tool/files/exif_files.hpp"
 #include <gonio/core/error.hpp>

@@ -1,4 +1,4 @@
-/// OpenEXR images where OpenEXR is not: says what it needs.
+/// Without OpenEXR: refuses OpenEXR images and names the missing library.
 
 #include "tool/files/exr_files.hpp"
 #include <gonio/core/error.hpp>

@@ -1,4 +1,4 @@
-/// TIFF frames where libtiff is not: says what they need.
+/// Without libtiff: refuses TIFF frames and names the missing library.
 
 #include "tool/files/tiff_files.hpp"
 #include <gonio/core/error.hpp>

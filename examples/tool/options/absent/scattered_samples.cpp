@@ -1,4 +1,4 @@
-/// Scattered samples where nanoflann is not: says what they need.
+/// Without nanoflann: refuses scattered samples and names the missing library.
 
 #include "tool/options/scattered_samples.hpp"
 

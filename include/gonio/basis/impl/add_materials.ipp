@@ -18,8 +18,8 @@ namespace gonio {
 
 namespace detail {
 
-/// The old components Q, the new observations less their own mean nu, and the difference of the means, scaled so that
-/// the products of these columns sum to those of all observations less the mean of all.
+/// Columns for the update: the old components Q, the new observations minus their own mean nu, and the difference of
+/// the means. They are scaled so that their outer products sum to those of all observations minus the mean of all.
 struct appended_columns {
   log_relative_pca prior;
   mapped_materials added;
@@ -42,7 +42,7 @@ struct appended_columns {
             }};
   }
 
-  /// The combinations of the columns that are the observations less the mean of all, times U.
+  /// Returns the coefficients of all observations minus the mean of all: their combinations of the columns, times U.
   [[nodiscard]] Eigen::MatrixXf coefficients(const Eigen::MatrixXd& u) const {
     const Eigen::Index k = prior.size(), old = prior.coefficients().rows(), added_columns = added.materials().columns();
     const double all = old_count + new_count;
@@ -62,7 +62,7 @@ struct appended_columns {
     return all;
   }
 
-  /// Squared norms: of the old components over the cells, and of all observations less the mean of all.
+  /// Return squared norms: of the old components over the cells, and of all observations minus the mean of all.
   [[nodiscard]] double old_variation() const { return prior.components().cast<double>().squaredNorm(); }
   [[nodiscard]] double variation() const {
     double between = 0.0;

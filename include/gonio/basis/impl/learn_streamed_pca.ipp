@@ -19,14 +19,14 @@
 
 namespace gonio::detail {
 
-/// As many threads as have room in a quarter of the memory.
+/// Returns the number of threads that fit into a quarter of the memory.
 [[nodiscard]] GONIO_INLINE thread_count threads_within(const streaming_options& options, double bytes_each) {
   const double room = 0.25 * static_cast<double>(options.memory) / bytes_each;
   const unsigned threads = options.threads.resolve();
   return {room < threads ? std::max(1u, static_cast<unsigned>(room)) : threads};
 }
 
-/// The same rows, which report how many of them were read.
+/// Returns the same rows with progress reports of reading.
 [[nodiscard]] GONIO_INLINE row_source counted(const row_source& rows, const std::string& stage,
                                               const progress& listener) {
   if (!listener) return rows;
@@ -43,7 +43,7 @@ namespace gonio::detail {
           }};
 }
 
-/// Through the Gram matrix.
+/// Finds the components through the Gram matrix.
 [[nodiscard]] GONIO_INLINE streamed_components exact_components(const row_source& first, const row_source& again,
                                                                 const streaming_options& options,
                                                                 const progress& listener) {
@@ -52,7 +52,7 @@ namespace gonio::detail {
   const Eigen::MatrixXd products =
       options.share.sum_over_all([&](block groups) { return gram(counted(first, "gram", listener), groups, threads); });
   report(listener, "eigenvalues", 0.0);
-  // Rounding of the mean may pretend that centring costs none.
+  // By rounding of the mean, centring may seem not to remove a component.
   const Eigen::Index most = std::min(options.components, first.columns - 1);
   streamed_components found{decompose_leading(products, most, "the Gram matrix of the materials"), {}, true};
   if (found.pairs.values.size() == 0) return found;
@@ -64,7 +64,7 @@ namespace gonio::detail {
   return found;
 }
 
-/// In a random subspace.
+/// Finds the components in a random subspace.
 [[nodiscard]] GONIO_INLINE streamed_components subspace_components(const row_source& first, const row_source& again,
                                                                    const streaming_options& options,
                                                                    const progress& listener) {
@@ -118,7 +118,7 @@ GONIO_INLINE streamed_components components_of(const row_source& first, const ro
   return found;
 }
 
-/// Of mapped materials that are not yet read.
+/// Learns from mapped materials that have not been read.
 [[nodiscard]] GONIO_INLINE streamed_pca learn_mapped(const mapped_materials& mapped, const streaming_options& options,
                                                      const progress& listener) {
   streamed_components found = components_of(mapped.first_pass(), mapped.rows(), options, listener);

@@ -28,8 +28,8 @@ GONIO_INLINE void detail::require_finite(const cell_matrix& rows, Eigen::Index r
 
 struct mapped_materials::state {
   material_rows materials;
-  log_relative weights;  ///< whose cosine weights are those of the metric
-  bool known;            ///< the reference, before the first pass
+  log_relative weights;  ///< only its cosine weights are used
+  bool known;            ///< was the reference known before the first pass?
   std::vector<float> reference, mean, variation;
 
   /// Maps a row of reflectances in place.
@@ -41,7 +41,7 @@ struct mapped_materials::state {
       row[i] = static_cast<float>(log_relative::forward(double{row[i]}, reference_here, weight));
   }
 
-  /// Of a block of cells.
+  /// Reads a block of cells.
   void read(block range, bool first, row_block out) {
     cell_matrix held(range.size(), materials.columns());
     materials.read(range, held);

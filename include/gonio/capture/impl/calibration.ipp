@@ -68,7 +68,7 @@ GONIO_INLINE double measured_reflectance::relative_deviation() const noexcept {
 }
 
 GONIO_INLINE channel_weights measured_reflectance::weights() const {
-  // What metrics add before they take a logarithm: where the material is black, noise is not endless.
+  // Metrics add this offset before they take a logarithm. It bounds the noise where the material is black.
   constexpr double offset = 0.001;
   rgb of_each;
   for (Eigen::Index channel = 0; channel < 3; ++channel)
@@ -92,7 +92,7 @@ GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, c
     if (!white.usable()) result.doubt = std::string("the reference is ") + (white.dark ? "dark" : "saturated");
     if (seen.saturated) result.doubt = "saturated in every exposure";
     if (!result.is_usable()) return result;
-    // Beside a perfect diffuser, of which the reference has a part.
+    // Relative to a perfect diffuser, of which the reference reflects a fraction.
     const reference_light light({white.value, white.deviation}, 1.0, reference_at);
     const uncertain f = light.brdf({seen.value, seen.deviation}, material_at);
     result.value[channel] = factor[channel] * f.value;

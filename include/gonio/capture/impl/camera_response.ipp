@@ -50,7 +50,7 @@ GONIO_INLINE double camera_response::count(double exposure) const noexcept {
   const auto above = std::lower_bound(values_.begin(), values_.end(), wanted) - values_.begin();
   const Eigen::Index left = std::max<Eigen::Index>(above - 1, 0);
   const double rise = values_[left + 1] - values_[left];
-  if (!(rise > 0.0)) return 0.0;  // the first line is flat: what is darker than it has no count
+  if (!(rise > 0.0)) return 0.0;  // the first line is flat: darker exposures have no count
   const double log_ratio = std::log1p(1.0 / static_cast<double>(left + 1));
   return spacing() * static_cast<double>(left + 1) * std::exp((wanted - values_[left]) / rise * log_ratio);
 }
@@ -67,14 +67,14 @@ GONIO_INLINE std::pair<Eigen::Index, double> camera_response::place_of(double co
 
 namespace gonio::capture::detail {
 
-/// 0 at both ends of a camera's range, 1 in its middle (Debevec and Malik 1997, Eq. 4).
+/// Returns a weight of 0 at both ends of a camera's range and 1 in its middle (Debevec and Malik 1997, Eq. 4).
 [[nodiscard]] GONIO_INLINE double hat(double count, double saturation) noexcept {
   return std::max(0.0, 1.0 - std::abs(2.0 * count / saturation - 1.0));
 }
 
-/// The response at the knots, but for a constant, is G s, and its slopes by the logarithm of the count are S s, where s
-/// is the first slope and then one bend for each knot but the ends, of which the sum of squares is the integral that
-/// smoothness weighs. In these unknowns it is a multiple of the identity, and the problem well-conditioned.
+/// Up to a constant, the response at the knots is G s, and its slopes by the logarithm of the count are S s. s is the
+/// first slope, followed by one bend for each inner knot. The sum of squared bends is the integral that the smoothness
+/// weights. In these unknowns the penalty is a multiple of the identity, so the problem is well-conditioned.
 struct response_basis {
   Eigen::MatrixXd values, slopes;  ///< G: knots x (knots - 1), S: (knots - 1) x (knots - 1)
 
@@ -94,8 +94,8 @@ GONIO_INLINE response_basis::response_basis(Eigen::Index knots)
   for (Eigen::Index k = 1; k < knots; ++k) values.row(k) = values.row(k - 1) + width(k - 1) * slopes.row(k - 1);
 }
 
-/// The normal equations of what the counts say of the response at its knots. Of each pixel, the unknown ln E is the
-/// weighted mean of what its rows say, so that only the response is left.
+/// The normal equations for the response at its knots. Each pixel's unknown ln E is eliminated: it is the weighted mean
+/// over the pixel's rows.
 class response_equations {
  public:
   response_equations(Eigen::Index knots, double spacing, double saturation)
@@ -104,14 +104,14 @@ class response_equations {
         spacing_(spacing),
         saturation_(saturation) {}
 
-  /// A pixel's counts, one for each time.
+  /// Adds a pixel's counts, one for each time.
   void add(const exposure_counts& counts, Eigen::Index pixel, const std::vector<double>& log_times);
 
   [[nodiscard]] const Eigen::MatrixXd& gram() const noexcept { return gram_; }
   [[nodiscard]] const Eigen::VectorXd& rhs() const noexcept { return rhs_; }
-  /// Of all rows of pixels that have two or more: one alone says nothing.
+  /// The total weight of the rows of pixels with at least two rows. A single row carries no information.
   [[nodiscard]] double weight() const noexcept { return weight_; }
-  /// Of the same rows.
+  /// The smallest count of the same rows.
   [[nodiscard]] double smallest_count() const noexcept { return smallest_count_; }
 
  private:
@@ -152,7 +152,7 @@ GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::
   smallest_count_ = darkest;
 }
 
-/// Takes away what rounding lets a value fall by.
+/// Removes decreases due to rounding.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd never_falling(Eigen::VectorXd values) {
   for (Eigen::Index k = 1; k < values.size(); ++k) values[k] = std::max(values[k], values[k - 1]);
   return values;

@@ -45,13 +45,14 @@ GONIO_INLINE dark_signal::dark_signal(std::span<const exposed_frame> frames) {
     longest = std::max(longest, each.seconds);
   }
   for (const exposed_frame& each : frames) scatter_ += std::pow(each.seconds - mean_time_, 2);
-  if (scatter_ < frames_ * std::pow(0.01 * mean_time_, 2)) scatter_ = 0.0;  // one time, as cameras round it
+  if (scatter_ < frames_ * std::pow(0.01 * mean_time_, 2))
+    scatter_ = 0.0;  // one exposure time, up to a camera's rounding
   fit(frames);
   level_ = upper_median(std::vector<float>(pedestals_));
   find_hot_pixels(longest);
 }
 
-/// A line through the counts of each value; a constant if there is but one time.
+/// Fits a line to the counts of each value; a constant if there is only one exposure time.
 GONIO_INLINE void dark_signal::fit(std::span<const exposed_frame> frames) {
   const Eigen::Index values = std::ssize(frames.front().codes.values);
   pedestals_.resize(values);

@@ -42,7 +42,7 @@ GONIO_INLINE measured_radiance mean_radiance(std::vector<exposed> all, const cam
     double weights = 0.0, sum = 0.0;
     for (const exposed& each : all) {
       const double expected = expected_count(each);
-      if (expected >= saturation) continue;  // noise made it darker than what saturates
+      if (expected >= saturation) continue;  // saturated in expectation; noise made this count darker
       const double predicted = response.exposure(expected) / each.time;
       const double weight = 1.0 / (predicted * predicted * noise.relative_variance(response, expected, pixels));
       weights += weight;

@@ -36,8 +36,8 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
   return count;
 }
 
-/// The first centre is any point; each further one is a point chosen with a probability in proportion to its squared
-/// distance to the nearest centre so far. Of k or more different points.
+/// Returns seeds for k-means. The first centre is a random point. Each further centre is chosen with a probability
+/// proportional to its squared distance to the nearest centre so far. There must be at least k distinct points.
 [[nodiscard]] GONIO_INLINE point_matrix seed_centres(const point_matrix_view& points, Eigen::Index k,
                                                      std::mt19937_64& generator) {
   point_matrix centres(k, points.cols());
@@ -46,7 +46,7 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
   for (Eigen::Index c = 1; c < k; ++c) {
     double rest = std::uniform_real_distribution<double>(0.0, squares.sum())(generator);
     Eigen::Index chosen = 0;
-    // Rounding may leave some of the sum: the farthest point is as good a choice.
+    // If rounding leaves a remainder of the sum, use the farthest point.
     squares.maxCoeff(&chosen);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       rest -= squares[i];
@@ -60,8 +60,8 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
   return centres;
 }
 
-/// The nearest centre of each point, the first of equally near ones, and the squared distance to it. Says whether a
-/// label has changed. O(n k d).
+/// Assigns each point to the nearest centre, the first if several are equally near, and writes the squared distance.
+/// Returns whether a label changed. O(n k d).
 [[nodiscard]] GONIO_INLINE bool assign(const point_matrix_view& points, const point_matrix& centres,
                                        Eigen::VectorXi& labels, Eigen::VectorXd& squares, thread_count threads) {
   const Eigen::VectorXi before = labels;
@@ -82,14 +82,14 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
   return labels != before;
 }
 
-/// How many points each cluster has.
+/// Returns the number of points of each cluster.
 [[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> cluster_sizes(const Eigen::VectorXi& labels, Eigen::Index k) {
   std::vector<Eigen::Index> sizes(k);
   for (const int label : labels) ++sizes[label];
   return sizes;
 }
 
-/// A cluster without points takes the point that is farthest from its centre, of a cluster that keeps another.
+/// Gives each empty cluster the point farthest from its centre, from a cluster that keeps at least one other point.
 GONIO_INLINE void refill_empty_clusters(Eigen::VectorXi& labels, Eigen::VectorXd& squares, Eigen::Index k) {
   std::vector<Eigen::Index> sizes = cluster_sizes(labels, k);
   for (Eigen::Index c = 0; c < std::ssize(sizes); ++c) {
@@ -106,7 +106,8 @@ GONIO_INLINE void refill_empty_clusters(Eigen::VectorXi& labels, Eigen::VectorXd
 
 GONIO_INLINE point_matrix cluster_means(const point_matrix_view& points, const Eigen::VectorXi& labels, Eigen::Index k,
                                         thread_count threads) {
-  const point_matrix zero = point_matrix::Zero(k, points.cols() + 1);  // sums, and how many
+  const point_matrix zero =
+      point_matrix::Zero(k, points.cols() + 1);  // sums, and the number of points in the last column
   const point_matrix sums = sum_over_blocks(
       points.rows(), 4096, zero,
       [&](point_matrix& sum, block range) {
@@ -119,7 +120,7 @@ GONIO_INLINE point_matrix cluster_means(const point_matrix_view& points, const E
   return sums.leftCols(points.cols()).array().colwise() / sums.col(points.cols()).array();
 }
 
-/// Numbers the clusters by their size.
+/// Renumbers the clusters by size.
 [[nodiscard]] GONIO_INLINE point_clusters ordered_by_size(const Eigen::VectorXi& labels, const point_matrix& centres,
                                                           double inertia) {
   const std::vector<Eigen::Index> sizes = cluster_sizes(labels, centres.rows());
@@ -159,7 +160,7 @@ GONIO_INLINE point_clusters refine_clusters(const point_matrix_view& points, poi
     detail::refill_empty_clusters(labels, squares, k);
     centres = detail::cluster_means(points, labels, k, threads);
   }
-  // Squares are those of the centres before the last step.
+  // The squares belong to the centres before the last step.
   for (Eigen::Index i = 0; i < n; ++i) squares[i] = (points.row(i) - centres.row(labels[i])).squaredNorm();
   return detail::ordered_by_size(labels, centres, squares.sum());
 }

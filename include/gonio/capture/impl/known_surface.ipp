@@ -16,7 +16,7 @@
 
 namespace gonio::capture::detail {
 
-/// Fills each pixel by what its ray meets: `meet(ray, position, normal)` says whether it meets anything.
+/// Fills each pixel with the intersection of its ray. `meet(ray, position, normal)` returns whether there is one.
 template <class Meet>
 [[nodiscard]] surface_image trace(const lens_camera& camera, const Meet& meet) {
   const camera_intrinsics& size = camera.intrinsics();
@@ -32,7 +32,7 @@ template <class Meet>
   return seen;
 }
 
-/// Copies a map of vectors; refuses one of another size, and naming a pixel that is not finite.
+/// Copies a map of vectors. Refuses a map of another size, and one with a non-finite pixel, which it names.
 GONIO_INLINE void copy_map(const vector_map& map, const std::string& name, Eigen::Matrix3Xd& onto, std::size_t rows,
                            std::size_t columns) {
   if (map.shape(2) != 3) gonio::refuse({name, ": has ", map.shape(2), " numbers for each pixel, expected 3"});
@@ -59,7 +59,7 @@ GONIO_INLINE surface_image surface_of(const placed_sphere& sphere, const lens_ca
   const double beyond = away.squaredNorm() - sphere.radius * sphere.radius;
   if (!(beyond > 0.0)) refuse("the camera is inside the sphere");
   return detail::trace(camera, [&](const ray& line, Eigen::Vector3d& position, Eigen::Vector3d& normal) {
-    // |away + t d|^2 = R^2, of which the nearer root is seen.
+    // away + t d|^2 = R^2; the nearer root is visible.
     const double half = away.dot(line.towards), discriminant = half * half - beyond;
     if (!(discriminant > 0.0 && half < 0.0)) return false;
     const double distance = -half - std::sqrt(discriminant);

@@ -21,7 +21,7 @@
 
 namespace gonio::capture::detail {
 
-/// A response as a table: what a linear camera of the same range would have counted above its dark level.
+/// A response as a table: the counts above the dark level of a linear camera with the same range.
 class linear_counts {
  public:
   linear_counts(const camera_response& response, std::uint16_t largest, double level)
@@ -31,7 +31,7 @@ class linear_counts {
     const double unit = scale_ * response.exposure(1.0);
     for (Eigen::Index count = 0; count <= largest; ++count) {
       const double above = static_cast<double>(count) - level;
-      // Below one count the line to 0 goes on: noise makes counts that no light does.
+      // Below one count, continue the line through 0: noise also gives counts below the dark level.
       linear_[count] = above > 1.0 ? scale_ * response.exposure(above) : unit * above;
       const double slope = above > 1.0 ? linear_[count] * response.slope(above) : unit;
       rounding_[count] = slope * slope / 12.0;
@@ -41,17 +41,17 @@ class linear_counts {
   }
 
   [[nodiscard]] double operator()(std::uint16_t count) const noexcept { return linear_[count]; }
-  /// Of a count that need not be whole.
+  /// Interpolates for a count that may be fractional.
   [[nodiscard]] double between(double count) const noexcept {
     const auto last = std::ssize(linear_) - 1;
     const auto left = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(count)), 0, last - 1);
     return linear_[left] + (count - static_cast<double>(left)) * (linear_[left + 1] - linear_[left]);
   }
-  /// The variance that a count has by being whole.
+  /// Returns the variance due to rounding to whole counts.
   [[nodiscard]] double rounding(std::uint16_t count) const noexcept { return rounding_[count]; }
-  /// Below it the response is a guess.
+  /// Below this count the response is extrapolated.
   [[nodiscard]] bool is_guess(std::uint16_t count) const noexcept { return count < first_known_; }
-  /// Linear counts for each unit of exposure.
+  /// Returns the linear counts per unit of exposure.
   [[nodiscard]] double scale() const noexcept { return scale_; }
   [[nodiscard]] double level() const noexcept { return level_; }
 
@@ -60,12 +60,12 @@ class linear_counts {
   std::vector<double> linear_, rounding_;
 };
 
-/// What one exposure says of a value, in linear counts.
+/// One exposure of a value, in linear counts.
 struct said_by_exposure {
   double time = 0.0;
   double signal = 0.0;    ///< without the dark signal
-  double dark = 0.0;      ///< above the dark level
-  double variance = 0.0;  ///< of what does not depend on light
+  double dark = 0.0;      ///< dark signal above the dark level
+  double variance = 0.0;  ///< of the parts that do not depend on light
   bool is_guess = false;
 };
 
@@ -75,7 +75,7 @@ struct mean_of_exposures {
   Eigen::Index used = 0;
 };
 
-/// Merges the exposures of one value after the other.
+/// Merges the exposures of one value at a time.
 class value_merger {
  public:
   value_merger(const sensor_noise& noise, double lowest, double highest) noexcept
@@ -87,7 +87,7 @@ class value_merger {
 
   [[nodiscard]] mean_of_exposures mean() const {
     const bool only_guesses = std::ranges::all_of(said_, &said_by_exposure::is_guess);
-    // Start with the variances of the counts themselves: those of what they predict come next.
+    // Start with the variances of the measured counts. The next rounds use those of the predicted counts.
     mean_of_exposures found =
         pass([&](const said_by_exposure& each) { return each.signal; },
              [&](const said_by_exposure& each, double) { return only_guesses || !each.is_guess; });
@@ -105,7 +105,7 @@ class value_merger {
   }
 
  private:
-  /// Of the exposures that are `wanted`, with the variances of the signals that are `expected`.
+  /// Averages the exposures that are `wanted`, with the variances of the `expected` signals.
   template <class Expected, class Wanted>
   [[nodiscard]] mean_of_exposures pass(const Expected& expected, const Wanted& wanted) const {
     double sum = 0.0, squares = 0.0;
@@ -127,11 +127,11 @@ class value_merger {
   }
 
   sensor_noise noise_;
-  double lowest_, highest_;  ///< linear counts above the dark level, between which counts are believed
+  double lowest_, highest_;  ///< range of valid linear counts above the dark level
   std::vector<said_by_exposure> said_;
 };
 
-/// All that merging reads, and where it writes.
+/// The inputs and the limits of merging.
 class frame_merger {
  public:
   frame_merger(std::span<const exposed_frame> frames, const std::array<camera_response, 3>& responses,
@@ -140,7 +140,7 @@ class frame_merger {
     const double level = first_.largest - counts_above(first_.largest, dark);
     for (const camera_response& each : responses) tables_.emplace_back(each, first_.largest, level);
     limit_ = options.saturation > 0 ? options.saturation : first_.largest;
-    // Exposures that contradict each other by chance, of a million values one.
+    // Limits of chi-square that chance exceeds for one value in a million.
     for (Eigen::Index used = 2; used <= std::ssize(frames); ++used)
       most_chi_square_.push_back(chi_square_quantile(1.0 - 1e-6, static_cast<double>(used - 1)));
     shortest_ = std::ranges::min(frames, {}, &exposed_frame::seconds).seconds;
@@ -162,7 +162,7 @@ class frame_merger {
   }
 
   void merge_value(Eigen::Index i, const linear_counts& linear, value_merger& merger, merged_frames& into) const {
-    // Collect the exposures that neither saturate nor count nothing.
+    // Collect the exposures that are neither saturated nor 0.
     merger.clear();
     bool is_black = true;
     const double read = options_.noise.read;
@@ -174,7 +174,7 @@ class frame_merger {
       const double of_dark = dark_.relative_variance(seconds) * (read * read + 1.0 / 12.0);
       merger.add({seconds, linear(count) - dark, dark, linear.rounding(count) + of_dark, linear.is_guess(count)});
     }
-    // Merge them, or say why there is none.
+    // Merge them, or determine why there are none.
     double value = 0.0, deviation = std::numeric_limits<double>::infinity();
     value_state state = value_state::usable;
     if (!merger.has_none()) {
@@ -203,7 +203,7 @@ class frame_merger {
   const merge_options& options_;
   const stored_codes& first_;
   std::vector<linear_counts> tables_;
-  std::vector<double> most_chi_square_;  ///< of two exposures, of three ...
+  std::vector<double> most_chi_square_;  ///< for two exposures, for three, and so on
   std::uint16_t limit_ = 0;
   double shortest_ = 0.0, longest_ = 0.0;
 };
@@ -228,15 +228,15 @@ GONIO_INLINE void require_mergeable(std::span<const exposed_frame> frames,
             ", and the largest count, ", int{first.largest}});
 }
 
-/// Values of alike radiance, whose mean counts have little noise. A response that is fitted to noisy counts is biased:
+/// Groups values of similar radiance, whose mean counts have little noise. A response fitted to noisy counts is biased:
 /// noise in a count moves its row along the response, and a logarithm is not linear in it.
 class alike_values {
  public:
   alike_values(std::span<const exposed_frame> frames, std::uint16_t level, std::uint16_t saturation)
       : frames_(frames), level_(level), saturation_(saturation) {}
 
-  /// The mean counts above the dark level of groups of a channel's pixels: a row for a group, a column for a frame. A
-  /// frame in which one of a group is saturated counts as saturated for all of it.
+  /// Returns the mean counts above the dark level of groups of a channel's pixels: one row per group, one column per
+  /// frame. If one pixel of a group is saturated in a frame, the whole group counts as saturated there.
   [[nodiscard]] exposure_counts mean_counts(std::span<const Eigen::Index> pixels, Eigen::Index channel) const {
     constexpr Eigen::Index groups_wanted = 400;
     const std::vector<Eigen::Index> values = by_radiance(pixels, channel);
@@ -249,7 +249,7 @@ class alike_values {
   }
 
  private:
-  /// The sum of a value's counts grows with its radiance, whatever the response.
+  /// Sorts values by the sum of their counts, which increases with radiance for any response.
   [[nodiscard]] std::vector<Eigen::Index> by_radiance(std::span<const Eigen::Index> pixels,
                                                       Eigen::Index channel) const {
     std::vector<std::pair<std::uint64_t, Eigen::Index>> sums;
@@ -267,7 +267,7 @@ class alike_values {
     return values;
   }
 
-  /// Of a group's counts: a pixel that is hot or has moved does not count.
+  /// Returns the interquartile mean of a group's counts, which ignores hot pixels and pixels that moved.
   [[nodiscard]] double interquartile_mean(std::span<const Eigen::Index> group, const stored_codes& codes) const {
     std::vector<std::uint16_t> counts;
     counts.reserve(group.size());
@@ -317,7 +317,7 @@ GONIO_INLINE merged_frames merge_frames(std::span<const exposed_frame> frames,
       std::ssize(first.values), block_size, [&](block values) { merger.merge(values, merged); }, options.threads);
   if (std::ranges::all_of(merged.states, [](value_state each) { return each == value_state::saturated; }))
     refuse("every value of every frame is saturated: shorter exposures are needed");
-  // Distrust hot pixels.
+  // Mark hot pixels.
   for (const Eigen::Index pixel : dark.hot_pixels())
     for (Eigen::Index i = 3 * pixel; i < 3 * pixel + 3; ++i) {
       if (merged.states[i] < value_state::hot) merged.states[i] = value_state::hot;

@@ -68,10 +68,10 @@ GONIO_INLINE std::optional<seen_place> place_of_pixel(const near_field_setup& se
   return seen_place{*point, -line.towards};
 }
 
-/// Is a value saturated? One that is not finite is refused, by the name of its image, unless it is.
+/// Returns whether a value is saturated. Refuses other values that are not finite; `what` names the image.
 GONIO_INLINE bool is_saturated(const rgb& value, const near_field_setup& setup, const char* what, std::size_t row,
                                std::size_t column) {
-  // In float, as the image is. Several exposures in one may hold infinity where all of them were saturated.
+  // Compare in float, like the image. Merged exposures may hold infinity where all were saturated.
   const bool saturated = setup.saturation && (value >= double{static_cast<float>(*setup.saturation)}).any();
   if (value.isNaN().any() || !(saturated || value.isFinite().all()))
     gonio::refuse({what, "pixel (row ", row, ", column ", column, ") is not finite, and it sees the sample"});
@@ -110,7 +110,7 @@ GONIO_INLINE aperture block_aperture(const near_field_setup& setup, double row, 
   const auto left = half_vector_at(0.0, -1.0), right = half_vector_at(0.0, 1.0), top = half_vector_at(-1.0, 0.0),
              bottom = half_vector_at(1.0, 0.0);
   const auto middle = setup.camera.ray_through(column, row).at_ground();
-  if (!left || !right || !top || !bottom || !middle) return {};  // it goes beyond the horizon
+  if (!left || !right || !top || !bottom || !middle) return {};  // the block crosses the horizon
   return pixel_aperture(light_at(setup.light, *middle), *right - *left, *bottom - *top);
 }
 
@@ -176,7 +176,7 @@ GONIO_INLINE sample_set near_field_samples(const image& picture, const near_fiel
       any_saturated = any_saturated || block.saturated;
       if (block.pixels == 0 || block.saturated) continue;
       const direction_pair seen{block.lights.normalized(), block.views.normalized()};
-      // A view that grazes the sample may round to one at the horizon.
+      // A grazing view may round to one at the horizon.
       const cosine_pair cosine = cosines(to_half_difference(seen.wi, seen.wo));
       if (!(cosine.i > 0.0 && cosine.o > 0.0)) continue;
       const auto pixels = static_cast<double>(block.pixels);

@@ -18,7 +18,7 @@ GONIO_INLINE double pixel_solid_angle(double focal_length, double f_number, doub
       refuse("focal length, f-number and distance must be positive, not " + std::to_string(number));
   const double tangent = focal_length / f_number / (2.0 * distance);
   const double hypotenuse = std::hypot(1.0, tangent);
-  // 1 - 1 / h as (h^2 - 1) / (h (h + 1)): a lens far away loses no digits.
+  // 1 - 1 / h as (h^2 - 1) / (h (h + 1)), which loses no digits for a distant lens.
   return 2.0 * std::numbers::pi * tangent * tangent / (hypotenuse * (hypotenuse + 1.0));
 }
 

@@ -25,7 +25,7 @@
 
 namespace gonio::capture::detail {
 
-/// By how much each pixel differs from the background, and how much is more than the background's own noise.
+/// The difference of each pixel from the background, and a threshold above the background's noise.
 struct contrast_image {
   Eigen::Index rows = 0, columns = 0;
   std::vector<double> values;
@@ -34,8 +34,8 @@ struct contrast_image {
   [[nodiscard]] double at(Eigen::Index row, Eigen::Index column) const { return values[row * columns + column]; }
 };
 
-/// What counts as different: more than the background's noise, and a share of what most of the surface is. The few
-/// brightest pixels may be wrong, and a highlight may be a hundred times brighter than the rest.
+/// Returns the threshold for a difference: above the background's noise, and a fraction of the surface's median.
+/// Ignores the few brightest pixels, which may be wrong. A highlight may be a hundred times brighter than the rest.
 GONIO_INLINE double threshold_of(std::vector<double> values, double noise) {
   constexpr double share_of_highlight = 1e-3, share_of_median = 0.05;
   const std::ptrdiff_t wrong = std::max<std::ptrdiff_t>(20, std::ssize(values) / 1000);
@@ -50,7 +50,7 @@ GONIO_INLINE contrast_image contrast_of(const image& photograph) {
   contrast_image contrast{
       static_cast<Eigen::Index>(photograph.shape(0)), static_cast<Eigen::Index>(photograph.shape(1)), {}};
   if (contrast.rows < 8 || contrast.columns < 8) gonio::refuse("a photograph of a sphere needs at least 8 x 8 pixels");
-  // Take the brightness of each pixel, and that of the border as the background's.
+  // Compute each pixel's brightness. The border's brightness is that of the background.
   std::vector<double> border;
   for (Eigen::Index row = 0; row < contrast.rows; ++row)
     for (Eigen::Index column = 0; column < contrast.columns; ++column) {
@@ -68,20 +68,21 @@ GONIO_INLINE contrast_image contrast_of(const image& photograph) {
   return contrast;
 }
 
-/// Where something begins along a line of pixels, from pixel 0 inwards; nothing if it begins at the border.
+/// Returns the first edge along a line of pixels, from pixel 0 inwards; nothing if it is at the border.
 template <class Read>
 [[nodiscard]] std::optional<double> first_edge(Eigen::Index count, double threshold, const Read& read) {
   for (Eigen::Index i = 0; i + 4 < count; ++i) {
     if (!(read(i) > threshold && read(i + 1) > threshold && read(i + 2) > threshold)) continue;
     if (i == 0) return {};
-    // The edge covers two pixels in part, and none further inwards. Theirs is the brightness of those, extrapolated.
+    // The edge covers parts of two pixels, and the pixels further inwards fully. Extrapolate the brightness of full
+    // pixels.
     const double inner = read(i + 2), level = std::clamp(2.0 * inner - read(i + 3), 0.3 * inner, 3.0 * inner);
     return static_cast<double>(i + 2) - std::clamp((read(i) + read(i + 1)) / level, 0.0, 2.0);
   }
   return {};
 }
 
-/// The edges of all lines, without those that the line does not cross steeply: they are too far from its neighbours.
+/// Keeps the edges of lines that cross the outline steeply. Others are too far from their neighbours' edges.
 template <class Scan, class Keep>
 void add_steep_edges(Eigen::Index lines, const Scan& scan, const Keep& keep) {
   constexpr double farthest = 1.2;
@@ -95,7 +96,7 @@ void add_steep_edges(Eigen::Index lines, const Scan& scan, const Keep& keep) {
   }
 }
 
-/// n of the plane n . d = 1 that is nearest to some rays.
+/// Returns n of the plane n . d = 1 nearest to some rays.
 GONIO_INLINE Eigen::Vector3d plane_of(const Eigen::Matrix3Xd& rays, const std::vector<Eigen::Index>& chosen) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -110,7 +111,7 @@ GONIO_INLINE Eigen::Vector3d plane_of(const Eigen::Matrix3Xd& rays, const std::v
   return inverse * sum;
 }
 
-/// How far rays are beyond the cone of a plane, radians: positive outside.
+/// Returns how far rays are outside the cone of a plane, in radians; negative inside.
 GONIO_INLINE Eigen::VectorXd beyond_cone(const Eigen::Matrix3Xd& rays, const Eigen::Vector3d& plane) {
   const double length = plane.norm(), half_angle = std::acos(std::min(1.0 / length, 1.0));
   Eigen::VectorXd beyond(rays.cols());
@@ -129,13 +130,13 @@ GONIO_INLINE std::vector<Eigen::Index> within(const Eigen::VectorXd& beyond, dou
   return inliers;
 }
 
-/// Is it a cone at all? Its half angle is less than a right angle, and more than a pixel or so.
+/// Whether a plane gives a cone: its half angle is below a right angle and above three pixels.
 GONIO_INLINE bool is_cone(const Eigen::Vector3d& plane, double pixel_angle) {
   const double length = plane.norm();
   return std::isfinite(length) && length > 1.0 && std::acos(1.0 / length) > 3.0 * pixel_angle;
 }
 
-/// The best of the planes through three rays: most rays on the cone, and few outside.
+/// Returns the best of the planes through three rays: most rays on the cone, and few outside.
 GONIO_INLINE std::optional<Eigen::Vector3d> consensus(const Eigen::Matrix3Xd& rays, double tolerance,
                                                       double pixel_angle, const outline_options& options) {
   std::mt19937_64 generator(options.seed);
@@ -154,7 +155,7 @@ GONIO_INLINE std::optional<Eigen::Vector3d> consensus(const Eigen::Matrix3Xd& ra
     double score = 0.0;
     for (const double each : beyond) {
       if (std::abs(each) <= tolerance) score += 1.0 - std::pow(each / tolerance, 2);
-      if (each > tolerance) score -= 1.0;  // nothing of the sphere is outside
+      if (each > tolerance) score -= 1.0;  // no part of the sphere is outside
     }
     if (score <= best_score) continue;
     best_score = score;
@@ -163,7 +164,7 @@ GONIO_INLINE std::optional<Eigen::Vector3d> consensus(const Eigen::Matrix3Xd& ra
   return best;
 }
 
-/// How much of the outline some rays cover, from 0 to 1, counted in sectors of 10 degrees.
+/// Returns the fraction of the outline that some rays cover, counted in sectors of 10 degrees.
 GONIO_INLINE double covered_share(const Eigen::Matrix3Xd& rays, const std::vector<Eigen::Index>& inliers,
                                   const Eigen::Vector3d& plane) {
   const Eigen::Vector3d axis = plane.normalized(), across = axis.unitOrthogonal(), beside = axis.cross(across);
@@ -181,7 +182,7 @@ GONIO_INLINE placed_sphere sphere_of(const Eigen::Vector3d& plane, const lens_ca
   return {camera.position() + plane * (cosine * radius / sine), radius};
 }
 
-/// Those places of the outline that a light reaches at a cosine of a fifth or more.
+/// Returns the outline points that a light reaches at a cosine above 0.2.
 GONIO_INLINE std::vector<Eigen::Index> well_lit(const Eigen::Matrix3Xd& rays, const std::vector<Eigen::Index>& places,
                                                 const placed_sphere& sphere, const Eigen::Vector3d& camera,
                                                 const surface_light& light) {
@@ -189,7 +190,7 @@ GONIO_INLINE std::vector<Eigen::Index> well_lit(const Eigen::Matrix3Xd& rays, co
   const Eigen::Vector3d from = camera - sphere.centre;
   std::vector<Eigen::Index> lit;
   for (const Eigen::Index i : places) {
-    // The ray's point that is nearest to the centre, which on the outline touches the sphere.
+    // The ray's point nearest to the centre. On the outline it touches the sphere.
     const Eigen::Vector3d towards = rays.col(i), off = from - towards * from.dot(towards), normal = off.normalized();
     const Eigen::Vector3d point = sphere.centre + sphere.radius * normal;
     if (normal.dot(light_at(light, point).towards) > smallest_cosine) lit.push_back(i);
@@ -204,7 +205,7 @@ namespace gonio::capture {
 GONIO_INLINE std::vector<Eigen::Vector2d> edge_points(const image& photograph) {
   const detail::contrast_image contrast = detail::contrast_of(photograph);
   std::vector<Eigen::Vector2d> points;
-  // From both ends of all rows, then of all columns.
+  // Scan from both ends of all rows, then of all columns.
   for (const bool is_row : {true, false})
     for (const bool is_backward : {false, true}) {
       const Eigen::Index lines = is_row ? contrast.rows : contrast.columns,
@@ -233,7 +234,7 @@ GONIO_INLINE fitted_outline fit_sphere(const std::vector<Eigen::Vector2d>& outli
   const double pixel_angle = camera.pixel_angle(), tolerance = options.inlier_distance * pixel_angle;
   std::optional<Eigen::Vector3d> plane = detail::consensus(rays, tolerance, pixel_angle, options);
   if (!plane) refuse("no sphere is found: no outline agrees with the edges of the image");
-  // Fit all that agree, and see again who does.
+  // Fit all inliers and select them again.
   std::vector<Eigen::Index> inliers;
   for (int round = 0; round < 20; ++round) {
     inliers = detail::within(detail::beyond_cone(rays, *plane), tolerance);

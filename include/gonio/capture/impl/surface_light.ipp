@@ -43,8 +43,8 @@ GONIO_INLINE lit_point light_at(const surface_light& light, const Eigen::Vector3
 }
 
 GONIO_INLINE aperture pixel_aperture(const lit_point& lit, const Eigen::Vector3d& across, const Eigen::Vector3d& down) {
-  // A disc of half vectors has a half of its squared radius as its variance, a parallelogram a twelfth of the sum of
-  // its squared sides. Half vectors turn by half of what the receiver turns by.
+  // A disc of half vectors has half its squared radius as variance, a parallelogram a twelfth of the sum of its squared
+  // sides. Half vectors turn by half the receiver's angle.
   const double of_half_vectors = std::sqrt((across.squaredNorm() + down.squaredNorm()) / 6.0);
   return {std::min(lit.half_angle, largest_half_angle), std::min(2.0 * of_half_vectors, largest_half_angle)};
 }
@@ -90,7 +90,7 @@ GONIO_INLINE std::optional<illumination> white_illumination(const white_referenc
 
 GONIO_INLINE rgb relative_to_white(const rgb& radiance, const illumination& here, const rgb& white_radiance,
                                    double reflectance, const illumination& of_white) {
-  // Rounding may bring a cosine above 1.
+  // Rounding may make a cosine exceed 1.
   const auto bounded = [](const illumination& at) { return illumination{std::min(at.cosine, 1.0), at.distance}; };
   rgb value;
   for (Eigen::Index c = 0; c < 3; ++c)

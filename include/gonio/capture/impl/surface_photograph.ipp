@@ -26,7 +26,7 @@
 
 namespace gonio::capture::detail {
 
-/// A lamp needs to know where the surface is.
+/// Refuses a surface without positions for a lamp at a finite distance.
 GONIO_INLINE void require_positions(const surface_image& surface, const surface_light& light) {
   if (std::holds_alternative<directional_light>(light)) return;
   for (Eigen::Index pixel = 0; pixel < surface.normals.cols(); ++pixel)
@@ -34,7 +34,7 @@ GONIO_INLINE void require_positions(const surface_image& surface, const surface_
   gonio::refuse("a lamp at a finite distance needs the positions of the surface, not its normals alone");
 }
 
-/// A lamp inside a closed surface is behind all that is seen of it.
+/// Returns whether the light reaches any visible point. A lamp inside a closed surface is behind all of them.
 GONIO_INLINE bool lights_any(const surface_image& surface, const surface_light& light) {
   for (Eigen::Index pixel = 0; pixel < surface.normals.cols(); ++pixel) {
     if (!surface.sees(pixel)) continue;
@@ -44,7 +44,7 @@ GONIO_INLINE bool lights_any(const surface_image& surface, const surface_light& 
   return false;
 }
 
-/// Do a pixel and all its neighbours see the surface?
+/// Whether a pixel and all its neighbours see the surface.
 GONIO_INLINE bool is_interior(const surface_image& surface, std::size_t row, std::size_t column) {
   if (row == 0 || column == 0 || row + 1 >= surface.rows || column + 1 >= surface.columns) return false;
   for (std::size_t r = row - 1; r <= row + 1; ++r)
@@ -53,7 +53,7 @@ GONIO_INLINE bool is_interior(const surface_image& surface, std::size_t row, std
   return true;
 }
 
-/// Light and viewer around a normal; which tangent is x does not matter to an isotropic material.
+/// Returns light and viewer relative to a normal. The choice of the x tangent is arbitrary for isotropic materials.
 GONIO_INLINE direction_pair around_normal(const Eigen::Vector3d& normal, const direction& light,
                                           const direction& viewer) {
   const Eigen::Vector3d x = normal.unitOrthogonal(), y = normal.cross(x);
@@ -61,7 +61,7 @@ GONIO_INLINE direction_pair around_normal(const Eigen::Vector3d& normal, const d
   return {local(light), local(viewer)};
 }
 
-/// What a pixel says.
+/// The reading of one pixel.
 struct pixel_reading {
   direction_pair pair;
   rgb value;
@@ -76,7 +76,7 @@ class pixel_reader {
                const photograph_options& options)
       : photograph_(photograph), surface_(surface), camera_(camera), light_(light), white_(white), options_(options) {}
 
-  /// Nothing if the pixel does not count.
+  /// Returns nothing if the pixel is not used.
   [[nodiscard]] std::optional<pixel_reading> read(std::size_t row, std::size_t column) {
     if (!is_interior(surface_, row, column)) return {};
     const Eigen::Index number = surface_.pixel(row, column);
@@ -105,20 +105,20 @@ class pixel_reader {
     return (lit.towards - line.towards).normalized() - surface_.normals.col(number);
   }
 
-  /// Nothing if it is saturated; refuses what is no number.
+  /// Returns nothing if the value is saturated. Refuses NaN.
   [[nodiscard]] std::optional<rgb> value_of(const image& picture, const char* what, std::size_t row,
                                             std::size_t column) {
     const rgb value = pixel(picture, row, column);
     if (value.isNaN().any())
       gonio::refuse({what, ": pixel (row ", row, ", column ", column, ") is not a number, and it sees the surface"});
-    // In float, as the image is.
+    // Compare in float, like the image.
     const bool saturated = options_.saturation && (value >= double{static_cast<float>(*options_.saturation)}).any();
     if (!saturated && value.isFinite().all()) return value;
     ++saturated_;
     return {};
   }
 
-  /// Eq. 20 to 22, where the reference is lit and seen.
+  /// Applies Eq. 20 to 22 if the reference is lit and visible.
   [[nodiscard]] std::optional<rgb> relative_value(const rgb& radiance, double cosine, double distance, std::size_t row,
                                                   std::size_t column) {
     const illumination here{cosine, distance};
@@ -138,7 +138,7 @@ class pixel_reader {
   Eigen::Index saturated_ = 0;
 };
 
-/// The pixels of a cell.
+/// Sums over the pixels of a cell.
 struct cell_mean {
   Eigen::Index pixels = 0;
   direction_pair first;
@@ -164,7 +164,7 @@ struct cell_mean {
     return {cones.source / n, cones.receiver / n};
   }
   [[nodiscard]] rgb mean() const { return sum / static_cast<double>(pixels); }
-  /// Relative standard deviation of one pixel.
+  /// Returns the relative standard deviation of one pixel.
   [[nodiscard]] rgb scatter() const {
     const auto n = static_cast<double>(pixels);
     return ((squares - sum.square() / n).max(0.0) / (n - 1.0)).sqrt() / mean().abs().max(1e-300);
@@ -173,7 +173,7 @@ struct cell_mean {
 
 using cell_means = std::map<Eigen::Index, cell_mean>;
 
-/// The median scatter of pixels in cells with enough of them; of no such cell it is 0.
+/// Returns the median scatter of pixels over cells with enough of them; 0 if there is no such cell.
 GONIO_INLINE rgb median_scatter(const cell_means& cells) {
   constexpr Eigen::Index enough = 4;
   std::array<std::vector<double>, 3> all;

@@ -10,13 +10,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 namespace gonio::detail {
 
-GONIO_INLINE void require_possible(const conformity_options& options) {
+GONIO_INLINE void require_possible(const conformity_options& options, Eigen::Index channels) {
   for (const measurement_noise& noise : {options.part, options.reference})
     if (!(noise.relative >= 0.0 && noise.relative <= 0.3) || !(noise.dark >= 0.0 && std::isfinite(noise.dark)))
       refuse({"noise must be from 0 to 0.3 relative to a value, and finite and not negative beside it, not ",
@@ -25,10 +27,29 @@ GONIO_INLINE void require_possible(const conformity_options& options) {
     refuse("a part is compared by the noise of its measurement, which must be above 0");
   if (!(options.part.degrees_of_freedom > 0.0) || !(options.reference.degrees_of_freedom > 0.0))
     refuse("noise that is estimated needs degrees of freedom above 0");
-  if (!(options.tolerance >= 0.0 && std::isfinite(options.tolerance)))
-    refuse({"a tolerance must be finite and not negative, not ", options.tolerance});
+  if (options.tolerance.size() != 1 && std::ssize(options.tolerance) != channels)
+    refuse({"tolerances are one, or one for each of ", channels, " channels, not ", options.tolerance.size()});
+  std::vector<double> tolerances = options.tolerance;
+  tolerances.push_back(options.peak_tolerance.value_or(0.0));
+  tolerances.push_back(options.delta_e);
+  for (const double tolerance : tolerances)
+    if (!(tolerance >= 0.0 && std::isfinite(tolerance)))
+      refuse({"a tolerance must be finite and not negative, not ", tolerance});
+  if (options.delta_e > 0.0 && (options.peak_tolerance || std::ranges::max(options.tolerance) > 0.0))
+    refuse("a tolerance of Delta E stands alone, without one relative to values");
   if (!(options.same_direction >= 0.0 && options.same_direction <= 0.1))
     refuse({"directions are the same within 0 to 0.1 radians, not ", options.same_direction});
+}
+
+GONIO_INLINE double tolerance_of(const conformity_options& options, Eigen::Index channel, const location& at) {
+  constexpr double peak = radians(5.0);
+  if (options.peak_tolerance && at.angles.theta_h < peak) return *options.peak_tolerance;
+  return options.tolerance.size() == 1 ? options.tolerance.front() : options.tolerance[channel];
+}
+
+GONIO_INLINE double delta_e_of(const rgb& one, const rgb& other) {
+  return std::sqrt(
+      (to_unclipped_lab(std::numbers::pi * one) - to_unclipped_lab(std::numbers::pi * other)).square().sum());
 }
 
 GONIO_INLINE Eigen::Index distinct_channels(const Eigen::MatrixXd& values) {
@@ -57,7 +78,7 @@ GONIO_INLINE located_samples both_of(const located_samples& part, const located_
   return both;
 }
 
-/// The difference of an isotropic material's directions; the azimuth counts as far as it moves one of them.
+/// Compares directions on an isotropic material. The azimuth counts by how far it moves one of them.
 [[nodiscard]] inline bool is_same(const half_difference& a, const half_difference& b, double limit) {
   const double turn = std::remainder(a.phi_d - b.phi_d, std::numbers::pi);
   return std::abs(a.theta_h - b.theta_h) <= limit && std::abs(a.theta_d - b.theta_d) <= limit &&
@@ -72,8 +93,8 @@ GONIO_INLINE std::vector<Eigen::Index> same_directions(const std::vector<locatio
   return same;
 }
 
-/// What the differences are of part and reference, as a matrix times the samples: n x N. `shared` counts the samples of
-/// the reference that have each direction.
+/// The differences of part and reference as a matrix times the samples: n x N. `shared` is the number of the
+/// reference's samples in each direction.
 struct difference_operator {
   Eigen::MatrixXd rows;
   std::vector<Eigen::Index> shared;
@@ -81,8 +102,8 @@ struct difference_operator {
   bool predicts = false;
 };
 
-/// How the channels of the reference vary together, relative to what the model expects of one of them. Ten measurements
-/// are what is known before, as in `sample_process`, of channels that are correlated as those of most materials.
+/// Returns the covariance of the reference's channels, relative to the model's variance of one channel. The prior
+/// counts as ten measurements, as in `sample_process`, with a correlation of channels typical of most materials.
 [[nodiscard]] inline Eigen::MatrixXd channel_covariance(const Eigen::MatrixXd& whitened) {
   constexpr double before = sample_process::known_before, correlation = 0.9;
   Eigen::MatrixXd known = Eigen::MatrixXd::Constant(whitened.cols(), whitened.cols(), correlation);
@@ -90,7 +111,7 @@ struct difference_operator {
   return (before * known + product(whitened.transpose(), whitened)) / (before + static_cast<double>(whitened.rows()));
 }
 
-/// Differences from the mean of the reference's measurements in the same direction, or from its prediction.
+/// Returns differences from the mean of the reference's measurements in the same direction, or from its prediction.
 [[nodiscard]] inline difference_operator differences(const conformity_samples& samples, double limit) {
   const Eigen::Index n = samples.parts, all = samples.mapped.rows(), r = all - n;
   const Eigen::Index channels = samples.mapped.cols();
@@ -110,7 +131,7 @@ struct difference_operator {
   }
   if (!found.predicts) return found;
 
-  // Predict from all of the reference. Its noise is at least 0.1 %, so that it may be repeated in a direction.
+  // Predict from the whole reference. Its noise is at least 0.1 %, so that it may have repeated directions.
   Eigen::MatrixXd among = samples.covariance.bottomRightCorner(r, r);
   among.diagonal() += samples.noise.bottomRows(r).rowwise().mean().cwiseMax(1e-6);
   const cholesky factors(among);
@@ -122,7 +143,7 @@ struct difference_operator {
   return found;
 }
 
-/// The covariance of all differences, channels of a direction adjacent: n c x n c.
+/// Returns the covariance of all differences, with the channels of a direction adjacent: n c x n c.
 [[nodiscard]] inline Eigen::MatrixXd covariance_of(const difference_operator& by, const conformity_samples& samples) {
   const Eigen::Index n = samples.parts, channels = samples.mapped.cols();
   const Eigen::MatrixXd model = by.predicts ? product(product(by.rows, samples.covariance), by.rows.transpose())
@@ -137,6 +158,17 @@ struct difference_operator {
           all(channels * i + c, channels * j + d) = by.channels(c, d) * model(i, j) + (c == d ? noise(i, j) : 0.0);
   }
   return all;
+}
+
+/// Returns the inverse by the adjugate. Eigen's inverse needs its LU module, which would slow down every includer.
+[[nodiscard]] inline Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& m) {
+  Eigen::Matrix3d inverse;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      const Eigen::Index a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+      inverse(i, j) = m(a, c) * m(b, d) - m(a, d) * m(b, c);
+    }
+  return inverse / m.row(0).dot(inverse.col(0));
 }
 
 GONIO_INLINE double least_within(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& residuals,
@@ -160,6 +192,25 @@ GONIO_INLINE double least_within(const Eigen::MatrixXd& matrix, const Eigen::Vec
   return std::max(left.dot(gradient), 0.0);
 }
 
+GONIO_INLINE double least_within(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& residuals,
+                                 const Eigen::Matrix3d& jacobian, double length) {
+  // In u = J x: (s - u)' A (s - u) with |u| <= length, so that (A + m I) u = A s.
+  const Eigen::Matrix3d inverse = inverse_of(jacobian);
+  const Eigen::Matrix3d a = inverse.transpose() * matrix * inverse;
+  const Eigen::Vector3d s = jacobian * residuals, as = a * s;
+  if (s.norm() <= length) return 0.0;
+  const auto at = [&](double multiplier) -> Eigen::Vector3d {
+    return inverse_of(a + multiplier * Eigen::Matrix3d::Identity()) * as;
+  };
+  double low = 0.0, high = as.norm() / length;  // |u| <= |A s| / m
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (at(middle).norm() > length ? low : high) = middle;
+  }
+  const Eigen::Vector3d left = s - at(high);
+  return left.dot(a * left);
+}
+
 /// Holm's step-down adjustment: S. Holm, "A simple sequentially rejective multiple test procedure", Scandinavian
 /// Journal of Statistics 6, 1979.
 inline void adjust(std::vector<compared_direction>& directions) {
@@ -174,14 +225,14 @@ inline void adjust(std::vector<compared_direction>& directions) {
   }
 }
 
-/// The inverse of a covariance.
+/// Returns the inverse of a covariance.
 [[nodiscard]] inline Eigen::MatrixXd precision_of(const Eigen::MatrixXd& covariance) {
   const cholesky factors(covariance);
   if (!factors.positive_definite()) refuse("the covariance of part and reference is not positive definite");
   return factors.inverse();
 }
 
-/// Differences, channels of a direction adjacent: n c; their covariance and what is tolerated.
+/// Differences, with the channels of a direction adjacent (n c), their covariance and their tolerance.
 struct stacked_differences {
   Eigen::Index channels;  ///< c
   Eigen::VectorXd residuals;
@@ -196,9 +247,9 @@ struct stacked_differences {
   }
 };
 
-/// The degrees of freedom by which the covariance of differences is known. Where the reference predicts they come from
-/// measured materials whose families the prior has not seen: their errors have heavier tails than normal ones, and the
-/// heavier the fewer samples r the reference has. See docs/results/conformity.md.
+/// The degrees of freedom of the covariance of differences. For predictions they come from measured materials whose
+/// families the prior has not seen: their errors have heavier tails than normal ones, and the fewer samples r the
+/// reference has, the heavier. See docs/results/conformity.md.
 struct freedoms {
   double measured, shift, total, direction;
 
@@ -211,12 +262,13 @@ struct freedoms {
   }
 };
 
-/// The upper tail of a sum of squares of so many normal variables whose variance is known to some degrees of freedom.
+/// Returns the upper tail of a sum of `count` squared normal variables whose variance is known to `freedom` degrees of
+/// freedom.
 [[nodiscard]] inline double tail_of(double squares, double count, double freedom) {
   return f_tail(squares / count, count, freedom);
 }
 
-/// All differences together, and one shift of each channel in all directions by generalised least squares.
+/// Tests all differences together, and one shift of each channel in all directions by generalised least squares.
 inline void test_together(const stacked_differences& all, const freedoms& known, conformity& found) {
   const Eigen::MatrixXd precision = precision_of(all.covariance);
   found.total_p_value = tail_of(least_within(precision, all.residuals, all.tolerance),
@@ -231,19 +283,22 @@ inline void test_together(const stacked_differences& all, const freedoms& known,
                                 static_cast<double>(all.channels), known.shift);
 }
 
-/// Each direction alone, and the worst of them.
+/// Tests each direction alone, and finds the worst. `lab_by_mapped` has a matrix for each direction, or none.
 inline void test_apart(const stacked_differences& all, const std::vector<Eigen::Index>& shared, const freedoms& known,
-                       conformity& found) {
+                       const std::vector<Eigen::Matrix3d>& lab_by_mapped, double delta_e, conformity& found) {
   for (Eigen::Index i = 0; i < std::ssize(shared); ++i) {
     const auto [channels, residuals, covariance, tolerance] = all.subset({i});
+    const Eigen::MatrixXd precision = precision_of(covariance);
     compared_direction each{.number = i,
                             .measured = shared[i],
                             .value = {},
                             .expected = {},
                             .difference = residuals.array(),
                             .deviation = covariance.diagonal().array().sqrt()};
-    each.p_value = tail_of(least_within(precision_of(covariance), residuals, tolerance), static_cast<double>(channels),
-                           shared[i] > 0 ? known.measured : known.direction);
+    const double squares = lab_by_mapped.empty() ? least_within(precision, residuals, tolerance)
+                                                 : least_within(Eigen::Matrix3d(precision), Eigen::Vector3d(residuals),
+                                                                lab_by_mapped[static_cast<std::size_t>(i)], delta_e);
+    each.p_value = tail_of(squares, static_cast<double>(channels), shared[i] > 0 ? known.measured : known.direction);
     found.directions.push_back(each);
   }
   adjust(found.directions);
@@ -251,7 +306,7 @@ inline void test_apart(const stacked_differences& all, const std::vector<Eigen::
 }
 
 GONIO_INLINE conformity compare_samples(conformity_samples samples, const conformity_options& options) {
-  // What is independent in each direction is the same wherever that direction is measured again.
+  // The independent part is the same in all measurements of one direction.
   const Eigen::Index n = samples.parts, all = samples.mapped.rows(), channels = samples.mapped.cols();
   for (Eigen::Index i = 0; i < all; ++i)
     for (Eigen::Index j = 0; j < all; ++j)
@@ -268,7 +323,7 @@ GONIO_INLINE conformity compare_samples(conformity_samples samples, const confor
     stacked.tolerance.segment(channels * i, channels) = samples.tolerance.row(i).transpose();
   }
 
-  // Test those together whose differences are noise alone, or all if there is none.
+  // Test the shared directions together, whose differences are noise alone, or all directions if none is shared.
   std::vector<Eigen::Index> together;
   for (Eigen::Index i = 0; i < n; ++i)
     if (by.shared[i] > 0) together.push_back(i);
@@ -279,9 +334,10 @@ GONIO_INLINE conformity compare_samples(conformity_samples samples, const confor
   const freedoms known(noise, all - n, predicts);
   conformity found;
   test_together(stacked.subset(together), known, found);
-  test_apart(stacked, by.shared, known, found);
+  test_apart(stacked, by.shared, known, samples.lab_by_mapped, options.delta_e, found);
   const double least = std::min({found.shift_p_value, found.total_p_value, found.worst_p_value});
-  found.p_value = n == 1 ? found.worst_p_value : std::min(3.0 * least, 1.0);
+  const bool worst_decides = n == 1 || !samples.lab_by_mapped.empty();
+  found.p_value = worst_decides ? found.worst_p_value : std::min(3.0 * least, 1.0);
   return found;
 }
 

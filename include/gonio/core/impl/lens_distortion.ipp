@@ -65,7 +65,7 @@ GONIO_INLINE double lens_camera::farthest_corner() const noexcept {
   return farthest;
 }
 
-/// Walks outwards until the lens shows the farthest corner; what folds on the way is refused.
+/// Moves outwards until the lens reaches the farthest corner. Refuses a fold on the way.
 GONIO_INLINE void lens_camera::require_monotone_radius() {
   const double corner = farthest_corner();
   const double tangential = 3.0 * (std::abs(distortion_.p1) + std::abs(distortion_.p2));
@@ -80,7 +80,7 @@ GONIO_INLINE void lens_camera::require_monotone_radius() {
   largest_radius_ = r;
 }
 
-/// Tangential coefficients may fold what the radial ones do not.
+/// Checks for folds by the tangential coefficients.
 GONIO_INLINE void lens_camera::require_one_ray_each() const {
   constexpr int steps = 24;
   for (int i = 0; i <= steps; ++i)

@@ -16,13 +16,14 @@ namespace gonio {
 
 GONIO_INLINE unsigned thread_count::resolve() const noexcept {
   if (value != 0) return value;
-  static const unsigned processors = std::max(1u, std::thread::hardware_concurrency());  // Linux reads a file for it
+  static const unsigned processors =
+      std::max(1u, std::thread::hardware_concurrency());  // hardware_concurrency reads a file on Linux
   return processors;
 }
 
 namespace detail {
 
-/// Waits for its threads even if the last of them could not be started. (std::jthread costs more to compile.)
+/// Joins its threads even if the last of them could not be started. (std::jthread costs more to compile.)
 struct thread_team {
   std::vector<std::thread> members;
 
@@ -64,7 +65,7 @@ GONIO_INLINE void detail::run_blocks(Eigen::Index count, Eigen::Index block_size
       }
     }
   };
-  // Start the other workers, work along, and wait for them.
+  // Start the other workers, take part, and wait for them.
   {
     detail::thread_team team;
     for (Eigen::Index w = 1; w < workers; ++w) team.members.emplace_back(work);

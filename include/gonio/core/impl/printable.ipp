@@ -10,7 +10,7 @@
 
 namespace gonio::detail {
 
-/// Bytes of the UTF-8 character that the text begins with; 0 if it begins with none that may be shown.
+/// Returns the number of bytes of the first UTF-8 character; 0 if the text does not begin with a printable one.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::size_t printable_character(std::string_view text) noexcept {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(0);
@@ -22,7 +22,7 @@ namespace gonio::detail {
   for (std::size_t i = 1; i < size; ++i)
     if (byte(i) >> 6 != 2) return 0;
   const unsigned second = byte(1);
-  // C1 controls, forms longer than need be, surrogates, and what is beyond Unicode.
+  // C1 controls, overlong forms, surrogates, and code points outside of Unicode.
   const bool wrong = (first == 0xC2 && second < 0xA0) || (first == 0xE0 && second < 0xA0) ||
                      (first == 0xED && second >= 0xA0) || (first == 0xF0 && second < 0x90) ||
                      (first == 0xF4 && second >= 0x90);

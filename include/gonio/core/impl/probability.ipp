@@ -12,7 +12,7 @@
 
 namespace gonio::detail {
 
-/// Where an increasing function of a positive number reaches a share, to 1e-12 of that number.
+/// Returns the positive number at which an increasing function reaches a share, to a relative error of 1e-12.
 template <class Distribution>
 [[nodiscard]] double positive_quantile(double share, Distribution&& cumulative) {
   if (!(share > 0.0 && share < 1.0)) refuse({"a share of a distribution must be above 0 and below 1, not ", share});

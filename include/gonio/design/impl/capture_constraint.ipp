@@ -17,7 +17,7 @@
 
 namespace gonio::design::detail {
 
-/// How far a viewer is from the plane of light and normal; 0 if the light is at the normal.
+/// Returns the angle between the viewer and the plane of light and normal; 0 if the light is at the normal.
 [[nodiscard]] GONIO_INLINE double angle_from_plane(const direction_pair& pair) {
   const direction across(-pair.wi.y(), pair.wi.x(), 0.0);
   const double length = across.norm();
@@ -62,7 +62,7 @@ GONIO_INLINE std::optional<direction_pair> capture_constraint::pose_of(const hal
 
 GONIO_INLINE std::optional<std::size_t> capture_constraint::fixed_pair(const direction_pair& pair) const {
   constexpr double tolerance = radians(0.5);
-  // Isotropic materials do not see which way the pair is turned, or from which side.
+  // An isotropic material does not depend on a common azimuth or on a reflection of the pair.
   const auto across = [](const direction_pair& of) {
     return std::abs(std::remainder(azimuth(of.wo) - azimuth(of.wi), 2.0 * std::numbers::pi));
   };

@@ -27,8 +27,8 @@ using sweep_lanes = error_sweep::lanes;
   return Eigen::Map<const sweep_lanes>(numbers);
 }
 
-/// Y y and Y w of some measurements, whose rows of Y stand side by side. As `product_sum` does, sums stay in registers:
-/// a pack, because loops over arrays would keep them in memory.
+/// Computes Y y and Y w of some measurements, whose rows of Y are side by side. As in `product_sum`, a parameter pack
+/// keeps the sums in registers. Loops over arrays would keep them in memory.
 template <std::size_t... J>
 inline void project_lanes(const float* candidates, const float* rows, Eigen::Index observations, sweep_lanes* on_y,
                           sweep_lanes* on_w, std::index_sequence<J...> /*measurements*/) {
@@ -43,8 +43,8 @@ inline void project_lanes(const float* candidates, const float* rows, Eigen::Ind
   ((on_w[J] = w_sums[J]), ...);
 }
 
-/// t = y - Y'a and u = w - W'a - Y'b of some observations, whose columns of Y and W are `rows`; adds y t to d and y u
-/// to r.
+/// Computes t = y - Y'a and u = w - W'a - Y'b of some observations, whose columns of Y and W are `rows`. Adds y t to d
+/// and y u to r.
 template <std::size_t... I>
 inline void take_away_lanes(const float* candidates, const float* rows, const sweep_lanes* a, const sweep_lanes* b,
                             Eigen::Index measurements, float* left, sweep_lanes& d, sweep_lanes& r,
@@ -69,7 +69,7 @@ inline void take_away_lanes(const float* candidates, const float* rows, const sw
   (store(I), ...);
 }
 
-/// factors x, for the transpose of the factors.
+/// Computes factors x, given the transpose of the factors.
 inline void multiply_lanes(const Eigen::MatrixXf& transposed, const sweep_lanes* x, sweep_lanes* out) {
   for (Eigen::Index i = 0; i < transposed.cols(); ++i) {
     sweep_lanes sum = sweep_lanes::Zero();
@@ -99,7 +99,7 @@ GONIO_INLINE error_sweep::error_sweep(const expected_error& criterion, const exp
       column[observations_together + i % observations_together] = static_cast<float>(w(j, i));
     }
   inverse_ = to_float(left.inverse);
-  if (n > 0) cross_ = to_float(product(w, y.transpose()));  // transposed, as K^-1 is in any case
+  if (n > 0) cross_ = to_float(product(w, y.transpose()));  // transposed; K^-1 is symmetric
   squared_errors_ = left.squared_errors.cast<float>();
   inverse_unknown_ = left.inverse_unknown.cast<float>();
   missed_ = left.missed.cast<float>();
@@ -127,7 +127,8 @@ GONIO_INLINE void error_sweep::operator()(const tiles& candidates, Eigen::Index 
     const lanes grown = own_growth(of, sample_noise_penalties[number]);
     if (missed_.size() == 0)
       errors[number] = mean(of, grown);
-    else if (const lanes own = own_energy_ + grown; channels_ == 3)  // a known number is unrolled into registers
+    else if (const lanes own = own_energy_ + grown;
+             channels_ == 3)  // a constant number of channels is unrolled into registers
       errors[number] = mean_left_out(std::integral_constant<Eigen::Index, 3>(), of, own);
     else
       errors[number] = mean_left_out(channels_, of, own);
@@ -153,7 +154,7 @@ GONIO_INLINE void error_sweep::take_away(const float* tile, found& of) const {
                             std::make_index_sequence<observations_together>());
 }
 
-/// By how much errors of their own add to each squared error, beyond what they do now.
+/// Returns the increase of each squared error due to the measurements' own errors.
 GONIO_INLINE error_sweep::lanes error_sweep::own_growth(const found& of, const lanes& sample_noise_penalty) const {
   lanes squares = sample_noise_penalty / static_cast<float>(observations_), products = lanes::Zero();
   for (Eigen::Index j = 0; j < measurements_; ++j) {
@@ -175,7 +176,7 @@ GONIO_INLINE error_sweep::lanes error_sweep::mean(const found& of, const lanes& 
   return sum / static_cast<float>(observations_);
 }
 
-/// The same of materials left out.
+/// Returns the mean for left-out materials.
 template <class Channels>
 error_sweep::lanes error_sweep::mean_left_out(Channels channels, const found& of, const lanes& own) const {
   std::vector<lanes> room(static_cast<std::size_t>(2 * channels));
@@ -191,7 +192,7 @@ error_sweep::lanes error_sweep::mean_left_out(Channels channels, const found& of
   return sum / static_cast<float>(observations_);
 }
 
-/// What a shift that all samples share adds: (SQ)+_eta 1 grows by A q (1 - q . (SQ)+_eta 1) / d.
+/// Returns the contribution of a shift common to all samples: (SQ)+_eta 1 grows by A q (1 - q . (SQ)+_eta 1) / d.
 GONIO_INLINE error_sweep::lanes error_sweep::shift(const float* tile, const found& of) const {
   lanes growth = lanes::Ones(), along = lanes::Zero();
   for (Eigen::Index i = 0; i < observations_; ++i, tile += 2 * width) {

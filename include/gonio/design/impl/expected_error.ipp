@@ -38,7 +38,7 @@ GONIO_INLINE expected_error::expected_error(const Eigen::MatrixXf& coefficients,
 
 GONIO_INLINE expected_error::rows expected_error::prepare(const Eigen::MatrixXd& components,
                                                           Eigen::VectorXd noise) const {
-  // A row of Y or W is a column of its transpose, whose product copies but the few rows of the components.
+  // A row of Y or W is a column of its transpose, so the product copies only the few rows of the components.
   rows measured(components.rows(), coefficients_.rows());
   const Eigen::MatrixXd transposed = components.transpose();
   measured.materials().transpose() = product(coefficients_, transposed);
@@ -60,7 +60,7 @@ GONIO_INLINE double expected_error::remainder::error(double common_shift) const 
 
 GONIO_INLINE expected_error::remainder expected_error::state(const rows& measured) const {
   const Eigen::Index n = measured.size(), m = coefficients_.rows();
-  // Without a measurement the whole energy of each material is left.
+  // Without a measurement, the error of each material is its whole energy.
   remainder left;
   left.squared_errors = energies_;
   left.noise_response = Eigen::VectorXd::Zero(m);
@@ -74,8 +74,8 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
   Eigen::MatrixXd k = products.leftCols(n);
   for (Eigen::Index i = 0; i < n; ++i) k(i, i) += options_.eta + measured.sample_noise_penalty[i];
   left.inverse = cholesky(k).inverse();
-  // Subtract from each energy what the measurements explain: b'W Y'b - 2 w . b = y . (K^-1 W Y' K^-1 y - 2 K^-1 w),
-  // for all observations by one product with Y and W.
+  // Subtract the part of each energy that the measurements explain: b'W Y'b - 2 w . b = y . (K^-1 W Y' K^-1 y - 2 K^-1
+  // w), for all observations by one product with Y and W.
   const Eigen::MatrixXd spread = product(left.inverse, product(products.rightCols(n), left.inverse));
   Eigen::MatrixXd factors(2 * n, n);
   factors.topRows(n) = spread;
@@ -89,11 +89,11 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
     const matrix_view y = both.leftCols(n);
     leave_each_out(measured, product(y, left.inverse), product(y, spread), left);
   }
-  // Add what the samples' own noise contributes.
+  // Add the contribution of the samples' own noise.
   left.own_variances = measured.sample_noise_penalty / static_cast<double>(m);
   for (Eigen::Index i = 0; i < n; ++i) left.own_energy += left.own_variances[i] * spread(i, i);
   for (double& squared : left.squared_errors) squared += left.own_energy;
-  // Add the response to the shift that all samples share.
+  // Add the response to the common shift.
   for (Eigen::Index i = 0; i < n; ++i) {
     left.noise_response += left.inverse.col(i).dot(measured.noise) * both.col(i);
     left.noise_energy += measured.noise[i] * spread.col(i).dot(measured.noise);
@@ -211,7 +211,7 @@ Scalar extended_error<Scalar>::mean_left_out(const Scalar* t, const Scalar* w, S
   return sum / static_cast<Scalar>(m);
 }
 
-/// By how much errors of their own add to each squared error, beyond what they do now.
+/// Returns the increase of each squared error due to the measurements' own errors.
 template <class Scalar>
 Scalar extended_error<Scalar>::own_growth(const knowledge& known, Eigen::Index candidate, Scalar sample_noise_penalty,
                                           Scalar d, Scalar r) const {

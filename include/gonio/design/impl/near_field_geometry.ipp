@@ -16,7 +16,8 @@
 namespace gonio::design {
 
 GONIO_INLINE pinhole_camera near_field_camera(const direction& wo, double field_of_view, Eigen::Index pixels) {
-  // The disc is inside a ball of its radius, which spans its arcsine to all sides at distance 1.
+  // A ball around the disc's centre contains the disc. Seen from distance 1, its angular radius is the arcsine of its
+  // radius.
   const double half = std::asin(std::tan(field_of_view / 2.0));
   const direction up = std::abs(wo.z()) > 0.999 ? direction(1.0, 0.0, 0.0) : direction(0.0, 0.0, 1.0);
   return pinhole_camera::look_at(camera_intrinsics::square(pixels, 2.0 * half), wo, Eigen::Vector3d::Zero(), up);

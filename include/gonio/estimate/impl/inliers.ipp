@@ -57,7 +57,8 @@ GONIO_INLINE located_samples weighted(const located_samples& samples, const inli
 
 namespace detail {
 
-/// Of the probabilities that samples are wrong; the worst first, of those that are equally bad `first` before others.
+/// Makes inliers of the probabilities that samples are wrong. Rejected samples: `first`, then the others, the worst
+/// first.
 [[nodiscard]] GONIO_INLINE inliers inliers_of(const Eigen::VectorXd& probabilities,
                                               const std::vector<Eigen::Index>& first) {
   const Eigen::Index n = probabilities.size();
@@ -73,7 +74,7 @@ namespace detail {
   return found;
 }
 
-/// The number of a neighbourhood, made of four whole ones below 500.
+/// Returns the number of a neighbourhood, computed from four whole numbers below 500.
 [[nodiscard]] GONIO_INLINE double neighbourhood_of(const half_difference& angles, const correlation_lengths& lengths) {
   double number = 0.0;
   for (const double coordinate : place_of(angles, lengths)) number = 1000.0 * number + std::floor(coordinate);
@@ -92,14 +93,14 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   std::vector<Eigen::Index> spread(n);
   std::iota(spread.begin(), spread.end(), 0);
   std::ranges::sort(spread, {}, key);
-  // The first of each comes before the second of each, and so on.
+  // Order them so that the first of each neighbourhood comes before the second of each, and so on.
   double rank = 0.0, last = -1.0;
   for (const Eigen::Index i : spread) {
     rank = keys[i][0] == last ? rank + 1.0 : 0.0;
     last = std::exchange(keys[i][0], rank);
   }
   std::ranges::partial_sort(spread, spread.begin() + most_judged, {}, key);
-  // Take two thirds at random, and the others in this order.
+  // Take two thirds at random, and the rest in this order.
   std::vector<Eigen::Index> chosen = random_choice(n, 2 * most_judged / 3, 0);
   std::vector<bool> is_chosen(n, false);
   for (const Eigen::Index i : chosen) is_chosen[i] = true;
@@ -109,8 +110,8 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return chosen;
 }
 
-/// The reflectance of materials, given the weights of a prior's functions in columns, at locations with given rows:
-/// locations x columns.
+/// Returns the reflectance of materials at locations, locations x columns. Each column of `weights` is a material;
+/// `rows` are those of the prior's functions at the locations.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd materials_at(const prior_functions& prior, const Eigen::MatrixXd& rows,
                                                         const std::vector<location>& locations,
                                                         const Eigen::MatrixXd& weights, thread_count threads) {
@@ -126,20 +127,20 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return values;
 }
 
-/// As estimators keep them.
+/// Converts values to the layout of estimators.
 [[nodiscard]] GONIO_INLINE channel_values by_channel(const Eigen::MatrixXd& values) {
   return located_samples{{}, values, {}}.channels();
 }
 
-/// For each channel the material of the prior, brightened or darkened, under which the samples are most likely a
-/// mixture of inliers and outliers: its reflectance at them. `materials` is that of all, samples x materials. As
-/// `nearest_material`, but no table is expanded. O(n m) for m materials.
+/// Returns for each channel the reflectance, at the samples, of one material of the prior, brightened or darkened: the
+/// one under which the samples are most likely a mixture of inliers and outliers. `materials` has the reflectance of
+/// all materials, samples x materials. Works like `nearest_material`, but expands no table. O(n m) for m materials.
 [[nodiscard]] GONIO_INLINE channel_values nearest_at_samples(const Eigen::MatrixXd& materials,
                                                              const Eigen::MatrixXd& measured, thread_count threads) {
   const Eigen::Index n = measured.rows();
   Eigen::MatrixXd estimates(n, 3);
   for (Eigen::Index c = 0; c < 3; ++c) {
-    // Find the likelihood of each material, each with its best factor.
+    // Find the likelihood of each material at its best factor.
     std::vector<double> logarithms(&measured(0, c), &measured(0, c) + n), outliers;
     const double offset = logarithm_offset(logarithms);
     for (double& value : logarithms) value = std::max(value, 0.0) + offset;
@@ -167,7 +168,7 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return by_channel(estimates);
 }
 
-/// The weights of a prior's functions, k x 3, by those samples that count, at which the functions have given rows.
+/// Fits the weights of a prior's functions, k x 3, to the samples that count. `rows` are the functions at all samples.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd fit_components(const Eigen::MatrixXd& rows, const located_samples& mapped,
                                                           const inliers& found, const tikhonov& solver,
                                                           thread_count threads) {
@@ -179,10 +180,10 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return solve_rows(solver, rows_of(std::move(equations)), some, threads).weights;
 }
 
-/// Those that look like outliers beside the prior's components alone: a start that many outliers cannot drag along. The
-/// components are fitted in turns with the probabilities that samples are inliers (Holland and Welsch 1977,
-/// doi:10.1080/03610927708827533, with outlier_mixture.hpp), from the nearest material on. `rows` are those of the
-/// prior's functions at the samples. O(n k^2 + n m k).
+/// Returns true for each sample that looks like an outlier if only the prior's components are fitted: a start that many
+/// outliers cannot drag along. Starts from the nearest material. Alternates between fitting the components and
+/// computing the probabilities that samples are inliers (Holland and Welsch 1977, doi:10.1080/03610927708827533, with
+/// outlier_mixture.hpp). `rows` are those of the prior's functions at the samples. O(n k^2 + n m k).
 [[nodiscard]] GONIO_INLINE std::vector<bool> outliers_by_components(const prior_functions& prior,
                                                                     const Eigen::MatrixXd& rows,
                                                                     const located_samples& samples,
@@ -208,7 +209,7 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return wrong;
 }
 
-/// What the samples that are not contradicted make of the first of those that are, of samples that a process is of.
+/// Returns the first of the contradicted samples, with the prediction from the samples that are not contradicted.
 [[nodiscard]] GONIO_INLINE std::vector<outlying_sample> told_by_others(const prior_functions& prior,
                                                                        const located_samples& samples,
                                                                        const sample_process& process,
@@ -225,7 +226,7 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return told;
 }
 
-/// Judges samples of a material in groups. `mapped` are all of them in the prior's domain.
+/// Judges groups of a material's samples. `mapped` has all samples in the prior's domain.
 class sample_judge {
  public:
   sample_judge(const prior_functions& prior, const expected_covariance& expected, const located_samples& mapped,
@@ -239,7 +240,8 @@ class sample_judge {
     return {expected_, prior_.rows(some.locations), some, errors};
   }
 
-  /// The probabilities that samples are wrong: of those that were judged, at `positions`, and by them of all others.
+  /// Returns the probabilities that samples are wrong: for the judged ones at `positions`, and, by these, for all
+  /// others.
   [[nodiscard]] Eigen::VectorXd probabilities(const judged_samples& judged,
                                               const std::vector<Eigen::Index>& positions) const {
     Eigen::VectorXd found(mapped_.size());
@@ -283,12 +285,12 @@ GONIO_INLINE inliers detail::find_inliers(const prior_functions& prior, const ex
                                           const located_samples& samples, const located_samples& mapped,
                                           const Eigen::VectorXd& error_variances,
                                           const std::optional<sample_process>& all, thread_count threads) {
-  // A logarithm does not tell apart what is negative.
+  // A logarithm does not distinguish negative values.
   const std::optional<located_samples> in_gamut = out_of_gamut_as_xyz(samples);
   const located_samples& judged = in_gamut ? *in_gamut : samples;
   const located_samples judged_mapped = in_gamut ? prior.map(judged) : mapped;
 
-  // Judge some together, and all others by these.
+  // Judge some samples together, and all others by these.
   const sample_judge judge(prior, expected, judged_mapped, error_variances, threads);
   const std::vector<Eigen::Index> positions = judged_together(samples);
   const located_samples some = judged.subset(positions), some_mapped = judged_mapped.subset(positions);
@@ -298,7 +300,7 @@ GONIO_INLINE inliers detail::find_inliers(const prior_functions& prior, const ex
       outliers_by_components(prior, process.at().rows, some, some_mapped, expected.model.error_variance, threads)};
   const judged_samples found = judge_samples(process, {}, starts);
   const Eigen::VectorXd wrong = judge.probabilities(found, positions);
-  // Name them, and tell what the others say, in the colours that were measured.
+  // List the wrong ones with the prediction by the others, in the colours that were measured.
   std::vector<wrong_sample> worst;
   std::vector<Eigen::Index> numbers;
   for (const wrong_sample& each : found.wrong())

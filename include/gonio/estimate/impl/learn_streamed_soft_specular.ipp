@@ -25,14 +25,14 @@ struct streamed_contrasts {
   Eigen::ArrayXd contrasts;
 };
 
-/// In one pass; the sums are those of `cell_contrasts`.
+/// Computes them in one pass, with the sums of `cell_contrasts`.
 [[nodiscard]] GONIO_INLINE streamed_contrasts contrasts_of(const material_rows& materials,
                                                            const streaming_options& options, const progress& listener) {
   report(listener, "contrasts", 0.0);
   const valid_cells& cells = materials.cells;
   std::vector<float> reference(cells.size());
-  const log_relative weights(cells, reference, options.weighting);  // whose cosine weights count
-  const auto add = [&](contrast_sums& sums, block range) {          // to the sums, and references to their place
+  const log_relative weights(cells, reference, options.weighting);  // only its cosine weights are used
+  const auto add = [&](contrast_sums& sums, block range) {          // adds to the sums and sets the references
     cell_matrix held(range.size(), materials.columns());
     materials.read(range, held);
     std::vector<float> values(held.cols());

@@ -24,14 +24,14 @@ namespace gonio {
 
 namespace detail {
 
-/// diag(d) A.
+/// Returns diag(d) A.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd scaled_rows(const Eigen::VectorXd& d, const Eigen::MatrixXd& a) {
   Eigen::MatrixXd scaled(a.rows(), a.cols());
   for (Eigen::Index j = 0; j < a.cols(); ++j) scaled.col(j) = d.cwiseProduct(a.col(j));
   return scaled;
 }
 
-/// A'B.
+/// Returns A'B.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd dots(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd found(a.cols(), b.cols());
   for (Eigen::Index i = 0; i < a.cols(); ++i)
@@ -39,7 +39,7 @@ namespace detail {
   return found;
 }
 
-/// The pivot of a step of Gaussian elimination: its row and its column, none of them done yet.
+/// Returns the row and column of the pivot for a step of Gaussian elimination.
 [[nodiscard]] GONIO_INLINE std::array<Eigen::Index, 2> largest_beyond(Eigen::Index step, const Eigen::MatrixXd& a) {
   std::array<Eigen::Index, 2> found{step, step};
   for (Eigen::Index i = step; i < a.rows(); ++i)
@@ -48,8 +48,8 @@ namespace detail {
   return found;
 }
 
-/// X with A X = B by Gaussian elimination with complete pivoting; zero where A is singular to rounding. Golub and Van
-/// Loan, Matrix Computations, 4th ed. 2013, 3.4.8; Eigen's takes a second to compile.
+/// Solves A X = B by Gaussian elimination with complete pivoting; zero where A is singular to rounding. Golub and Van
+/// Loan, Matrix Computations, 4th ed. 2013, 3.4.8. Eigen's solver would take a second to compile.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd solve_by_elimination(Eigen::MatrixXd a, Eigen::MatrixXd b) {
   const Eigen::Index size = a.rows();
   std::vector<Eigen::Index> unknown(static_cast<std::size_t>(size));
@@ -81,7 +81,7 @@ namespace detail {
   return x;
 }
 
-/// sum += A X.
+/// Adds A X to sum.
 GONIO_INLINE void add_combined(const Eigen::MatrixXd& a, const Eigen::MatrixXd& x, Eigen::MatrixXd& sum) {
   for (Eigen::Index j = 0; j < x.cols(); ++j)
     for (Eigen::Index i = 0; i < x.rows(); ++i) sum.col(j) += x(i, j) * a.col(i);
@@ -119,7 +119,7 @@ GONIO_INLINE void leave_one_material_out_error::sums::add(Eigen::MatrixXd column
     columns.col(i) *= std::sqrt(weights[i]);
   }
   gram += product_with_transpose(columns);
-  // By rounding, a basis that explains everything leaves a variance below zero.
+  // For a basis that explains everything, rounding can make a variance negative.
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
     columns.col(i) *= std::sqrt(weights[i] * std::max(variances[i], 0.0));
   noise += product_with_transpose(columns);

@@ -20,7 +20,7 @@
 namespace gonio {
 
 GONIO_INLINE outlier_density::outlier_density(const std::vector<double>& logarithms) : density_(bins, 0.0) {
-  // Count in bins over the range and half a unit beyond.
+  // Count in bins over the range, extended by half a unit on each side.
   const auto [least, most] = std::ranges::minmax_element(logarithms);
   const auto n = static_cast<double>(logarithms.size());
   lowest_ = *least - 0.5;
@@ -42,7 +42,7 @@ GONIO_INLINE outlier_density::outlier_density(const std::vector<double>& logarit
       const double z = static_cast<double>(i - j) * step_ / width;
       density_[j] += counts[i] * std::exp(-0.5 * z * z);
     }
-  // Flatten: a tenth of a measurement is where nothing was measured.
+  // Flatten. Where nothing was measured, assume a tenth of a measurement.
   double total = 0.0;
   for (double& value : density_) {
     value = std::sqrt(std::max(value / (n * width * std::sqrt(2.0 * std::numbers::pi)), 0.1 / n));
@@ -53,11 +53,11 @@ GONIO_INLINE outlier_density::outlier_density(const std::vector<double>& logarit
 
 namespace detail {
 
-/// Samples whose weights are computed together: their logarithms stay in the cache.
+/// The number of samples whose weights are computed together, so that their logarithms stay in the cache.
 inline constexpr Eigen::Index samples_at_once = 4096;
 
-/// The share p at which the sum of ln(p g + (1 - p) o) + ln p is largest: g and o are what good ones' and outliers'
-/// densities are at each measurement. By bisection of its slope, which falls with p.
+/// Returns the share p that maximises the sum of ln(p g + (1 - p) o) + ln p, where g and o are the densities of inliers
+/// and of outliers at each measurement. Bisects the slope, which decreases with p.
 [[nodiscard]] GONIO_INLINE double most_probable_share(const Eigen::VectorXd& good,
                                                       const std::vector<double>& outliers) {
   Eigen::VectorXd term(good.size());
@@ -103,7 +103,7 @@ GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measu
                                                      const channel_values& estimated) const {
   deviations found = deviate(measured, estimated);
   const outlier_mixture mixture = estimate_from(found);
-  // Distances are larger than residuals, the more so the less the channels have in common.
+  // Distances are larger than residuals; the less the channels have in common, the larger.
   const auto scale = static_cast<float>(mixture.scale / scale_of_distances(found, mixture));
   for (float& distance : found.distance) distance *= scale;
   std::vector<float> weights(measured.cols());
@@ -186,7 +186,7 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
                                                           const outlier_mixture& mixture) const {
   constexpr double nu = outlier_mixture::degrees_of_freedom;
   const Eigen::Index count = std::ssize(found.residual);
-  // Squared distances, and how much each counts: its probability to be good.
+  // Squared distances, and the weight of each: its probability to be an inlier.
   std::vector<double> squares(count), good(count);
   for_each_index(
       count, detail::samples_at_once,
@@ -196,7 +196,7 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
         good[i] = mixture.probability(double{found.residual[i]}, found.outliers[i]);
       },
       threads);
-  // The sum of good / (1 + inverse squares), times the squares or not.
+  // The sum of good / (1 + inverse squares), with each term times its square if `of_squares`.
   const auto sum = [&](double inverse, bool of_squares) {
     return sum_over_blocks(
         count, detail::samples_at_once, 0.0,
@@ -221,7 +221,7 @@ GONIO_INLINE double automatic_weights::half_of_the_good(const std::vector<float>
   std::vector<double> sorted;
   sorted.reserve(samples.size());
   for (const Eigen::Index sample : samples) sorted.push_back(double{residuals[sample]});
-  // Of n values, not of the n - 1 steps between them as `quantile` has it: a region may have but eight samples.
+  // Use n values, not the n - 1 steps between them as in `quantile`: a region may have only eight samples.
   const auto middle = static_cast<std::ptrdiff_t>(0.5 * inlier_fraction * static_cast<double>(sorted.size()));
   return std::max(nth_smallest(sorted, middle), 1e-6);
 }

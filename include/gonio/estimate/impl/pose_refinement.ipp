@@ -18,7 +18,7 @@
 
 namespace gonio::detail {
 
-/// A direction after a turn: Rodrigues' formula.
+/// Rotates a direction by Rodrigues' formula.
 [[nodiscard]] GONIO_INLINE direction turned_by(const direction& w, const Eigen::Vector3d& turn) {
   const double angle = turn.norm();
   if (!(angle > 0.0)) return w;
@@ -27,8 +27,9 @@ namespace gonio::detail {
   return cosine * w + along * axis + std::sin(angle) * cross_product(axis, w);
 }
 
-/// One sample of an image after the turns; where that would be below the horizon, as it was. Its radiance is what was
-/// measured: reflectance is radiance over irradiance and the light's cosine, which turns with the light.
+/// Returns a sample of an image after the rotations, or unchanged if it would then be below the horizon. Its measured
+/// radiance stays the same. Reflectance is radiance divided by irradiance and the light's cosine, which rotates with
+/// the light.
 [[nodiscard]] GONIO_INLINE sample turned_sample(const sample& s, const pose_correction& turns, bool by_irradiance) {
   const auto& [nominal_wi, nominal_wo] = s.directions.pair();
   const direction wi = turned_by(nominal_wi, turns.light), wo = turned_by(nominal_wo, turns.camera);
@@ -168,8 +169,8 @@ GONIO_INLINE std::vector<pose_correction> pose_iteration::moved(const Eigen::Vec
   return turns;
 }
 
-/// How the misfit y - Q c of an image changes with one of its unknowns, by central differences. They span what is
-/// expected of the turns: on the grid of the prior, smaller ones would see single cells.
+/// Returns the derivative of an image's misfit y - Q c by one of its unknowns, by central differences. The step is as
+/// large as the expected rotations: on the grid of the prior, a smaller step would see single cells.
 GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(Eigen::Index material, Eigen::Index image_number,
                                                         Eigen::Index unknown, const reader& read) const {
   const sample_set& samples = materials_[material][image_number];
@@ -187,8 +188,7 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(Eigen::Index material, E
   return change /= 2.0 * width;
 }
 
-/// The derivatives of a material's misfits by all unknowns, those of red, green and blue one above the other: 3 n x
-/// unknowns.
+/// Returns the derivatives of a material's misfits by all unknowns, with red, green and blue stacked: 3 n x unknowns.
 GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(Eigen::Index material, const reader& read) const {
   const std::vector<sample_set>& images = materials_[material];
   const Eigen::Index n = state_.fits[material].system.right.rows();

@@ -18,7 +18,7 @@ namespace gonio {
 
 namespace detail {
 
-/// Rows and columns of a matrix.
+/// Returns some rows and columns of a matrix.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd part_of(const Eigen::MatrixXd& whole, std::span<const Eigen::Index> rows,
                                                    std::span<const Eigen::Index> columns) {
   Eigen::MatrixXd part(std::ssize(rows), std::ssize(columns));
@@ -27,7 +27,7 @@ namespace detail {
   return part;
 }
 
-/// Rows of a matrix.
+/// Returns some rows of a matrix.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd rows_of_matrix(const Eigen::MatrixXd& whole,
                                                           std::span<const Eigen::Index> rows) {
   Eigen::MatrixXd part(std::ssize(rows), whole.cols());
@@ -184,7 +184,7 @@ GONIO_INLINE solution sample_process::fit() const {
                  {Eigen::VectorXd(channels()), Eigen::VectorXd(channels()), Eigen::VectorXd(channels())}};
   const Eigen::VectorXd mean_errors = errors_of(*shared_);
   for (Eigen::Index first = 0; first < channels(); first += together) {
-    // The dual a of these channels, K a = y, with one step of refinement.
+    // Solve K a = y for the dual a of these channels, with one step of iterative refinement.
     const Eigen::VectorXd errors = apart ? errors_of(*shared_, first) : mean_errors;
     Eigen::MatrixXd own_covariance;
     std::optional<cholesky> own_factors;
@@ -204,14 +204,14 @@ GONIO_INLINE solution sample_process::fit() const {
     for (Eigen::Index c = 0; c < together; ++c) {
       std::copy_n(&components(0, c), k, &found.weights(0, first + c));
       for (Eigen::Index i = 0; i < n; ++i) found.weights(k + i, first + c) = expected().model.variance * dual(i, c);
-      // With the weights error_variance / E of the rows, and eta = m error_variance.
+      // Report the residual with row weights error_variance / E and eta = m error_variance.
       const double unit = expected().model.error_variance;
       double squares = 0.0, gain = 0.0, largest = 0.0, worst = 0.0;
       for (Eigen::Index i = 0; i < n; ++i) {
         squares += errors[i] * dual(i, c) * dual(i, c);
         gain += y(i, c) * (dual(i, c) - y(i, c) / errors[i]);
         largest = std::max(largest, std::abs(y(i, c)));
-        // std::max would pass over what is not a number.
+        // std::max would ignore NaN.
         const double misfit = std::abs(off(i, c));
         worst = std::isfinite(misfit) ? std::max(worst, misfit) : std::numeric_limits<double>::infinity();
       }
@@ -287,7 +287,7 @@ GONIO_INLINE process_prediction sample_process::predict(const located_rows& plac
 GONIO_INLINE gonio::familiarity sample_process::familiarity() const {
   const Eigen::MatrixXd dual = factors().solve(values_);
   const double all = dot(values_.data(), dual.data(), dual.size());
-  // Share it among the terms of K.
+  // Divide it among the terms of K.
   const double components = detail::squared_norm(product(at().rows.transpose(), dual)) / expected().observations;
   const Eigen::VectorXd errors = errors_of(*shared_);
   double by_errors = 0.0;

@@ -19,7 +19,7 @@ namespace gonio {
 
 namespace detail {
 
-/// The mean of three channels and their two contrasts, an orthonormal turn of them.
+/// Returns the mean of three channels times sqrt(3), and their two contrasts: an orthonormal rotation of the channels.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd mean_and_contrasts(const Eigen::MatrixXd& values) {
   Eigen::MatrixXd turned(values.rows(), 3);
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
@@ -30,15 +30,15 @@ namespace detail {
   return turned;
 }
 
-/// Of the variance of what channels have in common, in units of their mean times sqrt(3) and of each contrast.
+/// Factors from the variance of the channels' common part to that of their mean times sqrt(3), and of each contrast.
 inline constexpr double shared_by_mean = 3.0, shared_by_contrast = 0.1;
 
-/// By how much the deviation in a highlight is smaller at some theta_h.
+/// Returns the factor by which the deviation in a highlight is smaller at some theta_h.
 [[nodiscard]] inline double highlight_share(const half_difference& angles, double reach) noexcept {
   return 1.0 / (1.0 + std::pow(angles.theta_h / reach, 2));
 }
 
-/// The covariance of a shared deviation at some angles with that at others.
+/// Returns the covariance of a shared deviation at some angles with that at others.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd shared_covariance(const shared_deviation& shared, const rejection_rule& rule,
                                                              std::span<const half_difference> angles,
                                                              std::span<const half_difference> others) {
@@ -55,7 +55,7 @@ inline constexpr double shared_by_mean = 3.0, shared_by_contrast = 0.1;
   return sum;
 }
 
-/// What wrong samples are told by: the covariances of the mean of the channels and of each contrast, of right samples.
+/// The covariances of right samples by which wrong ones are found: of the channels' mean, and of each contrast.
 struct judged_covariances {
   Eigen::MatrixXd mean, contrasts;
 };
@@ -77,10 +77,10 @@ struct judged_covariances {
 }
 
 /// A set of wrong samples, and the logarithm of its probability up to a constant. The mean of the three channels and
-/// their two contrasts are apart: the error of a wrong sample has other variances in these. The scale of all variances
-/// has an inverse gamma distribution of n + 10 degrees of freedom, which makes the likelihood Student's: where the
-/// model is poor all samples disagree a little, and none is an outlier. The channels of a material are alike: the mean
-/// of their likelihoods counts, not the product.
+/// their two contrasts are treated separately, because the errors of wrong samples have other variances in these. The
+/// scale of all variances has an inverse gamma distribution of n + 10 degrees of freedom, so that the likelihood is
+/// Student's: if the model is poor, all samples disagree a little, and none is an outlier. The channels of a material
+/// are alike, so the mean of their log-likelihoods counts, not the sum.
 class wrong_sample_set {
  public:
   wrong_sample_set(std::shared_ptr<const judged_covariances> covariances, const Eigen::MatrixXd& values,
@@ -100,11 +100,11 @@ class wrong_sample_set {
   [[nodiscard]] bool contains(Eigen::Index i) const { return is_wrong_[i]; }
   [[nodiscard]] const std::vector<bool>& members() const noexcept { return is_wrong_; }
 
-  /// Factors of the covariances, wrong samples having their errors. O(n^3).
+  /// Return the factors of the covariances, with the errors of wrong samples added. O(n^3).
   [[nodiscard]] cholesky mean_factors() const { return mean_.factors(covariances_->mean, is_wrong_); }
   [[nodiscard]] cholesky contrast_factors() const { return contrasts_.factors(covariances_->contrasts, is_wrong_); }
 
-  /// The scale of all variances.
+  /// Returns the scale of all variances.
   [[nodiscard]] double scale() const { return (degrees() + squares_ / channels) / (degrees() + count()); }
 
   [[nodiscard]] double log_probability() const {
@@ -114,10 +114,10 @@ class wrong_sample_set {
            std::lgamma(1.0 + count() - k);
   }
 
-  /// Of one more sample to be wrong, given how many are.
+  /// Returns the log odds that one more sample is wrong, given the number of wrong ones.
   [[nodiscard]] double log_odds() const { return log_odds(size_); }
 
-  /// By how much the logarithm grows if a sample changes sides. O(1).
+  /// Returns the gain of the log-probability if a sample changes sides. O(1).
   [[nodiscard]] double gain(Eigen::Index i) const {
     const double sign = is_wrong_[i] ? -1.0 : 1.0;
     const change mean = mean_.change_by(i, sign), contrasts = contrasts_.change_by(i, sign);
@@ -128,7 +128,7 @@ class wrong_sample_set {
            (is_wrong_[i] ? -log_odds(size_ - 1) : log_odds(size_));
   }
 
-  /// That a sample is wrong, if all others are as the set says.
+  /// Returns the probability that a sample is wrong, if all others are as in the set.
   [[nodiscard]] double probability(Eigen::Index i) const {
     return 1.0 / (1.0 + std::exp(is_wrong_[i] ? gain(i) : -gain(i)));
   }
@@ -143,7 +143,8 @@ class wrong_sample_set {
     is_wrong_[i] = !is_wrong_[i];
   }
 
-  /// The sample of the largest gain, of those that may change sides.
+  /// Returns the sample whose change of sides has the largest gain. If the set may not grow, only wrong samples may
+  /// change.
   [[nodiscard]] Eigen::Index best_change(bool may_grow) const {
     Eigen::Index best = -1;
     double most = 0.0;
@@ -172,13 +173,13 @@ class wrong_sample_set {
     double squares, log_determinant;
   };
 
-  /// Channels that are treated alike: the inverse of their covariance, and that times their values.
+  /// A group of channels that are treated alike: the inverse K^-1 of their covariance, and the dual K^-1 y.
   struct channel_group {
     double error_variance;
     Eigen::MatrixXd inverse = {}, dual = {};
     double log_determinant = 0.0;
 
-    /// Of K: the covariance, and the errors of wrong samples.
+    /// Returns the factors of K: the covariance plus the errors of wrong samples.
     [[nodiscard]] cholesky factors(Eigen::MatrixXd covariance, const std::vector<bool>& wrong) const {
       for (Eigen::Index i = 0; i < covariance.rows(); ++i)
         if (wrong[i]) covariance(i, i) += error_variance;
@@ -222,12 +223,12 @@ class wrong_sample_set {
   double expected_number_, squares_ = 0.0;
 };
 
-/// Less than this is rounding.
+/// Smaller gains are rounding errors.
 inline constexpr double least_gain = 1e-9;
 
-/// Adds the pair of samples whose gain is the largest, if it is positive: two wrong samples may hide each other.
+/// Adds the pair of samples with the largest gain, if it is positive: two wrong samples may hide each other.
 [[nodiscard]] GONIO_INLINE bool add_pair(wrong_sample_set& wrong) {
-  // Of many samples no two are alone: neighbours tell.
+  // Among many samples two wrong ones are rarely alone, and their neighbours reveal them: try fewer candidates.
   const Eigen::Index candidates = std::clamp<Eigen::Index>(2400 / wrong.samples(), 2, 12);
   std::vector<std::pair<double, Eigen::Index>> by_gain;
   for (Eigen::Index i = 0; i < wrong.samples(); ++i)
@@ -249,7 +250,7 @@ inline constexpr double least_gain = 1e-9;
   return true;
 }
 
-/// Changes sides while that makes the set more probable; in pairs where no single change does.
+/// Changes sides while that makes the set more probable. If no single change does, adds a pair.
 GONIO_INLINE void improve(wrong_sample_set& wrong, Eigen::Index most) {
   Eigen::Index changes = 0;
   for (bool improves = true; improves && changes < 3 * wrong.samples(); ++changes) {
@@ -273,7 +274,7 @@ GONIO_INLINE void require_possible(const rejection_rule& rule) {
             rule.channel_error});
 }
 
-/// The most probable set of those that a search finds, and the shared deviation beside it.
+/// Searches the most probable set of wrong samples, and the shared deviation.
 class set_search {
  public:
   set_search(const sample_process& samples, const Eigen::MatrixXd& values, const rejection_rule& rule,
@@ -331,14 +332,14 @@ GONIO_INLINE judged_samples judge_samples(const sample_process& samples, const r
   found.values_ = detail::mean_and_contrasts(samples.values());
   const detail::set_search search(samples, found.values_, rule, starts);
   const detail::wrong_sample_set& set = *search.best;
-  // Name them, those first whose being right would be the least probable.
+  // List them, the least likely to be right first.
   std::vector<std::pair<double, Eigen::Index>> by_gain;
   for (Eigen::Index i = 0; i < n; ++i) {
     found.probabilities_[i] = set.probability(i);
     if (set.contains(i)) by_gain.emplace_back(set.gain(i), i);
   }
   for (const Eigen::Index i : in_order(std::move(by_gain))) found.wrong_.push_back({i, found.probabilities_[i]});
-  // Keep what others are judged by.
+  // Keep everything needed to judge other samples.
   found.shared_ = search.shared;
   found.expected_ = samples.expected();
   found.at_ = samples.at();
@@ -358,7 +359,7 @@ GONIO_INLINE Eigen::VectorXd judged_samples::probabilities(const located_rows& o
   std::vector<double> log_ratio(p, log_odds_), squares_of_rows(p, 0.0);
   for (Eigen::Index k = 0; k < others.rows.cols(); ++k)
     for (Eigen::Index i = 0; i < p; ++i) squares_of_rows[i] += others.rows(i, k) * others.rows(i, k);
-  // Of wrong and right, the densities of the mean and of the contrasts.
+  // Add the log density ratios, wrong to right, of the mean and of the contrasts.
   const auto add = [&](const cholesky& factors, double share, double wrong_variance, Eigen::Index first,
                        Eigen::Index count) {
     Eigen::MatrixXd sum = with;

@@ -57,7 +57,7 @@ GONIO_INLINE std::vector<perceived_candidates::family> perceived_candidates::fam
   return judged;
 }
 
-/// A Cholesky factorisation that takes the largest pivot next: Golub and Van Loan, Matrix Computations, 4.2.8.
+/// Pivoted Cholesky factorisation: Golub and Van Loan, Matrix Computations, 4.2.8.
 GONIO_INLINE Eigen::MatrixXf perceived_candidates::discrepancy_factor() const {
   const Eigen::Index n = discrepancy_.rows();
   Eigen::VectorXd rest = discrepancy_.diagonal();
@@ -82,7 +82,7 @@ GONIO_INLINE void perceived_candidates::leave_out(const Eigen::MatrixXd& members
                                                   const std::vector<seen_material>& seen,
                                                   const Eigen::MatrixXf& discrepancy) {
   const Eigen::Index k = rows_.rows.cols(), n = rows_.rows.rows(), points = weights_.size();
-  // Without a family, the others' coefficients have another mean and covariance.
+  // Without the family, the others' coefficients have another mean and covariance.
   const double others = expected_.observations - static_cast<double>(members.cols());
   const Eigen::VectorXd mean = members.rowwise().sum() / -others;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(k, k) - product_with_transpose(members);
@@ -97,7 +97,7 @@ GONIO_INLINE void perceived_candidates::leave_out(const Eigen::MatrixXd& members
   found.variances.resize(all);
   for (Eigen::Index m = 0; m < std::ssize(seen); ++m) {
     found.mapped.middleCols(3 * m, 3) = seen[m].mapped.colwise() - shift;
-    // The points of one channel after those of another, so that a loop over points is over contiguous numbers.
+    // Order by channel, then by point, so that loops over points are contiguous.
     Eigen::MatrixXf slopes(of_each, n);
     for (Eigen::Index c = 0; c < 3; ++c)
       for (Eigen::Index point = 0; point < points; ++point)
@@ -121,11 +121,11 @@ GONIO_INLINE void perceived_candidates::leave_out(const Eigen::MatrixXd& members
   families_.push_back(std::move(found));
 }
 
-/// What samples leave of a family.
+/// The state of a family after some samples.
 struct perceived_candidates::remainder {
   Eigen::MatrixXd covariances;        ///< P_X: samples x n
   Eigen::MatrixXd explained;          ///< K^-1 P_X
-  Eigen::MatrixXd measured;           ///< y_X: samples x 3 of each material
+  Eigen::MatrixXd measured;           ///< y_X: samples x 3 per material
   Eigen::MatrixXf seen;               ///< s P_X': points x samples
   Eigen::VectorXf errors, variances;  ///< e and v
 };
@@ -213,7 +213,7 @@ GONIO_INLINE void perceived_candidates::add_with_each(const left_out& some, std:
         const Eigen::Index begin = range.begin + part.begin, end = range.begin + part.end;
         if (std::none_of(allowed_.begin() + begin, allowed_.begin() + end, [](bool allowed) { return allowed; }))
           return;
-        // s P of the process that knows the samples.
+        // s P of the process given the samples.
         Eigen::MatrixXf seen = some.seen.middleCols(begin, part.size());
         if (!cells.empty()) seen.noalias() -= left.seen * explained.middleCols(begin, part.size());
         Eigen::ArrayXf errors(of_each);

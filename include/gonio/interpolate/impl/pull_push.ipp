@@ -104,7 +104,7 @@ GONIO_INLINE completed_table pull_push::fit(const brdf_table& table) const {
 
 GONIO_INLINE void pull_push::splats::add(const sample& s) {
   auto sum = sums_.col(over_.linear(over_.nearest(s.angles())));
-  // A cell is known in all channels or in none, so that a sample has one weight.
+  // A cell is known in all channels or in none, so that a sample has a single weight.
   sum.head<3>() += s.weight.mean() * s.value;
   sum[3] += s.weight.mean();
 }

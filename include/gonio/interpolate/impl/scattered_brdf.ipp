@@ -20,7 +20,7 @@
 
 namespace gonio::detail {
 
-/// As `log_relative` of a reference of zero and no cosines.
+/// Maps like `log_relative` with a reference of zero and no cosines.
 [[nodiscard]] GONIO_INLINE double to_domain(interpolation_domain domain, double rho) noexcept {
   return domain == interpolation_domain::reflectance ? rho : log_relative::forward(rho, 0.0, 1.0);
 }
@@ -29,15 +29,15 @@ namespace gonio::detail {
   return domain == interpolation_domain::reflectance ? y : log_relative::inverse(y, 0.0, 1.0);
 }
 
-/// The two in an order that does not depend on which of them is the light.
+/// Returns true if the pair is in an order that does not depend on which direction is the light.
 [[nodiscard]] GONIO_INLINE bool is_ordered(const direction& wi, const direction& wo) noexcept {
   return std::tuple(wi.z(), wi.x(), wi.y()) <= std::tuple(wo.z(), wo.x(), wo.y());
 }
 
-/// Where a sample lies, and its number in the set.
+/// The embedded location of a sample, and its number in the set.
 using sample_place = std::pair<std::array<double, 4>, Eigen::Index>;
 
-/// The samples that count in a channel, sorted by place, so that repeats are next to each other.
+/// Returns the samples of positive weight in a channel, sorted by location, so that repeats are adjacent.
 [[nodiscard]] GONIO_INLINE std::vector<sample_place> sorted_places(const sample_set& samples, Eigen::Index channel,
                                                                    const pair_embedding& embedding) {
   std::vector<sample_place> places;
@@ -51,9 +51,9 @@ using sample_place = std::pair<std::array<double, 4>, Eigen::Index>;
 
 namespace gonio {
 
-/// The tree reads the points where they are, so that this stays where it is.
+/// The tree reads the points in place, so this cannot be moved.
 struct scattered_brdf::embedded_samples {
-  /// There is a place at least.
+  /// There must be at least one location.
   embedded_samples(const sample_set& samples, const std::vector<detail::sample_place>& places, Eigen::Index channel,
                    interpolation_domain domain)
       : points(4, std::ssize(places)),
@@ -67,7 +67,7 @@ struct scattered_brdf::embedded_samples {
   k_d_tree<4> tree;
 
  private:
-  /// Repeats are one point, with the weighted mean of their values as they are, so that noise cancels.
+  /// Merges repeats into one point with the weighted mean of their unmapped values, so that noise cancels.
   const Eigen::Matrix4Xd& merge(const sample_set& samples, const std::vector<detail::sample_place>& places,
                                 Eigen::Index channel, interpolation_domain domain) {
     Eigen::Index merged = 0;
@@ -90,20 +90,20 @@ struct scattered_brdf::embedded_samples {
 
 GONIO_INLINE rgb scattered_brdf::mean_of_neighbours(const embedded_samples& of,
                                                     const std::array<double, 4>& place) const noexcept {
-  // One more than are averaged: its distance is where weights end.
+  // Find one more than are averaged: weights vanish at its distance.
   std::array<std::uint32_t, scattered_options::most_neighbours + 1> numbers;
   std::array<double, scattered_options::most_neighbours + 1> distances;
   const Eigen::Index found = of.tree.nearest(place.data(), options_.neighbours + 1, numbers.data(), distances.data()),
                      count = std::min(found, options_.neighbours);
-  // A distance of rounding errors is none. The end lies a little beyond the next one: weights of equally near
-  // neighbours would be rounding errors, too.
+  // Replace distances of rounding errors by a small one. Weights vanish slightly farther out than the next neighbour:
+  // otherwise the weights of equally near neighbours would be rounding errors, too.
   constexpr double least = 1e-12, beyond = 1.0 + 1e-6;
   for (Eigen::Index i = 0; i < found; ++i) distances[i] = std::max(std::sqrt(distances[i]), least);
   const double end = beyond * distances[found - 1];
   const auto closeness = [&](double distance) {
     return found > count ? (end - distance) / (end * distance) : 1.0 / distance;
   };
-  // Relative to the nearest, so that nothing overflows.
+  // Use weights relative to the nearest, so that nothing overflows.
   const double closest = closeness(distances[0]);
   rgb sum = rgb::Zero();
   double weights = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
-/// What readers believe of the sizes that a file claims, before they ask for memory. A few bytes of deflated zeros can
-/// claim gigabytes; what instruments and this library write shrinks far less. docs/reference/formats.md, "Limits".
+/// Limits on the sizes that a file claims, checked before memory is allocated. A few bytes of deflated zeros can claim
+/// gigabytes; files of instruments and of this library shrink far less. docs/reference/formats.md, "Limits".
 
 #include <gonio/core/error.hpp>
 
@@ -10,13 +10,13 @@
 
 namespace gonio::io::detail {
 
-/// What may be claimed whatever the file's size: a MERL table has 35 MB, and one of a single colour shrinks 1000-fold.
+/// Bytes that a table may claim whatever its file's size. A MERL table has 35 MB; a plain one shrinks 1000-fold.
 inline constexpr std::uint64_t freely_claimed_table = std::uint64_t{36} << 20;
 
-/// The payload of a prior of one component over MERL's grid has 5.5 MB.
+/// The same for a payload. A prior of one component over MERL's grid has 5.5 MB.
 inline constexpr std::uint64_t freely_claimed_payload = std::uint64_t{8} << 20;
 
-/// Beyond that, how many bytes one deflated byte may stand for. The prior that ships has 33; deflate can make 1032.
+/// Above these, how many bytes one deflated byte may stand for. The prior that ships has 33; deflate's maximum is 1032.
 inline constexpr std::uint64_t believable_expansion = 64;
 
 [[nodiscard]] constexpr bool is_believable(std::uint64_t claimed, std::uint64_t freely,
@@ -24,8 +24,8 @@ inline constexpr std::uint64_t believable_expansion = 64;
   return claimed <= freely || (claimed - freely) / believable_expansion <= compressed;
 }
 
-/// How many pixels a kind of image may have whatever its file's size, and beyond that, how many pixels one byte of
-/// the file may stand for.
+/// How many pixels an image of one format may have whatever its file's size, and above that, how many pixels one byte
+/// of the file may stand for.
 struct pixel_claims {
   std::size_t freely, per_byte;
 
@@ -34,13 +34,13 @@ struct pixel_claims {
   }
 };
 
-/// Decoding takes at most 16 bytes a pixel. Photographs have a byte or more.
+/// The decoder takes at most 16 bytes per pixel. Photographs have at least a byte per pixel.
 inline constexpr pixel_claims png_claims{4'000'000, 16};
 
-/// Decoding takes 24 bytes a pixel.
+/// The decoder takes 24 bytes per pixel.
 inline constexpr pixel_claims hdr_claims{2'700'000, 4};
 
-/// More pixels each way is no image of ours.
+/// The largest number of rows or columns of an image.
 inline constexpr std::size_t image_limit = 16384;
 
 inline void check_image_size(std::size_t rows, std::size_t columns, const std::string& name) {
@@ -49,7 +49,7 @@ inline void check_image_size(std::size_t rows, std::size_t columns, const std::s
         {name, ": an image of ", columns, " x ", rows, " pixels, expected from 1 to ", image_limit, " each way"});
 }
 
-/// Nobody's image is so large and so empty; decoding it would take gigabytes.
+/// Refuses an image whose pixels its file's bytes cannot plausibly hold: to decode it could take gigabytes.
 inline void check_believable_pixels(const pixel_claims& claims, std::size_t rows, std::size_t columns,
                                     std::size_t bytes, const std::string& name) {
   if (!claims.are_believable(rows * columns, bytes))

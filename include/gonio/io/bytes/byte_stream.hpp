@@ -1,5 +1,5 @@
 #pragma once
-/// Little-endian binary records in memory: a writer that appends and a reader that never runs past the end.
+/// Little-endian binary records in memory: a writer that appends and a reader that never reads past the end.
 
 #include <gonio/core/error.hpp>
 
@@ -30,7 +30,7 @@ class byte_writer {
 
   void write_bytes(const void* bytes, std::size_t count);
 
-  /// A length of 32 bits and the characters.
+  /// Appends the length (32 bits) and the characters.
   void write_text(const std::string& text);
 
   [[nodiscard]] std::span<const std::byte> bytes() const& noexcept { return bytes_; }
@@ -40,8 +40,8 @@ class byte_writer {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads numbers and arrays off the front of a byte buffer; throws gonio::error naming `name` where the
-/// bytes do not suffice. Counts are checked against the bytes that are left before anything is allocated.
+/// Reads numbers and arrays from the front of a byte buffer. Throws gonio::error naming `name` if too few bytes are
+/// left. Checks counts against the bytes left before it allocates.
 class byte_reader {
  public:
   byte_reader(std::span<const std::byte> bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}

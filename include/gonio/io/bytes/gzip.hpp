@@ -1,7 +1,7 @@
 #pragma once
-/// Deflated data by zlib: gzip files (RFC 1952, several members are joined as gzip does) and zlib streams
-/// (RFC 1950) of a known size. Truncated, corrupt or over-long data is a gonio::error, as is anything that
-/// follows the end; no size that a file merely claims is allocated.
+/// Deflated data by zlib: gzip files (RFC 1952; several members are joined, as gzip does) and zlib streams (RFC 1950)
+/// of a known size. Truncated, corrupt or over-long data and anything after the end is a gonio::error. Memory grows
+/// with the actual data, not with a size that a file claims.
 
 #include <gonio/core/error.hpp>
 
@@ -17,7 +17,7 @@ namespace gonio::io {
 
 namespace detail {
 
-/// The most bytes to which deflate can expand one byte.
+/// The largest factor by which deflate can shrink data.
 inline constexpr std::size_t deflate_limit = 1032;
 
 enum class deflate_format : int { zlib = MAX_WBITS, gzip = MAX_WBITS + 16 };
@@ -30,17 +30,17 @@ class inflater {
   inflater& operator=(const inflater&) = delete;
   ~inflater() { inflateEnd(&stream_); }
 
-  /// Fills `out` unless the stream ends before; returns how many bytes there are.
+  /// Fills `out` unless the stream ends first; returns the number of bytes written.
   [[nodiscard]] std::size_t read(std::span<std::byte> out);
 
-  /// Has the stream, checksum included, ended?
+  /// Has the stream ended, including its checksum?
   [[nodiscard]] bool ended() const noexcept { return ended_; }
   [[nodiscard]] std::span<const std::byte> left() const noexcept { return left_; }
 
-  /// Turns to the stream that follows.
+  /// Starts on the stream that follows.
   void restart();
 
-  /// The parts of the message, one after the other.
+  /// Throws gonio::error with the joined parts of the message.
   [[noreturn]] void refuse(std::initializer_list<message_part> what) const;
 
  private:
@@ -52,16 +52,16 @@ class inflater {
   bool ended_ = false;
 };
 
-/// Expands the current stream into `result` from `size` on until it ends or `limit` bytes are full; returns
-/// their number. The buffer grows with what really comes.
+/// Expands the current stream into `result` from `size` on, until it ends or `limit` bytes are full. Returns the number
+/// of bytes in `result`. The buffer grows with the actual data.
 [[nodiscard]] std::size_t expand(inflater& stream, std::vector<std::byte>& result, std::size_t size, std::size_t limit);
 
-/// A first size for the buffer: what is claimed, as long as the compression is an ordinary one.
+/// Returns the buffer to start with: `claimed` bytes, but at most 64 per compressed byte.
 [[nodiscard]] std::vector<std::byte> first_buffer(std::size_t claimed, std::size_t compressed);
 
 }  // namespace detail
 
-/// Does this start like a gzip file?
+/// Do the bytes start as a gzip file does?
 [[nodiscard]] inline bool is_gzip(std::span<const std::byte> bytes) noexcept {
   return bytes.size() >= 2 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b};
 }
@@ -70,14 +70,14 @@ class inflater {
 [[nodiscard]] std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t maximum_size,
                                             const std::string& name);
 
-/// The first `count` bytes, or fewer if there are fewer, of what a gzip file's first member expands to.
+/// Returns the first `count` bytes, or fewer if there are fewer, of the expanded first member of a gzip file.
 [[nodiscard]] std::vector<std::byte> gunzip_prefix(std::span<const std::byte> bytes, std::size_t count,
                                                    const std::string& name);
 
 /// Deflates to a zlib stream; level 1 is fast, 9 is small.
 [[nodiscard]] std::vector<std::byte> compress_bytes(std::span<const std::byte> bytes, int level = 9);
 
-/// Expands a zlib stream that must hold exactly `expected_size` bytes and nothing after it.
+/// Expands a zlib stream. Throws gonio::error unless it holds exactly `expected_size` bytes and nothing follows.
 [[nodiscard]] std::vector<std::byte> decompress_bytes(std::span<const std::byte> bytes, std::size_t expected_size,
                                                       const std::string& name);
 

@@ -1,10 +1,10 @@
 #pragma once
-/// Arrays of float32, float64 or, of halves, float16 in numpy's .npy format, in C order. The caller says the number of
+/// Arrays in numpy's .npy format, in C order: reads float16, float32 and float64. The caller gives the number of
 /// dimensions: `read_npy<float, 2>("networks.npy")` is an xt::xtensor<float, 2>.
 /// https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 ///
-/// xtensor's own reader (xnpy.hpp) believes what a file says of itself: it neither checks that reads
-/// succeed nor that the shape's product fits in memory, and wants the header's keys in one order.
+/// xtensor's own reader (xnpy.hpp) trusts the file: it checks neither that reads succeed nor that the shape's product
+/// fits in memory, and it needs the header's keys in one order.
 
 #include <gonio/core/arrays.hpp>
 #include <gonio/core/half.hpp>
@@ -31,14 +31,14 @@ namespace gonio::io {
 static_assert(std::endian::native == std::endian::little,
               "we write little-endian arrays, as is every supported machine");
 
-/// What the header of a file says, checked.
+/// The checked content of a file's header.
 struct npy_layout {
   std::size_t word_size = 0;
   std::vector<std::size_t> shape;
   std::size_t count = 1;
 };
 
-/// A shape as Python writes a tuple.
+/// Returns a shape as Python writes a tuple.
 template <class Shape>
 [[nodiscard]] std::string npy_shape_text(const Shape& shape) {
   std::string text;
@@ -86,7 +86,7 @@ class npy_header_reader {
 
 }  // namespace detail
 
-/// Reads the magic, version and header off the front of a file's bytes.
+/// Reads magic, version and header, and removes them from the front of a file's bytes.
 [[nodiscard]] npy_layout read_npy_header(std::span<const std::byte>& bytes, const std::string& name);
 
 template <std::floating_point Stored, std::floating_point T>
@@ -102,7 +102,7 @@ void copy_elements(std::span<const std::byte> bytes, std::span<T> out, const std
   }
 }
 
-/// The same of half floats.
+/// Converts half floats.
 template <std::floating_point T>
 void copy_halves(std::span<const std::byte> bytes, std::span<T> out) {
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -112,14 +112,14 @@ void copy_halves(std::span<const std::byte> bytes, std::span<T> out) {
   }
 }
 
-/// What stands before the elements of a file of version 1.0, as numpy writes it: they begin at a multiple of 64 bytes.
+/// Returns the header of a version 1.0 file as numpy writes it: the elements begin at a multiple of 64 bytes.
 [[nodiscard]] std::string npy_header(std::string_view type, const std::string& shape);
 
 template <class T>
 concept npy_element = std::same_as<T, float> || std::same_as<T, double>;
 
-/// An array from the bytes of an .npy file, converted to T where it holds another type; `name` is what
-/// errors call it. NaN and infinity are left to whoever uses the array.
+/// Reads an array from the bytes of an .npy file, converted to T if it holds another type. Errors call it `name`. NaN
+/// and infinity are kept; the caller checks for them.
 template <npy_element T, std::size_t Rank>
 [[nodiscard]] xt::xtensor<T, Rank> read_npy(std::span<const std::byte> bytes, const std::string& name) {
   const npy_layout layout = read_npy_header(bytes, name);
@@ -148,7 +148,7 @@ template <npy_element T, std::size_t Rank>
   return read_npy<T, Rank>(read_bytes(path), path.string());
 }
 
-/// Writes an array as numpy itself would (version 1.0).
+/// Writes an array as numpy does (version 1.0).
 template <npy_element T, std::size_t Rank>
 void write_npy(const std::filesystem::path& path, const xt::xtensor<T, Rank>& array) {
   const std::string header = npy_header(sizeof(T) == 4 ? "<f4" : "<f8", npy_shape_text(array.shape()));
@@ -158,8 +158,8 @@ void write_npy(const std::filesystem::path& path, const xt::xtensor<T, Rank>& ar
   });
 }
 
-/// Writes an array as half floats, half as large; each number is rounded to 11 bits. Throws gonio::error naming the
-/// first that is beyond their range.
+/// Writes an array as half floats, in half the size of float32; each number is rounded to 11 bits. Throws gonio::error
+/// naming the first number outside their range.
 template <std::size_t Rank>
 void write_npy_halves(const std::filesystem::path& path, const xt::xtensor<float, Rank>& array) {
   std::vector<std::uint16_t> halves(array.size());
@@ -167,7 +167,7 @@ void write_npy_halves(const std::filesystem::path& path, const xt::xtensor<float
     const float value = array.data()[i];
     halves[i] = to_half(value);
     if (std::isfinite(value) && !std::isfinite(from_half(halves[i])))
-      gonio::refuse({path.native(), ": element ", i, " is ", double{value},
+      gonio::refuse({path.string(), ": element ", i, " is ", double{value},
                      ", beyond the range of half floats, 65504: write float32"});
   }
   const std::string header = npy_header("<f2", npy_shape_text(array.shape()));

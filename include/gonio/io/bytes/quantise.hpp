@@ -1,5 +1,5 @@
 #pragma once
-/// Quantised columns of numbers, delta-coded so that deflate finds the smoothness of a BRDF along phi_d.
+/// Quantised columns of numbers, delta-coded so that deflate can exploit the smoothness of a BRDF along phi_d.
 
 #include <gonio/io/bytes/byte_stream.hpp>
 
@@ -13,7 +13,8 @@
 
 namespace gonio::io {
 
-/// A column as unsigned codes between its extremes: value = low + code * step. The error is at most step / 2.
+/// A column as unsigned codes between its smallest and largest value: value = low + code * step. The error is at most
+/// step / 2.
 template <std::unsigned_integral Code>
 struct quantised {
   float low = 0.0f;
@@ -21,7 +22,7 @@ struct quantised {
   std::vector<Code> codes;
 };
 
-/// Quantises finite values linearly between their smallest and largest.
+/// Quantises finite values linearly between the smallest and the largest.
 template <std::unsigned_integral Code>
 [[nodiscard]] quantised<Code> quantise(std::span<const float> values) {
   if (values.empty()) return {};
@@ -32,7 +33,7 @@ template <std::unsigned_integral Code>
   }
   const double step = (double{high} - double{low}) / std::numeric_limits<Code>::max();
   quantised<Code> result{low, static_cast<float>(step), std::vector<Code>(values.size())};
-  // The stored float step, not the exact one, is what the reader multiplies by.
+  // The reader multiplies by the stored float step, not by the exact one.
   const double stored = result.step;
   constexpr double most = std::numeric_limits<Code>::max();
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -47,8 +48,8 @@ template <std::unsigned_integral Code>
   return static_cast<float>(double{column.low} + static_cast<double>(column.codes[i]) * double{column.step});
 }
 
-/// Writes low, step, and the differences of successive codes (modulo the code's range), most significant
-/// bytes of all first.
+/// Writes low, step, and the differences of successive codes (modulo the code's range): the most significant bytes of
+/// all codes first.
 template <std::unsigned_integral Code>
 void write_quantised(byte_writer& out, const quantised<Code>& column) {
   out.write(column.low);

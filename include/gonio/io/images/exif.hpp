@@ -1,5 +1,5 @@
 #pragma once
-/// The exposure time in the EXIF data of a JPEG file, such as a camera writes beside a raw one. Needs libexif
+/// The exposure time in the EXIF data of a JPEG file, such as cameras write beside a raw file. Needs libexif
 /// (gonio::exif); its headers are not included. Format: EXIF 2.32 (CIPA DC-008).
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace gonio::io {
 
-/// Seconds of exposure; nothing if the EXIF data has none. Throws gonio::error starting with `name` if the bytes are no
-/// JPEG file with EXIF data, or if the time is not from 1e-7 s to a day.
+/// Returns the exposure time in seconds; nothing if the EXIF data has none. Throws gonio::error starting with `name` if
+/// the bytes are not a JPEG file with EXIF data, or if the time is not from 1e-7 s to a day.
 [[nodiscard]] std::optional<double> read_exif_exposure_time(std::span<const std::byte> bytes, const std::string& name);
 
-/// The same of a file.
+/// Reads it from a file.
 [[nodiscard]] std::optional<double> read_exif_exposure_time(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -1,9 +1,9 @@
 #pragma once
-/// Images: PNG, 8 bits in sRGB, and Radiance HDR (RGBE), to and from linear light. Needs zlib and stb.
+/// Images: PNG (8 bits, sRGB) and Radiance HDR (RGBE), converted to and from linear light. Needs zlib and stb.
 ///
-/// Only stb's declarations are included. Debian's libstb, which gonio::image links, brings the code;
-/// elsewhere one source file of the program defines STB_IMAGE_IMPLEMENTATION and
-/// STB_IMAGE_WRITE_IMPLEMENTATION before it includes <stb/stb_image.h> and <stb/stb_image_write.h>.
+/// Only stb's declarations are included. Debian's libstb, which gonio::image links, has the code. Elsewhere, one source
+/// file of the program must define STB_IMAGE_IMPLEMENTATION and STB_IMAGE_WRITE_IMPLEMENTATION before it includes
+/// <stb/stb_image.h> and <stb/stb_image_write.h>.
 
 #include <gonio/core/rgb.hpp>
 #include <gonio/io/bytes/file.hpp>
@@ -37,7 +37,7 @@ struct stb_deleter {
 template <class T>
 using stb_pixels = std::unique_ptr<T[], stb_deleter>;
 
-/// stb counts bytes in int.
+/// Returns the number of bytes as an int, which stb needs.
 [[nodiscard]] int stb_size(std::span<const std::byte> bytes, const std::string& name);
 
 [[nodiscard]] inline const stbi_uc* stb_bytes(std::span<const std::byte> bytes) noexcept {
@@ -46,14 +46,14 @@ using stb_pixels = std::unique_ptr<T[], stb_deleter>;
 
 [[noreturn]] void refuse_by_stb(const std::string& name);
 
-/// Linear light of a display value in [0, 1], the inverse of `encode_srgb`.
+/// Returns the linear light of a display value in [0, 1]; the inverse of `encode_srgb`.
 [[nodiscard]] inline double decode_srgb(double encoded) noexcept {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
 // ---- PNG: stb decodes, but checks neither checksums nor that the file ends where it should ----
 
-/// The fields of a PNG's header chunk that say how many bytes its pixels take.
+/// The fields of a PNG's header chunk that determine how many bytes its pixels take.
 struct png_header {
   std::size_t columns = 0;
   std::size_t rows = 0;
@@ -61,7 +61,7 @@ struct png_header {
   std::size_t channels = 0;
   bool interlaced = false;
 
-  /// Bytes of the filtered rows before compression.
+  /// Returns the bytes of the filtered rows before compression.
   [[nodiscard]] std::size_t raw_size() const noexcept;
 };
 
@@ -69,19 +69,18 @@ struct png_header {
 
 [[nodiscard]] png_header read_png_header(std::span<const std::byte> data, const std::string& name);
 
-/// Walks a PNG's chunks: throws gonio::error unless all are whole with right checksums, the last is IEND with
-/// nothing after it, and the pixels expand to exactly the size that the header promises.
+/// Walks a PNG's chunks. Throws gonio::error unless all are complete with correct checksums, the last is IEND with
+/// nothing after it, and the pixels expand to exactly the size that the header gives.
 void check_png(std::span<const std::byte> bytes, const std::string& name);
 
 // ---- Radiance HDR is read by io/images/hdr_rows.hpp ----------------------------------------------
 
-/// The colour that RGBE holds for this one: three mantissas of eight bits, rounded, below a common exponent.
-/// stb would cut them off instead.
+/// Returns the colour as RGBE stores it: three 8-bit mantissas with a common exponent, rounded; stb truncates.
 [[nodiscard]] std::array<float, 3> round_to_rgbe(const float* pixel) noexcept;
 
 // ---- writing --------------------------------------------------------------------------------
 
-/// Collects what stb writes; an exception must not pass through its C code.
+/// Collects stb's output; an exception must not pass through its C code.
 struct byte_sink {
   std::vector<std::byte> bytes;
   bool failed = false;
@@ -102,20 +101,19 @@ struct stb_extents {
 /// Reads a PNG of any kind: palettes are resolved, grey becomes RGB, 16 bits become 8, alpha is dropped.
 [[nodiscard]] image read_png(const std::filesystem::path& path);
 
-/// Reads the codes of a PNG of 8 or 16 bits as they are: grey becomes three equal channels, alpha is dropped.
+/// Reads the stored codes of a PNG of 8 or 16 bits: grey becomes three equal channels, alpha is dropped.
 [[nodiscard]] stored_codes read_png_codes(const std::filesystem::path& path);
 
-/// A PNG as the bytes of a file, as `write_png` writes it; `name` is what an error calls it.
+/// Returns the bytes of a PNG file as `write_png` writes it. Errors call it `name`.
 [[nodiscard]] std::vector<std::byte> write_png(const image& picture, const std::string& name);
 
-/// Writes a PNG: clipped to [0, 1], sRGB-encoded, rounded to 8 bits. NaN is refused.
+/// Writes a PNG: clipped to [0, 1], sRGB-encoded, rounded to 8 bits. Refuses NaN.
 void write_png(const std::filesystem::path& path, const image& picture);
 
-/// Reads a Radiance HDR image: linear Rec. 709, as `hdr_rows::read` has it.
+/// Reads a Radiance HDR image as linear Rec. 709; see `hdr_rows::read`.
 [[nodiscard]] image read_hdr(const std::filesystem::path& path);
 
-/// Writes a Radiance HDR image. Negative values become 0; NaN and what RGBE cannot hold, from 1.7e38 on,
-/// are refused.
+/// Writes a Radiance HDR image. Negative values become 0. Refuses NaN, and values from 1.7e38 on, too large for RGBE.
 void write_hdr(const std::filesystem::path& path, const image& picture);
 
 }  // namespace gonio::io

@@ -12,23 +12,22 @@
 
 namespace gonio::io {
 
-/// The counts of the first image of a TIFF file: strips of 8 or 16 bits, one channel or three, more are ignored; any
-/// compression that libtiff knows. Pixels are as they are stored: the orientation is ignored. Grey becomes three equal
-/// channels.
+/// Reads the counts of the first image of a TIFF file: strips of 8 or 16 bits in any compression that libtiff supports.
+/// Channels after the third are ignored, grey becomes three equal channels. The orientation tag is ignored.
 ///
-/// Throws gonio::error starting with `name` if the bytes are no TIFF file or are truncated, if the image is tiled, has
-/// channels in planes, a palette, another colour space or samples that are no such counts, or if it has more than 16384
-/// pixels one way or more pixels than is believable of the bytes.
+/// Throws gonio::error starting with `name` if the bytes are not a TIFF file or are truncated, if the image is tiled,
+/// has separate planes, a palette, another colour space or other samples, or if it has more than 16384 rows or columns
+/// or more pixels than so many bytes plausibly hold.
 [[nodiscard]] stored_codes read_tiff(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads a TIFF file.
 [[nodiscard]] stored_codes read_tiff(const std::filesystem::path& path);
 
-/// Seconds of exposure by the EXIF data of a TIFF file; nothing if it has none. Throws gonio::error starting with
-/// `name` if the bytes are no TIFF file, or if the time is not from 1e-7 s to a day.
+/// Returns the exposure time in seconds from the EXIF data of a TIFF file; nothing if it has none. Throws gonio::error
+/// starting with `name` if the bytes are not a TIFF file, or if the time is not from 1e-7 s to a day.
 [[nodiscard]] std::optional<double> read_tiff_exposure_time(std::span<const std::byte> bytes, const std::string& name);
 
-/// The same of a file.
+/// Reads it from a file.
 [[nodiscard]] std::optional<double> read_tiff_exposure_time(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -1,11 +1,11 @@
 #pragma once
 /// Measured materials of NVIDIA's Material Definition Language (`.mbsdf`): MDL specification 1.10.2, appendix B. A text
-/// header, then in binary one block of reflection, of transmission, or one of each. A block: uint32 type (0: one
-/// channel, 1: red, green and blue), uint32 cells of theta from 0 to pi/2, uint32 cells of phi from 0 to pi, and
-/// float32 values, theta_in slowest, then theta_out, then phi; all little-endian.
+/// header, then binary blocks: reflection, transmission, or both. A block: uint32 type (0: one channel, 1: red, green
+/// and blue), uint32 cells of theta from 0 to pi/2, uint32 cells of phi from 0 to pi, and float32 values, theta_in
+/// slowest, then theta_out, then phi; all little-endian.
 ///
-/// Renderers multiply a value by the cosine of the light's angle: it is the BRDF, in sr^-1 and linear Rec. 709. They
-/// take the mean of both orders of the directions.
+/// A value is the BRDF, in sr^-1 and linear Rec. 709: renderers multiply it by the cosine of the light's angle. They
+/// average over both orders of the directions.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/io/bytes/file.hpp>
@@ -20,19 +20,19 @@
 
 namespace gonio::io {
 
-/// What is said of a material: keys and values.
+/// Keys and values in the header.
 using mbsdf_metadata = std::map<std::string, std::string>;
 
-/// A material, and what its file says of it.
+/// A material and the header of its file.
 struct mbsdf_material {
   model::polar_grid_brdf reflection;
   mbsdf_metadata metadata;
-  bool has_transmission = false;  ///< which is passed over, and not written
+  bool has_transmission = false;  ///< the file's transmission is skipped, and is not written
 };
 
-/// A material from the bytes of a file; `name` is what errors call it. Lines of the header that are no key and value
-/// are passed over, as MDL's own reader does. Throws gonio::error for a file without reflection, and for values that
-/// are not finite.
+/// Reads a material from the bytes of a file. Errors call it `name`. Header lines that are not a key and a value are
+/// skipped, as in MDL's own reader. Throws gonio::error for a file without reflection and for values that are not
+/// finite.
 [[nodiscard]] mbsdf_material read_mbsdf(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads a file.
@@ -40,8 +40,8 @@ struct mbsdf_material {
   return read_mbsdf(read_bytes(path), path.string());
 }
 
-/// The bytes of a file. Throws gonio::error for a key that is not letters, digits and underscores; of values, what is
-/// no printable ASCII becomes '?'.
+/// Returns the bytes of a file. Characters of values that are not printable ASCII become '?'. Throws gonio::error for a
+/// key that is not letters, digits and underscores.
 [[nodiscard]] std::vector<std::byte> write_mbsdf(const mbsdf_material& material);
 
 /// Writes a file beside its target and renames it.
@@ -49,7 +49,7 @@ inline void write_mbsdf(const std::filesystem::path& path, const mbsdf_material&
   write_atomically(path, write_mbsdf(material));
 }
 
-/// The same of any BRDF, over this grid.
+/// Tabulates any BRDF over a grid and writes it.
 template <brdf Brdf>
 void write_mbsdf(const std::filesystem::path& path, const Brdf& f, const model::polar_grid& grid = {},
                  const mbsdf_metadata& metadata = {}) {

@@ -1,10 +1,10 @@
 #pragma once
-/// Dense tables in the binary format of the MERL database: three little-endian int32 (extents of theta_h,
-/// theta_d, phi_d), then a plane of float64 for red, green and blue; a value times 1/1500, 1.15/1500 or
-/// 1.66/1500 is in sr^-1. Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
+/// Dense tables in the binary format of the MERL database: three little-endian int32 (extents of theta_h, theta_d,
+/// phi_d), then a plane of float64 for red, green and blue; a value times 1/1500, 1.15/1500 or 1.66/1500 is in sr^-1.
+/// Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 ///
-/// A file does not say at which point of a cell its values were taken. Cells without a value, -1 in all
-/// three channels, are the only trace of it: see `infer_convention`.
+/// A file does not tell at which point of a cell its values were taken. It can only be inferred from the cells without
+/// a value, -1 in all three channels: see `infer_convention`.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/io/bytes/file.hpp>
@@ -28,10 +28,9 @@ static_assert(std::endian::native == std::endian::little,
               "MERL files are little-endian, as is every supported machine");
 
 struct merl_options {
-  /// Overrides what the cells marked -1 say.
+  /// Overrides the convention inferred from the cells marked -1.
   std::optional<table_convention> convention;
-  /// Where a file turns out to be on these cells, its table shares them: reading a folder of tables then
-  /// builds their index once.
+  /// If a file has these cells, its table shares them: a folder of tables then builds their index only once.
   std::optional<valid_cells> shared;
 };
 
@@ -44,10 +43,10 @@ inline constexpr std::size_t merl_header_size = 3 * sizeof(std::int32_t);
 /// Reads and checks the extents at the start of a file.
 [[nodiscard]] grid_extents merl_extents(std::span<const std::byte> bytes, const std::string& name);
 
-/// Size in bytes of a file with these extents, which `merl_extents` has checked.
+/// Returns the size in bytes of a file with these extents, which `merl_extents` has checked.
 [[nodiscard]] std::uint64_t merl_file_size(const grid_extents& extents);
 
-/// The three planes of a file; its header leaves them misaligned.
+/// The three planes of a file; after its header they are misaligned.
 class merl_planes {
  public:
   merl_planes(std::span<const std::byte> bytes, std::size_t cells) : data_(bytes.data()), cells_(cells) {}
@@ -68,8 +67,8 @@ class merl_planes {
 
 }  // namespace detail
 
-/// A table from the bytes of a MERL file; `name` is what errors call it. Values at cells below the horizon
-/// are ignored. Negative values at the others are measurements and stay; NaN and infinity are refused.
+/// Reads a table from the bytes of a MERL file. Errors call it `name`. Values of cells below the horizon are ignored.
+/// Negative values of other cells are measurements and are kept. Refuses NaN and infinity.
 [[nodiscard]] brdf_table read_merl(std::span<const std::byte> bytes, const std::string& name,
                                    const merl_options& options = {});
 
@@ -78,12 +77,12 @@ class merl_planes {
   return read_merl(read_bytes(path), path.string(), options);
 }
 
-/// Writes a table; what is read back is equal to it. The format has no place for the table's anchor and
-/// minimum cosine: they are carried by the cells marked -1 alone, so that a grid so coarse that two
-/// conventions mark the same cells comes back as the first of them (see `infer_convention`).
+/// Writes a table; reading it back gives an equal table. The format has no field for the table's anchor and minimum
+/// cosine: only the cells marked -1 carry them. If a grid is so coarse that two conventions mark the same cells, it is
+/// read back with the first of them (see `infer_convention`).
 void write_merl(const std::filesystem::path& path, const brdf_table& table);
 
-/// Tabulates a BRDF and writes the table; a fit that tabulates itself does so.
+/// Tabulates a BRDF, by its own `tabulate` if it has one, and writes the table.
 template <brdf Brdf>
 requires(!std::same_as<Brdf, brdf_table>) void write_merl(const std::filesystem::path& path, const Brdf& f,
                                                           const valid_cells& cells = valid_cells()) {

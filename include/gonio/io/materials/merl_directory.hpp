@@ -14,18 +14,18 @@
 
 namespace gonio::io {
 
-/// The MERL tables (`.binary` or `.binary.gz`) in a folder; see `list_named_files`.
+/// Lists the MERL tables (`.binary` or `.binary.gz`) in a folder; see `list_named_files`.
 [[nodiscard]] std::vector<named_file> list_merl_directory(const std::filesystem::path& folder);
 
-/// Reads the tables of a folder but the excluded ones, which must exist, and hands over one after the other: at most
-/// two are in memory. All must be over the same cells. `take` is given the name, the table, and how many there are in
-/// all. Throws gonio::error naming the file otherwise.
+/// Reads the tables of a folder except the excluded ones, and calls `take` for each with its name, the table and the
+/// total number of tables. At most two are in memory. Throws gonio::error naming the file if an excluded table does not
+/// exist or if tables are over different cells.
 void for_each_table(const std::filesystem::path& folder, const std::vector<std::string>& excluded,
                     const std::function<void(const std::string& name, brdf_table table, std::size_t of)>& take,
                     const progress& listener = {});
 
-/// Reads all tables of a folder but the excluded ones, which must exist. All must be over the same cells.
-/// Takes 4 bytes a value; negative values are kept. Throws gonio::error naming the file otherwise.
+/// Reads all tables of a folder except the excluded ones. Takes 4 bytes per value; negative values are kept. Throws
+/// gonio::error naming the file if an excluded table does not exist or if tables are over different cells.
 [[nodiscard]] material_set read_merl_directory(const std::filesystem::path& folder,
                                                const std::vector<std::string>& excluded = {},
                                                const progress& listener = {});

@@ -1,12 +1,12 @@
 #pragma once
-/// MERL files that may be compressed by gzip, told apart by their content. Needs zlib.
+/// MERL files, plain or compressed by gzip, distinguished by their content. Needs zlib.
 
 #include <gonio/io/bytes/gzip.hpp>
 #include <gonio/io/materials/merl.hpp>
 
 namespace gonio::io {
 
-/// A table from the bytes of a MERL file, plain or gzip.
+/// Reads a table from the bytes of a MERL file, plain or gzip.
 [[nodiscard]] brdf_table read_merl_any(std::span<const std::byte> bytes, const std::string& name,
                                        const merl_options& options = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Materials as networks (Sztrajman et al. 2021, doi:10.1111/cgf.14335, see model/network_brdf.hpp): an .npy array of
-/// 675 columns, a row for each material, and a text file with one name a line.
+/// 675 columns with a row for each material, and a text file with one name per line.
 
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/bytes/npy.hpp>
@@ -17,8 +17,7 @@
 
 namespace gonio::io {
 
-/// Reads one name a line; blanks around a name do not count. Throws gonio::error naming the line where a
-/// name is empty or appears twice.
+/// Reads one name per line, without surrounding blanks. Throws gonio::error naming an empty or repeated line.
 [[nodiscard]] std::vector<std::string> read_names(const std::filesystem::path& path);
 
 /// Reads networks and their names.

@@ -1,6 +1,6 @@
 #pragma once
-/// The learned prior as a file: principal components under the log-relative metric, quantised, deflated and
-/// checksummed. The format is described in docs/reference/formats.md.
+/// The file of a learned prior: principal components under the log-relative metric, quantised, deflated and
+/// checksummed. docs/reference/formats.md describes the format.
 
 #include <gonio/basis/pca.hpp>
 
@@ -12,21 +12,20 @@
 
 namespace gonio::io {
 
-/// A prior as the bytes of a file: components as 8-bit codes, mean and logarithm of the reference as 16-bit
-/// ones.
+/// Returns a prior as the bytes of a file: components in 8-bit codes, mean and logarithm of the reference in 16-bit.
 [[nodiscard]] std::vector<std::byte> write_prior(const log_relative_pca& prior);
 
-/// The prior in the bytes of a file. Throws gonio::error starting with `name` where they are not a prior, of
-/// another version, damaged (checksum), truncated or over-long.
+/// Reads a prior from the bytes of a file. Throws gonio::error starting with `name` if they are not a prior, of another
+/// version, damaged (checksum), truncated or too long.
 [[nodiscard]] log_relative_pca read_prior(std::span<const std::byte> bytes, const std::string& name);
 
-/// Does the file start as a prior does?
+/// Does the file start with a prior's magic word?
 [[nodiscard]] bool is_prior(const std::filesystem::path& path);
 
-/// Writes a prior. An existing file is replaced only once the new one is complete.
+/// Writes a prior. An existing file is replaced only when the new one is complete.
 void write_prior(const std::filesystem::path& path, const log_relative_pca& prior);
 
-/// Reads a file, which is refused for the same reasons.
+/// Reads a file; throws for the same reasons.
 [[nodiscard]] log_relative_pca read_prior(const std::filesystem::path& path);
 
 }  // namespace gonio::io

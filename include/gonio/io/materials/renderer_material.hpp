@@ -1,5 +1,5 @@
 #pragma once
-/// Fitted models as materials of renderers, text: pbrt-v4, Mitsuba 3, OpenPBR in MaterialX, glTF 2.0, and the Open
+/// Fitted models as text materials of renderers: pbrt-v4, Mitsuba 3, OpenPBR in MaterialX, glTF 2.0, and the Open
 /// Shading Language.
 
 #include <gonio/io/bytes/file.hpp>
@@ -15,7 +15,7 @@ namespace gonio::io {
 
 namespace detail {
 
-/// What a renderer's material of one rough interface over a diffuse base is told.
+/// The parameters of a renderer's material: one rough interface over a diffuse base.
 struct rough_surface {
   rgb diffuse = rgb::Zero();
   rgb specular = rgb::Zero();
@@ -24,35 +24,36 @@ struct rough_surface {
 
   /// The refractive index whose reflectance at normal incidence is f0.
   [[nodiscard]] double refractive_index() const;
-  /// What the highlight reflects at normal incidence.
+  /// Returns the reflectance of the highlight at normal incidence.
   [[nodiscard]] rgb highlight() const { return specular * f0; }
-  /// The share of the highlight in all that is reflected, where it is that of a metal: 1 if no base is seen beside it,
-  /// 0 for a dielectric.
+  /// Returns the highlight's fraction of the reflected light if it is a metal's (above 0.3): 1 if the base is
+  /// negligible. Returns 0 for a dielectric.
   [[nodiscard]] double metalness() const;
-  /// The colour that a metal and its base share: a share `metalness` of it is the highlight at normal incidence.
+  /// Returns the colour that a metal and its base share; the fraction `metalness` of it is the highlight at normal
+  /// incidence.
   [[nodiscard]] rgb metal_colour() const;
 };
 
-/// The same highlight at normal incidence with no colour above 1, for renderers that refuse such.
+/// Returns the same highlight at normal incidence with no colour above 1, for renderers that refuse colours above 1.
 [[nodiscard]] rough_surface bounded(rough_surface surface);
 
 struct conductor {
   double index = 1.0, extinction = 0.0;
 };
 
-/// A conductor, or without extinction a dielectric, that reflects f0 at normal incidence, and of these the one nearest
-/// to Schlick's approximation up to 85 degrees: within 0.5 % from f0 = 0.6, within 31 % for a dielectric's 0.03.
+/// Returns the conductor (dielectric if the extinction is 0) that reflects f0 at normal incidence and is nearest to
+/// Schlick's approximation up to 85 degrees: within 0.5 % for f0 from 0.6 on, within 31 % for a dielectric's 0.03.
 [[nodiscard]] conductor conductor_like_schlick(double f0);
 
-/// The albedo of a Lambertian base that has the albedo `seen` in diffuse light through a smooth dielectric, at most 1:
-/// what the dielectric reflects back inside counts. J. L. Saunderson, "Calculation of the Color of Pigmented Plastics",
-/// JOSA 32(12), 1942 (doi:10.1364/JOSA.32.000727), with what diffuse light meets by Fresnel's equations.
+/// Returns the albedo, at most 1, of a Lambertian base whose albedo in diffuse light through a smooth dielectric is
+/// `seen`. Includes the light that the dielectric reflects back inside. J. L. Saunderson, "Calculation of the Color of
+/// Pigmented Plastics", JOSA 32(12), 1942 (doi:10.1364/JOSA.32.000727), with Fresnel's equations for diffuse light.
 [[nodiscard]] rgb base_below_coat(const rgb& seen, double index);
 
-/// Throws gonio::error unless the model is one lobe of GGX or Torrance-Sparrow, beside a Lambertian one or not.
+/// Throws gonio::error unless the model is one lobe of GGX or Torrance-Sparrow, with or without a Lambertian lobe.
 [[nodiscard]] rough_surface as_rough_surface(const model::analytic_brdf& model);
 
-/// The same, and throws for Beckmann's distribution, naming who has none.
+/// The same, but also throws for Beckmann's distribution, naming the renderer that has none.
 [[nodiscard]] rough_surface as_ggx_surface(const model::analytic_brdf& model, const char* renderer);
 
 [[nodiscard]] inline std::string three_numbers(const rgb& colour, const std::string& between) {
@@ -61,38 +62,38 @@ struct conductor {
 
 }  // namespace detail
 
-/// A `Material` of pbrt-v4, linear sRGB. GGX beside Lambert becomes `coateddiffuse`: roughness (not remapped) and
-/// refractive index are carried over, and a base that has the albedo in diffuse light below a coat that absorbs
-/// nothing; the colour of the highlight is not, because the coat has none. GGX by itself becomes `conductor` with the
-/// reflectance at normal incidence, colour times f0, and so does a highlight that no dielectric has, above 0.3: beside
-/// a base, a `mix` of both. Throws gonio::error for other models: pbrt has no Beckmann distribution.
+/// Returns a `Material` of pbrt-v4, linear sRGB. GGX with Lambert becomes `coateddiffuse` with the same roughness (not
+/// remapped) and refractive index; the base has the model's albedo in diffuse light below a coat without absorption.
+/// The colour of the highlight is lost, because the coat has none. GGX alone becomes `conductor` with the reflectance
+/// at normal incidence, colour times f0. A highlight above 0.3, which no dielectric has, also becomes a `conductor`;
+/// with a base, a `mix` of both. Throws gonio::error for other models: pbrt has no Beckmann distribution.
 [[nodiscard]] std::string pbrt_material(const model::analytic_brdf& model);
 
-/// A `bsdf` of Mitsuba 3, linear sRGB: the sum of the lobes, as a `blendbsdf` of equal shares of a `diffuse` and a
-/// `roughconductor` of twice the colours. All is carried over; the rise towards grazing angles is Fresnel's, of
-/// `conductor_like_schlick`, instead of Schlick's. `roughplastic` is not used: it takes a sixth of the base's light.
+/// Returns a `bsdf` of Mitsuba 3, linear sRGB: the sum of the lobes, as a `blendbsdf` in equal parts of a `diffuse` and
+/// a `roughconductor` with doubled colours. All parameters are kept; the rise towards grazing angles is Fresnel's for
+/// `conductor_like_schlick` instead of Schlick's. `roughplastic` is not used: it takes a sixth of the base's light.
 [[nodiscard]] std::string mitsuba_material(const model::analytic_brdf& model);
 
-/// A MaterialX 1.39 document (.mtlx) with an `open_pbr_surface`, linear Rec. 709: OpenPBR 1.1, whose roughness is the
-/// root of GGX's. GGX beside Lambert carries over albedo, roughness, refractive index and, as `specular_color`, the
-/// colour of the highlight at normal incidence; the base has only the light that the interface lets through. GGX by
-/// itself becomes a metal in the colour times f0; a highlight above 0.3 beside a base becomes one with a
+/// Returns a MaterialX 1.39 document (.mtlx) with an `open_pbr_surface`, linear Rec. 709: OpenPBR 1.1, whose roughness
+/// is the square root of GGX's. GGX with Lambert keeps albedo, roughness, refractive index and, as `specular_color`,
+/// the colour of the highlight at normal incidence; the base receives only the light that the interface transmits. GGX
+/// alone becomes a metal with the colour times f0. A highlight above 0.3 with a base becomes a metal with
 /// `base_metalness` below 1, whose base has the same colour. Throws gonio::error for other models, and for a name that
 /// is not letters, digits and underscores.
 [[nodiscard]] std::string materialx_material(const model::analytic_brdf& model, const std::string& name = "material");
 
-/// A glTF 2.0 document with a unit sphere of one material, which importers show: metallic-roughness, whose roughness is
-/// the root of GGX's, with KHR_materials_ior and KHR_materials_specular where there is a base. There the highlight has
-/// its colour at normal incidence, and its largest channel, at most 1, at grazing angles. Metals are those of OpenPBR.
-/// Throws gonio::error for models but GGX, beside Lambert or by itself.
+/// Returns a glTF 2.0 document with a unit sphere of one material, which importers show. The material is
+/// metallic-roughness, whose roughness is the square root of GGX's; with a base also KHR_materials_ior and
+/// KHR_materials_specular. The highlight then has its colour at normal incidence and its largest channel, at most 1, at
+/// grazing angles. Metals are as in OpenPBR. Throws gonio::error for models other than GGX, with or without Lambert.
 [[nodiscard]] std::string gltf_material(const model::analytic_brdf& model);
 
-/// A shader `gonio_material` in the Open Shading Language for Blender's Cycles, linear Rec. 709: the sum of a diffuse
-/// closure and `generalized_schlick_bsdf`, whose parameters begin as the model's. Only masking differs: Cycles' knows
-/// that both directions see the same heights. Throws gonio::error for models but GGX, beside Lambert or by itself.
+/// Returns a shader `gonio_material` in the Open Shading Language for Blender's Cycles, linear Rec. 709: the sum of a
+/// diffuse closure and `generalized_schlick_bsdf` with the model's parameters. Only masking differs: that of Cycles is
+/// height-correlated. Throws gonio::error for models other than GGX, with or without Lambert.
 [[nodiscard]] std::string osl_shader(const model::analytic_brdf& model);
 
-/// Writes such a text; whole, or not at all.
+/// Writes such a text, completely or not at all.
 inline void write_renderer_material(const std::filesystem::path& path, const std::string& material) {
   write_atomically(path, std::as_bytes(std::span(material)));
 }

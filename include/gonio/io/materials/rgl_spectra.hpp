@@ -1,5 +1,5 @@
 #pragma once
-/// Spectra in files of the RGL material database (io/materials/rgl.hpp): written of a spectral table, and read in any
+/// Spectra in files of the RGL material database (io/materials/rgl.hpp): written from a spectral table, read in any
 /// directions.
 
 #include <gonio/core/parallel.hpp>
@@ -14,25 +14,25 @@
 
 namespace gonio::io {
 
-/// A spectral table as the spectral variant of a material, for pbrt-v4 and Mitsuba's spectral variants, which
-/// interpolate linearly between wavelengths: those that suffice within `tolerance` (`model::sufficient_wavelengths`).
-/// `write_rgl` writes it. Throws gonio::error for fewer than two wavelengths. The cost of `model::tabulate_adaptively`
-/// and of a `model::tabulate_over` for each three wavelengths.
+/// Returns a spectral table as the spectral variant of a material, for `write_rgl`. pbrt-v4 and Mitsuba's spectral
+/// variants interpolate linearly between wavelengths: keeps those that suffice within `tolerance`
+/// (`model::sufficient_wavelengths`). Throws gonio::error for fewer than two wavelengths. Costs a
+/// `model::tabulate_adaptively` and a `model::tabulate_over` for each three wavelengths.
 [[nodiscard]] rgl_material tabulate_adaptively(const spectral_table& table,
                                                double tolerance = model::usual_albedo_tolerance,
                                                const std::string& description = "gonio", thread_count threads = {});
 
-/// Spectra at other wavelengths, in nanometres: linear between their own, as renderers read them. Throws gonio::error
-/// for wavelengths that are none, or beyond their own. O(values).
+/// Returns the spectra at other wavelengths, in nanometres, by linear interpolation as in renderers. Throws
+/// gonio::error for invalid wavelengths and for those outside the range of `spectra`. O(values).
 [[nodiscard]] rgl_spectra at_wavelengths(const rgl_spectra& spectra, std::vector<double> wavelengths);
 
-/// The spectra of a material over the valid cells of a grid. Throws gonio::error for a material in RGB. The cost of
+/// Returns the spectra of a material over the valid cells of a grid. Throws gonio::error for a material in RGB. Costs a
 /// `tabulate` for each three wavelengths.
 [[nodiscard]] spectral_table tabulate_spectra(const rgl_material& material, const valid_cells& cells,
                                               thread_count threads = {});
 
-/// The spectra of a material in some directions, as measurements. Throws gonio::error for a material in RGB, and for
-/// directions at or below the horizon.
+/// Returns the spectra of a material in some directions, as measurements. Throws gonio::error for a material in RGB,
+/// and for directions at or below the horizon.
 [[nodiscard]] sample_set sample_spectra(const rgl_material& material, std::span<const sample_directions> directions);
 
 }  // namespace gonio::io

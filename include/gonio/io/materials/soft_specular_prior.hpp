@@ -1,6 +1,6 @@
 #pragma once
-/// A soft and a specular prior as one file: the threshold between them, and two priors as io/materials/prior.hpp writes
-/// them. The format is described in docs/reference/formats.md.
+/// A soft and a specular prior in one file: the threshold between them, and two priors as io/materials/prior.hpp writes
+/// them. docs/reference/formats.md describes the format.
 
 #include <gonio/basis/soft_specular_prior.hpp>
 
@@ -12,20 +12,20 @@
 
 namespace gonio::io {
 
-/// Both priors as the bytes of a file, quantised as `write_prior` does.
+/// Returns both priors as the bytes of a file, quantised as by `write_prior`.
 [[nodiscard]] std::vector<std::byte> write_soft_specular_prior(const soft_specular_prior& prior);
 
-/// The priors in the bytes of a file. Throws gonio::error starting with `name` where they are not two priors of one
-/// metric, of another version, damaged (checksum), truncated or over-long.
+/// Reads both priors from the bytes of a file. Throws gonio::error starting with `name` if they are not two priors with
+/// the same metric, of another version, damaged (checksum), truncated or too long.
 [[nodiscard]] soft_specular_prior read_soft_specular_prior(std::span<const std::byte> bytes, const std::string& name);
 
-/// Does the file start as two priors do?
+/// Does the file start with the magic word of two priors?
 [[nodiscard]] bool is_soft_specular_prior(const std::filesystem::path& path);
 
-/// Writes both priors. An existing file is replaced only once the new one is complete.
+/// Writes both priors. An existing file is replaced only when the new one is complete.
 void write_soft_specular_prior(const std::filesystem::path& path, const soft_specular_prior& prior);
 
-/// Reads a file, which is refused for the same reasons.
+/// Reads a file; throws for the same reasons.
 [[nodiscard]] soft_specular_prior read_soft_specular_prior(const std::filesystem::path& path);
 
 }  // namespace gonio::io

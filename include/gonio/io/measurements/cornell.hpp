@@ -1,7 +1,7 @@
 #pragma once
 /// Measurements in the text format of Cornell's reflectance database (Foo, A Gonioreflectometer for Measuring the
-/// Bidirectional Reflectance of Material for Use in Illumination Computation, 1997): the number of wavelengths, then
-/// these in nanometres, then a line for each pair of directions: theta_i, phi_i, theta_s, phi_s in radians, and a
+/// Bidirectional Reflectance of Material for Use in Illumination Computation, 1997): the number of wavelengths, the
+/// wavelengths in nanometres, then a line for each pair of directions: theta_i, phi_i, theta_s, phi_s in radians, and a
 /// reflectance in sr^-1 for each wavelength. Lines that start with # are comments.
 
 #include <gonio/io/measurements/sample_collector.hpp>
@@ -20,14 +20,14 @@ namespace gonio::io {
 
 namespace detail {
 
-/// Reads such a file line by line.
+/// Reads a file line by line.
 class cornell_reader {
  public:
   explicit cornell_reader(text_place& place) : place_(place) {}
 
   void read(std::string_view line);
 
-  /// What was read. Throws gonio::error if that is not a whole measurement.
+  /// Returns the samples read. Throws gonio::error if the measurement is incomplete.
   [[nodiscard]] sample_collector samples() &&;
 
  private:
@@ -41,7 +41,7 @@ class cornell_reader {
 
   void read_sample();
 
-  /// From a polar angle and the azimuth after it.
+  /// Reads a direction from a polar angle in this field and an azimuth in the next.
   [[nodiscard]] direction read_direction(std::size_t field) const;
 
   text_place& place_;
@@ -53,11 +53,11 @@ class cornell_reader {
 
 }  // namespace detail
 
-/// Samples from the text of such a file, at its wavelengths; `name` is what errors call it. Throws gonio::error naming
-/// line and field of what is wrong.
+/// Reads samples at the file's wavelengths from its text. Errors call it `name`. Throws gonio::error naming the faulty
+/// line and field.
 [[nodiscard]] sample_set read_cornell(std::string_view text, const std::string& name);
 
-/// Reads such a file. Throws gonio::error naming file, line and field of what is wrong.
+/// Reads such a file. Throws gonio::error naming the file, the faulty line and the field.
 [[nodiscard]] sample_set read_cornell(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -1,5 +1,6 @@
 #pragma once
-/// The reflectance of a white reference by the angles of light and viewer, as CSV (docs/reference/formats.md).
+/// The reflectance of a white reference as a function of the angles of light and viewer, as CSV
+/// (docs/reference/formats.md).
 
 #include <gonio/capture/reference_reflectance.hpp>
 
@@ -7,13 +8,12 @@
 
 namespace gonio::io {
 
-/// Reads a table in any dialect (io/text/csv_dialect.hpp): the header names the columns, in any order: `theta_i`,
-/// perhaps `theta_o` (degrees, or with their unit as in files of samples), and `factor`, or
-/// `factor_r,factor_g,factor_b` (or per cent, `factor [%]`). Lines ascend by theta_i, and of one theta_i by theta_o, of
-/// which every theta_i has the same.
+/// Reads a table in any dialect (io/text/csv_dialect.hpp). The header names the columns, in any order: `theta_i`,
+/// optionally `theta_o` (degrees, or with a unit as in files of samples), and `factor` or `factor_r,factor_g,factor_b`
+/// (or per cent, `factor [%]`). Lines ascend by theta_i, then by theta_o; every theta_i has the same values of theta_o.
 ///
-/// Throws gonio::error naming the file, and the line where there is one to name, if a column is missing or unknown, if
-/// a number is none, if angles do not ascend or a pair of them is missing, or as reference_reflectance does.
+/// Throws gonio::error naming the file and, where possible, the line if a column is missing or unknown, if a number is
+/// invalid, if angles do not ascend or a pair of them is missing, or as reference_reflectance does.
 [[nodiscard]] capture::reference_reflectance read_reference_reflectance(const std::filesystem::path& path);
 
 }  // namespace gonio::io

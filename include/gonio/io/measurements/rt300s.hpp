@@ -1,9 +1,8 @@
 #pragma once
-/// Measurements of J&C's gonio-spectrophotometer RT-300S as its program exports them: text of the type
-/// `BRDF(RT-300S)` (`.jdv`), a block for each angle of incidence with a row for each azimuth and a column for each
-/// polar angle of the receiver; and its sheet, saved as text, a column for each reading below the names `Azimuth`,
-/// `Incidence`, `Receive` and `RT`. Layouts as in the examples of github.com/ua-loft/bsdf-tools, angles and the meaning
-/// of RT as in its converters.
+/// Measurements exported by the program of J&C's gonio-spectrophotometer RT-300S: text of the type `BRDF(RT-300S)`
+/// (`.jdv`), a block for each angle of incidence with a row for each azimuth and a column for each polar angle of the
+/// receiver; or its sheet, saved as text, a column for each reading in rows named `Azimuth`, `Incidence`, `Receive` and
+/// `RT`. Layouts as in the examples of github.com/ua-loft/bsdf-tools, angles and meaning of RT as in its converters.
 
 #include <gonio/io/text/text.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -17,11 +16,11 @@ namespace gonio::io {
 /// Does the text begin as such a file does?
 [[nodiscard]] bool looks_like_rt300s(std::string_view text);
 
-/// Samples from the text of such a file; `name` is what errors call it: one value. RT is pi times the BRDF times the
-/// viewer's cosine; text of the type BRDF(RT-300S) has 100 RT. The receiver moves in a plane that is turned by the
-/// azimuth minus 90 degrees from that of incidence: at azimuth -90 the mirror direction is at a positive angle, at 90
-/// at a negative one. Readings in which the receiver stands before the lamp stay in. Throws gonio::error naming the
-/// line of what is wrong.
+/// Reads samples of one value from the text of such a file. Errors call it `name`. RT is pi times the BRDF times the
+/// viewer's cosine; text of the type BRDF(RT-300S) has 100 RT. The receiver moves in a plane that is turned from the
+/// plane of incidence by the azimuth minus 90 degrees: the mirror direction is at a positive angle at azimuth -90, at a
+/// negative angle at azimuth 90. Keeps readings in which the receiver shadows the lamp. Throws gonio::error naming the
+/// faulty line.
 [[nodiscard]] sample_set read_rt300s(std::string_view text, const std::string& name);
 
 /// Reads such a file.

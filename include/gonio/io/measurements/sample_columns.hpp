@@ -1,6 +1,6 @@
 #pragma once
-/// What the columns of a file of samples are and what they may be called: names in English, French and German, Greek
-/// letters, units behind a name or on a line of their own.
+/// The columns of a file of samples and their possible names: English, French and German, Greek letters, units after a
+/// name or on a line of their own.
 
 #include <gonio/io/measurements/sample_quantity.hpp>
 
@@ -65,39 +65,38 @@ inline constexpr column_group tristimulus_group{25, 3};
   return column < vector_group.first || half_angle_group.has(column);
 }
 
-/// A name in the header line as it is written, and without the unit behind it: "Theta In [deg]" is theta_i, degrees.
+/// A name in the header line as written, and the name without its unit: "Theta In [deg]" is theta_i in degrees.
 struct written_column {
   std::string text, name, unit;
 };
 
-/// The name in small letters. A unit is in brackets behind it, or its last word if that is a word for a unit:
-/// theta_i_deg.
+/// Returns the name in lower case. A unit is in brackets after it, or its last word if that is a unit: theta_i_deg.
 [[nodiscard]] written_column written(std::string_view field);
 
 enum class column_unit { none, degrees, radians, nanometres, percent, per_steradian, unknown };
 [[nodiscard]] column_unit unit_named(std::string_view name);
 
-/// What a column may be called, in letters and digits alone: Theta_In, "theta in" and thetaIn are one name.
+/// A possible name of a column in letters and digits only: Theta_In, "theta in" and thetaIn are one name.
 struct known_name {
   std::string_view letters;
   std::size_t column;
-  std::optional<sample_quantity> quantity = {};  ///< if the name says it
-  bool is_relative = false;                      ///< of phi_o: counted from the light's azimuth
+  std::optional<sample_quantity> quantity = {};  ///< if the name implies it
+  bool is_relative = false;                      ///< phi_o relative to the light's azimuth
 };
 
-/// The column that is called so, in English, French, German or Greek letters, with accents in UTF-8 or Latin-1.
+/// Returns the column with this name in English, French, German or Greek letters, with accents in UTF-8 or Latin-1.
 [[nodiscard]] const known_name* find_known(std::string_view name);
 
-/// Is it a unit that a column may have?
+/// Can a column have this unit?
 [[nodiscard]] bool fits(column_unit unit, std::size_t column);
 
-/// Is it a line of units, as some programs write below the header line: no number, and a unit at least?
+/// Is it a line of units, as some programs write below the header line: no numbers, and at least one unit?
 [[nodiscard]] bool are_units(std::span<const std::string_view> fields);
 
-/// An angle without a degree sign, or the word, behind it.
+/// Returns an angle without the degree sign, or the word for it, after it.
 [[nodiscard]] std::string_view without_degree_sign(std::string_view field);
 
-/// The unit in a field of such a line, in small letters and without brackets.
+/// Returns the unit in a field of such a line, in lower case and without brackets.
 [[nodiscard]] std::string unit_of(std::string_view field);
 
 }  // namespace gonio::io::detail

@@ -1,6 +1,6 @@
 #pragma once
-/// The header line of a file of samples: which column each field of a line is, what the columns' names and units say of
-/// the numbers, and which columns are not needed. io/measurements/samples.hpp has the names.
+/// The header line of a file of samples: the column of each field, the meaning that names and units give to the
+/// numbers, and the columns to ignore. io/measurements/samples.hpp lists the names.
 
 #include <gonio/io/measurements/sample_columns.hpp>
 #include <gonio/io/measurements/sample_layout.hpp>
@@ -18,67 +18,67 @@
 
 namespace gonio::io {
 
-/// A column that a file calls otherwise: {"theta_o", "Winkel"}.
+/// The name of a column in a file: {"theta_o", "Winkel"}.
 struct column_name {
   std::string column, in_file;
 };
 
-/// Where theta_o is positive, theta_i being positive and azimuths, if there are any, equal: on the light's side of the
-/// normal, so that the mirror direction is at theta_o = -theta_i, or on the mirror direction's side.
+/// The side where theta_o is positive, for positive theta_i and equal azimuths (or none): the light's side of the
+/// normal, with the mirror direction at theta_o = -theta_i, or the mirror direction's side.
 enum class theta_o_sign { light, mirror };
 
-/// What the reader of a file is told beside it.
+/// What the caller knows about a file.
 struct sample_reading {
-  std::vector<column_name> columns = {};              ///< compared in letters of either case
-  std::optional<sample_quantity> quantity = {};       ///< needed where the file does not say it
-  std::function<void(const std::string&)> note = {};  ///< is told in a sentence what is ignored or assumed
-  std::optional<theta_o_sign> sign = {};              ///< of files that do not say it
+  std::vector<column_name> columns = {};              ///< names are compared without regard to case
+  std::optional<sample_quantity> quantity = {};       ///< needed if the file does not state it
+  std::function<void(const std::string&)> note = {};  ///< receives a sentence on what is ignored or assumed
+  std::optional<theta_o_sign> sign = {};              ///< for files that do not state it
 };
 
 namespace detail {
 
-/// The column that the file's reader, or anybody, calls so; `sample_header::ignored` if there is none.
+/// Returns the column that has this name by default or in `reading`; `sample_header::ignored` if there is none.
 [[nodiscard]] std::size_t find_column(std::string_view name, const sample_reading& reading);
 
-/// Do the fields of a line name at least two columns of directions? Then it is a header line.
+/// Do the fields name at least two columns of directions? Then the line is a header line.
 [[nodiscard]] bool name_directions(std::span<const std::string_view> fields, const sample_reading& reading);
 
-/// Do they name an angle and values? Of a file without such a line as above, it is the header line.
+/// Do the fields name an angle and values? If no line satisfies `name_directions`, such a line is the header line.
 [[nodiscard]] bool name_angle_and_values(std::span<const std::string_view> fields, const sample_reading& reading);
 
 class sample_header {
  public:
-  /// Of a field that is no column of samples.
+  /// The column of a field that is not a column of samples.
   static constexpr std::size_t ignored = sample_columns.size();
 
-  /// Of the line that the file is at, and of the line of units below it, if there is one, to which the file then turns.
-  /// `stated` is what lines above it say of angles, and counts for those that have no column.
+  /// Reads the file's current line, and the line of units below it if there is one, to which the file then advances.
+  /// `stated` are angles stated above the header line; they apply if they have no column.
   void read(csv_reader& file, const sample_reading& reading, bool needs_value, std::span<const stated_angle> stated);
 
   [[nodiscard]] const std::vector<std::size_t>& columns() const noexcept { return columns_; }
   [[nodiscard]] const column_group& directions() const noexcept { return directions_; }
-  /// r,g,b or the one value, or the wavelengths, which are counted from `ignored` + 1 on; the count is 0 if there is
-  /// none of these.
+  /// Returns the columns of r,g,b, of the one value, or of the wavelengths, which are numbered from `ignored` + 1; its
+  /// count is 0 if there are none.
   [[nodiscard]] const column_group& values() const noexcept { return values_; }
-  /// Each field behind the first is a value, whose angles are its line's and its column's.
+  /// If set, each field after the first is a value, whose angles are given by its line and its column.
   [[nodiscard]] const std::optional<sample_matrix>& matrix() const noexcept { return matrix_; }
-  /// Angles of all samples, which have no column.
+  /// Returns the angles of all samples that have no column.
   [[nodiscard]] const std::vector<stated_angle>& stated() const noexcept { return stated_; }
-  /// Of columns that are called by theirs, nanometres, ascending.
+  /// Returns the wavelengths of columns named by their wavelength, nanometres, ascending.
   [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return wavelengths_; }
-  /// What a column is called in messages.
+  /// Returns the name of a column in messages.
   [[nodiscard]] std::string name_of(std::size_t column) const;
-  /// The columns that say how much a sample counts: one, or one for each channel.
+  /// Returns the columns of a sample's weight: one, or one for each channel.
   [[nodiscard]] const column_group& weights() const noexcept { return weights_; }
   [[nodiscard]] bool has_wavelength() const noexcept { return has_wavelength_; }
-  /// Polar angles without azimuths: their signs say which side of the normal a direction is on.
+  /// Are there polar angles without azimuths? Their signs give the side of the normal.
   [[nodiscard]] bool is_in_plane() const noexcept { return is_in_plane_; }
-  /// What the file calls a column of phi_o - phi_i, which stands for both azimuths; empty if it has none.
+  /// Returns the file's name for a column of phi_o - phi_i, which replaces both azimuths; empty if it has none.
   [[nodiscard]] const std::string& relative_azimuth() const noexcept { return relative_azimuth_; }
   [[nodiscard]] const std::vector<std::size_t>& columns_in_radians() const noexcept { return in_radians_; }
-  /// What the columns' names and units say that the values are.
+  /// Returns the quantity that the columns' names and units state.
   [[nodiscard]] const stated_quantity& quantity() const noexcept { return quantity_; }
-  /// A sentence on the columns that are no columns of samples; empty if there are none.
+  /// Returns a sentence on the columns that are ignored; empty if there are none.
   [[nodiscard]] std::string note_of_ignored() const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Where measurements come from: what the comment lines `# instrument: ...`, `# date: ...` and `# conditions: ...` of
-/// their file say, in any words.
+/// The origin of measurements, free text from the comment lines `# instrument: ...`, `# date: ...` and `# conditions:
+/// ...` of their file.
 
 #include <string>
 #include <string_view>
@@ -14,20 +14,20 @@ struct sample_provenance {
   friend bool operator==(const sample_provenance&, const sample_provenance&) = default;
 };
 
-/// A comment line for each entry that is there. Control characters are escaped (`printable`), so that an entry cannot
-/// be taken for a line of numbers.
+/// Returns a comment line for each nonempty entry. Control characters are escaped (`printable`), so that an entry
+/// cannot end its line and inject a line of numbers.
 [[nodiscard]] std::string comment_lines(const sample_provenance& provenance);
 
 namespace detail {
 
-/// A comment `key: value` without its #: the key in small letters, both trimmed; without a colon both are empty.
+/// A comment `key: value` without its #: the key in lower case, both trimmed; both empty if there is no colon.
 struct comment_entry {
   std::string key;
   std::string_view value;
 };
 [[nodiscard]] comment_entry entry_of(std::string_view comment);
 
-/// Keeps an entry that is one of a provenance; one that is there already is gone on with, behind a semicolon.
+/// Keeps an entry if it belongs to a provenance; appends it after a semicolon if one with the same key exists.
 void keep(sample_provenance& provenance, const comment_entry& entry);
 
 }  // namespace detail

@@ -1,11 +1,12 @@
 #pragma once
-/// The lines of a file of samples or directions as numbers, each where it stands, or the cells of a matrix.
-/// io/measurements/samples.hpp makes directions and values of them.
+/// The lines of a file of samples or directions, or the cells of a matrix, as numbers by column.
+/// io/measurements/samples.hpp converts them to directions and values.
 
 #include <gonio/io/measurements/sample_header.hpp>
 #include <gonio/io/measurements/sample_layout.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
 #include <gonio/io/measurements/sample_quantity.hpp>
+#include <gonio/io/text/csv_dialect.hpp>
 #include <gonio/io/text/csv_reader.hpp>
 #include <gonio/io/text/text.hpp>
 
@@ -18,13 +19,13 @@
 
 namespace gonio::io::detail {
 
-/// By the numbers of the columns, those of wavelengths behind the ignored ones.
+/// Numbers by column; wavelengths come after `sample_header::ignored`.
 using sample_row = std::vector<double>;
 
-/// A line of numbers, or a cell of a matrix and its angles, in its place.
+/// The numbers of a line or of a matrix's cell, and how to read them.
 struct parsed_row {
   const sample_row& numbers;
-  const column_group& group;  ///< how directions are given
+  const column_group& group;  ///< the columns of the directions
   const column_group& values;
   const column_group& weights;
   std::optional<sample_quantity> quantity;
@@ -40,16 +41,17 @@ class sample_rows {
  public:
   sample_rows(std::string_view text, const std::string& name, bool needs_value, const sample_reading& reading);
 
-  /// Turns to the next line of numbers, or cell of a matrix. At the end of the file it is false, or an error if there
-  /// was none. Where values are needed, lines that have none ("n/a", "OVER") are left out, and such cells always.
+  /// Moves to the next line of numbers, or cell of a matrix. At the end of the file returns false, or throws
+  /// gonio::error if there was none. Skips lines without a value ("n/a", "OVER") if values are needed; always such
+  /// cells.
   [[nodiscard]] bool next();
 
-  /// How many lines had no value, and what the first of them had: "no value (line 92: 'OVER')".
+  /// Returns the number of lines without a value, and a text on the first: "no value (line 92: 'OVER')".
   [[nodiscard]] std::size_t rows_without_value() const noexcept { return missing_; }
   [[nodiscard]] const std::string& first_without_value() const noexcept { return first_missing_; }
-  /// "row", or "cells" of a matrix.
+  /// Returns "row", or "cells" for a matrix.
   [[nodiscard]] std::string_view rows_are_called(std::size_t count) const noexcept;
-  /// Refuses a file more than half of whose lines have no value.
+  /// Throws gonio::error if more than half of the lines have no value.
   void require_values() const;
 
   [[nodiscard]] parsed_row row() const noexcept {
@@ -57,13 +59,15 @@ class sample_rows {
             header_};
   }
   [[nodiscard]] const sample_header& header() const noexcept { return header_; }
+  /// For people: separators and decimal marks.
+  [[nodiscard]] std::string dialect() const { return description(csv_.dialect()); }
   [[nodiscard]] std::optional<sample_quantity> quantity() const noexcept { return quantity_.quantity(); }
   [[nodiscard]] std::optional<double> wavelength() const noexcept { return wavelength_; }
   [[nodiscard]] const sample_provenance& provenance() const noexcept { return provenance_; }
-  /// Has the file no azimuths, and did nobody say on which side of the normal theta_o is positive?
+  /// Does the file lack both azimuths and a statement of the side of the normal on which theta_o is positive?
   [[nodiscard]] bool assumes_side() const noexcept { return header_.is_in_plane() && !sign_; }
   [[nodiscard]] const std::optional<theta_o_sign>& sign() const noexcept { return sign_; }
-  /// Are azimuths counted from the mirror direction? Without azimuths rows say it by their signs.
+  /// Are azimuths counted from the mirror direction? Without azimuths the signs in the rows tell.
   [[nodiscard]] bool turns_viewers() const noexcept { return !header_.is_in_plane() && sign_ == theta_o_sign::mirror; }
 
  private:
@@ -99,11 +103,11 @@ class sample_rows {
   std::optional<theta_o_sign> sign_;
   sample_row numbers_ = sample_row(sample_columns.size());
   std::vector<stated_angle> stated_angles_;
-  std::size_t cell_ = 0;  ///< the field of a matrix's line that the row is
+  std::size_t cell_ = 0;  ///< the field of the current cell in a matrix's line
   std::size_t rows_ = 0, missing_ = 0;
   std::string first_missing_, missing_message_;
   bool has_percent_signs_ = false, has_signed_angle_ = false;
-  std::size_t line_of_unknown_side_ = 0;  ///< where two angles are not 0 and none is negative
+  std::size_t line_of_unknown_side_ = 0;  ///< first line with two nonzero angles, neither negative
 };
 
 }  // namespace gonio::io::detail

@@ -1,12 +1,11 @@
 #pragma once
-/// Measurements as CSV: a header line names the columns, in any order; each further line is a sample.
-/// Directions are `theta_h,theta_d,phi_d` or `theta_i,phi_i,theta_o,phi_o` in degrees, or unit vectors
-/// `wi_x,wi_y,wi_z,wo_x,wo_y,wo_z` (normal +z); the reflectance is `r,g,b` in sr^-1 without the cosine, or `value`, one
-/// channel of a `quantity`, or columns that are called by their wavelengths, `400nm,410nm,...`, of a `quantity`, as
-/// spectrophotometers write them; a `weight`, or one for each colour, is optional. Separator and decimal mark are told
-/// from the file (io/text/csv_dialect.hpp), and what the numbers are from `# quantity: ...`
-/// (io/measurements/sample_quantity.hpp). A name may be in letters of either case, with a unit behind it.
-/// docs/reference/formats.md has all of it.
+/// Measurements as CSV: a header line names the columns, in any order; each further line is a sample. Directions are
+/// `theta_h,theta_d,phi_d` or `theta_i,phi_i,theta_o,phi_o` in degrees, or unit vectors `wi_x,wi_y,wi_z,wo_x,wo_y,wo_z`
+/// (normal +z). The reflectance is `r,g,b` in sr^-1 without the cosine; `value`, one channel of a `quantity`; or
+/// columns named by wavelength, `400nm,410nm,...`, of a `quantity`, as spectrophotometers write them. A `weight`, or
+/// one for each colour, is optional. Separator and decimal mark are found from the file (io/text/csv_dialect.hpp), the
+/// quantity from `# quantity: ...` (io/measurements/sample_quantity.hpp). Names may have any case and a unit.
+/// docs/reference/formats.md describes all of it.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
@@ -15,6 +14,7 @@
 #include <gonio/io/measurements/sample_quantity.hpp>
 #include <gonio/table/sample_set.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -24,15 +24,24 @@
 
 namespace gonio::io {
 
-/// Samples, and what their file says of them.
-struct sample_file {
-  sample_set samples = {};                       ///< sr^-1, whatever quantity the file has
-  std::optional<sample_quantity> quantity = {};  ///< as stated in the file or by its reader; r,g,b need none
-  std::optional<theta_o_sign> sign = {};         ///< as stated in the file or by its reader
-  sample_provenance provenance = {};
+/// How `read_sample_file` read a text.
+struct sample_text {
+  std::string dialect = {};             ///< "semicolon-separated with decimal commas"
+  std::vector<std::size_t> lines = {};  ///< the line of each sample, from 1
+  std::size_t rows_left_out = 0;        ///< rows, or cells of a matrix, without a value or at 90 degrees
+  bool assumes_side = false;            ///< nobody states the sign of theta_o: positive is on the light's side
 };
 
-/// Samples from the text of a CSV file; `name` is what errors call it.
+/// Samples and the statements of their file.
+struct sample_file {
+  sample_set samples = {};                       ///< sr^-1, whatever the file's quantity
+  std::optional<sample_quantity> quantity = {};  ///< stated by the file or the caller; r,g,b need none
+  std::optional<theta_o_sign> sign = {};         ///< stated by the file or the caller
+  sample_provenance provenance = {};
+  sample_text text = {};  ///< empty of a file in another format
+};
+
+/// Reads samples from the text of a CSV file. Errors call it `name`.
 [[nodiscard]] sample_file read_sample_file(std::string_view text, const std::string& name,
                                            const sample_reading& reading = {});
 [[nodiscard]] sample_set read_samples(std::string_view text, const std::string& name,
@@ -43,18 +52,18 @@ struct sample_file {
 [[nodiscard]] bool has_directions_alone(std::string_view text, const std::string& name,
                                         const sample_reading& reading = {});
 
-/// Reads measurements. Throws gonio::error naming file, line, column and value of what is wrong, also if neither file
-/// nor `reading` say what the numbers of `value` are. What is ignored or assumed goes to `reading.note`.
+/// Reads measurements. Throws gonio::error naming the file, line, column and value of a fault, and if neither the file
+/// nor `reading` states the quantity of `value`. `reading.note` receives what is ignored or assumed.
 [[nodiscard]] sample_file read_sample_file(const std::filesystem::path& path, const sample_reading& reading = {});
 [[nodiscard]] sample_set read_samples(const std::filesystem::path& path, const sample_reading& reading = {});
 
-/// Reads directions alone; the file may have columns of reflectance and weights, which are checked and left out.
+/// Reads only directions; columns of reflectance and weights are checked and ignored.
 [[nodiscard]] std::vector<half_difference> read_directions(std::string_view text, const std::string& name,
                                                            const sample_reading& reading = {});
 [[nodiscard]] std::vector<half_difference> read_directions(const std::filesystem::path& path,
                                                            const sample_reading& reading = {});
 
-/// Reads the same files as pairs, in which light and viewer are told apart.
+/// Reads the same files as pairs, which distinguish light and viewer.
 [[nodiscard]] std::vector<direction_pair> read_direction_pairs(std::string_view text, const std::string& name,
                                                                const sample_reading& reading = {});
 [[nodiscard]] std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
@@ -63,13 +72,13 @@ struct sample_file {
 /// Writes pairs as `theta_i,phi_i,theta_o,phi_o`, rounded to 1e-9 degrees.
 void write_direction_pairs(const std::filesystem::path& path, std::span<const direction_pair> pairs);
 
-/// Samples as CSV text, every number in the fewest digits that read back as the same number. The columns are
-/// `theta_h,theta_d,phi_d`, then `r,g,b`, or `value` or a column for each wavelength below `# quantity: brdf`, then
-/// `weight`, or `weight_r,weight_g,weight_b` if a sample counts more in one colour than in another. Where they come
-/// from stands above, in comment lines.
+/// Returns samples as CSV text, every number in the fewest digits that read back as the same number. The columns are
+/// `theta_h,theta_d,phi_d`, then `r,g,b`, or, below `# quantity: brdf`, `value` or a column for each wavelength, then
+/// `weight`, or `weight_r,weight_g,weight_b` if a sample has different weights for its colours. Comment lines above
+/// state the provenance.
 [[nodiscard]] std::string write_samples(const sample_set& samples, const sample_provenance& provenance = {});
 
-/// Writes measurements. Throws gonio::error if a sample is unusable, before anything is written.
+/// Writes measurements. If a sample is unusable, throws gonio::error before anything is written.
 void write_samples(const std::filesystem::path& path, const sample_set& samples,
                    const sample_provenance& provenance = {});
 

@@ -1,9 +1,9 @@
 #pragma once
-/// Text files of Ansys Speos (Spectral BSDF, Complete Scattering; Anisotropic BSDF), as the pages "Structure of BRDF
-/// files" and "Structure of Anisotropic BSDF files" of its help describe them (ansyshelp.ansys.com, Optis_UG_LAB,
-/// structure_of_brdf_files_81027 and structure_of_anisotropic_bsdf_files_81025): `.brdf`, for each angle of incidence
-/// and each wavelength the reflectance and a table over the viewer's directions; `.anisotropicbsdf`, one spectrum of
-/// the reflectance and a table for each azimuth of the light and angle of incidence.
+/// Text files of Ansys Speos (Spectral BSDF, Complete Scattering; Anisotropic BSDF), as described on the pages
+/// "Structure of BRDF files" and "Structure of Anisotropic BSDF files" of its help (ansyshelp.ansys.com, Optis_UG_LAB,
+/// structure_of_brdf_files_81027 and structure_of_anisotropic_bsdf_files_81025). `.brdf`: the reflectance and a table
+/// over the viewer's directions, for each angle of incidence and wavelength. `.anisotropicbsdf`: one spectrum of the
+/// reflectance, and a table for each azimuth of the light and angle of incidence.
 
 #include <gonio/io/text/text.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -14,16 +14,15 @@
 
 namespace gonio::io {
 
-/// Does the text begin with the header of such a file, `OPTIS - brdf surface file` or `OPTIS - Anisotropic BSDF surface
-/// file`?
+/// Does the text begin with the header `OPTIS - brdf surface file` or `OPTIS - Anisotropic BSDF surface file`?
 [[nodiscard]] bool looks_like_speos_brdf(std::string_view text);
 
-/// Samples from the text of such a file; `name` is what errors call it: one spectrum, sr^-1 without the cosine, for
-/// each direction. Tables are proportional to the BRDF, or to it times the viewer's cosine; the reflectance, percent,
-/// scales them: the BRDF times the cosine, integrated over the table's directions, is the reflectance. Azimuth 0 is the
-/// mirror direction's side. The spectrum of an anisotropic file is that of one angle of incidence and scales all its
-/// tables; azimuths count from its anisotropy vector. Throws gonio::error naming the line of what is wrong, of binary
-/// files, files of transmission, and tables that differ in their directions from wavelength to wavelength.
+/// Reads samples from the text of such a file: a spectrum for each direction, sr^-1 without the cosine. Errors call it
+/// `name`. Tables are proportional to the BRDF, or to the BRDF times the viewer's cosine. The reflectance in percent
+/// scales them: it is the integral over the table's directions of the BRDF times the cosine. Azimuth 0 is the side of
+/// the mirror direction. The spectrum of an anisotropic file belongs to one angle of incidence and scales all tables;
+/// azimuths count from its anisotropy vector. Throws gonio::error naming the faulty line, for binary files, for
+/// transmission, and if the directions differ between wavelengths.
 [[nodiscard]] sample_set read_speos_brdf(std::string_view text, const std::string& name);
 
 /// Reads such a file.

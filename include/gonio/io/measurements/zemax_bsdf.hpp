@@ -1,10 +1,10 @@
 #pragma once
-/// Measurements in Zemax's tabular BSDF format, the one of imaging spheres (IS-SA): R. Rykowski, "Zemax Tabular BSDF
-/// data file format", support.zemax.com/hc/en-us/articles/1500005486801 (first as "BSDF Data Interchange file format
-/// specification", 2008). A block of rows for each rotation of the sample and angle of incidence; each row is an
-/// azimuth, each column a radial angle **about the specular direction**: radial 0 is the specular direction, azimuth 0
-/// points from it towards the normal, azimuths go counterclockwise as seen from outside (as libbsdf by Kimura Ryo,
-/// github.com/KimuraRyo/libbsdf, reads it). Values are sr^-1 without the cosine, grey or CIE XYZ.
+/// Measurements in Zemax's tabular BSDF format, also written by imaging spheres (IS-SA): R. Rykowski, "Zemax Tabular
+/// BSDF data file format", support.zemax.com/hc/en-us/articles/1500005486801 (first as "BSDF Data Interchange file
+/// format specification", 2008). A block of rows for each rotation of the sample and angle of incidence. Rows are
+/// azimuths and columns radial angles **about the specular direction**: radial 0 is the specular direction, azimuth 0
+/// points from it towards the normal, azimuths go counterclockwise seen from outside (as in libbsdf by Kimura Ryo,
+/// github.com/KimuraRyo/libbsdf). Values are sr^-1 without the cosine, grey or CIE XYZ.
 
 #include <gonio/io/text/words.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -20,7 +20,7 @@ namespace gonio::io {
 
 namespace detail {
 
-/// Reads such a file word by word.
+/// Reads a file word by word.
 class zemax_bsdf_reader {
  public:
   zemax_bsdf_reader(std::string_view text, text_place& place) : words_(text, place) {}
@@ -28,7 +28,7 @@ class zemax_bsdf_reader {
   [[nodiscard]] sample_set read();
 
  private:
-  /// One channel's numbers, in the file's order: rotations, angles of incidence, azimuths, radial angles.
+  /// One channel's numbers in the file's order: rotations, angles of incidence, azimuths, radial angles.
   using plane = std::vector<double>;
 
   void read_header();
@@ -42,7 +42,7 @@ class zemax_bsdf_reader {
   std::vector<double> rotations_, incidences_, azimuths_, radials_;  ///< degrees
 };
 
-/// The direction at a radial angle and an azimuth about the specular direction of light at `theta` and `phi`; radians.
+/// Returns the direction at a radial angle and azimuth about the specular direction of light at (theta, phi), radians.
 [[nodiscard]] direction about_specular(double theta, double phi, double radial, double azimuth) noexcept;
 
 }  // namespace detail
@@ -50,10 +50,10 @@ class zemax_bsdf_reader {
 /// Does the text begin as such a file does?
 [[nodiscard]] bool looks_like_zemax_bsdf(std::string_view text);
 
-/// Samples from the text of such a file; `name` is what errors call it. A direction that the table has more than once
-/// (radial 0, azimuths 0 and 360) is one sample; those at or below the horizon are none. One half of a table that is
-/// symmetric about the plane of incidence is enough, and stays the half that was measured. Throws gonio::error naming
-/// the line of what is wrong, and for files of transmission.
+/// Reads samples from the text of such a file. Errors call it `name`. A direction that occurs more than once (radial 0,
+/// azimuths 0 and 360) gives one sample; directions at or below the horizon are skipped. If a table has only half of
+/// the azimuths because of symmetry about the plane of incidence, only that half is read. Throws gonio::error naming
+/// the faulty line, and for files of transmission.
 [[nodiscard]] sample_set read_zemax_bsdf(std::string_view text, const std::string& name);
 
 /// Reads such a file.

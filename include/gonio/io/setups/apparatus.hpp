@@ -1,19 +1,19 @@
 #pragma once
-/// Text files that describe an apparatus: where light and viewer can be and how well it measures, one line for each
-/// rule, angles in degrees.
+/// Text files that describe an apparatus: the possible directions of light and viewer, and the errors of its readings.
+/// One line for each rule, angles in degrees.
 ///
 /// ```
-/// # light and viewer: polar angles that they can have
+/// # polar angles of light and viewer
 /// light 0 75
-/// viewer 45 45 1         # one angle, or a range, met to 1; one angle is met to 0.5 if nothing is said
-/// separation 15          # of light and viewer at least
+/// viewer 45 45 1         # an angle or a range, met to 1; a single angle without tolerance is met to 0.5
+/// separation 15          # at least, between light and viewer
 /// light_step 7.5 0.5     # lights at multiples of 7.5 degrees, met to 0.5
-/// forbid 60 90 60 90     # light in the first range and viewer in the second
+/// forbid 60 90 60 90     # light in the first range while viewer is in the second
 /// in_plane 0.5           # viewer in the plane of light and normal, met to 0.5
-/// pair 45 0 20 180       # theta_i, phi_i, theta_o, phi_o: the apparatus measures only the pairs in such lines
-/// noise 0.02             # deviation of a reading relative to it
-/// dark_signal 0.0001     # deviation without light, as BRDF times both cosines, sr^-1
-/// misplaced 0.5          # light and viewer may each be so far off their directions
+/// pair 45 0 20 180       # theta_i, phi_i, theta_o, phi_o: the apparatus measures only the listed pairs
+/// noise 0.02             # relative standard deviation of a reading
+/// dark_signal 0.0001     # standard deviation without light, as BRDF times both cosines, sr^-1
+/// misplaced 0.5          # angular error of light and of viewer
 /// ```
 
 #include <gonio/design/apparatus.hpp>
@@ -27,15 +27,15 @@ namespace gonio::io {
 
 namespace detail {
 
-/// A range of polar angles from two numbers in degrees.
+/// Reads a range of polar angles from two numbers in degrees, from number `first` on.
 [[nodiscard]] design::polar_range read_polar_range(const text_rule& rule, std::size_t first, const text_place& place);
 
 void apply_rule(const text_rule& rule, design::apparatus& described, const text_place& place);
 
 }  // namespace detail
 
-/// What no rule says is as of an apparatus without limits and errors. Throws gonio::error naming the line that is no
-/// rule; `name` is what errors call the text.
+/// Reads an apparatus. Without rules it has no limits and no errors. Throws gonio::error naming the line that is no
+/// rule. Errors call the text `name`.
 [[nodiscard]] design::apparatus read_apparatus(std::string_view text, const std::string& name);
 
 /// Reads a file of rules. Throws gonio::error naming the file and the line.

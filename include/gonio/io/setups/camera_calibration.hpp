@@ -1,11 +1,11 @@
 #pragma once
-/// Calibrations of cameras as OpenCV writes them (cv::FileStorage, .yml, .yaml or .xml): size of the image, pinhole and
-/// lens distortion. Read are `image_width` and `image_height`, a 3 x 3 matrix `camera_matrix` and four or five numbers
-/// `distortion_coefficients`, also by the names that OpenCV's own programs and tutorials use.
+/// Camera calibrations written by OpenCV (cv::FileStorage, .yml, .yaml or .xml): image size, pinhole and lens
+/// distortion. Reads `image_width`, `image_height`, the 3 x 3 matrix `camera_matrix` and the four or five numbers of
+/// `distortion_coefficients`, also under the names in OpenCV's own programs and tutorials.
 /// https://docs.opencv.org/4.x/da/d56/classcv_1_1FileStorage.html
 ///
-/// OpenCV counts pixels from the middle of the first one, gonio from its border: half a pixel is added to the principal
-/// point.
+/// OpenCV counts pixels from the centre of the first pixel, gonio from its border: half a pixel is added to the
+/// principal point.
 
 #include <gonio/core/lens_distortion.hpp>
 #include <gonio/core/pinhole_camera.hpp>
@@ -16,16 +16,16 @@
 
 namespace gonio::io {
 
-/// What a camera and its lens do to rays, wherever it stands.
+/// The intrinsics and the lens distortion of a camera, without its pose.
 struct camera_calibration {
   camera_intrinsics intrinsics;
   lens_distortion distortion;
 };
 
-/// Throws gonio::error naming the entry that is missing or not what it should be: a matrix of another shape than its
-/// numbers, a size that is no whole number, focal lengths that are not positive, axes that are not at right angles,
-/// coefficients beyond k3 that are not zero, or a fisheye lens (OpenCV's `fisheye_model`, ROS's `distortion_model`
-/// equidistant), whose four coefficients mean something else. `name` is what errors call the text.
+/// Throws gonio::error naming the entry that is missing or wrong: a matrix whose shape does not fit its numbers, a size
+/// that is not a whole number, focal lengths that are not positive, skewed axes, nonzero coefficients after k3, or a
+/// fisheye lens (OpenCV's `fisheye_model`, ROS's `distortion_model` equidistant), whose four coefficients have another
+/// meaning. Errors call the text `name`.
 [[nodiscard]] camera_calibration read_camera_calibration(std::string_view text, const std::string& name);
 
 /// Reads a calibration. Throws gonio::error naming the file.

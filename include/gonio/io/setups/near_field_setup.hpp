@@ -1,6 +1,6 @@
 #pragma once
-/// Text files that say how an image of a flat sample was taken: a line for each entry, angles in degrees, lengths in
-/// any one unit, the sample in the plane z = 0. docs/reference/formats.md has all the entries.
+/// Text files that describe how an image of a flat sample was taken. A line for each entry, angles in degrees, lengths
+/// in any one unit, the sample in the plane z = 0. docs/reference/formats.md lists all entries.
 ///
 /// ```
 /// size 640 480           # of the image: columns, rows
@@ -8,7 +8,7 @@
 /// position 0.5 0 0.3     # of the camera, which looks at the target
 /// target 0 0 0
 /// light_angles 50 180    # theta, phi of the distant light, or lamp x y z
-/// region 0.1             # radius of the disc that counts
+/// region 0.1             # radius of the evaluated disc
 /// ```
 
 #include <gonio/capture/near_field_image.hpp>
@@ -21,9 +21,8 @@
 
 namespace gonio::io {
 
-/// Throws gonio::error naming the line with an entry that is unknown, there twice or not what it should be, or the
-/// entry that is missing, and as `require_usable` does. With a calibration the text says neither size nor lens. `name`
-/// is what errors call the text.
+/// Throws gonio::error naming the line if an entry is unknown, repeated or wrong, naming the entry if one is missing,
+/// and as `require_usable` does. With a calibration the text must give neither size nor lens. Errors call it `name`.
 [[nodiscard]] capture::near_field_setup read_near_field_setup(
     std::string_view text, const std::string& name, const std::optional<camera_calibration>& calibration = {});
 

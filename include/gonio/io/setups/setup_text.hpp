@@ -1,5 +1,5 @@
 #pragma once
-/// What text files have in common that say how something was photographed (io/setups/near_field_setup.hpp,
+/// Common parts of the text files that describe how something was photographed (io/setups/near_field_setup.hpp,
 /// io/setups/sphere_setup.hpp): a line for each entry, and the entries for camera, lens, light and white image.
 
 #include <gonio/capture/known_surface.hpp>
@@ -23,13 +23,13 @@
 
 namespace gonio::io::detail {
 
-/// What a file may say, and with how many numbers; 0: there is no other count.
+/// An entry's name and its possible counts of numbers; `or_numbers` 0: only one count.
 struct setup_entry {
   std::string_view name;
   std::size_t numbers = 0, or_numbers = 0;
 };
 
-/// What every set-up may say.
+/// The entries that every set-up may have.
 inline constexpr std::array<setup_entry, 19> photograph_entries{{{"size", 2},
                                                                  {"focal_length", 1, 2},
                                                                  {"field_of_view", 1},
@@ -50,7 +50,7 @@ inline constexpr std::array<setup_entry, 19> photograph_entries{{{"size", 2},
                                                                  {"white_plane", 6},
                                                                  {"saturation", 1}}};
 
-/// These, and entries of its own.
+/// Returns these entries and those of a format of its own.
 template <std::size_t Own>
 [[nodiscard]] constexpr auto with_photograph_entries(const std::array<setup_entry, Own>& own) {
   std::array<setup_entry, photograph_entries.size() + Own> all;
@@ -58,36 +58,36 @@ template <std::size_t Own>
   return all;
 }
 
-/// The entries of a file, each at most once, and where they are.
+/// The entries of a file, each at most once, and their lines.
 class setup_text {
  public:
-  /// `known`, which must outlive this, says which entries there may be.
+  /// `known` lists the possible entries; it must outlive this object.
   setup_text(std::string_view text, const std::string& name, std::span<const setup_entry> known);
 
   [[nodiscard]] bool has(std::string_view name) const { return find(name) != nullptr; }
   [[nodiscard]] const std::vector<double>& numbers(std::string_view name) const { return at(name).rule.numbers; }
 
-  /// A vector of three numbers of an entry.
+  /// Returns an entry's three numbers.
   [[nodiscard]] Eigen::Vector3d vector(std::string_view name) const {
     return Eigen::Vector3d::Map(numbers(name).data());
   }
 
-  /// A number that counts something.
+  /// Returns number `which` of an entry, a whole number of at least `smallest`.
   [[nodiscard]] std::size_t count(std::string_view name, std::size_t which, std::size_t smallest) const;
 
   [[noreturn]] void refuse(std::string_view name, const std::string& what) const {
     at(name).place.refuse(in_quotes(name) + ": " + what);
   }
 
-  /// Refuses a file with none of these entries.
+  /// Throws gonio::error if the file has none of these entries.
   void require(std::initializer_list<std::string_view> names) const;
 
-  /// Refuses a file that says in two ways what `subject` is.
+  /// Throws gonio::error if the file has both entries, since both define `subject`.
   void require_one_of(std::string_view one, std::string_view other, const std::string& subject) const {
     if (has(one) && has(other)) refuse(one, in_quotes(other) + " says already " + subject + ", give only one of them");
   }
 
-  /// Calls what knows nothing of the file, and names the file where that refuses something.
+  /// Calls `act` and adds the file's name to its errors.
   template <class Act>
   auto naming_file(Act&& act) const {
     try {
@@ -114,12 +114,12 @@ class setup_text {
   std::vector<placed_rule> rules_;
 };
 
-/// The camera and its lens. With a calibration the file says neither size nor lens.
+/// Returns the camera and its lens. With a calibration the file must give neither size nor lens.
 [[nodiscard]] lens_camera setup_camera(const setup_text& text, const std::optional<camera_calibration>& calibration);
 
 [[nodiscard]] capture::surface_light setup_light(const setup_text& text);
 
-/// What the white image shows.
+/// The entries about the reference in the white image.
 struct white_entries {
   std::optional<double> reflectance = {};
   std::optional<capture::placed_plane> plane = {};

@@ -1,16 +1,15 @@
 #pragma once
-/// Text files that say how a sphere, or another known surface, was photographed, in the words of
-/// io/setups/setup_text.hpp: a line for each entry, lengths in any one unit. docs/reference/formats.md has all the
-/// entries.
+/// Text files that describe how a sphere or another known surface was photographed, with the entries of
+/// io/setups/setup_text.hpp: a line for each entry, lengths in any one unit. All entries: docs/reference/formats.md.
 ///
 /// ```
 /// size 640 480             # of the image: columns, rows
-/// field_of_view 20         # degrees from the left to the right, or focal_length in pixels
+/// field_of_view 20         # degrees from left to right, or focal_length in pixels
 /// distortion -0.2 0.05 0 0 # k1 k2 p1 p2 [k3]
 /// position 0 0 0.6         # of the camera, which looks at the target
 /// target 0 0 0
-/// lamp 0.5 0.2 0.7         # or light x y z, the direction of a distant one
-/// sphere 0.05              # its radius, and its centre where that is known
+/// lamp 0.5 0.2 0.7         # or light x y z, the direction of a distant light
+/// sphere 0.05              # its radius, and its centre if known
 /// white_reflectance 0.98   # of the reference in the white image
 /// ```
 
@@ -27,20 +26,20 @@
 
 namespace gonio::io {
 
-/// How a known surface was photographed.
+/// The set-up of a photograph of a known surface.
 struct sphere_setup {
   lens_camera camera;
   capture::surface_light light;
-  std::optional<double> radius = {};           ///< of a sphere
-  std::optional<Eigen::Vector3d> centre = {};  ///< of the sphere where it is known; else the photograph says it
-  std::optional<capture::outline_circle> outline = {};  ///< drawn by hand, instead of the photograph's edges
+  std::optional<double> radius = {};                    ///< of a sphere
+  std::optional<Eigen::Vector3d> centre = {};           ///< of the sphere; none: found from the photograph
+  std::optional<capture::outline_circle> outline = {};  ///< drawn by hand, used instead of the photograph's edges
   std::optional<double> white_reflectance = {};
   std::optional<capture::placed_plane> white_plane = {};  ///< none: the reference has the shape of the surface
   capture::photograph_options options = {};
 };
 
-/// Throws gonio::error naming the line with an entry that is unknown, there twice or not what it should be, or the
-/// entry that is missing. With a calibration the file says neither size nor lens. `name` is what errors call the text.
+/// Throws gonio::error naming the line if an entry is unknown, repeated or wrong, or naming the entry if one is
+/// missing. With a calibration the file must give neither size nor lens. Errors call the text `name`.
 [[nodiscard]] sphere_setup read_sphere_setup(std::string_view text, const std::string& name,
                                              const std::optional<camera_calibration>& calibration = {});
 

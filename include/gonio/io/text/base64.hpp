@@ -1,5 +1,5 @@
 #pragma once
-/// Bytes within texts: base64 (RFC 4648), and URLs that hold what they name (RFC 2397).
+/// Bytes as text: base64 (RFC 4648) and data URLs (RFC 2397).
 
 #include <cstddef>
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace gonio::io {
 
-/// O(n): four letters for each three bytes.
+/// Returns four letters for each three bytes. O(n).
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
-/// `data:`, the media type and the bytes.
+/// Returns `data:`, the media type and the bytes in base64.
 [[nodiscard]] std::string data_url(std::string_view media_type, std::span<const std::byte> bytes);
 
 }  // namespace gonio::io

@@ -1,10 +1,10 @@
 #pragma once
-/// How a CSV file separates its fields and writes its numbers, told from the file itself, always in the same way.
-/// The separator is the one of comma, semicolon and tab that stands most often in the header line, outside of double
-/// quotes (of equals, the first of these); if none does, it is runs of blanks. The decimal mark is that of the first
-/// number that has one, a point or a comma: a field of a comma-separated file that holds a comma is in quotes. From
-/// then on the other mark is refused, so that 1.234 among decimal commas is not taken for 1234. Thousands may be set
-/// apart where that cannot be a decimal mark: 1.081,43 and 1,081.43, 1'081.43, 1 081,43 with a no-break space.
+/// How a CSV file separates its fields and writes its numbers. Derived from the file itself, always in the same way.
+/// The separator is the most frequent of comma, semicolon and tab in the header line outside double quotes; of equally
+/// frequent ones the first of these; runs of blanks if there is none. The decimal mark, point or comma, is that of the
+/// first number that has one; a comma-separated field that contains a comma is in quotes. From then on the other mark
+/// is refused, so that 1.234 among decimal commas is not read as 1234. Thousands may be grouped where the group mark
+/// cannot be a decimal mark: 1.081,43 and 1,081.43, 1'081.43, 1 081,43 with a no-break space.
 
 #include <cstddef>
 #include <string>
@@ -15,28 +15,27 @@ namespace gonio::io {
 
 struct csv_dialect {
   char separator = ',';     ///< a comma, a semicolon, a tab, or a blank for runs of blanks and tabs
-  char decimal_mark = '?';  ///< a point, a comma, or ? as long as no number has had one
+  char decimal_mark = '?';  ///< a point, a comma, or ? while no number has had one
 
-  /// The fields of a line, trimmed, without the double quotes around them (RFC 4180, but a field ends on its line;
-  /// doubled quotes in a field stay doubled). Returns what is wrong with the line, or nothing.
+  /// Splits a line into trimmed fields without their surrounding double quotes (RFC 4180, but a field ends on its line
+  /// and doubled quotes in a field stay doubled). Returns the fault of the line, or nullptr.
   [[nodiscard]] const char* split(std::string_view line, std::vector<std::string_view>& fields) const;
 
-  /// Reads a finite number; the first with a decimal mark decides which one the file has. Returns what is wrong with
-  /// the field, or nothing.
+  /// Reads a finite number; the first decimal mark sets `decimal_mark`. Returns the fault of the field, or nullptr.
   [[nodiscard]] const char* read_number(std::string_view field, double& value);
 
   friend bool operator==(const csv_dialect&, const csv_dialect&) = default;
 };
 
-/// The dialect of a file with this header line. O(length).
+/// Returns the dialect of a file with this header line. O(length).
 [[nodiscard]] csv_dialect dialect_of(std::string_view header);
 
-/// For people: "semicolon-separated with decimal commas".
+/// Returns a description for people: "semicolon-separated with decimal commas".
 [[nodiscard]] std::string description(const csv_dialect& dialect);
 
 namespace detail {
 
-/// Refuses what is often saved instead of CSV, a workbook. `name` is what the sentence calls the file.
+/// Refuses a workbook, which is often saved instead of CSV. `name` is the file's name in the error.
 void require_no_workbook(std::string_view text, const std::string& name);
 
 }  // namespace detail

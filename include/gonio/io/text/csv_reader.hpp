@@ -1,6 +1,6 @@
 #pragma once
-/// The lines of a CSV file as fields, whatever their dialect: samples, tables and lists are read through this one
-/// class. Comments start with `#`; lines of separators alone, which spreadsheets write, are none.
+/// Reads the lines of a CSV file of any dialect as fields; the readers of samples, tables and lists use this one class.
+/// Comments start with `#`. Lines of separators only, which spreadsheets write, are skipped.
 /// ```
 /// csv_reader csv(text, name);
 /// if (csv.next()) use_header(csv.fields());
@@ -23,32 +23,32 @@ namespace gonio::io {
 
 class csv_reader {
  public:
-  /// `name` is what errors call the file. UTF-16 is converted; a first line `sep=;` names the separator, as in Excel.
-  /// Throws gonio::error if the text is a workbook.
+  /// Converts UTF-16. A first line `sep=;` sets the separator, as in Excel. Errors call the file `name`. Throws
+  /// gonio::error if the text is a workbook.
   csv_reader(std::string_view text, const std::string& name);
 
-  /// Turns to the next line, first to the header line, and false at the end. `read_comment` is called with what stands
-  /// behind the `#` of each comment above it. Throws gonio::error, with the line, if a double quote is not closed or if
-  /// there are other than the header line's fields; empty ones behind those are dropped.
+  /// Moves to the next line, first to the header line; returns false at the end. Calls `read_comment` with the text
+  /// after the `#` of each comment above the line. Throws gonio::error naming the line if a double quote is not closed
+  /// or if the number of fields differs from the header line's; empty fields after those are dropped.
   [[nodiscard]] bool next(const std::function<void(std::string_view)>& read_comment = {});
 
-  /// Takes the next line if it has as many fields as the header line and `is_it` is true of them.
+  /// Moves to the next line if it has as many fields as the header line and `is_it` returns true for them.
   [[nodiscard]] bool next_if(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
 
-  /// Looks for the header line among the first 1,000: the first whose fields are one by `is_it`. Of a file that has
-  /// one, the lines above it are passed over, but for comments. False if there is none.
+  /// Searches the first 1,000 lines for the header line: the first for whose fields `is_it` returns true. Lines above
+  /// it are then passed over, except comments. Returns false if there is none.
   bool find_header(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
 
-  /// The lines above the header line that were passed over.
+  /// Returns the lines above the header line that were passed over.
   [[nodiscard]] const std::vector<std::string_view>& passed_over() const noexcept { return passed_over_; }
 
-  /// Of the line, trimmed and without quotes.
+  /// Returns the line's fields, trimmed and without quotes.
   [[nodiscard]] const std::vector<std::string_view>& fields() const noexcept { return fields_; }
 
-  /// Reads a finite number in the file's dialect, whose decimal mark the first one with such a mark tells. Returns what
-  /// is wrong with the field, or nothing.
+  /// Reads a finite number in the file's dialect; the first decimal mark sets it. Returns the field's fault, or
+  /// nullptr.
   [[nodiscard]] const char* read_number(std::string_view field, double& value) {
-    // A plain number with a decimal point, which nearly all are, is read at once.
+    // Fast path: nearly all numbers are plain with a decimal point.
     if (dialect_.decimal_mark == '.' && io::read_number(field, value) == nullptr) return nullptr;
     return dialect_.read_number(field, value);
   }
@@ -62,14 +62,14 @@ class csv_reader {
   [[nodiscard]] bool next_line(std::string_view& line, const std::function<void(std::string_view)>& read_comment);
   [[noreturn]] void refuse_size(std::string_view line) const;
 
-  std::shared_ptr<const std::string> converted_;  ///< of UTF-16
+  std::shared_ptr<const std::string> converted_;  ///< the text, if the file was UTF-16
   std::string_view left_;
   text_place place_;
   csv_dialect dialect_;
   std::vector<std::string_view> fields_;
-  char separator_ = '\0';        ///< that the first line names
-  std::size_t columns_ = 0;      ///< of the header line; 0 above it
-  std::size_t header_line_ = 0;  ///< 0 if it is the first that is no comment
+  char separator_ = '\0';        ///< set by a first line `sep=;`, or 0
+  std::size_t columns_ = 0;      ///< number of fields of the header line; 0 above it
+  std::size_t header_line_ = 0;  ///< 0: the first line that is not a comment
   std::vector<std::string_view> passed_over_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// JSON texts (RFC 8259), read forwards: the caller reads the values that it wants and skips the others. No tree of
-/// values is built, and nothing is allocated but what is read.
+/// JSON texts (RFC 8259), read forwards: the caller reads the values that it wants and skips the others. Builds no tree
+/// of values and allocates only the strings that are read.
 /// ```
 /// json_reader json(text, place);
 /// json.open_object("file");
@@ -24,32 +24,32 @@ class json_reader {
  public:
   json_reader(std::string_view text, text_place& place) : text_(without_byte_order_mark(text)), place_(place) {}
 
-  /// `what` is what errors call the value.
+  /// Enters an object. Errors call it `what`.
   void open_object(std::string_view what) { open('{', "an object", what); }
   void open_array(std::string_view what) { open('[', "an array", what); }
 
-  /// The next key of the object that was opened last, or nothing at its end. Its value must be read before the next.
+  /// Returns the next key of the innermost open object, or nothing at its end. Read its value before the next key.
   [[nodiscard]] std::optional<std::string> next_key();
 
-  /// Is there a next element in the array that was opened last? It must be read before the next.
+  /// Does the innermost open array have a next element? Read it before the next call.
   [[nodiscard]] bool next_element();
 
-  /// A finite number.
+  /// Reads a finite number.
   [[nodiscard]] double read_number(std::string_view what);
 
-  /// A string in UTF-8. A character beyond the basic plane that is escaped becomes two question marks.
+  /// Reads a string into UTF-8. An escaped character outside the basic multilingual plane becomes two question marks.
   [[nodiscard]] std::string read_string(std::string_view what);
 
-  /// The first character of the next value: one of {["-0123456789tfn if it is one.
+  /// Returns the first character of the next value, one of {["-0123456789tfn if the value is valid.
   [[nodiscard]] char peek();
 
-  /// Checks a value of any kind, of at most 100 levels, and returns its text.
+  /// Checks a value of any kind, with at most 100 levels, and returns its text.
   std::string_view skip(std::size_t depth = 0);
 
-  /// Refuses whatever follows but blanks.
+  /// Throws gonio::error if anything but blanks follows.
   void finish();
 
-  /// Refuses what was taken last, by its line.
+  /// Throws gonio::error naming the line of the last value read.
   [[noreturn]] void refuse(std::initializer_list<message_part> what) const;
 
  private:
@@ -64,7 +64,7 @@ class json_reader {
   std::string_view text_;
   text_place& place_;
   std::size_t at_ = 0;
-  bool is_first_ = false;  ///< what was opened last has given nothing yet
+  bool is_first_ = false;  ///< nothing has been read from the innermost object or array yet
 };
 
 }  // namespace gonio::io::detail

@@ -1,5 +1,5 @@
 #pragma once
-/// The files of a folder that have one of some extensions, in small letters or capitals, by their names without it.
+/// Lists the files of a folder with given extensions, in lower or upper case, by their names without extension.
 
 #include <filesystem>
 #include <span>
@@ -14,9 +14,9 @@ struct named_file {
   std::filesystem::path path;
 };
 
-/// At least one, sorted by name; the rest of the folder is ignored. Extensions are given with the dot, in small
-/// letters. Throws gonio::error if the folder cannot be read or holds no such file, which may be another folder than is
-/// meant, or if two files give the same name: `what` is what errors call such a file.
+/// Returns at least one file, sorted by name; ignores the rest of the folder. Extensions include the dot and are in
+/// lower case. Throws gonio::error if the folder cannot be read, if it holds no such file (perhaps the wrong folder was
+/// given), or if two files have the same name. Errors call such a file `what`.
 [[nodiscard]] std::vector<named_file> list_named_files(const std::filesystem::path& folder,
                                                        std::span<const std::string_view> extensions,
                                                        std::string_view what);

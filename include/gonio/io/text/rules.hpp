@@ -1,5 +1,5 @@
 #pragma once
-/// Text files of rules: each line a name and its numbers, separated by blanks; what follows a # is a comment.
+/// Text files of rules. Each line is a name and its numbers, separated by blanks; a comment starts with #.
 
 #include <gonio/io/text/text.hpp>
 
@@ -11,7 +11,7 @@
 
 namespace gonio::io::detail {
 
-/// A line of the file: what is told, and its numbers. The name is a part of the text.
+/// A line of the file: the rule's name and its numbers. The name is a view into the text.
 struct text_rule {
   std::string_view name;
   std::vector<double> numbers;
@@ -19,7 +19,7 @@ struct text_rule {
 
 [[nodiscard]] text_rule read_rule(std::string_view line, const text_place& place);
 
-/// Refuses a rule unless it has one of these counts of numbers.
+/// Throws gonio::error unless the rule has one of these counts of numbers.
 void require_numbers(const text_rule& rule, std::initializer_list<std::size_t> counts, const text_place& place);
 
 }  // namespace gonio::io::detail

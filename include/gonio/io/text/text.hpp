@@ -1,6 +1,5 @@
 #pragma once
-/// Text files of numbers: what their readers and writers have in common. Bad input is refused with its file, line and
-/// field.
+/// Common parts of the readers and writers of text files of numbers. Errors name file, line and field.
 
 #include <gonio/core/error.hpp>
 #include <gonio/io/bytes/file.hpp>
@@ -15,59 +14,58 @@
 
 namespace gonio::io {
 
-/// Where in which file a reader is, for its errors.
+/// A reader's position, for its errors: file and line.
 struct text_place {
   std::string name;
   std::size_t line = 0;
 
-  /// The parts of the message, one after the other.
+  /// Throws gonio::error with the position and the joined parts of the message.
   [[noreturn]] void refuse(std::initializer_list<message_part> what) const;
   [[noreturn]] void refuse(const message_part& what) const { refuse({what}); }
 };
 
-/// What may stand around a field. A carriage return ends lines on some systems.
+/// The blanks around a field. On some systems a carriage return ends lines.
 inline constexpr std::string_view blanks = " \t\r";
 
-/// A field in quotes, short and printable whatever a broken file holds.
+/// Returns the field in quotes, shortened and made printable in case the file is broken.
 [[nodiscard]] std::string in_quotes(std::string_view field);
 
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
-/// The text with A to Z as small letters, whatever the locale.
+/// Returns the text with A to Z in lower case, whatever the locale.
 [[nodiscard]] std::string lower_case(std::string_view text);
 
-/// The words with `between` them: "red, green", ".exr or .hdr".
+/// Joins the words with `between`: "red, green", ".exr or .hdr".
 [[nodiscard]] std::string listed(std::span<const std::string_view> words, std::string_view between);
 
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text) noexcept;
 
-/// The fields of a line between its commas, or another separator, trimmed; what `fields` held before is dropped.
+/// Splits a line at its separators into trimmed fields, which replace the content of `fields`.
 void split_fields(std::string_view line, std::vector<std::string_view>& fields, char separator = ',');
 
-/// The words of a line, which blanks separate; what `words` held before is dropped.
+/// Splits a line at blanks into words, which replace the content of `words`.
 void split_at_blanks(std::string_view line, std::vector<std::string_view>& words);
 
-/// Takes the next line that holds more than blanks off the front of a text; `place` is then there.
+/// Takes the next line that is not blank from the front of a text, and moves `place` there.
 [[nodiscard]] bool next_whole_line(std::string_view& text, text_place& place, std::string_view& line);
 
-/// The same, trimmed, without comments, the lines that start with #.
+/// The same for the next line that is not a comment (does not start with #), trimmed.
 [[nodiscard]] bool next_line(std::string_view& text, text_place& place, std::string_view& line);
 
-/// Calls `use(line)` for each line that holds something, trimmed, `place` being there. Lines that start with # are
-/// comments.
+/// Calls `use(line)` for each line, trimmed, that is neither blank nor a comment (starting with #), with `place` there.
 template <class Use>
 void for_each_line(std::string_view text, text_place& place, Use&& use) {
   text = without_byte_order_mark(text);
   for (std::string_view line; next_line(text, place, line);) use(line);
 }
 
-/// std::from_chars of a whole field for standard libraries that have none of floating-point numbers (libc++ before 20).
+/// std::from_chars of a whole field, for standard libraries without the floating-point version (libc++ before 20).
 [[nodiscard]] std::errc read_by_strtod(std::string_view digits, double& value);
 
-/// Reads a finite number. Returns what is wrong with the field, or nothing.
+/// Reads a finite number. Returns the fault of the field, or nullptr.
 [[nodiscard]] const char* read_number(std::string_view field, double& value);
 
-/// A finite number; `describe()` is what errors call it.
+/// Reads a finite number. Throws gonio::error at `place`, with `describe()` as the number's name.
 template <class Describe>
 [[nodiscard]] double read_number(std::string_view field, const text_place& place, const Describe& describe) {
   double value = 0.0;
@@ -75,7 +73,7 @@ template <class Describe>
   return value;
 }
 
-/// The shortest text that reads back as the same number.
+/// Returns the shortest text that reads back as the same number.
 [[nodiscard]] std::string shortest(double value);
 
 [[nodiscard]] inline std::string_view as_text(std::span<const std::byte> bytes) noexcept {

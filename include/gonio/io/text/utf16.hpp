@@ -1,15 +1,15 @@
 #pragma once
-/// Text in UTF-16, which Excel writes as "Unicode text" and some instruments write.
+/// Text in UTF-16: Excel's "Unicode text" and the files of some instruments.
 
 #include <string>
 #include <string_view>
 
 namespace gonio::io {
 
-/// Does it begin with a byte order mark of UTF-16, or with two letters of it?
+/// Does the text begin with a byte order mark of UTF-16, or with two ASCII letters in UTF-16?
 [[nodiscard]] bool is_utf16(std::string_view text) noexcept;
 
-/// The same text in UTF-8, without the mark. What is no letter becomes U+FFFD. O(length).
+/// Converts UTF-16 to UTF-8 without the mark. Invalid code units become U+FFFD. O(length).
 [[nodiscard]] std::string utf8_of_utf16(std::string_view text);
 
 }  // namespace gonio::io

@@ -1,6 +1,6 @@
 #pragma once
-/// Text files of words and numbers, whatever lines they stand in. Comments are lines that start with #, and what
-/// follows a word that is # alone.
+/// Text files of words and numbers, read regardless of line breaks. A comment is a line that starts with #, or the rest
+/// of a line after a single #.
 
 #include <gonio/io/text/text.hpp>
 
@@ -11,38 +11,38 @@
 
 namespace gonio::io::detail {
 
-/// Reads the words of a text one after the other; `place` is then the line of the last one.
+/// Reads the words of a text one after the other; `place` is the line of the last word.
 class word_reader {
  public:
   word_reader(std::string_view text, text_place& place) : text_(without_byte_order_mark(text)), place_(place) {}
 
-  /// The next word, and it stays there; empty at the end.
+  /// Returns the next word without reading it; empty at the end.
   [[nodiscard]] std::string_view peek();
 
-  /// Reads the next word. `what` is what a file that ends before it misses.
+  /// Reads the next word. If the file ends first, the error says that it ends before `what`.
   [[nodiscard]] std::string_view read(std::string_view what);
 
-  /// Reads a word that must be one of these; returns which.
+  /// Reads a word that must be one of these; returns its index.
   [[nodiscard]] std::size_t read_one_of(std::initializer_list<std::string_view> words);
 
-  /// Reads the next word if it is this one.
+  /// Reads the next word if it is `word`; returns whether it was.
   bool read_if(std::string_view word);
 
-  /// A finite number.
+  /// Reads a finite number.
   [[nodiscard]] double read_number(std::string_view what);
-  /// One from `lowest` to `highest`.
+  /// Reads a number from `lowest` to `highest`.
   [[nodiscard]] double read_number(std::string_view what, double lowest, double highest);
 
-  /// A count, at least 1, and as many numbers from `lowest` to `highest`. Memory is asked for as they come.
+  /// Reads a count, at least 1, then as many numbers from `lowest` to `highest`. Memory grows with the numbers read.
   [[nodiscard]] std::vector<double> read_list(std::string_view what, double lowest, double highest);
 
-  /// The numbers that stand on the rest of this line, at least one.
+  /// Reads the numbers on the rest of this line, at least one.
   [[nodiscard]] std::vector<double> read_line(std::string_view what, double lowest, double highest);
 
-  /// The words that are left on the line of the last one.
+  /// Reads the remaining words on the last word's line.
   [[nodiscard]] std::string_view read_rest_of_line();
 
-  /// As many bytes of so many each as follow the line of the last word, whatever they are.
+  /// Reads up to `count` times `of_each` bytes of any value, from the line after the last word's.
   [[nodiscard]] std::string_view read_bytes(std::size_t count, std::size_t of_each);
 
   [[nodiscard]] text_place& place() const noexcept { return place_; }

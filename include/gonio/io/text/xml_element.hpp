@@ -1,6 +1,5 @@
 #pragma once
-/// Elements of XML texts by their names, as the files of some programs need it: no attributes, no entities, no tree of
-/// elements.
+/// Elements of XML texts by name, for the files of a few programs: no attributes, no entities, no tree of elements.
 /// ```
 /// const xml_element file(text, name);
 /// for (const xml_element& layer : file.all("Layer")) use(layer.text("Name"));
@@ -16,22 +15,22 @@
 
 namespace gonio::io::detail {
 
-/// What stands in an element of XML, and where. Elements of these files have no others of the same name in them, but
-/// the matrices' bases, which are read through their own elements.
+/// An element of an XML text: its content and its position. Elements contain no others of the same name, except the
+/// bases of the matrices, which are read through their own elements.
 class xml_element {
  public:
-  /// Of the whole file.
+  /// The whole file as one element.
   xml_element(std::string_view file, const std::string& name) : file_(file), content_(file), name_(name) {}
 
-  /// The elements of this name in it, in their order.
+  /// Returns the elements of this name inside it, in order.
   [[nodiscard]] std::vector<xml_element> all(std::string_view name) const;
-  /// The first of these. Refused if there is none.
+  /// Returns the first of these. Throws gonio::error if there is none.
   [[nodiscard]] xml_element first(std::string_view name) const;
-  /// The trimmed text of the first of these; empty if there is none.
+  /// Returns the trimmed text of the first of these; empty if there is none.
   [[nodiscard]] std::string_view text(std::string_view name) const;
-  /// What is between its tags.
+  /// Returns the text between its tags.
   [[nodiscard]] std::string_view content() const noexcept { return content_; }
-  /// Where a part of the file is.
+  /// Returns the position of a part of the file.
   [[nodiscard]] text_place place(std::string_view part) const {
     return {name_, 1 + static_cast<std::size_t>(std::count(file_.data(), part.data(), '\n'))};
   }

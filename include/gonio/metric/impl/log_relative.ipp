@@ -56,7 +56,7 @@ GONIO_INLINE log_relative log_relative::on(const valid_cells& cells) const {
 }
 
 GONIO_INLINE void log_relative::compute_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const {
-  // Expressions without a choice in them, which are computed for several cells at once.
+  // Use expressions without branches, which are computed for several cells at once.
   Eigen::Array<double, Eigen::Dynamic, 1, 0, shifts_at_once> weight(shift.size());
   const auto part =
       row.difference * Eigen::Map<const Eigen::ArrayXd>(row.cos_phi_d + row.first_phi_d + begin, weight.size());

@@ -20,24 +20,24 @@
 
 namespace gonio::model::detail {
 
-/// Between two numbers, without the guarantees of `std::lerp`, whose choices cost more than the rest of a look-up.
+/// Linear interpolation. `std::lerp` has guarantees that cost more than the rest of a look-up.
 [[nodiscard]] inline double mixed(double from, double to, double share) noexcept { return from + share * (to - from); }
 
-/// From 0 to 1, and 0 for what is not a number.
+/// Clamps to [0, 1]. Returns 0 for NaN.
 [[nodiscard]] inline double within_unit(double number) noexcept { return std::min(std::max(0.0, number), 1.0); }
 
-/// Where a number lies between two neighbours of ascending ones.
+/// The position of a number between two neighbours in an ascending list.
 struct between_neighbours {
   Eigen::Index first = 0;
-  double fraction = 0.0;  ///< of the way to the second
+  double fraction = 0.0;  ///< of the interval, from the first neighbour to the second
 };
 
-/// Nodes at equal distances from 0 to 1.
+/// Equidistant nodes from 0 to 1.
 class unit_nodes {
  public:
   explicit unit_nodes(Eigen::Index count) : last_first_(count - 2), intervals_(static_cast<double>(count - 1)) {}
 
-  /// Of a coordinate from 0 to 1.
+  /// Returns the interval that contains a coordinate from 0 to 1.
   [[nodiscard]] between_neighbours find(double coordinate) const noexcept {
     const double scaled = coordinate * intervals_;
     const Eigen::Index first = std::min(static_cast<Eigen::Index>(scaled), last_first_);
@@ -49,10 +49,10 @@ class unit_nodes {
   double intervals_;
 };
 
-/// The polar angles of wi for which there are tables.
+/// The polar angles of wi that have tables.
 class light_angles {
  public:
-  /// Of angles in radians.
+  /// Takes angles in radians.
   explicit light_angles(const std::vector<double>& angles) {
     for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
       from_.push_back(angles[i] * (2.0 / std::numbers::pi));
@@ -60,7 +60,7 @@ class light_angles {
     }
   }
 
-  /// By the share of a quarter turn. A binary search whose steps the processor need not guess: angles are seldom alike.
+  /// Binary search; the angle is in quarter turns. It is branch-free, because successive angles are unpredictable.
   [[nodiscard]] between_neighbours find(double quarter_turn) const noexcept {
     const double* first = from_.data();
     for (Eigen::Index left = std::ssize(from_); left > 1;) {
@@ -73,24 +73,25 @@ class light_angles {
   }
 
  private:
-  std::vector<double> from_;              ///< shares of a quarter turn of all but the last
-  std::vector<double> per_quarter_turn_;  ///< one over the distance to the next
+  std::vector<double> from_;              ///< all angles but the last, in quarter turns
+  std::vector<double> per_quarter_turn_;  ///< one over the distance to the next angle
 };
 
 /// A point of the unit square.
 struct square_point {
-  double across = 0.0;  ///< the rows
-  double along = 0.0;   ///< a row
+  double across = 0.0;  ///< across the rows
+  double along = 0.0;   ///< along a row
 };
 
-/// The share of a quarter turn of the angle between a direction of any length, not below the horizon, and the normal.
+/// Returns the polar angle of a direction in quarter turns. It may have any length but not be below the horizon.
 [[nodiscard]] inline double polar_quarter_turn(const direction& w) noexcept {
   const double across = w.x() * w.x() + w.y() * w.y(), up = w.z() * w.z();
   const double squared = std::min(across, up) / std::max(across, up);
   return gonio::detail::quarter_turns(std::sqrt(squared), squared, gonio::detail::is_more(across, up));
 }
 
-/// The azimuth of `w` relative to that of `reference` in turns, plus 1/2; 1 is 0. The normal has that of the x axis.
+/// Returns the azimuth of `w` minus that of `reference` in turns plus 1/2, in [0, 1). The normal has the azimuth of the
+/// x axis.
 [[nodiscard]] inline double relative_turn(const direction& w, const direction& reference) noexcept {
   double along = reference.x() * w.x() + reference.y() * w.y(), beside = reference.x() * w.y() - reference.y() * w.x();
   if (!(std::max(std::abs(along), std::abs(beside)) > 0.0)) {  // one is the normal
@@ -106,19 +107,19 @@ struct square_point {
   return turn < 1.0 ? turn : 0.0;
 }
 
-/// Of a direction, along the rows.
+/// Returns a direction's coordinate along the rows.
 [[nodiscard]] inline double polar_coordinate(const direction& w) noexcept {
   return within_unit(std::sqrt(polar_quarter_turn(w)));
 }
 
-/// Where the patch between four nodes is in which a point lies, and where in it.
+/// The patch between four nodes that contains a point, and the point's position in it.
 struct square_patch {
   Eigen::Index row = 0;
-  Eigen::Index corner = 0;  ///< where the numbers of its first node are
+  Eigen::Index corner = 0;  ///< index of the first number of its first node
   square_point inside;
 };
 
-/// The nodes of tables of one size, each of `Numbers` numbers, row after row and table after table.
+/// The nodes of tables of one size. Each node has `Numbers` numbers. Nodes are stored row by row and table by table.
 template <int Numbers>
 class node_grid {
  public:
@@ -128,7 +129,7 @@ class node_grid {
         row_length_(Numbers * tables.columns),
         table_length_(tables.rows * row_length_) {}
 
-  /// In the first table.
+  /// Returns the patch in the first table.
   [[nodiscard]] square_patch find(const square_point& at) const noexcept {
     const auto [row, across] = rows_.find(at.across);
     const auto [column, along] = columns_.find(at.along);
@@ -138,8 +139,8 @@ class node_grid {
   [[nodiscard]] Eigen::Index row_length() const noexcept { return row_length_; }
   [[nodiscard]] Eigen::Index table_length() const noexcept { return table_length_; }
 
-  /// `Size` numbers from a patch's first node on, interpolated between two rows and between the table of `light` and
-  /// the next. Of columns that are read together, all are: a vector of them costs as much as one.
+  /// Returns `Size` numbers from a patch's first node on, interpolated between two rows and between the table of
+  /// `light` and the next. All `Size` numbers are read together, because a vector costs as much as one number.
   template <int Size, class Number>
   [[nodiscard]] std::array<Number, Size> mixed_rows(const float* numbers, const square_patch& patch,
                                                     const between_neighbours& light) const noexcept {
@@ -161,7 +162,7 @@ class node_grid {
   Eigen::Index row_length_, table_length_;
 };
 
-/// A table that is another's memory, interpolated.
+/// Interpolates a table that another object owns.
 class table_lookup {
  public:
   explicit table_lookup(const unit_square_tables& table) : grid_(table), values_(table.values.data()) {}
@@ -178,11 +179,11 @@ class table_lookup {
   const float* values_;
 };
 
-/// The trapezoids of a table, in units of its patches.
+/// Cumulative trapezoid sums of a table, in units of its patches.
 struct table_sums {
   Eigen::Index columns;
-  Eigen::ArrayXd along;   ///< of each row up to each column, row after row
-  Eigen::ArrayXd across;  ///< of whole rows up to each of them
+  Eigen::ArrayXd along;   ///< sum of each row up to each column, row by row
+  Eigen::ArrayXd across;  ///< sum of whole rows up to each row
 
   table_sums(const float* values, Eigen::Index rows, Eigen::Index columns_)
       : columns(columns_), along(rows * columns_), across(rows) {
@@ -199,11 +200,11 @@ struct table_sums {
   [[nodiscard]] double total() const noexcept { return across[across.size() - 1]; }
 };
 
-/// Where the cumulative distributions of visible normals map half vectors: densities and their sums, which scale to 1
-/// over each table.
+/// Maps half vectors by the cumulative distributions of visible normals. Holds densities and their sums, scaled so that
+/// each table integrates to 1.
 class visible_lookup {
  public:
-  /// Scales the densities, too.
+  /// Also scales the densities in `density`.
   explicit visible_lookup(unit_square_tables& density) : grid_(density), row_sums_per_table_(2 * density.rows) {
     nodes_.reserve(2 * density.values.size());
     row_sums_.reserve(density.tables * row_sums_per_table_);
@@ -219,10 +220,10 @@ class visible_lookup {
   [[nodiscard]] square_point position(const square_point& half, const between_neighbours& light) const noexcept {
     const square_patch patch = grid_.find(half);
     const auto [across, along] = patch.inside;
-    // Along the rows: the trapezoids before the patch, and the part of its own on this side of the half vector.
+    // Along the row: the trapezoids before the patch, plus the part of its own trapezoid up to the half vector.
     const auto [left, left_before, right, right_before] = grid_.mixed_rows<4, double>(nodes_.data(), patch, light);
     const double part = left_before + along * (left + 0.5 * along * (right - left));
-    // Across the rows: those before the patch, and the part of its own.
+    // Across the rows: the rows before the patch, plus the part of the patch.
     const float* near = row_sums_.data() + light.first * row_sums_per_table_ + 2 * patch.row;
     const float* far = near + row_sums_per_table_;
     std::array<double, 4> sums;
@@ -234,7 +235,7 @@ class visible_lookup {
   }
 
  private:
-  /// Scales the whole to 1: between two theta_i, sums are interpolated.
+  /// Appends a table scaled to integral 1, because sums are interpolated between two theta_i.
   void append(const table_sums& sums, Eigen::Map<Eigen::ArrayXf> density) {
     const auto scaled = [whole = sums.total()](double number) { return static_cast<float>(number / whole); };
     for (Eigen::Index i = 0; i < density.size(); ++i) {
@@ -247,11 +248,12 @@ class visible_lookup {
 
   node_grid<2> grid_;
   Eigen::Index row_sums_per_table_;
-  std::vector<float, huge_page_allocator<float>> nodes_;  ///< of each its density and its row's trapezoids up to it
-  std::vector<float> row_sums_;  ///< of each row its trapezoids, and whole rows' trapezoids up to it
+  std::vector<float, huge_page_allocator<float>>
+      nodes_;                    ///< for each node: its density, and the trapezoids of its row up to it
+  std::vector<float> row_sums_;  ///< for each row: its trapezoids, and those of whole rows up to it
 };
 
-/// Tables of which three make the channels of one.
+/// Looks up reflectance. Three consecutive tables are the channels of one.
 class reflectance_lookup {
  public:
   explicit reflectance_lookup(const unit_square_tables& tables) : grid_(tables) {
@@ -264,8 +266,9 @@ class reflectance_lookup {
     values_.resize(values_.size() + read_beyond);
   }
 
-  /// Times a factor, which is not the last step: compilers would fuse one of two such products with their sum, and
-  /// exchanging the two directions would change its last digit. In float, as the nodes are: it costs 1e-7 of them.
+  /// Returns the value times a factor. The factor is applied before the last step: otherwise compilers would fuse one
+  /// of the two products with their sum, and exchanging the two directions would change the last digit. Computes in
+  /// float, like the nodes, with a relative error of 1e-7.
   [[nodiscard]] rgb value(const square_point& at, const between_neighbours& light, double factor) const noexcept {
     const square_patch patch = grid_.find(at);
     const std::array<float, 8> sides = grid_.mixed_rows<8, float>(values_.data(), patch, light);
@@ -274,16 +277,16 @@ class reflectance_lookup {
   }
 
  private:
-  static constexpr Eigen::Index read_beyond = 2;  ///< numbers behind the last node's: whole vectors are read
+  static constexpr Eigen::Index read_beyond = 2;  ///< padding after the last node, because whole vectors are read
 
   node_grid<3> grid_;
-  std::vector<float, huge_page_allocator<float>> values_;  ///< the three channels of each node
+  std::vector<float, huge_page_allocator<float>> values_;  ///< three channels per node
 };
 
-/// May numbers be negative?
+/// Whether a table may have negative numbers.
 enum class table_sign { any, not_negative };
 
-/// Throws gonio::error unless a part of the material has this many tables, of finite numbers.
+/// Throws gonio::error unless `part` has this many tables, all numbers are finite, and the signs are allowed.
 inline void require_tables(const unit_square_tables& part, const char* name, Eigen::Index tables, table_sign sign) {
   if (part.tables != tables || part.rows < 2 || part.columns < 2 ||
       std::ssize(part.values) != part.tables * part.rows * part.columns)
@@ -323,7 +326,7 @@ struct adaptive_brdf::stored {
         visible(parts.visible_normals),
         reflectance(parts.reflectance) {}
 
-  /// Where the light and a half vector of any length are in the tables.
+  /// The coordinates of the light and of a half vector of any length in the tables.
   struct place {
     double theta_i;  ///< in quarter turns
     detail::square_point half;
@@ -332,7 +335,7 @@ struct adaptive_brdf::stored {
         : theta_i(detail::within_unit(detail::polar_quarter_turn(wi))), half{detail::relative_turn(sum, wi), along} {}
   };
 
-  /// What the reflectance is looked up at, and multiplied by.
+  /// The position at which the reflectance is looked up, and its factor.
   struct mapped {
     detail::between_neighbours light;
     detail::square_point position;
@@ -367,7 +370,7 @@ GONIO_INLINE rgb adaptive_brdf::operator()(const direction& wi, const direction&
   if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
   const direction sum = wi + wo;
   const double along = detail::polar_coordinate(sum);
-  // Step by step of both: while the processor waits for one it does the other.
+  // Interleaves the steps of both orders, so that the processor computes one while it waits for the other.
   const stored& tables = *tables_;
   const stored::place first(wi, sum, along), second(wo, sum, along);
   const stored::mapped one = tables.map(first, wo.z()), other = tables.map(second, wi.z());

@@ -34,16 +34,16 @@ GONIO_INLINE std::vector<lobe_kind::values> typical_shapes(const std::vector<con
   return shapes;
 }
 
-/// How a fit descends by its norm.
+/// Returns the options of the descent for the fit's norm.
 [[nodiscard]] GONIO_INLINE levenberg_marquardt_options descent_of(const model_fit_options& options) {
   levenberg_marquardt_options descent{.iteration_limit = options.iteration_limit};
-  // Weighted squares approach the minimum of another norm by a share of the way at a time.
+  // Reweighted squares approach the minimum of another norm only linearly.
   if (options.norm != fit_norm::l2) descent.smallest_gain = 1e-10;
   return descent;
 }
 
-/// Goes on from a model that may reflect too much to the best one near it that does not: by a penalty that grows, and
-/// what that leaves, about 1e-4, by darker colours.
+/// Bounds the albedo of a model: continues to the best nearby model that does not reflect too much, with a growing
+/// penalty. Darkens the colours to remove the remaining excess, about 1e-4.
 GONIO_INLINE void bound_albedo(const model_loss& loss, Eigen::VectorXd& x, local_minimum& end,
                                const model_fit_options& options) {
   constexpr int bins = 400;
@@ -61,7 +61,7 @@ GONIO_INLINE void bound_albedo(const model_loss& loss, Eigen::VectorXd& x, local
   end.value = loss.joint(x).value;
 }
 
-/// Descends over everything, from shapes and the colours that suit them.
+/// Minimises over all unknowns, starting from shapes and their best colours.
 [[nodiscard]] GONIO_INLINE std::pair<Eigen::VectorXd, local_minimum> fit_from(const model_loss& loss,
                                                                               const Eigen::VectorXd& shapes,
                                                                               const model_fit_options& options) {
@@ -75,14 +75,14 @@ GONIO_INLINE void bound_albedo(const model_loss& loss, Eigen::VectorXd& x, local
     local_minimum found = levenberg_marquardt([&](const Eigen::VectorXd& u) { return loss.projected(u); }, shapes,
                                               {box.lowest.head(p), box.highest.head(p)}, by_products);
     Eigen::VectorXd x = loss.with_colours(found.unknowns);
-    // Residuals that are small beside the measurements drown when they are had from products.
+    // Residuals computed from products lose precision if they are small compared to the measurements.
     if (found.value > 1e-8 * loss.of_nothing()) return {std::move(x), std::move(found)};
     local_minimum polished = levenberg_marquardt(joint, x, box, descent);
     polished.evaluations += found.evaluations;
     return {polished.unknowns, std::move(polished)};
   }
   const Eigen::VectorXd start = loss.with_colours(shapes);
-  // The paper's stages: first colours, then shapes, then all.
+  // The stages of the paper: first colours, then shapes, then all.
   unknown_bounds stage = box;
   stage.lowest.head(p) = stage.highest.head(p) = start.head(p);
   const local_minimum coloured = levenberg_marquardt(joint, start, stage, descent);

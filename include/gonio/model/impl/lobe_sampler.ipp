@@ -24,7 +24,7 @@ GONIO_INLINE direction_mixture mixture_of(const std::vector<weighed_lobe>& lobes
     for (Eigen::Index at = 0; at < std::ssize(sum); ++at) sum[at] += lobe.albedo[at];
   constexpr double least_share = 0.01;
   direction_mixture mixture;
-  by_viewer black{};  // what reflects nothing may be drawn anyhow
+  by_viewer black{};  // viewers of a black model draw cosine-weighted directions
   for (Eigen::Index at = 0; at < std::ssize(sum); ++at) black[at] = sum[at] > 0.0 ? 0.0 : 1.0;
   mixture.add(cosine_directions{}, black);
   for (const weighed_lobe& lobe : lobes)

@@ -18,7 +18,7 @@
 
 namespace gonio::model::detail {
 
-/// A pair of directions up to a turn about the normal: their polar angles and the azimuth from light to viewer.
+/// A pair of directions up to a rotation about the normal: their polar angles and the azimuth from light to viewer.
 struct turned_pair {
   double theta_i, theta_o, azimuth;
 
@@ -34,7 +34,8 @@ struct turned_pair {
     return other;
   }
 
-  /// Do the two agree to a tolerance? What is left of the azimuths is put on the direction nearer to the normal.
+  /// Whether two pairs agree within a tolerance. The azimuth difference is measured at the direction nearer to the
+  /// normal.
   [[nodiscard]] bool agrees(const turned_pair& other, double tolerance) const noexcept {
     const double turn = std::abs(std::remainder(azimuth - other.azimuth, 2.0 * std::numbers::pi));
     return std::abs(theta_i - other.theta_i) <= tolerance && std::abs(theta_o - other.theta_o) <= tolerance &&
@@ -46,14 +47,15 @@ struct turned_pair {
   return angle_between(a.wi, b.wi) <= tolerance && angle_between(a.wo, b.wo) <= tolerance;
 }
 
-/// By how much one pair is turned about the normal against another, in radians: its direction farther from the normal.
+/// Returns the rotation about the normal between two pairs in radians, measured at the direction farther from the
+/// normal.
 [[nodiscard]] GONIO_INLINE double turn_between(const direction_pair& a, const direction_pair& b) {
   const bool by_light = a.wi.z() < a.wo.z();
   return std::abs(
       std::remainder(azimuth(by_light ? a.wi : a.wo) - azimuth(by_light ? b.wi : b.wo), 2.0 * std::numbers::pi));
 }
 
-/// Is the half vector's azimuth 0 everywhere, as it is where half and difference angles are all that is known?
+/// Whether all half vectors have azimuth 0. This is so if the file gives only half and difference angles.
 [[nodiscard]] GONIO_INLINE bool lacks_azimuths(const sample_set& samples) {
   constexpr double rounding = 1e-9;
   return std::ranges::all_of(samples, [](const sample& s) {
@@ -62,7 +64,7 @@ struct turned_pair {
   });
 }
 
-/// Samples in boxes of polar angles as wide as the tolerance, so that those which agree are in neighbouring boxes.
+/// Samples sorted into boxes of polar angles as wide as the tolerance. Samples that agree are in neighbouring boxes.
 class boxed_samples {
  public:
   boxed_samples(const sample_set& samples, double tolerance) : tolerance_(tolerance) {
@@ -75,7 +77,7 @@ class boxed_samples {
 
   [[nodiscard]] const turned_pair& operator[](Eigen::Index i) const { return pairs_[i]; }
 
-  /// Calls `visit(j)` for the samples after i in the boxes around a pair, until it says false.
+  /// Calls `visit(j)` for the samples after i in the boxes around a pair, until it returns false.
   template <class Visit>
   void around(const turned_pair& pair, Eigen::Index i, Visit&& visit) const {
     for (const int further_i : {-1, 0, 1})
@@ -88,7 +90,7 @@ class boxed_samples {
   }
 
  private:
-  /// Of the box so many boxes further on; polar angles are below pi/2, and boxes are counted from 1.
+  /// Returns the key of the box at an offset from a pair's own. Polar angles are below pi/2; boxes count from 1.
   [[nodiscard]] std::uint64_t box_of(const turned_pair& pair, int further_i, int further_o) const {
     const auto along = [&](double theta, int further) {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(theta / tolerance_) + 1 + further);
@@ -101,7 +103,7 @@ class boxed_samples {
   std::vector<std::pair<std::uint64_t, Eigen::Index>> boxes_;
 };
 
-/// The differences of pairs of samples, one after the other.
+/// Collects the differences of pairs of samples.
 class pair_differences {
  public:
   void add(const sample_set& samples, Eigen::Index first, Eigen::Index second) {
@@ -126,7 +128,7 @@ class pair_differences {
   std::vector<double> all_;
 };
 
-/// The mean over phi_d of a row of cells.
+/// Returns the mean of a row of cells over phi_d.
 [[nodiscard]] GONIO_INLINE rgb mean_over_phi_d(const brdf_table& table, Eigen::Index row) {
   rgb sum = rgb::Zero();
   const Eigen::Index begin = table.cells().row_begin(row), end = table.cells().row_begin(row + 1);

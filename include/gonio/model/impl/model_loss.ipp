@@ -25,7 +25,7 @@
 
 namespace gonio::model::detail {
 
-/// Some rows and columns of a matrix.
+/// Returns some rows and columns of a matrix.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd entries(const Eigen::MatrixXd& of, const std::vector<Eigen::Index>& rows,
                                                    const std::vector<Eigen::Index>& columns) {
   Eigen::MatrixXd found(std::ssize(rows), std::ssize(columns));
@@ -34,11 +34,11 @@ namespace gonio::model::detail {
   return found;
 }
 
-/// Angles of the light, radians, at which an albedo is bounded: it grows towards grazing.
+/// Angles of the light in radians at which the albedo is bounded. It grows towards grazing.
 inline constexpr std::array albedo_angles{0.0,           radians(45.0), radians(60.0), radians(70.0),
                                           radians(80.0), radians(85.0), radians(88.0)};
 
-/// `count` numbers from `first` on.
+/// Returns `count` consecutive numbers from `first` on.
 [[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> numbers_from(Eigen::Index first, Eigen::Index count) {
   std::vector<Eigen::Index> all(count);
   std::iota(all.begin(), all.end(), first);
@@ -80,7 +80,7 @@ GONIO_INLINE std::vector<lobe_kind::values> model_loss::parameters_of(const Eige
   for (Eigen::Index j = 0; j < shapes(); ++j) {
     const auto [lobe, p] = owner(j);
     const shape_parameter& about = description(j);
-    // exp(log(bound)) may round to what is out of bounds.
+    // exp(log(bound)) may round to a value outside the bounds.
     parameters[lobe][p] = std::clamp(about.logarithmic ? std::exp(u[j]) : u[j], about.lowest, about.highest);
   }
   return parameters;
@@ -148,7 +148,7 @@ GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const Eigen::MatrixXd& pr
   for (Eigen::Index l = 0; l < count; ++l)
     if (products(l, l) > 1e-280 && products(l, l) > 1e-200 * brightest) bright.push_back(l);
   if (bright.empty()) return found;
-  // Columns of length one, so that a narrow lobe of huge values does not hide a dim one.
+  // Scale columns to length one, so that a narrow lobe of huge values does not hide a dim lobe.
   Eigen::MatrixXd gram = entries(products, bright, bright),
                   rhs = entries(products, bright, numbers_from(count + shapes() + first, channels));
   const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt().cwiseInverse();
@@ -169,19 +169,19 @@ GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) cons
   local_parabola result{0.0, Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Zero(p, p)};
   for (Eigen::Index c = 0; c < 3; ++c) {
     const Eigen::MatrixXd& all = of_channels[weighs_channels_apart_ ? c : 0];
-    // Evaluate the loss: the residual is G x - y, its slopes D times the colours of their lobes.
+    // Evaluate the loss. The residual is G x - y. Its slopes are D times the colours of the lobes.
     Eigen::VectorXd residual = Eigen::VectorXd::Zero(all.rows());
     residual.head(count) = found.col(c);
     residual[count + p + c] = -1.0;
     const Eigen::VectorXd against = all * residual;
     result.value += 0.5 * residual.dot(against);
-    // Add the gradient and Gauss and Newton's Hessian by the shapes.
+    // Add the gradient and the Gauss-Newton Hessian by the shapes.
     Eigen::VectorXd colour(p);
     for (Eigen::Index j = 0; j < p; ++j) colour[j] = found(owner(j).lobe, c);
     result.gradient += colour.cwiseProduct(against.segment(count, p));
     for (Eigen::Index j = 0; j < p; ++j)
       for (Eigen::Index i = 0; i < p; ++i) result.hessian(i, j) += colour[i] * all(count + i, count + j) * colour[j];
-    // Subtract what colours that are not held at zero make up for.
+    // Subtract the part of the Hessian that the colours compensate, unless they are held at zero.
     std::vector<Eigen::Index> lit;
     for (Eigen::Index l = 0; l < count; ++l)
       if (found(l, c) > 0.0) lit.push_back(l);
@@ -203,8 +203,8 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x, double a
   // Decode the shapes and the colours from the unknowns.
   const auto parameters = parameters_of(x);
   const Eigen::MatrixXd colour = colours(x);
-  // Sum over the observations, for each channel, the products of its slopes by shapes and its own colours, and of those
-  // with the residual.
+  // Sum over the observations, for each channel, the products among its slopes (by shapes and by its own colours) and
+  // of those slopes with the residual.
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(3 * (n + 1), n + 1);
   const Eigen::MatrixXd sums = sum_over_blocks(
       observations_.size(), block_size, zero,
@@ -218,7 +218,7 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x, double a
           const fit_observation& seen = observations_[i];
           evaluate(seen.at, parameters, value);
           for (Eigen::Index c = 0; c < 3; ++c) {
-            // Weigh the residual of each channel: the loss, and the root of its curvature.
+            // Weight the residual of each channel: its loss, and the square root of its curvature.
             const double modelled = value.head(count).dot(colour.col(c));
             const double residual = mapped(seen, modelled) - mapped(seen, seen.value[c]);
             const auto [loss, curvature] = norm_of(residual);
@@ -226,13 +226,13 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x, double a
             const double root = std::sqrt(seen.weight[c] * curvature);
             const double slope = root * cosine(seen) * metric_.slope(modelled * cosine(seen));
             auto column = columns[c].col(i - range.begin);
-            // Store the slopes by the shapes and by the own colours, and the residual, as a column.
+            // Store a column: the slopes by shapes, the slopes by the channel's colours, and the residual.
             for (Eigen::Index j = 0; j < p; ++j) column[j] = slope * value[count + j] * colour(owner(j).lobe, c);
             column.segment(p, count) = slope * value.head(count);
             column[n] = root * residual;
           }
         }
-        // Add the products of all columns; the last diagonal entry sums the losses instead of squares.
+        // Add the products of all columns. The last diagonal entry sums the losses instead of squared residuals.
         for (Eigen::Index c = 0; c < 3; ++c) {
           const auto& own = columns[c];
           auto part = sum.middleRows(c * (n + 1), n + 1);
@@ -243,7 +243,7 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x, double a
       },
       options_.threads);
 
-  // Assemble the parabola: channels share the shapes, and each has its own colours.
+  // Assemble the parabola. The channels share the shapes; each has its own colours.
   local_parabola result{0.0, Eigen::VectorXd::Zero(unknowns()), Eigen::MatrixXd::Zero(unknowns(), unknowns())};
   for (Eigen::Index c = 0; c < 3; ++c) {
     const auto part = sums.middleRows(c * (n + 1), n + 1) / total_weight_;

@@ -18,7 +18,7 @@ namespace gonio::model {
 
 namespace detail {
 
-/// The two cells between whose centres an angle lies, and how far it is towards the second.
+/// The two cells whose centres enclose an angle, and their weights.
 struct neighbouring_cells {
   std::array<Eigen::Index, 2> cell;
   std::array<double, 2> weight;
@@ -34,7 +34,7 @@ struct neighbouring_cells {
   }
 };
 
-/// The angle between the azimuths of two directions, from 0 to pi; pi, of the mirror direction, if one is the normal.
+/// Returns the angle between two azimuths, from 0 to pi; pi, as for the mirror direction, if a direction is the normal.
 [[nodiscard]] inline double azimuth_between(const direction& wi, const direction& wo) noexcept {
   const double across = std::abs(wi.x() * wo.y() - wi.y() * wo.x()), along = wi.x() * wo.x() + wi.y() * wo.y();
   return across == 0.0 && along == 0.0 ? std::numbers::pi : std::atan2(across, along);
@@ -43,7 +43,7 @@ struct neighbouring_cells {
 }  // namespace detail
 
 GONIO_INLINE polar_grid_brdf::polar_grid_brdf(const polar_grid& grid, std::vector<float> values) : grid_(grid) {
-  // Nothing overflows: the numbers are there.
+  // These tests cannot overflow, because `count` values exist in memory.
   const Eigen::Index count = std::ssize(values);
   if (grid.polar < 1 || grid.azimuth < 1 || grid.polar > count || grid.azimuth > count ||
       grid.polar > count / grid.polar || grid.azimuth > count / (grid.polar * grid.polar) ||

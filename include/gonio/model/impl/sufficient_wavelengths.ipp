@@ -19,17 +19,18 @@
 
 namespace gonio::model::detail {
 
-/// How far a straight line from one of some wavelengths on is near each of many spectra.
+/// Finds how far a straight line from one wavelength on stays close to many spectra.
 class straight_reach {
  public:
-  /// At most to the wavelength `last`.
+  /// Looks no farther than the wavelength `last`.
   straight_reach(const std::vector<double>& wavelengths, Eigen::Index first, Eigen::Index last)
       : at_(wavelengths), first_(first), last_(last), is_bent_(wavelengths.size(), false) {}
 
-  /// No farther than where the line passes a spectrum's values at an `allowed(i)` of distance.
+  /// Shortens the reach to where a line can stay within `allowed(i)` of a spectrum's values.
   template <class Values, class Allowed>
   void shorten_to(const Values& values, const Allowed& allowed) {
-    double least = -std::numeric_limits<double>::infinity(), most = -least;  // slopes of the lines that do so far
+    double least = -std::numeric_limits<double>::infinity(),
+           most = -least;  // slopes of the lines that are still possible
     for (Eigen::Index i = first_ + 1; i <= last_; ++i) {
       const double run = at_[i] - at_[first_], rise = double{values[i]} - double{values[first_]};
       if (rise < least * run || rise > most * run) is_bent_[i] = true;
@@ -39,7 +40,7 @@ class straight_reach {
     }
   }
 
-  /// The farthest wavelength that is possible: the next one always is.
+  /// Returns the farthest possible wavelength. The next one is always possible.
   [[nodiscard]] Eigen::Index farthest() const {
     Eigen::Index i = last_;
     while (is_bent_[i]) --i;
@@ -52,7 +53,7 @@ class straight_reach {
   std::vector<bool> is_bent_;
 };
 
-/// The spectra of a table, and how far from them is near.
+/// The spectra of a table, and the tolerances for them.
 class spectra_within {
  public:
   spectra_within(const spectral_table& table, double tolerance, thread_count threads)
@@ -74,7 +75,8 @@ class spectra_within {
     }
   }
 
-  /// The farthest wavelength, `last` at most, to which a straight line from `first` on is near all spectra between.
+  /// Returns the farthest wavelength, at most `last`, such that a straight line from `first` stays within the tolerance
+  /// of all spectra.
   [[nodiscard]] Eigen::Index straight_until(Eigen::Index first, Eigen::Index last) const {
     straight_reach reach(table_.wavelengths(), first, last);
     for (Eigen::Index k = 0; k < albedos_.cols(); ++k)
@@ -90,13 +92,13 @@ class spectra_within {
   }
 
  private:
-  /// Of a diffuser: what is less is off by as much as this may be.
+  /// Relative to a diffuser. Darker values may have the error that this value may have.
   static constexpr double dark_share = 0.1;
 
   const spectral_table& table_;
   double tolerance_;
   Eigen::ArrayXXd albedos_;         ///< wavelengths x angles
-  Eigen::ArrayXd inverse_cosines_;  ///< of each cell, of light and viewer
+  Eigen::ArrayXd inverse_cosines_;  ///< one over the product of the cosines of light and viewer, for each cell
 };
 
 }  // namespace gonio::model::detail

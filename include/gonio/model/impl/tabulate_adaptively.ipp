@@ -17,21 +17,21 @@
 namespace gonio::model::detail {
 
 inline constexpr double quarter_turn = 0.5 * std::numbers::pi;
-/// What is said of the horizon is read a bit above it, where a BRDF has a value.
+/// Values at the horizon are taken slightly above it, where a BRDF is defined.
 inline constexpr double highest_angle = quarter_turn - 1e-3;
-/// The share of normals that are those of a surface rough in the extreme: it gives the values far from the highlight
-/// their part of the tables, and no normal a density of zero.
+/// The fraction of normals that follow an extremely rough surface. It gives values far from the highlight a part of the
+/// tables, and keeps the density of every normal above zero.
 inline constexpr double rough_share = 0.2;
 
-/// The coordinate of a node, from 0 to 1.
+/// Returns the coordinate of a node, from 0 to 1.
 [[nodiscard]] inline double unit_coordinate(Eigen::Index node, Eigen::Index nodes) {
   return static_cast<double>(node) / static_cast<double>(nodes - 1);
 }
 
-/// The polar angle of a coordinate along the rows: the inverse of `polar_coordinate`.
+/// Returns the polar angle of a coordinate along the rows: the inverse of `polar_coordinate`.
 [[nodiscard]] inline double polar_angle_at(double along) { return quarter_turn * along * along; }
 
-/// The integral of max(0, m . w) over the azimuth of m, of which the polar angles are given.
+/// Returns the integral of max(0, m . w) over the azimuth of m, given the polar angles of m and w.
 [[nodiscard]] inline double projected_ring(double theta_m, double theta) {
   const double up = std::cos(theta_m) * std::cos(theta), aside = std::sin(theta_m) * std::sin(theta);
   if (up >= aside) return 2.0 * std::numbers::pi * up;
@@ -39,10 +39,10 @@ inline constexpr double rough_share = 0.2;
   return 2.0 * (up * limit + aside * std::sin(limit));
 }
 
-/// A distribution of normals over polar angles that are uniform in the coordinate along the rows.
+/// A distribution of normals. Its polar angles are uniform in the coordinate along the rows.
 class normal_distribution {
  public:
-  /// From what f reflects back to the light.
+  /// Computes it from the retroreflection of f.
   normal_distribution(const brdf_function& f, Eigen::Index nodes)
       : theta_(nodes), weights_(nodes), rings_(nodes, nodes), density_(nodes) {
     for (Eigen::Index i = 0; i < nodes; ++i) {
@@ -74,7 +74,7 @@ class normal_distribution {
   static constexpr int iterations = 16;
 
   void iterate(const Eigen::ArrayXd& back) {
-    // Materials that reflect nothing back have normals like a surface rough in the extreme.
+    // A material without retroreflection gets the normals of an extremely rough surface.
     density_.setConstant(std::numbers::inv_pi);
     if (!(back > 0.0).any()) return;
 
@@ -82,7 +82,7 @@ class normal_distribution {
     density_ = (1.0 - rough_share) * density_ + rough_share * std::numbers::inv_pi;
   }
 
-  /// The area that is seen from above is 1.
+  /// Scales the density so that the projected area seen from above is 1.
   [[nodiscard]] Eigen::ArrayXd normalised(const Eigen::ArrayXd& density) const {
     return density / (2.0 * std::numbers::pi * (density * theta_.cos() * weights_).sum());
   }
@@ -92,7 +92,7 @@ class normal_distribution {
   Eigen::ArrayXd density_;
 };
 
-/// What of [0, 1] has the integral `wanted` of a density that goes from `low` to `high`.
+/// Returns the x in [0, 1] at which a density that rises linearly from `low` to `high` has the integral `wanted`.
 [[nodiscard]] inline double linear_quantile(double low, double high, double wanted) {
   const double root = std::sqrt(std::max(low * low + 2.0 * (high - low) * wanted, 0.0));
   return low + root > 0.0 ? std::clamp(2.0 * wanted / (low + root), 0.0, 1.0) : 0.0;
@@ -123,10 +123,10 @@ class visible_normal_quantiles {
   }
 
  private:
-  /// Not the very borders: there, what is nearest to the border of what is visible is meant.
+  /// Clamps just inside the borders. A border then maps to the nearest visible point.
   [[nodiscard]] static double inside(double coordinate) { return std::clamp(coordinate, 1e-6, 1.0 - 1e-6); }
 
-  /// The last of the intervals between the nodes whose sums, which do not fall, begin below what is wanted.
+  /// Returns the last interval between nodes whose sum at its start is below `wanted`. The sums must not decrease.
   template <class Sum>
   [[nodiscard]] static Eigen::Index interval(Eigen::Index nodes, double wanted, const Sum& sum) {
     Eigen::Index low = 0, high = nodes - 1;
@@ -141,7 +141,7 @@ class visible_normal_quantiles {
   table_sums sums_;
 };
 
-/// f(wi, wo) cos(theta_o). Below the horizon it goes on as a straight line.
+/// Returns f(wi, wo) cos(theta_o). Below the horizon it continues as a straight line.
 [[nodiscard]] inline rgb continued_cosine_value(const brdf_function& f, const direction& wi, const direction& wo) {
   constexpr double lowest_cosine = 0.02;
   if (wo.z() > 0.0) return f(wi, wo) * wo.z();
@@ -150,7 +150,7 @@ class visible_normal_quantiles {
   return wo.z() * f(wi, above);
 }
 
-/// Two rows of the same numbers: what does not depend on the azimuth.
+/// Returns a table of two equal rows, for a function that does not depend on the azimuth.
 [[nodiscard]] inline unit_square_tables isotropic_table(const Eigen::ArrayXd& row) {
   unit_square_tables table{1, 2, row.size(), std::vector<float>(2 * row.size())};
   Eigen::Map<Eigen::ArrayXXf>(table.values.data(), row.size(), 2).colwise() = row.cast<float>();
@@ -169,8 +169,7 @@ class visible_normal_quantiles {
   return spherical_direction(std::min(parts.theta_i[number], highest_angle), 0.0);
 }
 
-/// The three tables of f at the theta_i with this number, of the size that `reflectance` has, over the normals of a
-/// material.
+/// Fills the three tables of f at one theta_i, over the normals of a material. `reflectance` gives their size.
 inline void fill_reflectance(const brdf_function& f, const adaptive_brdf_parts& parts, Eigen::Index number,
                              unit_square_tables& reflectance) {
   const unit_square_tables& visible = parts.visible_normals;
@@ -189,7 +188,7 @@ inline void fill_reflectance(const brdf_function& f, const adaptive_brdf_parts& 
   }
 }
 
-/// The tables of a material, filled one theta_i after the other.
+/// Fills the tables of a material, one theta_i at a time.
 class adaptive_tabulation {
  public:
   adaptive_tabulation(const brdf_function& f, const adaptive_resolution& resolution) : f_(f) {
@@ -202,7 +201,7 @@ class adaptive_tabulation {
     parts_.reflectance = {3 * angles, values, values, std::vector<float>(3 * angles * values * values)};
   }
 
-  /// Of the angle with this number.
+  /// Fills the tables of one theta_i.
   void fill(Eigen::Index number) {
     fill_visible_normals(number, light_at(parts_, number));
     fill_reflectance(f_, parts_, number, parts_.reflectance);
@@ -218,7 +217,7 @@ class adaptive_tabulation {
       for (Eigen::Index column = 0; column < visible.columns; ++column) {
         const square_point node{unit_coordinate(row, visible.rows), unit_coordinate(column, visible.columns)};
         const direction m = half_vector_at(node);
-        // Of the unit square, not of solid angle; the factor that is the same everywhere does not matter.
+        // Density per unit square instead of solid angle, up to a constant factor.
         const double jacobian = node.along * std::hypot(m.x(), m.y());
         visible.values[at++] =
             static_cast<float>(normal_density_at(parts_.normals, node) * std::max(wi.dot(m), 0.0) * jacobian);

@@ -28,7 +28,7 @@ GONIO_INLINE environment_map::environment_map(gonio::image latitude_longitude) :
   row_solid_angles_.reserve(rows());
   const double step = std::numbers::pi / static_cast<double>(rows());
   for (std::size_t row = 0; row < rows(); ++row) {
-    // cos a - cos b as a product, which has no cancellation at the poles; a pixel is as wide as it is high.
+    // cos a - cos b as a product, which avoids cancellation at the poles. A pixel is as wide as it is high.
     const double middle = step * (static_cast<double>(row) + 0.5);
     row_solid_angles_.push_back(step * 2.0 * std::sin(middle) * std::sin(0.5 * step));
   }
@@ -87,7 +87,7 @@ GONIO_INLINE directional_lighting important_lights(const environment_map& map, s
   });
   const std::vector<double> draws = detail::stratified_draws(count, seed);
 
-  // Walk along the curve: each pixel is as long as its expected number of draws, and those that fall on it are its.
+  // Walk along the curve. Each pixel's length is its expected number of draws; draws that fall on it are its own.
   std::vector<directional_light> lights;
   auto next = draws.begin();
   double walked = 0.0;

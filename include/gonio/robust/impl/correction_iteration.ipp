@@ -18,7 +18,7 @@ namespace gonio::detail {
 GONIO_INLINE correction_round describe_round(const channel_values& inlier_weights, const channel_values& weights,
                                              const channel_values& wanted, const channel_values& found,
                                              thread_count threads) {
-  // Sums of weights, of weighted squares, of changes and of samples that count less than half.
+  // Sum the weights, the weighted squares, the changes, and the samples with a weight below one half.
   const Eigen::Array4d sums = sum_over_blocks(
       weights.cols(), 4096, Eigen::Array4d(Eigen::Array4d::Zero()),
       [&](Eigen::Array4d& sum, block range) {

@@ -16,7 +16,7 @@ GONIO_INLINE channel_values relative_deviation_weights::weigh(const channel_valu
                                                               const channel_values& estimated) const {
   const channel_values estimate = estimated.max(1e-6f);
   const channel_values weights = (-static_cast<float>(gamma) * (measured - estimate).abs() / estimate).exp();
-  // Far out Eigen's vectorised exponential ends at the smallest normal number, not at zero.
+  // For large deviations Eigen's vectorised exponential ends at the smallest normal number, not at zero.
   return (weights - std::numeric_limits<float>::min()).max(0.0f);
 }
 

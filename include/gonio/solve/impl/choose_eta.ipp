@@ -17,9 +17,9 @@
 
 namespace gonio::detail {
 
-/// Scores of a criterion for many eta from one eigendecomposition: of the n x n dual W^(1/2) A A' W^(1/2) if there are
-/// at most as many observations as unknowns, which is exact where residual and 1 - h_i both vanish with eta, else of
-/// A'WA.
+/// Scores of a criterion for many etas from one eigendecomposition. If there are at most as many observations as
+/// unknowns, it is that of the n x n dual W^(1/2) A A' W^(1/2), which is exact even if the residual and 1 - h_i both
+/// vanish with eta. Otherwise it is that of A'WA.
 class eta_scores {
  public:
   eta_scores(const least_squares_problem& problem, eta_criterion criterion) : problem_(problem), criterion_(criterion) {
@@ -33,10 +33,10 @@ class eta_scores {
     if (!(largest() > 0.0)) refuse("eta cannot be chosen: all rows of positive weight are zero");
   }
 
-  /// The largest eigenvalue of A'WA.
+  /// Returns the largest eigenvalue of A'WA.
   [[nodiscard]] double largest() const { return values_[values_.size() - 1]; }
 
-  /// The sum over all right-hand sides for each eta.
+  /// Returns the sum over all right-hand sides for each eta.
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& etas) const {
     if (criterion_ == eta_criterion::generalised_cross_validation) return generalised(etas);
     return dual_ ? leave_one_out_dual(etas) : leave_one_out_primal(etas);
@@ -54,7 +54,8 @@ class eta_scores {
     decompose(product_with_transpose(problem_.weighted_rows()), problem_.weighted_right_hand_side());
   }
 
-  /// eta / (values + eta): what the penalty leaves of the misfit in each direction, directions x etas.
+  /// Returns eta / (values + eta), the share of the misfit that the penalty leaves in each direction: directions x
+  /// etas.
   [[nodiscard]] Eigen::MatrixXd left_over(const Eigen::VectorXd& etas) const {
     return Eigen::MatrixXd::NullaryExpr(
         values_.size(), etas.size(), [&](Eigen::Index i, Eigen::Index e) { return etas[e] / (values_[i] + etas[e]); });
@@ -75,9 +76,9 @@ class eta_scores {
     return squares;
   }
 
-  /// From the rows at the smallest eta, and from there on by sums of terms that are not negative, so that nothing
-  /// cancels where the residual is small: with f = eta / (lambda + eta), |r|^2 grows by z^2 / lambda times the growth
-  /// of f^2 in each direction.
+  /// Computes |r|^2 from the rows at the smallest eta, and adds non-negative terms for the others, so that nothing
+  /// cancels if the residual is small. With f = eta / (lambda + eta), |r|^2 grows by z^2 / lambda times the growth of
+  /// f^2 in each direction.
   [[nodiscard]] Eigen::VectorXd squared_residuals_primal(const Eigen::VectorXd& etas) const {
     const double first = etas.minCoeff();
     const Eigen::VectorXd energy = coefficients_.rowwise().squaredNorm();
@@ -109,7 +110,7 @@ class eta_scores {
     const Eigen::MatrixXd factors = left_over(etas).array().rowwise() / etas.transpose().array();
     std::vector<Eigen::MatrixXd> of_each;
     for (Eigen::Index column = 0; column < coefficients_.cols(); ++column) of_each.push_back(scaled(factors, column));
-    // No leverage exceeds the largest eigenvalue of the hat matrix, but for rounding.
+    // No leverage exceeds the largest eigenvalue of the hat matrix, except by rounding.
     const Eigen::VectorXd least = etas.array() / (largest() + etas.array());
     Eigen::VectorXd scores = Eigen::VectorXd::Zero(etas.size());
     problem_.for_each_row_block([&](block range, const row_matrix& part) {
@@ -130,7 +131,7 @@ class eta_scores {
     return scores;
   }
 
-  /// U'W^(1/2) b or V'A'Wb of one right-hand side times the factors of each eta: directions x etas.
+  /// Returns U'W^(1/2) b or V'A'Wb of one right-hand side times the factors of each eta: directions x etas.
   [[nodiscard]] Eigen::MatrixXd scaled(Eigen::MatrixXd factors, Eigen::Index column) const {
     for (Eigen::Index e = 0; e < factors.cols(); ++e) factors.col(e).array() *= coefficients_.col(column).array();
     return factors;

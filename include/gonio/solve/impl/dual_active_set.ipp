@@ -73,7 +73,7 @@ GONIO_INLINE void dual_active_set::settle() {
     resolve();
     if (drop_wrong_sign()) continue;
     choose_violated();
-    // A small violation may be the solution's own rounding.
+    // A small violation may be rounding of the solution.
     if (violated_ >= 0 && violation(violated_) > small_violation * terms()) return;
     refine();
     update_bound_multipliers();
@@ -90,7 +90,7 @@ GONIO_INLINE void dual_active_set::resolve() {
   y_.setZero();
   row_multiplier_.setZero();
   advance(a, 1.0, c, 1.0);
-  if (shift_ > 0.0) refine();  // what is left of a singular matrix is ill-conditioned
+  if (shift_ > 0.0) refine();  // a shifted singular matrix is ill-conditioned
   update_bound_multipliers();
 }
 
@@ -186,7 +186,7 @@ GONIO_INLINE dual_active_set::direction dual_active_set::direction_towards(const
   way.dependent = set_.depends(rest, way.row_rate);
   way.z = vector::Zero(rest.size());
   if (!way.dependent) {
-    // What the active rows do not span is all that moves y: starting from it keeps its digits.
+    // Only the part that the active rows do not span moves y. Starting from it keeps its digits.
     way.z = rest;
     vector correction = vector::Zero(way.row_rate.size());
     set_.solve(way.z, correction);
@@ -207,7 +207,7 @@ GONIO_INLINE dual_active_set::obstacle dual_active_set::first_obstacle(const dir
   const double smallest = (way.dependent ? 1e-11 : 1e-15) * size;
   obstacle first;
   const auto consider = [&](Eigen::Index constraint, double multiplier, double rate) {
-    // Most are ruled out by a product.
+    // A product excludes most of them.
     if (rate <= smallest || multiplier >= first.length * rate) return;
     first = {constraint, std::max(multiplier, 0.0) / rate};
   };

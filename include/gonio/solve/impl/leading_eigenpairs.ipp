@@ -20,8 +20,8 @@
 
 namespace gonio::detail {
 
-/// Normal numbers, by Box and Muller: those of std::normal_distribution differ from one standard library to another,
-/// and a prior is to have the same bytes with each.
+/// Returns normal numbers by Box and Muller's method. std::normal_distribution differs between standard libraries, and
+/// a prior must have the same bytes with all of them.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd random_vectors(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   Eigen::MatrixXd vectors(rows, columns);
@@ -32,7 +32,7 @@ namespace gonio::detail {
   return vectors;
 }
 
-/// -1 if the largest entry of a vector is negative, else 1.
+/// Returns -1 if the largest entry of a vector is negative, else 1.
 template <class Vector>
 [[nodiscard]] double sign_of_largest(const Vector& vector) {
   Eigen::Index largest = 0;
@@ -40,7 +40,7 @@ template <class Vector>
   return vector[largest] < 0.0 ? -1.0 : 1.0;
 }
 
-/// Orthonormal columns that span what the given ones do.
+/// Returns orthonormal columns with the same span.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd orthonormalised(Eigen::MatrixXd vectors) {
   const Eigen::Index rows = vectors.rows(), columns = vectors.cols();
   const householder_qr factors(std::move(vectors));
@@ -69,11 +69,11 @@ GONIO_INLINE subspace_eigenpairs iterate_leading(Eigen::Index size, Eigen::Index
     refuse({"cannot find ", count, " eigenvalues by ", options.products, " products with ", options.oversampling,
             " vectors more"});
   const Eigen::Index width = std::min(size, count + options.oversampling);
-  // Multiply random vectors by the matrix, again and again (Alg. 4.4).
+  // Multiply random vectors by the matrix several times (Alg. 4.4).
   Eigen::MatrixXd subspace = detail::orthonormalised(detail::random_vectors(size, width, options.seed));
   for (int product = 1; product < options.products; ++product)
     subspace = detail::orthonormalised(times(subspace, false));
-  // The matrix within the subspace, and its eigenpairs (Alg. 5.3).
+  // Compute the matrix within the subspace, and its eigenpairs (Alg. 5.3).
   const Eigen::MatrixXd multiplied = times(subspace, true);
   Eigen::MatrixXd within = product(subspace.transpose(), multiplied);
   within = (0.5 * (within + within.transpose())).eval();

@@ -18,20 +18,20 @@ namespace gonio {
 
 namespace detail {
 
-/// Norms of columns to divide by: 1 for a column of zeros.
+/// Returns norms to divide by: 1 for a column of zeros.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd divisors(Eigen::VectorXd norms) {
   for (double& norm : norms)
     if (!(norm > 0.0)) norm = 1.0;
   return norms;
 }
 
-/// A matrix each row of which is multiplied by a number.
+/// Multiplies each row of a matrix by a number.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd scaled_rows(Eigen::MatrixXd matrix, const Eigen::VectorXd& factors) {
   for (Eigen::Index column = 0; column < matrix.cols(); ++column) matrix.col(column).array() *= factors.array();
   return matrix;
 }
 
-/// The x of the smallest norm with B x = `right`, where the rows of B are independent, given B': k x p, p <= k.
+/// Returns the x of the smallest norm with B x = `right` for independent rows of B, given B': k x p, p <= k.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd minimum_norm(const Eigen::MatrixXd& transposed, Eigen::MatrixXd right) {
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(transposed.rows(), right.cols());
   if (right.rows() == 0) return x;
@@ -62,7 +62,7 @@ struct pivoted_rows {
   return rows;
 }
 
-/// D^-1 Q D^-1 = V diag(values) V' with D^2 the diagonal of Q, without the eigenvalues that are taken for zero.
+/// D^-1 Q D^-1 = V diag(values) V' with D^2 the diagonal of Q, without the eigenvalues that count as zero.
 struct normal_spectrum {
   Eigen::VectorXd lengths;
   Eigen::VectorXd values;
@@ -110,7 +110,7 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
   const Eigen::MatrixXd kept = right.topRows(rank);
 
   solution found;
-  // Solve the triangle, or find the x of the smallest norm if columns depend on each other.
+  // Solve the triangle. If columns depend on each other, find the x of the smallest norm.
   if (rank == problem.unknowns()) {
     const Eigen::MatrixXd scaled = triangle.triangularView<Eigen::Upper>().solve(kept);
     found.weights = detail::scaled_rows(qr.colsPermutation() * scaled, lengths.cwiseInverse());
@@ -120,7 +120,7 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
   }
   // Report the residual of the rows.
   found.report.residual = problem.residual(found.weights);
-  // Compute 1/2 x'Qx - m'x as half the difference of two squares: the terms themselves cancel when x is large.
+  // Compute 1/2 x'Qx - m'x as half the difference of two squares. Its own terms cancel if x is large.
   found.report.objective.resize(found.report.residual.size());
   for (Eigen::Index column = 0; column < found.report.residual.size(); ++column)
     found.report.objective[column] = 0.5 * (found.report.residual[column] * found.report.residual[column] -

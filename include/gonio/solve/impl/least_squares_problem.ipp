@@ -28,9 +28,9 @@ namespace gonio {
 
 namespace detail {
 
-/// The normal equations of weighted rows: A and b side by side, scaled by sqrt(w), give Q, A'Wb and b'Wb as blocks of
-/// one Gram matrix. All in double; reads A once; n (k + r)^2 operations; same bytes for any number of threads. Throws
-/// gonio::error if the result is not finite.
+/// Assembles the normal equations of weighted rows. A and b side by side, scaled by sqrt(w), give Q, A'Wb and b'Wb as
+/// blocks of one Gram matrix. All in double; reads A once; n (k + r)^2 operations; same bytes for any number of
+/// threads. Throws gonio::error if the result is not finite.
 [[nodiscard]] GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::MatrixXd& right_hand_side,
                                                      const Eigen::VectorXd& weights, thread_count threads) {
   // Sum (A b)'W(A b) over blocks of rows, right-hand sides as further columns.
@@ -39,7 +39,7 @@ namespace detail {
   const auto add_rows = [&](sum_type& sum, block range) {
     row_matrix read(range.size(), k);
     rows.read(range, read);
-    for (Eigen::Index row = 0; row < range.size(); ++row) {  // each times the root of its weight
+    for (Eigen::Index row = 0; row < range.size(); ++row) {  // each times the square root of its weight
       const double root = std::sqrt(weights[range.begin + row]);
       sum.put(row, read.data() + row * k, k, root);
       for (Eigen::Index column = 0; column < r; ++column)
@@ -125,7 +125,7 @@ GONIO_INLINE least_squares_problem least_squares_problem::subset(std::span<const
     if (columns_) column = (*columns_)[column];
   }
   if (chosen.empty()) gonio::refuse("a least-squares problem needs at least one column");
-  // Columns count from the whole that has no whole itself, so that subsets of subsets do not nest.
+  // Columns are numbered in the whole that has no whole itself, so that subsets of subsets do not nest.
   if (whole_) part.whole_ = whole_;
   part.columns_ = std::move(chosen);
   return part;
@@ -172,8 +172,8 @@ GONIO_INLINE least_squares_problem::stored::stored(row_source source, Eigen::Mat
 GONIO_INLINE row_matrix least_squares_problem::read(block range) const {
   row_matrix all(range.size(), equations_->rows.columns);
   equations_->rows.read(range, all);
-  // A finite sum of squares has finite terms, and is one vectorised pass; terms of one that overflows may be finite
-  // too.
+  // A finite sum of squares has finite terms, and takes one vectorised pass. If it overflows, the terms may still be
+  // finite.
   if (!std::isfinite(dot(all.data(), all.data(), all.size()))) require_finite(all, range.begin);
   if (!columns_) return all;
   row_matrix chosen(all.rows(), unknowns());
@@ -195,13 +195,13 @@ GONIO_INLINE normal_equations least_squares_problem::assemble_finite() const {
     require_no_underflow(normal);
     return normal;
   } catch (const error&) {
-    read_all();  // names the row, which the sums have forgotten
+    read_all();  // names the row, which the sums do not know
     throw;
   }
 }
 
 GONIO_INLINE void least_squares_problem::require_no_underflow(const normal_equations& normal) const {
-  // What underflow takes from a sum of squares above this is less than its rounding.
+  // Above this, underflow takes less from a sum of squares than rounding does.
   const double least = std::numeric_limits<double>::min() * static_cast<double>(equations());
   const auto refuse_tiny = [](const std::string& what) {
     gonio::refuse({what, " of a least-squares problem is too small: its squares are not numbers of double precision. ",

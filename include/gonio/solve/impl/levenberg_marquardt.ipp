@@ -29,7 +29,7 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
   }
   while (!free.empty()) {
     // Solve for the free unknowns: H_ff s = -(g + H s_held)_f.
-    const Eigen::VectorXd change = thin_product(hessian, step);  // by the step of those that are held
+    const Eigen::VectorXd change = thin_product(hessian, step);  // by the step of the held unknowns
     const Eigen::Index count = std::ssize(free);
     Eigen::MatrixXd among(count, count);
     Eigen::VectorXd descent(count);
@@ -39,7 +39,7 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
       for (Eigen::Index i = 0; i < count; ++i) among(i, j) = hessian(free[i], column);
     }
     const Eigen::VectorXd moves = solve_semidefinite(among, descent);
-    // Hold those whose step leaves the box at its border.
+    // Hold unknowns whose step leaves the box at its border.
     std::vector<Eigen::Index> inside;
     for (Eigen::Index j = 0; j < std::ssize(free); ++j) {
       const Eigen::Index i = free[j];
@@ -74,7 +74,7 @@ GONIO_INLINE double promised_gain(const local_parabola& here, const Eigen::Vecto
 
 GONIO_INLINE void step_control::learn(const local_parabola& here, const Eigen::VectorXd& step, double change,
                                       double promised) {
-  // A comparison that a value which is no number fails.
+  // False for NaN.
   const bool better = change < 0.0;
   const double kept = -change / promised;
   // Adapt the damping to the share of the promised gain that was kept.
@@ -82,7 +82,7 @@ GONIO_INLINE void step_control::learn(const local_parabola& here, const Eigen::V
   damping = std::max(damping, 1e-15);
   bend = 1.0;
   if (!better) return;
-  // Guess the curvature from what the step has met: weighted squares that lie above a norm bend more than it does.
+  // Estimate the curvature from the last step: weighted squares above a norm have more curvature than it.
   constexpr double least_bend = 0.05;
   const double met = 2.0 * (change - here.gradient.dot(step)) / step.dot(here.hessian * step);
   if (std::isfinite(met)) bend = std::clamp(met, least_bend, 1.0);

@@ -53,7 +53,7 @@ GONIO_INLINE program_optimum program_solver::judge(const iteration& run, const v
   };
   found.kkt_residual = certify(found.weights);
   if (found.kkt_residual <= good) return found;
-  // Rows that leave only zero make weights of the size of rounding, which violate them completely.
+  // Rows that only allow zero give weights of the size of rounding, which violate them completely.
   const vector& y = run.scaled_weights();
   const double tiny = 1e-14 * (q.cwiseAbs().maxCoeff() + y.cwiseAbs().maxCoeff());
   const vector snapped = (y.array().abs() > tiny).select(found.weights, 0.0);
@@ -132,7 +132,7 @@ GONIO_INLINE std::string program_solver::falling(const vector& movement) {
 
 namespace gonio::detail {
 
-/// Under x >= 0 or nothing at all: the same conditions as those of NNLS.
+/// Certifies a solution under x >= 0 or without constraints: the conditions are those of NNLS.
 template <quadratic_problem Problem>
 [[nodiscard]] solution certified_signed_program(const Problem& problem, bool non_negative, solution found) {
   const sign_rule signs = non_negative ? sign_rule::non_negative : sign_rule::any;

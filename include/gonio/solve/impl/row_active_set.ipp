@@ -20,12 +20,12 @@ namespace gonio {
 
 namespace detail {
 
-/// A column is taken for a combination of others if they say it to this share of its length.
+/// A column counts as a combination of others up to this share of its length.
 inline constexpr double dependent_share = 3e-11;
 
 }  // namespace detail
 
-/// Where A_P'(b - A_P z) = penalties with their signs.
+/// The optimum of the passive columns: A_P'(b - A_P z) = penalties with their signs.
 struct row_active_set::passive_optimum {
   Eigen::VectorXd z, misfit;
   bool independent = false;
@@ -120,12 +120,12 @@ GONIO_INLINE row_active_set::passive_optimum row_active_set::optimum() const {
   const householder_qr qr(columns);
   for (Eigen::Index i = 0; i < p; ++i)
     if (!(std::abs(qr.triangle(i, i)) > detail::dependent_share * qr.length(i))) return found;
-  // Solve misfit + A_P z = b, A_P' misfit = penalties, and solve again for what is left of them in twice the precision
-  // (Bjorck 1967).
+  // Solve misfit + A_P z = b, A_P' misfit = penalties. Repeat for the residuals of both, computed in twice the
+  // precision (Bjorck 1967).
   constexpr int refinements = 2;
   Eigen::VectorXd above(n), below(p), z(p);
   for (int round = 0; round <= refinements; ++round) {
-    // Compute what is left of both equations.
+    // Compute the residuals of both equations.
     for (Eigen::Index i = 0; i < n; ++i) {
       compensated_sum left(right_[i]);
       left.add(-found.misfit[i]);

@@ -21,7 +21,7 @@
 
 namespace gonio::detail {
 
-/// Rows that are read at once: products are summed over as many before they are added.
+/// The number of rows read at once. Products are summed over them before they are added.
 inline constexpr Eigen::Index rows_at_once = product_sum<double>::block_rows;
 
 /// The sums of subtrees that wait for their neighbours.
@@ -29,7 +29,7 @@ class waiting_sums {
  public:
   explicit waiting_sums(block groups) : groups_(groups) {}
 
-  /// Adds the sum of a group, and what waits for it.
+  /// Adds the sum of a group, and every sum that waits for it.
   void add(Eigen::Index group, Eigen::MatrixXd sum) {
     Eigen::Index size = 1, number = group - groups_.begin;
     for (; size < groups_.size(); size *= 2, number /= 2) {
@@ -63,7 +63,7 @@ void for_each_block_of(Eigen::Index group, Eigen::Index all_rows, Work&& work) {
     work(block{begin, std::min(rows.end, begin + rows_at_once)});
 }
 
-/// The same with A and A U of the block.
+/// Calls `work` with the range, A and A U of each block.
 template <class Work>
 void for_each_product_of(Eigen::Index group, const row_source& rows, const Eigen::MatrixXd& transposed_vectors,
                          Work&& work) {

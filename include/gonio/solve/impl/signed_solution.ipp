@@ -22,10 +22,11 @@
 
 namespace gonio::detail {
 
-/// Who has a second way takes it where the KKT residual is more than this.
+/// With a larger KKT residual, a method tries a second way.
 inline constexpr double kkt_residual_sought = 1e-12;
 
-/// Shares of b'Wb / 2 by which an objective may be off, and of |b| by which A x may move as its weights are rounded.
+/// The largest error of an objective as a share of b'Wb / 2, and the largest move of A x by rounding its weights as a
+/// share of |b|.
 inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
 
 [[nodiscard]] inline double penalty_at(const solution& found, Eigen::Index column, double lambda) {
@@ -44,7 +45,7 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
   return found;
 }
 
-/// The sum of |a_j| |x_j|.
+/// Returns the sum of |a_j| |x_j|.
 [[nodiscard]] GONIO_INLINE double reach_of(const normal_equations& normal, const Eigen::MatrixXd& weights,
                                            Eigen::Index column) {
   double sum = 0.0;
@@ -53,14 +54,14 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
   return sum;
 }
 
-/// Why a solution is none, or nothing if it is one. `rounding` is that of its objective.
+/// Returns the reason why a solution fails, or an empty string if it passes. `rounding` is that of its objective.
 [[nodiscard]] GONIO_INLINE std::string objection(const normal_equations& normal, const solution& found,
                                                  Eigen::Index column, double rounding, double limit) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   if (!(found.report.kkt_residual[column] <= limit)) return "the best weights found miss the optimality conditions";
   const double rhs_squared_norm = normal.rhs_squared_norm()[column],
                rhs = normal.rhs().col(column).cwiseAbs().maxCoeff();
-  if (rhs_squared_norm == 0.0 && rhs > 0.0) return "";  // nobody told
+  if (rhs_squared_norm == 0.0 && rhs > 0.0) return "";  // b'Wb was not given
   const double half = 0.5 * rhs_squared_norm;
   if (!(epsilon * reach_of(normal, found.weights, column) <= rounding_tolerance * std::sqrt(rhs_squared_norm)))
     return "the weights are so large that rounding them moves A x by 1e-5 |b|";
@@ -75,14 +76,14 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
       {task.method, " has found no optimum: ", why, "; the columns are too ill-conditioned for double precision"}));
 }
 
-/// Objectives of normal equations lose what cancels.
+/// Returns the rounding error of an objective of normal equations, by cancellation.
 [[nodiscard]] GONIO_INLINE double rounding_of_objective(const normal_equations& normal, const solution& found,
                                                         Eigen::Index column) {
   const double reach = reach_of(normal, found.weights, column);
   return 4.0 * std::numeric_limits<double>::epsilon() * reach * reach;
 }
 
-/// min 1/2 x'Q x - m'x + lambda |x|_1 as a program over x >= 0, or over both parts of x = u - v.
+/// Solves min 1/2 x'Q x - m'x + lambda |x|_1 as a program over x >= 0, or over both parts of x = u - v.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd optimum_by_program(const normal_equations& normal, Eigen::Index column,
                                                               const signed_task& task) {
   const Eigen::Index k = normal.unknowns(), parts = task.signs == sign_rule::any ? 2 : 1;
@@ -104,7 +105,7 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
   }
 }
 
-/// Takes one right-hand side of another solution.
+/// Copies one right-hand side of another solution.
 GONIO_INLINE void take(const solution& from, Eigen::Index column, solution& to) {
   to.weights.col(column) = from.weights.col(column);
   to.report.residual[column] = from.report.residual[column];
@@ -135,7 +136,7 @@ GONIO_INLINE solution certified(const normal_equations& normal, const signed_tas
   return found;
 }
 
-/// Does the objective of the normal equations agree with the residual of the rows?
+/// Returns true if the objective of the normal equations agrees with the residual of the rows.
 [[nodiscard]] GONIO_INLINE bool rows_agree(const normal_equations& normal, const solution& found, Eigen::Index column,
                                            double lambda) {
   const double rhs_squared_norm = normal.rhs_squared_norm()[column], residual = found.report.residual[column];
@@ -143,7 +144,8 @@ GONIO_INLINE solution certified(const normal_equations& normal, const signed_tas
   return std::abs(of_rows - found.report.objective[column]) <= 0.5 * objective_tolerance * rhs_squared_norm;
 }
 
-/// Weights whose gradient is off by a share of |b| + reach explain at most reach times as much less than the optimum.
+/// Returns true if the objective can be above the optimum only by a small amount: at most reach times the error of the
+/// gradient, which is the KKT residual times |b| + reach.
 [[nodiscard]] GONIO_INLINE bool gap_is_small(const normal_equations& normal, const solution& found,
                                              Eigen::Index column) {
   const double rhs_squared_norm = normal.rhs_squared_norm()[column], reach = reach_of(normal, found.weights, column);
@@ -162,7 +164,7 @@ GONIO_INLINE solution certified(const least_squares_problem& problem, const sign
     if (objection(normal, found, column, 0.0, kkt_residual_sought).empty() && gap_is_small(normal, found, column) &&
         rows_agree(normal, found, column, task.lambda) && is_resolved(normal, column, found.weights.col(column), task))
       continue;
-    // From nothing, so that all solvers find the same.
+    // Start from zero, so that all solvers find the same weights.
     if (mended.empty()) triangle = triangular_equations(problem);
     row_active_set run(triangle.leftCols(normal.unknowns()), triangle.col(normal.unknowns() + column), task.lambda,
                        task.signs);

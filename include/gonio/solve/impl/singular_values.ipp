@@ -18,7 +18,7 @@ namespace gonio {
 
 namespace detail {
 
-/// Column `step` of a square matrix to (.., d, 0, ...) by a reflection of its rows from `step` on; returns d.
+/// Reflects the rows from `step` on, so that column `step` of a square matrix becomes (.., d, 0, ...). Returns d.
 [[nodiscard]] GONIO_INLINE double reflect_rows(Eigen::Index step, Eigen::MatrixXd& r) {
   const Eigen::Index k = r.cols();
   double* x = &r(step, step);
@@ -27,7 +27,7 @@ namespace detail {
   return *x;
 }
 
-/// Row `step` to (.., e, 0, ...) by a reflection of the columns beyond it; returns e. The rows above are done with.
+/// Reflects the columns after `step`, so that row `step` becomes (.., e, 0, ...). Returns e. Skips the rows above.
 [[nodiscard]] GONIO_INLINE double reflect_columns(Eigen::Index step, Eigen::MatrixXd& r) {
   const Eigen::Index first = step + 1, count = r.cols() - first;
   Eigen::VectorXd v(count), along = Eigen::VectorXd::Zero(count);
@@ -39,8 +39,8 @@ namespace detail {
   return reflected;
 }
 
-/// The diagonal of the upper bidiagonal matrix that reflections make of a square one, and between its numbers those
-/// above the diagonal: d1, e1, d2, e2, ..., dk.
+/// Reduces a square matrix to upper bidiagonal form by reflections. Returns the diagonal, interleaved with the
+/// superdiagonal: d1, e1, d2, e2, ..., dk.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd bidiagonal_of(Eigen::MatrixXd r) {
   const Eigen::Index k = r.cols();
   Eigen::VectorXd found(2 * k - 1);
@@ -51,7 +51,7 @@ namespace detail {
   return found;
 }
 
-/// The triangle R of a tall matrix.
+/// Returns the triangle R of a tall matrix.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd triangle_of(Eigen::MatrixXd a) {
   const householder_qr qr(std::move(a));
   Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(qr.cols(), qr.cols());
@@ -75,8 +75,8 @@ GONIO_INLINE Eigen::VectorXd singular_values(const matrix_view& a, const char* w
   Eigen::MatrixXd tall = a.rows() >= a.cols() ? Eigen::MatrixXd(a) : Eigen::MatrixXd(a.transpose());
   tall /= largest;
   if (tall.rows() > k) tall = detail::triangle_of(std::move(tall));
-  // The tridiagonal matrix with nothing on its diagonal and these numbers beside it has the eigenvalues +-sigma. Moved
-  // up by a bound of them it is positive, which the iteration needs to tell what is negligible.
+  // The tridiagonal matrix with a zero diagonal and these numbers beside it has the eigenvalues +-sigma. Shift it by a
+  // bound of the eigenvalues: the iteration needs a positive matrix to decide which numbers are negligible.
   const Eigen::VectorXd beside = detail::bidiagonal_of(std::move(tall));
   double bound = 0.0;
   for (Eigen::Index i = 0; i < 2 * k; ++i)

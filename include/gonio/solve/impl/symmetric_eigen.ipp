@@ -32,7 +32,7 @@ struct tridiagonal_form {
   Eigen::Tridiagonalization<Eigen::MatrixXd> form;
 };
 
-/// Of T, given its diagonal and the numbers beside it.
+/// Decomposes T, given its diagonal and subdiagonal.
 [[nodiscard]] GONIO_INLINE Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen_solver(const Eigen::VectorXd& diagonal,
                                                                                        const Eigen::VectorXd& beside,
                                                                                        int options, const char* what) {
@@ -42,8 +42,9 @@ struct tridiagonal_form {
   return solver;
 }
 
-/// z becomes Q z, one reflection I - tau (1, v)(1, v)' after the other, for each column. Eigen's own product with Q,
-/// which SelfAdjointEigenSolver::compute takes, costs every includer as long to compile as all the rest of this.
+/// Replaces z by Q z: applies the reflections I - tau (1, v)(1, v)' one after the other to each column. Eigen's product
+/// with Q, as used in SelfAdjointEigenSolver::compute, costs every includer as much compile time as everything else
+/// here.
 GONIO_INLINE void multiply_by_q(const Eigen::Tridiagonalization<Eigen::MatrixXd>& form, Eigen::MatrixXd& z) {
   const Eigen::Index n = z.rows();
   const Eigen::MatrixXd packed = form.packedMatrix();

@@ -28,7 +28,7 @@ struct ridge_rows {
     add_scaled(-1.0, right.data(), off.data(), off.size());
     return off;
   }
-  /// A'W(A x - b) + eta x, which vanishes at the optimum, without the k x k Gram matrix.
+  /// Returns A'W(A x - b) + eta x, which vanishes at the optimum, without the k x k Gram matrix.
   [[nodiscard]] Eigen::MatrixXd gradient(const Eigen::MatrixXd& misfit, const Eigen::MatrixXd& x) const {
     Eigen::MatrixXd sum = thin_transposed_product(rows, misfit);
     add_scaled(eta, x.data(), sum.data(), sum.size());
@@ -48,7 +48,7 @@ struct ridge_rows {
   return dot(numbers, numbers, matrix.rows());
 }
 
-/// Infinite if a number is none, which std::max would pass over.
+/// Returns infinity if a number is not finite; std::max would ignore NaN.
 [[nodiscard]] GONIO_INLINE double largest_magnitude(const Eigen::MatrixXd& matrix, Eigen::Index column) {
   double largest = 0.0;
   for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
@@ -81,7 +81,7 @@ struct ridge_rows {
   for (Eigen::Index i = 0; i < penalised.rows(); ++i) penalised(i, i) += eta;
   const cholesky factors(penalised);
   Eigen::MatrixXd x = thin_transposed_product(ridge.rows, factors.solve(ridge.right));
-  // A step of Newton, with the inverse of A~'A~ + eta I through the dual (Woodbury): if eta is small and rows depend
+  // Make a Newton step, with the inverse of A~'A~ + eta I through the dual (Woodbury). If eta is small and rows depend
   // on each other, A~' times a large dual solution has lost digits.
   Eigen::MatrixXd step = ridge.gradient(ridge.misfit(x), x);
   const Eigen::MatrixXd seen = thin_transposed_product(ridge.rows, factors.solve(thin_product(ridge.rows, step)));

@@ -37,7 +37,7 @@ struct kept_spectrum {
   return {values.tail(kept), eigen.vectors.rightCols(kept)};
 }
 
-/// An orthonormal basis of the columns, and the triangle that makes them of it.
+/// Returns an orthonormal basis of the columns, and the triangle R.
 [[nodiscard]] GONIO_INLINE std::pair<Eigen::MatrixXd, Eigen::MatrixXd> thin_qr(const Eigen::MatrixXd& columns) {
   const Eigen::Index k = columns.rows(), p = columns.cols();
   if (p == 0) return {Eigen::MatrixXd(k, 0), Eigen::MatrixXd(0, 0)};
@@ -47,8 +47,8 @@ struct kept_spectrum {
   return {std::move(basis), qr.matrixQR().topRows(p)};
 }
 
-/// The largest magnitude, which is none if nothing is kept, and infinite of what has overflowed: std::max would pass
-/// over what is not a number.
+/// Returns the largest magnitude over `scale`: 0 if nothing is kept, infinite after overflow. std::max would ignore
+/// NaN.
 [[nodiscard]] GONIO_INLINE double relative_violation(const Eigen::MatrixXd& violation, double scale) {
   if (violation.size() == 0) return 0.0;
   if (!violation.allFinite() || !std::isfinite(scale)) return std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ struct subspace_solution {
   }
 
  private:
-  /// What of some columns is not in the subspace.
+  /// Returns the part of some columns outside of the subspace.
   [[nodiscard]] Eigen::MatrixXd outside(const Eigen::MatrixXd& columns) const {
     return columns - product(basis, product(basis.transpose(), columns));
   }
@@ -88,8 +88,8 @@ struct subspace_solution {
 [[nodiscard]] GONIO_INLINE solution solve_truncated_dual(const least_squares_problem& problem, double share) {
   const Eigen::MatrixXd rows = problem.weighted_rows(), columns = rows.transpose();
   const auto [values, vectors] = truncate_spectrum(product_with_transpose(rows), share);
-  // The kept equations U'A x = U'b, whose minimum-norm solution the factors of A'U give. Division by the eigenvalues
-  // instead would lose about half of the digits if they differ much.
+  // Solve the kept equations U'A x = U'b for the minimum norm by factors of A'U. Division by the eigenvalues would lose
+  // about half of the digits if these differ much.
   const auto [basis, triangle] = thin_qr(product(columns, vectors));
   const Eigen::MatrixXd right = problem.weighted_right_hand_side();
   Eigen::MatrixXd within = product(vectors.transpose(), right);

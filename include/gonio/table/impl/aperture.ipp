@@ -19,7 +19,7 @@ GONIO_INLINE double half_angle_of(double solid_angle) {
 }
 
 GONIO_INLINE std::vector<direction_pair> pairs_within(const direction_pair& axes, const aperture& cones, int count) {
-  // Rings of equal solid angle, each a golden section of a turn further than the one before.
+  // Rings of equal solid angle, each rotated by a golden section of a turn from the one before.
   constexpr double golden_turn = 2.0 * std::numbers::pi * (2.0 - std::numbers::phi);
   const auto within = [count](const direction& axis, double half_angle, int ring, double first_turn) {
     const double cosine = 1.0 - (1.0 - std::cos(half_angle)) * (ring + 0.5) / count;

@@ -16,7 +16,7 @@
 
 namespace gonio::detail {
 
-/// `number` counts from 1, for the message.
+/// Throws gonio::error unless a sample is usable. `number` counts from 1, for the message.
 GONIO_INLINE void require_usable_sample(const sample& s, Eigen::Index number) {
   const auto refuse = [&](const char* what) { gonio::refuse({"sample ", number, ": ", what}); };
   const auto& [theta_h, theta_d, phi_d] = s.angles();

@@ -29,7 +29,7 @@ GONIO_INLINE valid_cells::index::index(const gonio::grid& cells, double threshol
       representative[cell] = count;
       linear.push_back(static_cast<std::uint32_t>(cell));
     } else if (cell >= layer) {
-      // Both cosines fall as theta_h grows, so the layer below has already found the last valid one.
+      // The smaller cosine decreases with theta_h, so the previous layer has already found the last valid cell.
       representative[cell] = representative[cell - layer];
     } else {
       representative[cell] = count == 0 ? 0 : count - 1;

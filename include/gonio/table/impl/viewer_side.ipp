@@ -39,7 +39,7 @@ GONIO_INLINE double brightness_towards_light(const sample_set& samples) {
     side = std::max(side.value_or(value), value);
   }
   std::vector<double> ratios;
-  const double floor = 1e-3 * largest;  // a receiver before the lamp reads nothing
+  const double floor = 1e-3 * largest;  // a receiver in front of the lamp reads nothing
   for (const auto& [angle, both] : incidences)
     if (const auto other = both.mirror ? both.mirror : both.elsewhere; both.light && other && floor > 0.0)
       ratios.push_back(*both.light / std::max(*other, floor));

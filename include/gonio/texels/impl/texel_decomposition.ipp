@@ -20,7 +20,7 @@ namespace gonio {
 
 namespace detail {
 
-/// Texels that are solved at once: their numbers stay in the processor's cache.
+/// Texels that are solved at once, so that their numbers stay in the cache.
 inline constexpr Eigen::Index texels_at_once = 512;
 
 /// Throws gonio::error naming a value that is not finite.
@@ -46,7 +46,7 @@ GONIO_INLINE texel_decomposition::texel_decomposition(const log_relative_pca& pr
     offset_[i] =
         static_cast<float>(std::log(metric.reference(at) * weight + log_relative::epsilon) + offset_at(prior, at));
   }
-  // Components alone, and errors of the variance eta / m: the ridge's dual is m times the covariance of the images.
+  // With components alone and errors of the variance eta / m, the ridge's dual is m times the covariance of the images.
   const auto observations = static_cast<double>(prior.coefficients().rows());
   const expected_covariance expected{observations, {.variance = 0.0, .error_variance = penalty.eta() / observations}};
   const located_samples nothing{locations, Eigen::MatrixXd(n, 0), Eigen::MatrixXd::Ones(n, 1)};
@@ -60,18 +60,19 @@ GONIO_INLINE texel_decomposition::texel_decomposition(const log_relative_pca& pr
   if (!(penalised.minCoeff() > 1e-14 * largest))
     refuse({"eta is ", penalty.eta(), ", too small for ", n, " images: rounding leaves no optimum"});
   const Eigen::Index r = std::max<Eigen::Index>((squares > 1e-12 * largest).count(), 1);
-  // The largest are the last.
+  // The largest eigenvalues are the last.
   const Eigen::ArrayXd scales = squares.tail(r).sqrt().max(std::numeric_limits<double>::min());
   const Eigen::MatrixXd spanning = gram.vectors.rightCols(r);
   functions_ = (product(rows.transpose(), spanning) * scales.inverse().matrix().asDiagonal()).cast<float>();
-  // Residuals whose variance the prior expects to be 1: those of leaving out each image.
+  // Scale the leave-one-out residuals to an expected variance of 1.
   const Eigen::MatrixXd inverse = process.inverse() / observations;
   const Eigen::ArrayXd deviations = (inverse.diagonal().array() / observations).sqrt();
   products_.resize(r + n, n);
   products_.topRows(r) = ((scales / penalised.tail(r)).matrix().asDiagonal() * spanning.transpose()).cast<float>();
   for (Eigen::Index i = 0; i < n; ++i) products_.row(r + i) = (inverse.row(i) / deviations[i]).cast<float>();
   mahalanobis_weights_ = (observations * deviations).matrix().transpose().cast<float>();
-  // The mean variance over all cells: the components are orthogonal there, their squared norms the singular values'.
+  // Average the variance over all cells. There the components are orthogonal, with the squared singular values as
+  // norms.
   const Eigen::MatrixXd weights = product(rows.transpose(), inverse);
   double variance = penalty.eta() / observations;
   const auto cells = static_cast<double>(prior.cells().size());

@@ -1,5 +1,5 @@
 #pragma once
-/// The best of candidates that the ranks have looked at each for itself.
+/// The best of the candidates that the ranks evaluated separately.
 
 #include <gonio/mpi/ranks.hpp>
 
@@ -7,14 +7,14 @@
 
 namespace gonio::mpi {
 
-/// A candidate by its number, and what it is worth: less is better.
+/// A candidate's number and its value; smaller is better.
 struct valued_candidate {
   double value = 0.0;
   Eigen::Index number = 0;
 };
 
-/// The one of all ranks' candidates with the lowest value, at every rank; of equal ones that with the lowest number.
-/// 2 (size() - 1) messages of 16 bytes.
+/// Returns the candidate of all ranks with the lowest value, at every rank; the lowest number if several are equal. 2
+/// (size() - 1) messages of 16 bytes.
 [[nodiscard]] valued_candidate best_of_ranks(const ranks& ranks, valued_candidate own);
 
 }  // namespace gonio::mpi

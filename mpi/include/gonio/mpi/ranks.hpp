@@ -1,8 +1,8 @@
 #pragma once
-/// The ranks of an MPI job: `mpirun -n 4 program` starts four processes of the program, numbered from 0. What they send
-/// one another is counted here, so that collective operations are made of single messages: nothing is left to what an
-/// MPI library chooses, neither the order of a sum nor the bytes on the network. Standard: MPI 3.1 (mpi-forum.org).
-/// Needs an MPI library (gonio::mpi); its headers are not included.
+/// The ranks of an MPI job: `mpirun -n 4 program` starts four processes of the program, numbered from 0. Messages
+/// between them are counted here. Collective operations consist of single messages, so neither the order of a sum nor
+/// the bytes on the network depend on the MPI library. Standard: MPI 3.1 (mpi-forum.org). It needs an MPI library
+/// (gonio::mpi), but does not include its headers.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,13 +15,13 @@
 
 namespace gonio::mpi {
 
-/// What a rank has sent to others, and the processor time that it spent in MPI: copying, and waiting, which spins.
+/// The messages a rank has sent, and its processor time in MPI: copying, and waiting, which spins.
 struct traffic {
   std::uint64_t messages = 0, bytes = 0;
   double processor_seconds = 0.0;
 };
 
-/// This process among all of its job. One thread calls it. A process that is no part of a job is the one rank 0.
+/// This process in its job. Only one thread may call it. A process outside a job is the only rank, 0.
 ///
 /// ```cpp
 /// #include <gonio/mpi/gather_in_order.hpp>
@@ -37,45 +37,46 @@ struct traffic {
 /// ```
 class ranks {
  public:
-  /// Begins MPI if the program has not.
+  /// Initialises MPI if the program has not.
   ranks();
-  /// Ends MPI if it was begun here. Where an exception is on its way the whole job is ended instead: others may wait
-  /// for a message of this rank.
+  /// Finalises MPI if the constructor initialised it. If an exception is propagating, it ends the whole job, because
+  /// others may wait for a message of this rank.
   ~ranks();
   ranks(const ranks&) = delete;
   ranks& operator=(const ranks&) = delete;
 
   [[nodiscard]] int rank() const noexcept;
   [[nodiscard]] int size() const noexcept;
-  /// Rank 0 reads and writes what there is one of.
+  /// Whether this is rank 0, which reads and writes unique resources.
   [[nodiscard]] bool is_first() const noexcept { return rank() == 0; }
-  /// Ranks on this machine, of which this is one: they share its cores.
+  /// Returns the number of ranks on this machine, including this one. They share its cores.
   [[nodiscard]] int on_this_machine() const noexcept;
   [[nodiscard]] traffic sent() const noexcept;
 
-  /// Sends bytes, of any number, and returns when the other rank receives them.
+  /// Sends any number of bytes, and returns when the other rank receives them.
   void send(int to, std::span<const std::byte> bytes) const;
-  /// Sends bytes, and returns at once: they stay in memory until the other rank receives them.
+  /// Sends bytes and returns at once. They stay in memory until the other rank receives them.
   void post(int to, std::vector<std::byte> bytes) const;
-  /// Returns when at most so many of what was posted are not received.
+  /// Returns when at most `most` posted messages have not been received.
   void wait(std::size_t most = 0) const;
-  /// The next bytes that a rank sent to this one.
+  /// Returns the next bytes that a rank sent to this one.
   [[nodiscard]] std::vector<std::byte> receive(int from) const;
-  /// Has a rank sent something that was not received yet?
+  /// Whether a rank sent something that has not been received yet.
   [[nodiscard]] bool has_message(int from) const;
 
-  /// Every rank's bytes at rank 0, by their ranks; nothing elsewhere. size() - 1 messages.
+  /// Returns every rank's bytes at rank 0, in rank order; nothing elsewhere. size() - 1 messages.
   [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::span<const std::byte> bytes) const;
-  /// Rank 0's bytes at every rank, by a binary tree: size() - 1 messages, at most log2(size()) after one another.
+  /// Returns rank 0's bytes at every rank: size() - 1 messages in a binary tree, at most log2(size()) in sequence.
   [[nodiscard]] std::vector<std::byte> broadcast(std::vector<std::byte> bytes) const;
 
-  /// Does work that may throw in each rank. If it throws in any, it throws in all: the sentence of the lowest of these
-  /// ranks, with its number unless all failed, as gonio::error if it was one and as std::runtime_error if not.
+  /// Runs work that may throw in each rank. If it throws in any rank, it throws in all: the message of the lowest
+  /// failing rank, with its number unless all failed, as gonio::error if it was one and otherwise as
+  /// std::runtime_error.
   void together(const std::function<void()>& work) const;
-  /// Did `together` throw? Then all ranks know, and none waits for another.
+  /// Whether `together` threw. Then all ranks know, and none waits for another.
   [[nodiscard]] bool failed_together() const noexcept;
 
-  /// Throws gonio::error in all ranks unless the checksum of what each has read is the same: "the ranks read different
+  /// Throws gonio::error in all ranks unless the checksum of each rank's input is the same: "the ranks read different
   /// inputs: rank 1's prior is not rank 0's" for `what` = "prior".
   void agree_on(std::uint32_t checksum, std::string_view what) const;
 
@@ -87,7 +88,7 @@ class ranks {
   std::unique_ptr<state> state_;
 };
 
-/// A number, or a struct of numbers, as what ranks send.
+/// Returns a number, or a struct of numbers, as bytes to send.
 template <class Number>
 [[nodiscard]] std::vector<std::byte> bytes_of(const Number& number) {
   std::vector<std::byte> bytes(sizeof number);
@@ -95,7 +96,7 @@ template <class Number>
   return bytes;
 }
 
-/// What `bytes_of` was given.
+/// Returns the argument of `bytes_of`.
 template <class Number>
 [[nodiscard]] Number number_of(std::span<const std::byte> bytes) {
   Number number;

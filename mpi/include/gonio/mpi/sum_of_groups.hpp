@@ -1,5 +1,5 @@
 #pragma once
-/// Sums over all ranks whose bytes do not depend on how many ranks there are.
+/// Sums over all ranks whose bytes do not depend on the number of ranks.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/mpi/ranks.hpp>
@@ -10,15 +10,15 @@
 
 namespace gonio::mpi {
 
-/// Which groups of a number of them are a rank's: r groups / n, rounded up, is the first. Rank 0 has group 0.
+/// Returns a rank's groups. The first is r groups / n, rounded up. Rank 0 has group 0.
 [[nodiscard]] block groups_of(int rank, int ranks, Eigen::Index groups);
 
-/// The sum of `partial(g)` over the groups g from 0 on, at every rank; all must have one size. Each rank computes the
-/// partial sums of its `groups_of`, and they are added two by two along one binary tree, whatever the number of ranks:
-/// the sum of the groups [b, e) is that of [b, m) and that of [m, e), with m - b the largest power of two below e - b.
-/// log2(groups) partial sums in memory. A sum is sent for each node of the tree whose halves begin at two ranks: for n
-/// ranks, a power of two that divides the groups, n - 1 messages; as many again tell the result to all.
-/// Throws in all ranks if any throws, as `ranks::together` does.
+/// Returns the sum of `partial(g)` over the groups g from 0 on, at every rank. All partial sums must have one size.
+/// Each rank computes those of its `groups_of`. They are added along one binary tree for any number of ranks: the sum
+/// of the groups [b, e) is that of [b, m) plus that of [m, e), with m - b the largest power of two below e - b. Holds
+/// log2(groups) partial sums in memory. Sends a sum for each node of the tree whose halves begin at different ranks: n
+/// - 1 messages if n is a power of two that divides the groups, and as many again for the result. If any rank throws,
+/// all throw, as with `ranks::together`.
 [[nodiscard]] Eigen::MatrixXd sum_of_groups(const ranks& ranks, Eigen::Index groups,
                                             const std::function<Eigen::MatrixXd(Eigen::Index)>& partial);
 

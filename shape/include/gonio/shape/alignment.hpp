@@ -1,9 +1,9 @@
 #pragma once
-/// Shapes brought onto one another by rotation, translation and, if wanted, scale: one onto one in the least-squares
-/// sense (Umeyama, IEEE PAMI 13(4), 1991, doi:10.1109/34.88573; Kabsch, Acta Cryst. A32, 1976,
-/// doi:10.1107/S0567739476001873), and many onto their mean by generalised Procrustes alignment (Gower, Psychometrika
-/// 40, 1975, doi:10.1007/BF02291478). As "Anatomically correct surface recovery" does (Nielsen's doctoral thesis, DTU
-/// 2016, contribution C.V, section 2 and Algorithm 1).
+/// Alignment of shapes by rotation, translation and optionally scale. Two shapes are aligned by least squares (Umeyama,
+/// IEEE PAMI 13(4), 1991, doi:10.1109/34.88573; Kabsch, Acta Cryst. A32, 1976, doi:10.1107/S0567739476001873), many to
+/// their mean by generalised Procrustes alignment (Gower, Psychometrika 40, 1975, doi:10.1007/BF02291478), as in
+/// "Anatomically correct surface recovery" (Nielsen's doctoral thesis, DTU 2016, contribution C.V, section 2 and
+/// Algorithm 1).
 
 #include <gonio/shape/triangle_mesh.hpp>
 
@@ -19,7 +19,7 @@ struct similarity_transform {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
 
-  /// Of one point or of many, one for each column.
+  /// Transforms one point, or many in columns.
   template <class Derived>
   [[nodiscard]] Eigen::Matrix<double, 3, Derived::ColsAtCompileTime> operator()(
       const Eigen::MatrixBase<Derived>& points) const {
@@ -32,7 +32,7 @@ struct similarity_transform {
 
   [[nodiscard]] similarity_transform inverse() const;
 
-  /// The one on the right first, as with matrices.
+  /// Applies the right transform first, as with matrices.
   [[nodiscard]] friend similarity_transform operator*(const similarity_transform& second,
                                                       const similarity_transform& first) {
     return second.after(first);
@@ -44,19 +44,19 @@ struct similarity_transform {
   [[nodiscard]] similarity_transform after(const similarity_transform& first) const;
 };
 
-/// What an alignment may change besides the translation.
+/// The transforms that an alignment may use, besides translation.
 enum class alignment_kind {
-  rigid,      ///< the rotation
-  similarity  ///< the rotation and the scale
+  rigid,      ///< rotation
+  similarity  ///< rotation and scale
 };
 
-/// The transform T that minimises sum_i weights_i |T(from_i) - onto_i|^2 over corresponded points; a mirror image is
-/// never made. Without weights all points count the same. O(points).
+/// Returns the transform T that minimises sum_i weights_i |T(from_i) - onto_i|^2 over corresponding points, without
+/// reflection. Without weights, all points count equally. O(points).
 ///
-/// Throws gonio::error if the numbers of points or weights differ, anything is not finite, a weight is negative, fewer
-/// than three points have weight, or the points leave the rotation undetermined: those on one side all lie on a line,
-/// or onto is so close to a mirror image that two rotations are equally good. Eigen::umeyama, which has no weights,
-/// says nothing in these cases.
+/// Throws gonio::error if the numbers of points or weights differ, a value is not finite, a weight is negative, fewer
+/// than three points have weight, or the rotation is undetermined: the points of one side lie on a line, or `onto` is
+/// so close to a reflection that two rotations are equally good. Eigen::umeyama has no weights and does not report
+/// these cases.
 [[nodiscard]] similarity_transform align(const point_columns& from, const point_columns& onto,
                                          alignment_kind kind = alignment_kind::rigid,
                                          const Eigen::VectorXd& weights = {});
@@ -65,30 +65,30 @@ enum class alignment_kind {
 struct aligned_shapes {
   std::vector<point_columns> shapes;  ///< in the order they were given
   point_columns mean;
-  int iterations = 0;  ///< until the mean stood still
+  int iterations = 0;  ///< until the mean converged
 };
 
-/// When `procrustes_mean` ends.
+/// The stopping rule of `procrustes_mean`.
 struct procrustes_options {
   alignment_kind kind = alignment_kind::rigid;
-  double tolerance = 1e-9;  ///< the change of the mean, relative to its centroid size
+  double tolerance = 1e-9;  ///< largest change of the mean, relative to its centroid size
   int most_iterations = 1000;
 };
 
 namespace detail {
 
-/// Root of the summed squares of the distances from the centroid.
+/// Returns the square root of the sum of squared distances from the centroid.
 [[nodiscard]] double centroid_size(const point_columns& points);
 
 }  // namespace detail
 
-/// Aligns each shape with the mean of all, over and over until the mean stands still. The first mean is the first
-/// shape, in whose coordinates the result is. With similarities, which alone would shrink all shapes to a point, the
-/// mean keeps the mean centroid size of the given shapes, so that lengths keep their unit; with rigid transforms it is
-/// the plain mean of the aligned shapes. O(points x shapes) for an iteration.
+/// Aligns each shape to the mean of all repeatedly, until the mean converges. The first mean is the first shape; the
+/// result is in its coordinates. Similarities alone would shrink all shapes to a point, so with them the mean keeps the
+/// mean centroid size of the given shapes, and lengths keep their unit. With rigid transforms it is the mean of the
+/// aligned shapes. O(points x shapes) per iteration.
 ///
-/// Throws gonio::error where `align` does, if there is no shape or their sizes differ, and if the mean still changes
-/// after the last iteration.
+/// Throws gonio::error as `align` does, if there is no shape, if their sizes differ, or if the mean still changes after
+/// the last iteration.
 [[nodiscard]] aligned_shapes procrustes_mean(const std::vector<point_columns>& shapes,
                                              const procrustes_options& options = {});
 

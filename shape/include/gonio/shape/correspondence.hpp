@@ -1,6 +1,6 @@
 #pragma once
-/// Where the vertices of a shape are on a scan, and which of them the scan does not show.
-/// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), sections 2 and 3.
+/// Finds the vertices of a shape on a scan, and the vertices that the scan does not show. "Anatomically correct surface
+/// recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), sections 2 and 3.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/shape/alignment.hpp>
@@ -14,45 +14,44 @@
 
 namespace gonio::shape {
 
-/// A scan and where it lies: `pose` takes its coordinates to those of the model.
+/// A scan and its pose. `pose` maps its coordinates to the model's.
 struct posed_scan {
   surface_index surface;
   similarity_transform pose;
-  Eigen::RowVectorXd weights = {};  ///< none, or how much each vertex of the surface counts: see `vertex_observations`
+  Eigen::RowVectorXd weights = {};  ///< empty, or the weight of each vertex of the surface: see `vertex_observations`
 
-  /// The nearest place to a point of the model's space, in that space.
+  /// Returns the closest point of the scan, in the model's space.
   [[nodiscard]] surface_point closest(const Eigen::Vector3d& point) const;
 
-  /// The nearest place on a line through a point of the model's space, at most `reach` away.
+  /// Returns the nearest intersection with a line through a point, at most `reach` away, in the model's space.
   [[nodiscard]] std::optional<surface_point> along(const Eigen::Vector3d& point, const Eigen::Vector3d& line,
                                                    double reach) const;
 
-  /// The outward normal at a place that was found, in the model's space: see `surface_index::pseudonormal`.
+  /// Returns the outward normal at a point found before, in the model's space: see `surface_index::pseudonormal`.
   [[nodiscard]] Eigen::Vector3d normal(const surface_point& place) const;
 
-  /// How much a place counts: 1 if nothing is said about the surface's vertices.
+  /// Returns the weight at a point; 1 if the surface's vertices have no weights.
   [[nodiscard]] double weight_at(const surface_point& place) const;
 
  private:
   [[nodiscard]] surface_point placed(surface_point found) const;
 };
 
-/// When a vertex counts as shown by a scan.
+/// The rule for whether a scan shows a vertex.
 struct correspondence_options {
-  double reach = 3.0;             ///< farther places belong to something else, mm
-  double normal_agreement = 0.5;  ///< least cosine between the normals of shape and scan
-  double tangential = 0.0003;     ///< how much a place counts along the surface: see `vertex_observations`
+  double reach = 3.0;             ///< points farther away are not the corresponding ones, mm
+  double normal_agreement = 0.5;  ///< smallest cosine between the normals of shape and scan
+  double tangential = 0.0003;     ///< weight along the surface: see `vertex_observations`
 };
 
-/// Places on a scan of those vertices that it shows, with the normals of the shape that looked for them.
+/// Returns the positions of the vertices that the scan shows, with the shape's normals.
 [[nodiscard]] vertex_observations shown_vertices(const point_columns& places, const point_columns& normals,
                                                  const std::vector<char>& shown, double tangential);
 
-/// The place on the scan of each vertex of a shape that is there.
+/// Returns the position on the scan of each vertex that it shows.
 ///
-/// What is off across the surface is measured along the shape's normals, not the scan's: those of a triangle are off by
-/// some degrees where the scan is noisy by a tenth of its length, and vertices that slide along such a surface seem to
-/// leave it.
+/// Errors across the surface are measured along the shape's normals. A scan's triangle normals are wrong by some
+/// degrees if its noise is a tenth of their length; sliding vertices would then appear to leave the surface.
 [[nodiscard]] vertex_observations closest_places(const posed_scan& scan, const triangle_mesh& shape,
                                                  const correspondence_options& options = {}, thread_count threads = {});
 

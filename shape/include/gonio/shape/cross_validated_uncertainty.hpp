@@ -1,6 +1,6 @@
 #pragma once
-/// How sure the vertices of a recovered scan are, measured: shapes of the model are left out, shown as the scan shows
-/// its own, recovered from the others, and compared.
+/// Measures the uncertainty of a recovered scan's vertices. Leaves shapes of the model out, scans them like the given
+/// scan, recovers them from the others, and compares the results.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/shape/recovery.hpp>
@@ -12,41 +12,42 @@
 
 namespace gonio::shape {
 
-/// How an uncertainty is measured.
+/// The settings of the measurement.
 struct cross_validation_options {
-  Eigen::Index trials = 40;   ///< shapes that are left out and recovered
-  Eigen::Index parts = 5;     ///< of the shapes; one of them is left out at a time
-  recovery_options recovery;  ///< by which the scan was recovered
-  std::uint64_t seed = 1;     ///< of the noise
+  Eigen::Index trials = 40;   ///< number of shapes that are left out and recovered
+  Eigen::Index parts = 5;     ///< number of parts of the shapes; one part is left out at a time
+  recovery_options recovery;  ///< the options used for the scan
+  std::uint64_t seed = 1;     ///< for the noise
 };
 
 /// The covariance of a recovered surface's vertices, in the model's space.
 ///
-/// V{s1|s2} (see `shape_uncertainty`) takes known vertices to be where they belong, but for errors that are
-/// independent. On a scan they are not: a surface looks nearly the same when vertices slide along it, and what the
-/// family cannot say, hundredths of a millimetre, is off alike for neighbours and makes them slide by tenths. So this
-/// repeats the whole recovery, from the alignment by shape context on, with shapes whose vertices are known: see
+/// V{s1|s2} (see `shape_uncertainty`) assumes that known vertices are in the right place up to independent errors. On a
+/// scan these errors are correlated. Vertices can slide along a surface with little change, and the model error of the
+/// family, hundredths of a millimetre, is similar for neighbours and makes them slide by tenths. This class therefore
+/// repeats the whole recovery, including the alignment by shape context, with shapes whose vertices are known: see
 /// docs/decisions/0013-measured-uncertainty.md.
 class cross_validated_uncertainty {
  public:
-  /// Of what `recover` made of a scan by a model. As long as so many recoveries; the same for any number of threads.
-  /// Throws gonio::error for fewer than 10 trials or more than there are shapes, for fewer than two parts or parts of
-  /// which one leaves fewer than two shapes, and if fewer than 10 of the shapes are recovered.
+  /// Measures it for the result of `recover` for a scan and a model. Takes the time of that many recoveries. The result
+  /// does not depend on the number of threads. Throws gonio::error for fewer than 10 trials or more than there are
+  /// shapes, for fewer than two parts, if leaving one part out leaves fewer than two shapes, and if fewer than 10 of
+  /// the shapes are recovered.
   cross_validated_uncertainty(const shape_model& model, const surface_index& scan, const recovered_shape& recovered,
                               const cross_validation_options& options = {}, thread_count threads = {});
 
-  /// How many shapes were recovered.
+  /// Returns the number of shapes that were recovered.
   [[nodiscard]] Eigen::Index trials() const noexcept { return trials_; }
 
-  /// 3 x 3, of the position of one vertex about where it was recovered.
+  /// Returns the 3 x 3 covariance of one vertex about its recovered position.
   [[nodiscard]] const Eigen::Matrix3d& covariance(Eigen::Index vertex) const { return covariances_[vertex]; }
 
-  /// A vertex is within the ellipsoid d' covariance^-1 d <= squared_radius(share) with this probability. So many of the
-  /// vertices that were left out are, by the covariance of the other trials, and some more: the vertices of one shape
-  /// are off together, and of trials + 1 shapes the one that was scanned may be the farthest off (Lee, Barber, Willett,
-  /// "Distribution-free inference with hierarchical data", arXiv:2306.06342). Shares above trials / (trials + 1) cannot
-  /// be told; for them it is the largest that was measured. Throws gonio::error unless the share is above 0 and
-  /// below 1.
+  /// Returns the squared radius such that a vertex is in the ellipsoid d' covariance^-1 d <= squared_radius(share) with
+  /// this probability. It is the quantile of the left-out vertices under the covariance of the other trials, enlarged:
+  /// the errors of one shape's vertices are correlated, and the scanned shape may be the worst of trials + 1 (Lee,
+  /// Barber, Willett, "Distribution-free inference with hierarchical data", arXiv:2306.06342). Shares above trials /
+  /// (trials + 1) cannot be determined and give the largest measured value. Throws gonio::error unless the share is
+  /// above 0 and below 1.
   [[nodiscard]] double squared_radius(double share) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// A part of a surface that is a surface again.
+/// Extracts a part of a surface that is a surface again.
 
 #include <gonio/shape/triangle_mesh.hpp>
 
@@ -7,9 +7,9 @@
 
 namespace gonio::shape {
 
-/// The triangles of a surface whose corners all are marked, and their vertices. Where what is left would touch in one
-/// vertex only, each side gets a vertex of its own, so that it is a surface. O(triangles log triangles). Throws
-/// gonio::error for another number of marks than vertices, and if no triangle is left.
+/// Returns the triangles whose corners are all marked, with their vertices. Where these triangles would touch in a
+/// single vertex, each side gets its own vertex, so that the result is a surface. O(triangles log triangles). Throws
+/// gonio::error if the numbers of marks and vertices differ, and if no triangle remains.
 [[nodiscard]] triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<bool>& marked);
 
 }  // namespace gonio::shape

@@ -1,7 +1,7 @@
 #pragma once
-/// A mesh as a camera sees it: with it, a photograph of an object of known shape is one measurement for each pixel
-/// (Noell, Koehler and Stricker 2014; `capture::samples_of`). Each pixel's ray, bent by the lens, is followed to the
-/// nearest triangle through a tree of boxes.
+/// A mesh as seen by a camera. It makes a photograph of an object of known shape one measurement per pixel (Noell,
+/// Koehler and Stricker 2014; `capture::samples_of`). Each pixel's ray, bent by the lens, is traced to the nearest
+/// triangle with a tree of boxes.
 
 #include <gonio/core/lens_distortion.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
@@ -16,27 +16,27 @@ namespace gonio::shape {
 
 namespace detail {
 
-/// Where a ray meets a mesh.
+/// The intersection of a ray and a mesh.
 struct mesh_hit {
   double distance = std::numeric_limits<double>::infinity();
-  Eigen::Index triangle = -1;                        ///< negative: nowhere
-  Eigen::Vector3d shares = Eigen::Vector3d::Zero();  ///< of the triangle's corners in the place
+  Eigen::Index triangle = -1;                        ///< negative: none
+  Eigen::Vector3d shares = Eigen::Vector3d::Zero();  ///< barycentric coordinates of the point
 };
 
-/// The triangles of a mesh in a tree of boxes, halved along their longest sides.
+/// The triangles of a mesh in a tree of boxes, split in halves along their longest sides.
 class triangle_tree {
  public:
   /// O(n log n) for n triangles. The mesh must outlive the tree.
   explicit triangle_tree(const triangle_mesh& mesh);
 
-  /// The nearest triangle that a ray meets, from either side; of two at one distance that of the smaller number.
+  /// Returns the nearest triangle on a ray, from either side. If two are equally near, returns the smaller number.
   [[nodiscard]] mesh_hit nearest(const ray& line) const;
 
  private:
   struct box_node {
     Eigen::Vector3d low, high;
-    Eigen::Index first = 0, count = 0;  ///< of the triangles of a leaf; count 0: an inner node
-    Eigen::Index second_child = 0;      ///< the first one follows its parent
+    Eigen::Index first = 0, count = 0;  ///< triangles of a leaf; count 0: an inner node
+    Eigen::Index second_child = 0;      ///< the first child follows its parent
   };
 
   void add_node(Eigen::Index first, Eigen::Index count);
@@ -50,10 +50,10 @@ class triangle_tree {
 
 }  // namespace detail
 
-/// What each pixel's middle sees of a mesh: the place, and the normal between those of the triangle's vertices. Where
-/// the nearest triangle is seen from its inside, nothing is seen, and what lies behind it is hidden. Throws
-/// gonio::error if the mesh has no triangle, a triangle of a vertex that is not there, or a vertex that is not finite.
-/// O((triangles + pixels) log triangles) as a rule.
+/// Returns the point of a mesh at each pixel's centre, with the normal interpolated from the triangle's vertices. If
+/// the nearest triangle is seen from its inside, the pixel sees nothing; surfaces behind it are hidden. Throws
+/// gonio::error if the mesh has no triangle, if a triangle names a missing vertex, or if a vertex is not finite.
+/// Usually O((triangles + pixels) log triangles).
 /// ```cpp
 /// const auto surface = gonio::shape::surface_of(gonio::io::read_mesh("vase.ply"), camera);
 /// const auto samples = gonio::capture::samples_of(photograph, surface, camera, lamp, white).samples;

@@ -1,5 +1,5 @@
 #pragma once
-/// Which vertices of a mesh are neighbours, and where the surface ends.
+/// The neighbours of a mesh's vertices, and its border.
 
 #include <gonio/shape/triangle_mesh.hpp>
 
@@ -11,29 +11,29 @@
 
 namespace gonio::shape {
 
-/// The neighbourhoods of a mesh that is a surface: manifold, oriented, with or without a border.
+/// The neighbourhoods of a mesh that is a surface: manifold and oriented, with or without a border.
 class mesh_topology {
  public:
-  /// O(triangles log triangles). Throws gonio::error naming the first vertex or triangle that keeps a mesh from being
-  /// a surface: there is no triangle, a vertex is not finite, a triangle names a vertex that there is not or one twice,
-  /// an edge belongs to more than two triangles or to two of opposite orientation, or surfaces touch in one vertex
-  /// only. Vertices of no triangle are allowed: scans have them.
+  /// O(triangles log triangles). Throws gonio::error that names the first vertex or triangle that keeps the mesh from
+  /// being a surface: there is no triangle, a vertex is not finite, a triangle names a missing vertex or one vertex
+  /// twice, an edge belongs to more than two triangles or to two of opposite orientation, or surfaces touch in a single
+  /// vertex. Vertices without a triangle are allowed, because scans have them.
   explicit mesh_topology(const triangle_mesh& mesh)
       : mesh_topology(mesh.triangles, (require_finite(mesh), mesh.vertices.cols())) {}
 
-  /// Of triangles alone, among so many vertices.
+  /// Takes only triangles, and the number of vertices.
   mesh_topology(const triangle_columns& triangles, Eigen::Index vertices);
 
   [[nodiscard]] Eigen::Index vertices() const noexcept { return std::ssize(border_); }
 
-  /// The vertices that an edge joins to this one, ascending.
+  /// Returns the vertices joined to this one by an edge, ascending.
   [[nodiscard]] std::span<const int> neighbours(Eigen::Index vertex) const noexcept;
 
-  /// Is the vertex on an edge of a single triangle, or on none?
+  /// Whether the vertex is on an edge of a single triangle, or on no edge.
   [[nodiscard]] bool on_border(Eigen::Index vertex) const noexcept { return border_[vertex]; }
 
  private:
-  /// From a vertex to a vertex, along a triangle.
+  /// From one vertex to another, along a triangle.
   struct half_edge {
     int from, to;
     [[nodiscard]] friend auto operator<=>(const half_edge&, const half_edge&) = default;
@@ -45,17 +45,17 @@ class mesh_topology {
 
   [[nodiscard]] static std::vector<half_edge> half_edges_of(const triangle_columns& triangles);
 
-  /// On a surface each triangle goes along an edge in a direction of its own.
+  /// On a surface, two triangles traverse a shared edge in opposite directions.
   static void require_two_sided(const std::vector<half_edge>& edges);
 
   void gather(const std::vector<half_edge>& edges, Eigen::Index vertices);
 
-  /// The triangles round a vertex must follow one another in one fan, closed or open.
+  /// The triangles around a vertex must form a single fan, closed or open.
   static void require_single_fans(const triangle_columns& triangles, Eigen::Index vertices);
 
   [[nodiscard]] static bool is_one_chain(const std::vector<half_edge>& edges);
 
-  std::vector<Eigen::Index> first_;  // of each vertex in `neighbours_`
+  std::vector<Eigen::Index> first_;  // of each vertex's neighbours in `neighbours_`
   std::vector<int> neighbours_;
   std::vector<bool> border_;
 };

@@ -1,6 +1,6 @@
 #pragma once
-/// Principal components of corresponded shapes: the basis that BRDFs have, over the coordinates of vertices.
-/// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), Eq. 1-2 and 4; the
+/// Principal components of corresponded shapes: the same basis as for BRDFs, over the coordinates of vertices.
+/// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), Eq. 1-2 and 4. The
 /// metric is the identity, `lin`.
 
 #include <gonio/basis/pca.hpp>
@@ -16,11 +16,11 @@
 
 namespace gonio::shape {
 
-/// The coordinates x, y, z of the first vertex, then of the next: the domain of shapes.
+/// The domain of shapes: the coordinates x, y, z of the first vertex, then of the next.
 struct vertex_coordinates {
   Eigen::Index vertices = 0;
 
-  /// A shape has one value at each.
+  /// A shape has one value per coordinate.
   static constexpr int channels = 1;
   [[nodiscard]] Eigen::Index size() const noexcept { return 3 * vertices; }
   [[nodiscard]] friend bool operator==(const vertex_coordinates&, const vertex_coordinates&) = default;
@@ -32,14 +32,14 @@ struct vertex_coordinates {
 
 static_assert(domain<vertex_coordinates>);
 
-/// Named shapes of the same vertices, aligned to one another; `values` has shape (3 vertices, shapes).
+/// Named, aligned shapes of the same vertices. `values` has shape (3 vertices, shapes).
 struct shape_set {
   vertex_coordinates cells;
   std::vector<std::string> names;
   cell_matrix values;
 
-  /// Throws gonio::error if there is none, one has no name or another number of vertices than the first, or a vertex is
-  /// not finite.
+  /// Throws gonio::error if there is no shape, if one has no name or another number of vertices than the first, or if a
+  /// vertex is not finite.
   [[nodiscard]] static shape_set of(const std::vector<point_columns>& shapes, std::vector<std::string> names);
 };
 
@@ -50,19 +50,19 @@ using shape_basis = pca<lin, vertex_coordinates>;
 
 static_assert(tabulated_basis<shape_basis>);
 
-/// The mean shape.
+/// Returns the mean shape.
 [[nodiscard]] point_columns mean_shape(const shape_basis& basis);
 
-/// mu + Q w (Eq. 2): the shape of weights w, whose covariance over the m shapes of the basis is I / m. O(size of the
-/// basis x vertices).
+/// Returns mu + Q w (Eq. 2): the shape with weights w. The covariance of w over the m shapes of the basis is I / m.
+/// O(size of the basis x vertices).
 [[nodiscard]] point_columns shape_of(const shape_basis& basis, const Eigen::VectorXd& weights);
 
-/// The squared Mahalanobis distance of weights from the mean: m |w|^2 for a basis of m shapes. Of shapes of the
-/// family it is distributed as chi-square of as many degrees of freedom as there are weights (section 2).
+/// Returns the squared Mahalanobis distance of weights from the mean: m |w|^2 for a basis of m shapes. For shapes of
+/// the family it is distributed as chi-square with one degree of freedom per weight (section 2).
 [[nodiscard]] double squared_mahalanobis(const shape_basis& basis, const Eigen::VectorXd& weights);
 
-/// The fewest components that explain a share of the shapes' variance. Throws gonio::error unless the share is above 0
-/// and at most 1.
+/// Returns the fewest components that explain a share of the shapes' variance. Throws gonio::error unless the share is
+/// above 0 and at most 1.
 [[nodiscard]] shape_basis truncated_to_variance(const shape_basis& basis, double share);
 
 }  // namespace gonio::shape

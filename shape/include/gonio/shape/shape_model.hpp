@@ -1,6 +1,6 @@
 #pragma once
-/// An active shape model: principal components of shapes, and the triangles that all of them share.
-/// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), section 2.
+/// An active shape model: principal components of shapes, and their common triangles. "Anatomically correct surface
+/// recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), section 2.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/shape/mesh_topology.hpp>
@@ -15,7 +15,7 @@
 
 namespace gonio::shape {
 
-/// M(c): a value type whose copies share their storage.
+/// M(c). A value type; copies share their storage.
 class shape_model {
  public:
   /// Throws gonio::error unless the triangles are a surface of the basis' vertices.
@@ -27,16 +27,16 @@ class shape_model {
   [[nodiscard]] const triangle_columns& triangles() const noexcept { return template_->triangles; }
   [[nodiscard]] const mesh_topology& topology() const noexcept { return template_->topology; }
   [[nodiscard]] Eigen::Index vertices() const noexcept { return vertices_of(basis_); }
-  /// How many shapes it was learned from.
+  /// Returns the number of shapes that it was learned from.
   [[nodiscard]] Eigen::Index shapes() const noexcept { return basis_.names().size(); }
 
-  /// Vertices with the triangles of the model.
+  /// Returns vertices with the triangles of the model.
   [[nodiscard]] triangle_mesh mesh(point_columns vertices) const { return {std::move(vertices), triangles()}; }
   [[nodiscard]] triangle_mesh mean() const { return mesh(mean_shape(basis_)); }
-  /// M(c) (Eq. 2) of weights: see `shape_of`.
+  /// Returns M(c) (Eq. 2) for some weights: see `shape_of`.
   [[nodiscard]] triangle_mesh shape(const Eigen::VectorXd& weights) const { return mesh(shape_of(basis_, weights)); }
 
-  /// The model of the components that explain a share of the variance alone: see `truncated_to_variance`.
+  /// Returns the model with only the components that explain a share of the variance: see `truncated_to_variance`.
   [[nodiscard]] shape_model truncated_to_variance(double share) const;
 
  private:
@@ -54,9 +54,9 @@ class shape_model {
   std::shared_ptr<const surface_template> template_;
 };
 
-/// Learns a model from corresponded shapes: aligns them to one another (generalised Procrustes) and takes all of their
-/// principal components. O(vertices x shapes^2). Throws gonio::error for fewer than two shapes, shapes of different
-/// numbers of vertices, vertices that are not finite, or triangles that are no surface of them.
+/// Learns a model from corresponded shapes: aligns them (generalised Procrustes) and takes all their principal
+/// components. O(vertices x shapes^2). Throws gonio::error for fewer than two shapes, shapes with different numbers of
+/// vertices, vertices that are not finite, or triangles that are not a surface.
 [[nodiscard]] shape_model learn_shape_model(const std::vector<point_columns>& shapes, std::vector<std::string> names,
                                             triangle_columns triangles, thread_count threads = {});
 

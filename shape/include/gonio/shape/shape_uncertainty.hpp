@@ -1,6 +1,6 @@
 #pragma once
-/// How sure the vertices of a predicted shape are: V{s1|s2} of "Anatomically correct surface recovery" (Nielsen,
-/// doctoral thesis, DTU 2016, contribution C.V, Eq. 4), by the solver that predicts them.
+/// The uncertainty of a predicted shape's vertices: V{s1|s2} of "Anatomically correct surface recovery" (Nielsen,
+/// doctoral thesis, DTU 2016, contribution C.V, Eq. 4), for the solver that predicts them.
 
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/shape/shape_basis.hpp>
@@ -11,32 +11,33 @@
 
 namespace gonio::shape {
 
-/// The covariance of a shape's vertices given those that are known.
+/// The covariance of a shape's vertices given the known ones.
 ///
-/// Of m shapes the weights have the covariance I / m, and known vertices leave (I - R) / m of it, where R is what the
-/// solver makes of weights it is shown through the known rows: w in, R w out. That is S11 - S12 P L^-1 P' S21 for
-/// `truncated_svd`, whose R is the projection on the kept directions, and the posterior for `tikhonov`.
+/// For m shapes, the weights have the covariance I / m. Known vertices reduce it to (I - R) / m, where R is the
+/// solver's response to weights seen through the known rows: w in, R w out. For `truncated_svd`, R is the projection on
+/// the kept directions, and this is S11 - S12 P L^-1 P' S21. For `tikhonov` it is the posterior.
 ///
-/// This is as if m were large. A family of 40 directions learned from 160 shapes is itself uncertain, so the covariance
-/// of a new shape is wider by m / (m - 1 - k) (1 + 1 / m + |w|^2), with k = trace R (the predictive distribution of
-/// multivariate regression; Mardia, Kent and Bibby, "Multivariate Analysis", 1979, chapter 6), and its tails are
-/// heavier than those of a normal distribution: `squared_radius`. `as_published` leaves this out.
+/// This holds for large m. A family of 40 directions learned from 160 shapes is itself uncertain. The covariance of a
+/// new shape is therefore larger by m / (m - 1 - k) (1 + 1 / m + |w|^2), with k = trace R (the predictive distribution
+/// of multivariate regression; Mardia, Kent and Bibby, "Multivariate Analysis", 1979, chapter 6), and its tails are
+/// heavier than normal: `squared_radius`. `as_published` omits this factor.
 class shape_uncertainty {
  public:
-  /// Of a fit by `solver` of these known vertices: O(3 known x k^2) for a basis of k components. Throws gonio::error
+  /// For a fit by `solver` to these known vertices: O(3 known x k^2) for a basis of k components. Throws gonio::error
   /// for known vertices that `fit_shape` refuses.
   shape_uncertainty(const fitted_shape& fit, const vertex_observations& known, const any_solver& solver);
-  /// The same of a shape that may move, with the weights of all its functions.
+  /// Likewise for a shape that may move, with the weights of all its functions.
   shape_uncertainty(const shape_with_motion& functions, const Eigen::VectorXd& weights,
                     const vertex_observations& known, const any_solver& solver);
 
-  /// A vertex is within the ellipsoid d' covariance^-1 d <= squared_radius(share) about where it is predicted with this
-  /// probability: 3 F of 3 and m - 3 - k degrees of freedom, which for many shapes is chi-square of 3.
+  /// Returns the squared radius such that a vertex is in the ellipsoid d' covariance^-1 d <= squared_radius(share)
+  /// about its prediction with this probability: 3 F with 3 and m - 3 - k degrees of freedom, which for many shapes is
+  /// chi-square with 3.
   [[nodiscard]] double squared_radius(double share) const;
 
-  /// 3 x 3, of the position of one vertex. O(k^2).
+  /// Returns the 3 x 3 covariance of one vertex's position. O(k^2).
   [[nodiscard]] Eigen::Matrix3d covariance(Eigen::Index vertex) const { return scale_ * unscaled(vertex); }
-  /// The same without what the number of shapes adds.
+  /// Returns it without the factor for the number of shapes.
   [[nodiscard]] Eigen::Matrix3d as_published(Eigen::Index vertex) const { return published_scale_ * unscaled(vertex); }
 
  private:

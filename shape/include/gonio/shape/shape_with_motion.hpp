@@ -1,6 +1,5 @@
 #pragma once
-/// A basis of shapes that may also move: the shapes' functions and six of rigid motion side by side, so that one fit
-/// finds shape and pose together.
+/// A basis of shapes that may also move: the shapes' functions and six of rigid motion. One fit finds shape and pose.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/shape/alignment.hpp>
@@ -12,19 +11,19 @@
 
 namespace gonio::shape {
 
-/// The functions of a shape basis, then what a small turn about each axis through the centroid of `moved` and a shift
-/// along each does to that shape.
+/// The functions of a shape basis, followed by the displacements of the shape `moved` by small rotations about each
+/// axis through its centroid and by shifts along each axis.
 ///
-/// What is moved is a shape of the family, not its mean: a turn of the mean differs from one of the shape by a change
-/// of shape, and a fit that may turn the mean only ends where the shape would still turn. Copies share the functions.
+/// `moved` is a shape of the family, not its mean. A rotation of the mean differs from one of the shape by a change of
+/// shape, so a fit with the mean would stop while the shape still needs to rotate. Copies share the functions.
 class shape_with_motion {
  public:
-  /// Three turns and three shifts.
+  /// Three rotations and three shifts.
   static constexpr Eigen::Index motions = 6;
 
-  /// The weights of the motions are the turn in radians and the shift in the unit of the mesh, each divided by
-  /// `freedom`: the larger it is, the less a solver's penalty holds the shape in place. Throws gonio::error for a shape
-  /// of another number of vertices.
+  /// The weights of the motions are the rotation in radians and the shift in the unit of the mesh, each divided by
+  /// `freedom`. The larger it is, the less a solver's penalty restrains the motion. Throws gonio::error for a shape
+  /// with another number of vertices.
   shape_with_motion(shape_basis shape, const point_columns& moved, double freedom = 1e3);
 
   [[nodiscard]] Eigen::Index size() const noexcept { return shape_.size() + Eigen::Index{motions}; }
@@ -35,12 +34,12 @@ class shape_with_motion {
   [[nodiscard]] double offset(Eigen::Index coordinate) const { return shape_.offset(coordinate); }
   [[nodiscard]] const lin& metric() const noexcept { return shape_.metric(); }
 
-  /// The basis of shapes alone.
+  /// Returns the basis of shapes alone.
   [[nodiscard]] const shape_basis& shape() const noexcept { return shape_; }
-  /// All functions: coordinates x size().
+  /// Returns all functions: coordinates x size().
   [[nodiscard]] const cell_matrix& functions() const noexcept { return functions_; }
 
-  /// What weights stand for.
+  /// The shape and motion that weights represent.
   struct parts {
     Eigen::VectorXd shape;        ///< the weights of `shape()`
     similarity_transform motion;  ///< of that shape

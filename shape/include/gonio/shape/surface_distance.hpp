@@ -1,6 +1,6 @@
 #pragma once
-/// How far points are from a surface, by the sides of its normals: how "Anatomically correct surface recovery"
-/// (Nielsen, doctoral thesis, DTU 2016, contribution C.V, section 4) judges recovered vertices by the original surface.
+/// Signed distances of points from a surface, the error measure of "Anatomically correct surface recovery" (Nielsen,
+/// doctoral thesis, DTU 2016, contribution C.V, section 4) for recovered vertices.
 
 #include <gonio/shape/surface_index.hpp>
 
@@ -8,14 +8,14 @@
 
 namespace gonio::shape {
 
-/// `surface_index::signed_distance` of each column of `points`, in their order. Throws gonio::error if a point is not
-/// finite.
+/// Returns `surface_index::signed_distance` of each column of `points`, in their order. Throws gonio::error if a point
+/// is not finite.
 [[nodiscard]] Eigen::VectorXd signed_distances(const surface_index& surface, const point_columns& points,
                                                thread_count threads = {});
 
-/// What is told of signed distances, in the unit of the mesh. The paper's table has the signed means.
+/// Statistics of signed distances, in the unit of the mesh. The paper's table has the signed means.
 struct surface_distance {
-  double signed_mean = 0.0;       ///< positive if the points are rather outside
+  double signed_mean = 0.0;       ///< positive if the points are mostly outside
   double absolute_mean = 0.0;     ///< of the magnitudes
   double root_mean_square = 0.0;  ///< not below `absolute_mean`
   double largest = 0.0;           ///< magnitude
@@ -24,9 +24,9 @@ struct surface_distance {
   [[nodiscard]] static surface_distance of(const Eigen::VectorXd& signed_distances);
 };
 
-/// How far points are from a surface; select some, as the recovered ones, with `points(Eigen::all, vertices)`. The
-/// other way, from a surface's vertices to the points' mesh, is another distance. Throws gonio::error if there is no
-/// point or one is not finite.
+/// Returns the distances of points from a surface. Select some points, such as recovered ones, with `points(Eigen::all,
+/// vertices)`. Distances from a surface's vertices to the points' mesh are different. Throws gonio::error if there is
+/// no point or one is not finite.
 [[nodiscard]] surface_distance distance_to(const surface_index& surface, const point_columns& points,
                                            thread_count threads = {});
 

@@ -45,8 +45,8 @@ namespace gonio::io::detail {
   gonio::refuse({name, ": ", kind.noun, " format version ", version, ", this program reads ", readable});
 }
 
-/// A zlib stream that takes at least an eighth of the bytes: what deflate shrinks so much that no reader would believe
-/// it is written like this.
+/// Returns a zlib stream that takes at least an eighth of the bytes. Payloads that deflate shrinks so much that readers
+/// would refuse them are written like this.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::vector<std::byte> huffman_code(std::span<const std::byte> bytes) {
   z_stream stream{};
   if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, MAX_WBITS, 8, Z_HUFFMAN_ONLY) != Z_OK)
@@ -103,7 +103,7 @@ namespace gonio::io {
 }
 
 [[gnu::cold]] GONIO_INLINE bool is_of_kind(const checked_file_kind& kind, const std::filesystem::path& path) {
-  // Opening a pipe would wait for somebody who writes to it.
+  // Opening a pipe would wait for its writer.
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed)) return false;
   std::ifstream file(path, std::ios::binary);

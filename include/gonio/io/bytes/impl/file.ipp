@@ -36,11 +36,11 @@ namespace gonio::io {
 
 [[gnu::cold]] GONIO_INLINE void refuse_file(const std::filesystem::path& path,
                                             std::initializer_list<message_part> what) {
-  gonio::refuse({path.native(), ": ", message_of(what)});
+  gonio::refuse({path.string(), ": ", message_of(what)});
 }
 
 [[gnu::cold]] GONIO_INLINE descriptor open_to_read(const std::filesystem::path& path) {
-  // Without O_NONBLOCK, opening a pipe that nobody writes to would wait forever.
+  // Without O_NONBLOCK, opening a pipe without a writer would wait forever.
   descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file.is_open()) refuse_file(path, {"cannot be read: ", system_reason(errno)});
   return file;
@@ -97,7 +97,7 @@ inline constexpr std::string_view temporary_prefix = ".gonio-", temporary_suffix
 
 inline std::atomic<std::uint32_t> next_temporary{0};
 
-/// This machine's name, as far as a file's name can hold it. Made without memory or locks.
+/// This machine's name, with '/' replaced by '_' so that a file's name can hold it. Made without memory or locks.
 class machine_name {
  public:
   machine_name() noexcept {
@@ -143,7 +143,7 @@ class machine_name {
   // Earlier versions did not name the machine.
   if (const machine_name here; !name.empty() && name != std::string_view(here)) return false;
   if (process != ::getpid()) return ::kill(process, 0) != 0 && errno == ESRCH;
-  // Not those that another thread is writing.
+  // Keep those that another thread is writing.
   return std::ranges::none_of(named_temporaries, [&](const auto& place) {
     const std::uint64_t note = place.load();
     return note != 0 && static_cast<std::uint32_t>(note & 0xffff'ffffu) == static_cast<std::uint32_t>(number);
@@ -154,7 +154,7 @@ class machine_name {
   std::error_code failed;
   std::filesystem::directory_iterator entry(folder, failed);
   for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed)) {
-    const std::string name = entry->path().filename().native();
+    const std::string name = entry->path().filename().string();
     if (!may_be_abandoned(name)) continue;
     const descriptor file(::openat(opened.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat info {};
@@ -188,7 +188,7 @@ namespace gonio::io {
   open_folder();
   detail::remove_abandoned(target_.has_parent_path() ? target_.parent_path() : ".", folder_);
   if (held == staging::named || !create_unnamed()) create_named();
-  // Says that the file is in use, even to a machine that shares the folder but not the numbers of processes.
+  // Marks the file as in use, even for a machine that shares the folder but not the process numbers.
   static_cast<void>(::flock(file_.get(), LOCK_EX | LOCK_NB));
 }
 
@@ -201,7 +201,7 @@ namespace gonio::io {
   const std::filesystem::path name = target_.filename();
   if (!temporary_) {
     if (!replaces_ && link_as(name.c_str())) return;
-    // A link replaces nothing, a name does.
+    // linkat() cannot replace a file, rename() can: link under a temporary name first.
     if (!claim_name([&](const char* beside) { return link_as(beside); })) copy_to_named();
   }
   // Some file systems report a failed write only when a descriptor is closed; this one keeps the lock.
@@ -211,13 +211,13 @@ namespace gonio::io {
 }
 
 [[gnu::cold]] GONIO_INLINE void file_writer::settle() {
-  // The old file's permissions are kept where the file system knows such a thing.
+  // Keep the old file's permissions if the file system has permissions.
   if (replaces_) static_cast<void>(::fchmod(file_.get(), old_mode_));
   // Some file systems have nothing to synchronise, and say EINVAL.
   if (::fsync(file_.get()) != 0 && errno != EINVAL) fail();
 }
 
-/// What has no name may be refused one, by a file system or a policy that knows no links.
+/// The file system or a policy may refuse to link a file without a name: copies it to a named one.
 [[gnu::cold]] GONIO_INLINE void file_writer::copy_to_named() {
   const descriptor unnamed = std::move(file_);
   create_named();
@@ -249,7 +249,7 @@ namespace gonio::io {
 
 [[gnu::cold]] GONIO_INLINE void file_writer::open_folder() {
 #if defined(O_PATH)
-  constexpr int access = O_PATH;  // a folder may be written to but not listed
+  constexpr int access = O_PATH;  // a folder may be writable but not listable
 #else
   constexpr int access = O_RDONLY;
 #endif
@@ -262,7 +262,7 @@ namespace gonio::io {
 #if defined(O_TMPFILE)
   file_ = descriptor(::openat(folder_.get(), ".", O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
   if (!file_.is_open()) return false;
-  // It is given its name through this link, which a process may not have.
+  // The file gets its name through this link, which may be missing.
   if (::access(message_of({"/proc/self/fd/", file_.get()}).c_str(), F_OK) == 0) return true;
   file_ = descriptor();
 #endif
@@ -279,10 +279,10 @@ namespace gonio::io {
 
 template <class Claim>
 bool file_writer::claim_name(Claim&& claim) {
-  // A process of this number that was killed may have left a name that could not be removed.
+  // A killed process with this number may have left a name that could not be removed.
   for (int attempt = 0; attempt < 1000; ++attempt) {
     temporary_.emplace(detail::next_temporary++);
-    // Noted before it is there, so that a signal at any time removes it.
+    // Noted before the file exists, so that a signal at any time removes it.
     for (auto& place : detail::named_temporaries) {
       std::uint64_t free = 0;
       const auto note = (static_cast<std::uint64_t>(folder_.get()) + 1) << 32 | temporary_->number;

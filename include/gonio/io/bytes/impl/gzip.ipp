@@ -71,7 +71,7 @@ namespace gonio::io::detail {
   while (true) {
     size += stream.read(std::span(result).subspan(size));
     if (stream.ended() || result.size() == limit) return size;
-    // Twice as much each time. The last step, which holds both buffers at once, is from a quarter to a half.
+    // Doubles each time. The last step, which holds both buffers at once, starts at a quarter to a half of the limit.
     const std::size_t doubled = std::max<std::size_t>(2 * result.size(), 4096);
     const std::size_t next = doubled < limit / 2 ? doubled : limit;
     result.reserve(next);
@@ -139,7 +139,7 @@ namespace gonio::io {
   const std::size_t size = detail::expand(stream, result, 0, expected_size);
   if (size < expected_size)
     stream.refuse({"expands to ", size, " bytes, not to the expected ", expected_size, " bytes"});
-  // The stream ends only when its checksum has been read, which takes room for one more byte.
+  // The stream ends only once its checksum is read; zlib reads it only if there is room for one more byte.
   std::array<std::byte, 1> surplus{};
   if (stream.read(surplus) != 0) stream.refuse({"expands to more than the expected ", expected_size, " bytes"});
   if (!stream.left().empty()) stream.refuse({stream.left().size(), " bytes follow the compressed data"});

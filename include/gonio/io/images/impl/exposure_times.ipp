@@ -18,13 +18,13 @@
 
 namespace gonio::io::detail {
 
-/// The part of a text after the last character that is none of these.
+/// Returns the part of a text after the last character that is not in `characters`.
 [[nodiscard]] GONIO_INLINE std::string_view ending_of(std::string_view text, std::string_view characters) {
   const std::size_t before = text.find_last_not_of(characters);
   return before == std::string_view::npos ? text : text.substr(before + 1);
 }
 
-/// A number above 0, or the quotient of two; nothing if it is neither. `numbers.read_number` reads each.
+/// Reads a positive number or quotient of two; nothing if it is neither. `numbers.read_number` reads each.
 template <class Numbers>
 [[nodiscard]] std::optional<double> positive_quotient(std::string_view text, Numbers&& numbers) {
   const std::size_t slash = text.find('/');
@@ -46,7 +46,7 @@ GONIO_INLINE std::optional<double> exposure_time_of_name(std::string_view name) 
   const std::string_view whole = name;
   name.remove_suffix(1);
   std::string_view number = detail::ending_of(name, "0123456789.");
-  // Is it a power of ten, as in 1e-04?
+  // A power of ten, as in 1e-04?
   const std::string_view mantissa = name.substr(0, name.size() - number.size());
   if (mantissa.ends_with("e-")) {
     const std::string_view whole_number = detail::ending_of(mantissa.substr(0, mantissa.size() - 2), "0123456789.");
@@ -54,7 +54,7 @@ GONIO_INLINE std::optional<double> exposure_time_of_name(std::string_view name) 
   }
   const std::optional<double> seconds = detail::positive_quotient(number, csv_dialect{});
   if (!seconds) return {};
-  // Is it the lower part of a fraction?
+  // The denominator of a fraction?
   const bool is_whole = number.find_first_not_of(digits) == std::string_view::npos;
   std::string_view before = name.substr(0, name.size() - number.size());
   if (!is_whole || before.empty() || (before.back() != '_' && before.back() != '-')) return seconds;

@@ -33,11 +33,11 @@
 
 namespace gonio::io::detail {
 
-/// Where an OpenEXR file's bytes are, in memory or in an open file.
+/// The bytes of an OpenEXR file, in memory or in an open file.
 struct exr_input {
   std::string name;
   std::uint64_t size;
-  /// Fills the bytes from an offset on, as far as there are some; returns how many.
+  /// Fills `bytes` from an offset until the data ends; returns how many were read.
   std::function<std::size_t(std::uint64_t offset, std::span<std::byte> bytes)> read;
 };
 
@@ -56,7 +56,7 @@ struct exr_input {
           [file, path](std::uint64_t offset, std::span<std::byte> out) { return read_at(*file, offset, out, path); }};
 }
 
-/// Reads as OpenEXR's C++ interface does.
+/// The input of OpenEXR's C++ interface.
 class exr_source : public Imf::IStream {
  public:
   explicit exr_source(const exr_input& input) : IStream(input.name.c_str()), input_(input) {}
@@ -79,7 +79,7 @@ class exr_source : public Imf::IStream {
   std::uint64_t at_ = 0;
 };
 
-/// Collects what OpenEXR writes: it goes back to fill in where the lines are.
+/// Collects OpenEXR's output, which seeks back to fill in the positions of the lines.
 class exr_sink : public Imf::OStream {
  public:
   explicit exr_sink(const std::string& name) : OStream(name.c_str()) {}
@@ -100,11 +100,11 @@ class exr_sink : public Imf::OStream {
   std::size_t at_ = 0;
 };
 
-/// More each way is no image of ours.
+/// The largest number of rows or columns of an image.
 inline constexpr int exr_limit = 16384;
 inline constexpr std::array<const char*, 3> exr_channels{"R", "G", "B"};
 
-/// An image's size, once it is believed. Decoding takes up to 28 bytes a pixel, and 32 lines at a time.
+/// Returns an image's size, or refuses an implausible one. Decoding takes up to 28 bytes per pixel, 32 lines at a time.
 [[nodiscard]] GONIO_INLINE std::array<std::size_t, 2> exr_extents(std::int64_t columns, std::int64_t rows,
                                                                   std::size_t bytes, const std::string& name) {
   if (rows < 1 || columns < 1 || rows > exr_limit || columns > exr_limit)
@@ -116,7 +116,7 @@ inline constexpr std::array<const char*, 3> exr_channels{"R", "G", "B"};
   return {static_cast<std::size_t>(rows), static_cast<std::size_t>(columns)};
 }
 
-/// How OpenEXR's C interface reads.
+/// The read callback of OpenEXR's C interface.
 GONIO_INLINE std::int64_t read_exr_bytes(exr_const_context_t, void* input, void* to, std::uint64_t count,
                                          std::uint64_t offset, exr_stream_error_func_ptr_t) try {
   const std::span<std::byte> out(static_cast<std::byte*>(to), static_cast<std::size_t>(count));
@@ -129,8 +129,8 @@ GONIO_INLINE std::int64_t size_of_exr_bytes(exr_const_context_t, void* input) {
 }
 GONIO_INLINE void ignore_exr_message(exr_const_context_t, exr_result_t, const char*) {}
 
-/// A file as OpenEXR's C interface sees it, which looks at a header and at blocks without decoding them. Its C++
-/// interface reserves whatever is claimed; this one checks it against the file's size.
+/// A file's header and the positions of its blocks, read through OpenEXR's C interface without decoding. The C++
+/// interface allocates whatever a file claims; this one checks it against the file's size.
 class exr_outline {
  public:
   explicit exr_outline(exr_input& input) : input_(input) {
@@ -139,7 +139,7 @@ class exr_outline {
     given.read_fn = &read_exr_bytes;
     given.size_fn = &size_of_exr_bytes;
     given.error_handler_fn = &ignore_exr_message;
-    given.flags = EXR_CONTEXT_FLAG_STRICT_HEADER;  // otherwise it passes over what it cannot read
+    given.flags = EXR_CONTEXT_FLAG_STRICT_HEADER;  // otherwise unreadable attributes are skipped
     const exr_result_t result = exr_start_read(&context_, input.name.c_str(), &given);
     if (result != EXR_ERR_SUCCESS) {
       exr_finish(&context_);
@@ -155,14 +155,14 @@ class exr_outline {
   exr_outline& operator=(const exr_outline&) = delete;
   ~exr_outline() { exr_finish(&context_); }
 
-  /// Refuses a size of the image or its tiles that is not believable.
+  /// Refuses an implausible size of the image or of its tiles.
   void require_believable() const {
     static_cast<void>(exr_extents(std::int64_t{window_.max.x} - window_.min.x + 1,
                                   std::int64_t{window_.max.y} - window_.min.y + 1, input_.size, input_.name));
     static_cast<void>(exr_extents(std::max(1u, tile_columns_), std::max(1u, tile_rows_), input_.size, input_.name));
   }
 
-  /// Refuses a file that has not all of its blocks, and tiles that are too large to read a row of them.
+  /// Refuses a file with missing blocks, and tiles so large that a row of them takes too much memory.
   void require_blocks() const {
     constexpr std::uint32_t most_rows = 512;
     if (is_tiled_ && tile_rows_ > most_rows)
@@ -199,7 +199,7 @@ class exr_outline {
   bool is_tiled_ = false;
 };
 
-/// Runs what OpenEXR may refuse, and says of which file it did.
+/// Calls `act` and adds the file's name to OpenEXR's exceptions.
 template <class Act>
 auto naming_exr(const std::string& name, const Act& act) {
   try {
@@ -211,7 +211,7 @@ auto naming_exr(const std::string& name, const Act& act) {
   }
 }
 
-/// A file whose header is sound.
+/// An OpenEXR file whose header is valid.
 class exr_decoder {
  public:
   explicit exr_decoder(exr_input input) : input_(std::move(input)), source_(input_) {
@@ -318,7 +318,7 @@ GONIO_INLINE void write_exr(const std::filesystem::path& path, const image& pict
     const std::size_t across = 3 * sizeof(float);
     for (std::size_t channel = 0; channel < 3; ++channel) {
       header.channels().insert(detail::exr_channels[channel], Imf::Channel(Imf::FLOAT));
-      char* first = reinterpret_cast<char*>(const_cast<float*>(picture.data() + channel));  // which it only reads
+      char* first = reinterpret_cast<char*>(const_cast<float*>(picture.data() + channel));  // OpenEXR only reads it
       buffer.insert(detail::exr_channels[channel], Imf::Slice(Imf::FLOAT, first, across, across * columns));
     }
     Imf::OutputFile file(sink, header, 0);

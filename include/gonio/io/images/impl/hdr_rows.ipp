@@ -28,15 +28,15 @@
 
 namespace gonio::io::detail {
 
-/// What an HDR file's header says.
+/// The content of an HDR file's header.
 struct hdr_header {
   std::size_t rows = 0, columns = 0;
   std::size_t size = 0;                                   ///< bytes before the first row
   bool from_bottom = false;                               ///< the first row is the lowest
-  Eigen::Matrix3d colours = Eigen::Matrix3d::Identity();  ///< what makes linear Rec. 709 of stored numbers
+  Eigen::Matrix3d colours = Eigen::Matrix3d::Identity();  ///< converts stored numbers to linear Rec. 709
 };
 
-/// The numbers of a line "EXPOSURE= 2.5", one or more. Throws gonio::error unless there are `count` finite ones.
+/// Returns the numbers of a line "EXPOSURE= 2.5". Throws gonio::error unless there are `count` finite ones.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd hdr_numbers(std::string_view line, Eigen::Index count,
                                                        const std::string& name) {
   const auto equals = line.find('=');
@@ -50,7 +50,7 @@ struct hdr_header {
   return numbers;
 }
 
-/// What makes Rec. 709 of colours with the primaries red, green and blue and the white that are given as x and y, such
+/// Returns the matrix to Rec. 709 from colours with primaries red, green and blue and a white, given as x and y, such
 /// that white stays white.
 [[nodiscard]] GONIO_INLINE Eigen::Matrix3d from_primaries(const Eigen::VectorXd& xy, const std::string& name) {
   Eigen::Matrix<double, 3, 4> xyz;
@@ -66,20 +66,20 @@ struct hdr_header {
   return found;
 }
 
-/// Of the colours that Radiance writes as X, Y and Z of candela per square metre: 179 lumens are a watt.
+/// Returns the matrix to Rec. 709 from X, Y and Z in candela per square metre, at Radiance's 179 lumens per watt.
 [[nodiscard]] GONIO_INLINE Eigen::Matrix3d from_radiance_xyz() {
   Eigen::Matrix3d found;
   for (Eigen::Index i = 0; i < 3; ++i) found.col(i) = from_xyz(rgb(Eigen::Vector3d::Unit(i).array())).matrix() / 179.0;
   return found;
 }
 
-/// The fewest bytes that the pixels can take: all rows in runs of 127.
+/// Returns the smallest number of bytes for the pixels: all rows in runs of 127.
 [[nodiscard]] constexpr std::size_t least_hdr_size(std::size_t rows, std::size_t columns) noexcept {
   const std::size_t flat = 4 * columns;
   return rows * (columns < 8 ? flat : std::min(flat, 4 + 8 * ((columns + 126) / 127)));
 }
 
-/// Takes "-Y 12" off the front of a line: the number behind these letters, 0 if it is negative.
+/// Takes "-Y 12" from the front of a line: sets `extent` to the number after these letters, 0 if it is negative.
 [[nodiscard]] GONIO_INLINE bool read_hdr_extent(std::string_view& line, std::string_view letters, std::size_t& extent) {
   if (!line.starts_with(letters)) return false;
   line.remove_prefix(letters.size());
@@ -93,7 +93,7 @@ struct hdr_header {
   return true;
 }
 
-/// The colours of a header, whose lines come one by one.
+/// Collects the colour conversion from the lines of a header.
 class hdr_colours {
  public:
   explicit hdr_colours(const std::string& name) : name_(name) {}
@@ -113,7 +113,7 @@ class hdr_colours {
   }
 
  private:
-  /// Photoshop writes eight zeros for the usual ones.
+  /// Photoshop writes eight zeros for the default primaries.
   void read_primaries(const Eigen::VectorXd& xy) {
     if ((xy.array() != 0.0).any()) primaries_ = from_primaries(xy, name_);
   }
@@ -124,7 +124,7 @@ class hdr_colours {
   Eigen::Matrix3d primaries_ = Eigen::Matrix3d::Identity();
 };
 
-/// Lines of text, an empty one, and a line with the size.
+/// Reads a header: lines of text, an empty line, and a line with the size.
 [[nodiscard]] GONIO_INLINE hdr_header read_hdr_header(std::string_view text, const std::string& name) {
   if (!text.starts_with("#?RADIANCE\n") && !text.starts_with("#?RGBE\n"))
     gonio::refuse({name, ": is not a Radiance HDR file"});
@@ -154,7 +154,7 @@ class hdr_colours {
   return header;
 }
 
-/// Factors of the mantissas for each exponent.
+/// Returns the factor of the mantissas for each exponent.
 [[nodiscard]] GONIO_INLINE std::array<float, 256> rgbe_factors() {
   std::array<float, 256> factors{};
   for (int exponent = 1; exponent < 256; ++exponent)
@@ -172,12 +172,12 @@ class hdr_rows::row_reader {
   row_reader(const hdr_rows& file, std::uint64_t offset)
       : file_(file), buffer_(std::size_t{1} << 16), end_(offset), codes_(static_cast<std::size_t>(4 * file.columns_)) {}
 
-  /// The next byte's offset in the file.
+  /// Returns the next byte's position in the file.
   [[nodiscard]] std::uint64_t offset() const noexcept { return end_ - left_.size(); }
   [[nodiscard]] bool ended() { return left_.empty() && !refill(); }
 
-  /// The next row: of rows of runs all mantissas of red, of green, of blue, then all exponents, of flat ones pixel by
-  /// pixel.
+  /// Returns the codes of the next row. Run-length encoded rows: all mantissas of red, of green, of blue, then all
+  /// exponents. Flat rows: pixel by pixel.
   [[nodiscard]] std::span<const std::uint8_t> next() {
     if (!file_.has_runs_) {
       read(codes_);
@@ -235,7 +235,7 @@ class hdr_rows::row_reader {
 
   const hdr_rows& file_;
   std::vector<std::uint8_t> buffer_;
-  std::uint64_t end_;  ///< of the buffer in the file
+  std::uint64_t end_;  ///< position in the file of the buffer's end
   std::span<const std::uint8_t> left_;
   std::vector<std::uint8_t> codes_;
 };
@@ -251,11 +251,12 @@ GONIO_INLINE hdr_rows::hdr_rows(const std::filesystem::path& path) : name_(path.
   has_colours_ = !header.colours.isIdentity(0.0);
   colours_ = header.colours.cast<float>();
   from_bottom_ = header.from_bottom;
-  // A row of runs begins with two twos and the number of its columns. A dark pixel may look so, but seldom by as much.
+  // An encoded row begins with 2, 2 and its number of columns. A dark pixel may look the same, but rarely has that
+  // number.
   const std::string_view first = std::string_view(text).substr(header.size).substr(0, 4);
   has_runs_ = header.columns >= 8 && first.size() == 4 && first.starts_with("\x02\x02") &&
               256u * static_cast<unsigned char>(first[2]) + static_cast<unsigned char>(first[3]) == header.columns;
-  // Find where the rows begin.
+  // Find the position of each row.
   row_reader reader(*this, header.size);
   begins_.push_back(header.size);
   for (std::size_t row = 0; row < header.rows; ++row) {
@@ -270,7 +271,7 @@ GONIO_INLINE void hdr_rows::read(block rows, std::span<float> out) const {
   const auto columns = static_cast<std::size_t>(columns_);
   const std::size_t across = has_runs_ ? 1 : 4,
                     along = has_runs_ ? columns : 1;  // from pixel to pixel, from channel to channel
-  // Of the file's rows, which are read one after the other; the highest may be the last.
+  // The rows in file order; if `from_bottom_`, the file's last row is the highest.
   const block stored = from_bottom_ ? block{this->rows() - rows.end, this->rows() - rows.begin} : rows;
   row_reader reader(*this, begins_.at(static_cast<std::size_t>(stored.begin)));
   for (Eigen::Index row = 0; row < stored.size(); ++row) {

@@ -63,7 +63,7 @@ GONIO_INLINE std::uint32_t big_endian(std::span<const std::byte> bytes) noexcept
 
 GONIO_INLINE png_header read_png_header(std::span<const std::byte> data, const std::string& name) {
   if (data.size() != 13) gonio::refuse({name, ": the PNG header has ", data.size(), " bytes, expected 13"});
-  // Channels of colour types 0 (grey), 2 (RGB), 3 (palette), 4 (grey and alpha), 6 (RGB and alpha).
+  // Channels of the colour types 0 (grey), 2 (RGB), 3 (palette), 4 (grey and alpha), 6 (RGB and alpha).
   constexpr std::array<std::size_t, 7> channels{1, 0, 3, 1, 2, 0, 4};
   const auto byte_at = [&](std::size_t i) { return std::to_integer<std::size_t>(data[i]); };
   const std::size_t type = byte_at(9);
@@ -76,7 +76,7 @@ GONIO_INLINE png_header read_png_header(std::span<const std::byte> data, const s
   return header;
 }
 
-/// Refuses pixels that do not expand to exactly so many bytes, which are not kept.
+/// Throws gonio::error unless the pixels expand to exactly `expected` bytes, which are not kept.
 GONIO_INLINE void check_png_pixels(std::span<const std::byte> deflated, std::size_t expected, const std::string& name) {
   inflater stream(deflated, deflate_format::zlib, name);
   std::vector<std::byte> some(std::min<std::size_t>(expected + 1, 1u << 16));

@@ -17,7 +17,7 @@
 
 namespace gonio::io::detail {
 
-/// Takes the next whole number off the front of a Netpbm header, of at most five digits: after blanks and comments.
+/// Takes the next whole number, of at most five digits, from a Netpbm header; skips blanks and comments before it.
 [[nodiscard]] GONIO_INLINE std::size_t read_pnm_number(std::string_view& text, const std::string& name) {
   constexpr std::string_view blank = " \t\n\v\f\r";
   while (!text.empty() && (blank.find(text.front()) != std::string_view::npos || text.front() == '#')) {
@@ -34,7 +34,7 @@ namespace gonio::io::detail {
   return number;
 }
 
-/// The counts of whole pixels: one byte each, or two, the high one first.
+/// Copies the counts of whole pixels: one byte each, or two, the high byte first.
 GONIO_INLINE void copy_pnm_counts(std::span<const std::byte> bytes, std::size_t channels, stored_codes& codes,
                                   const std::string& name) {
   const std::size_t width = codes.largest > 255 ? 2 : 1;
@@ -71,7 +71,7 @@ GONIO_INLINE stored_codes read_pnm(std::span<const std::byte> bytes, const std::
   if (largest < 1 || largest > 65535)
     gonio::refuse({name, ": the largest count is ", largest, ", expected from 1 to 65535"});
   codes.largest = static_cast<std::uint16_t>(largest);
-  // One blank ends the header; what follows has a size that is known.
+  // One blank ends the header; the size of the rest is known.
   if (text.empty()) gonio::refuse({name, ": the Netpbm file is truncated"});
   const std::size_t expected = codes.rows * codes.columns * channels * (largest > 255 ? 2 : 1);
   if (text.size() - 1 != expected)

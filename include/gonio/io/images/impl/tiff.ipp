@@ -28,7 +28,7 @@
 
 namespace gonio::io::detail {
 
-/// Bytes in memory, as libtiff reads them, and the first thing that it found wrong.
+/// Bytes in memory as the input of libtiff, and its first error.
 class tiff_source {
  public:
   explicit tiff_source(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -60,7 +60,7 @@ class tiff_source {
     if (failure.empty()) failure = printable(text.data());
     return 1;
   }
-  /// Unknown tags are no fault. Counts that contradict the image's size are, though libtiff makes up for them.
+  /// Ignores unknown tags. Refuses counts that contradict the image's size, although libtiff compensates for them.
   static int warn(TIFF* file, void* self, const char* module, const char* format, va_list arguments) {
     if (std::string_view(format).starts_with("Bogus")) return fail(file, self, module, format, arguments);
     return 1;
@@ -81,7 +81,7 @@ using tiff_file = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
   TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), most_at_once);
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), &tiff_source::fail, &source);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), &tiff_source::warn, &source);
-  // m: the bytes are not mapped, so that a wrong offset is a short read.
+  // m: no memory mapping, so that a wrong offset is a short read.
   tiff_file file(
       TIFFClientOpenExt(name.c_str(), "rm", &source, &tiff_source::read, &tiff_source::write, &tiff_source::seek,
                         &tiff_source::close, &tiff_source::size, nullptr, nullptr, options.get()),
@@ -90,7 +90,7 @@ using tiff_file = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
   return file;
 }
 
-/// A tag of the first image, or what stands for it where it is missing.
+/// Returns a tag of the first image, or its default if it is missing.
 [[nodiscard]] GONIO_INLINE unsigned short_tag(TIFF* file, std::uint32_t tag) {
   std::uint16_t value = 0;
   return TIFFGetFieldDefaulted(file, tag, &value) == 1 ? value : 0u;
@@ -101,7 +101,7 @@ struct tiff_layout {
   unsigned bits = 0, channels = 0;
 };
 
-/// The layout of an image that is supported; whatever else is refused by its name.
+/// Returns the layout of a supported image; refuses others with the reason.
 [[nodiscard]] GONIO_INLINE tiff_layout layout_of(TIFF* file, std::size_t bytes, const std::string& name) {
   const auto require = [&](bool fine, std::initializer_list<message_part> what) {
     if (!fine) gonio::refuse({name, ": ", message_of(what)});
@@ -133,7 +133,7 @@ struct tiff_layout {
   return {rows, columns, bits, channels};
 }
 
-/// The counts of a line, three of each pixel.
+/// Copies the counts of a line, three for each pixel.
 template <class Count>
 void copy_line(const std::byte* line, const tiff_layout& layout, bool is_grey, std::uint16_t* onto) {
   for (std::size_t column = 0; column < layout.columns; ++column)
@@ -147,7 +147,7 @@ void copy_line(const std::byte* line, const tiff_layout& layout, bool is_grey, s
 [[nodiscard]] GONIO_INLINE std::optional<double> exposure_of_exif(TIFF* file) {
   const TIFFField* field = TIFFFindField(file, EXIFTAG_EXPOSURETIME, TIFF_ANY);
   if (field == nullptr) return {};
-  // libtiff stores a fraction as a float or as a double.
+  // libtiff returns a fraction as a float or as a double.
   if (TIFFFieldSetGetSize(field) == sizeof(float)) {
     float seconds = 0.0f;
     return TIFFGetField(file, EXIFTAG_EXPOSURETIME, &seconds) == 1 ? std::optional<double>(seconds) : std::nullopt;

@@ -21,7 +21,7 @@ inline constexpr std::string_view mbsdf_magic = "NVIDIA ARC MBSDF V1\n";
 inline constexpr std::string_view mbsdf_reflection = "MBSDF_DATA_REFLECTION=", mbsdf_either = "MBSDF_DATA=";
 inline constexpr std::string_view mbsdf_transmission = "MBSDF_DATA_TRANSMISSION=";
 
-/// A text with a backslash before quotes and backslashes, and with line feeds as \n.
+/// Quotes a text: a backslash before quotes and backslashes, line feeds as \n.
 [[nodiscard]] inline std::string mbsdf_quoted(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -44,7 +44,7 @@ inline constexpr std::string_view mbsdf_transmission = "MBSDF_DATA_TRANSMISSION=
   return plain;
 }
 
-/// Reads such a file block by block.
+/// Reads a file block by block.
 class mbsdf_reader {
  public:
   mbsdf_reader(std::span<const std::byte> bytes, const std::string& name) : bytes_(bytes), name_(name) {}

@@ -13,7 +13,7 @@ namespace gonio::io {
 GONIO_INLINE brdf_table read_merl_any(std::span<const std::byte> bytes, const std::string& name,
                                       const merl_options& options) {
   if (!is_gzip(bytes)) return read_merl(bytes, name, options);
-  // The extents at the start say how much more there may be.
+  // The extents at the start determine the expanded size.
   const auto header = gunzip_prefix(bytes, detail::merl_header_size, name);
   const grid_extents extents = detail::merl_extents(header, name);
   const std::uint64_t size = detail::merl_file_size(extents);

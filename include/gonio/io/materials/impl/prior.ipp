@@ -17,7 +17,7 @@
 
 namespace gonio::io::detail {
 
-/// Version 2 may have wavelengths. A prior of colours is written as version 1, which older programs read.
+/// Version 2 may have wavelengths. A prior in RGB is written as version 1, which older programs can read.
 inline constexpr checked_file_kind prior_kind{"gonio-pca", 2, "prior", 1};
 inline constexpr checked_file_kind colour_prior_kind{"gonio-pca", 1, "prior"};
 inline constexpr checked_file_kind soft_specular_kind{"gonio-split", 1, "soft and specular prior"};

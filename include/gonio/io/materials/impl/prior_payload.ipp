@@ -21,8 +21,8 @@
 
 namespace gonio::io::detail {
 
-/// How cells are anchored, how reflectance is weighted and whether there are wavelengths, in one number: version 1 has
-/// had the anchor's 0 and 1 there from the start, so that older programs refuse what they do not know.
+/// Returns cell anchor, cosine weighting and the presence of wavelengths in one number. In version 1 this field has
+/// always been the anchor's 0 or 1, so that older programs refuse larger values.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::uint32_t conventions_of(const log_relative_pca& prior) {
   const bool corner = prior.cells().grid().anchor() == cell_anchor::lower_corner;
   const bool larger = prior.metric().weighting() == cosine_weighting::larger;
@@ -36,7 +36,7 @@ namespace gonio::io::detail {
   return logarithm;
 }
 
-/// What `act` returns; what it throws names the file.
+/// Calls `act` and adds the file's name to its errors.
 template <class Act>
 auto naming_prior(const std::string& name, const Act& act) {
   try {
@@ -46,7 +46,7 @@ auto naming_prior(const std::string& name, const Act& act) {
   }
 }
 
-/// The cells of a prior, the weight of its metric, and whether its materials are spectra.
+/// A prior's cells, the cosine weighting of its metric, and whether its materials are spectra.
 struct prior_domain {
   valid_cells cells;
   cosine_weighting weighting;
@@ -67,8 +67,8 @@ struct prior_domain {
     return gonio::grid({theta_h, theta_d, phi_d},
                        conventions % 2 == 0 ? cell_anchor::centre : cell_anchor::lower_corner);
   });
-  // A valid cell takes 5 bytes at least: two codes of 16 bits, and one of 8 for each component. On a grid of any size
-  // half of the cells are valid, unless they are few or the smallest cosine is large.
+  // A valid cell takes at least 5 bytes: two codes of 16 bits, and one of 8 for each component. At least half of a
+  // grid's cells are valid, unless the grid is small or the smallest cosine is large.
   constexpr Eigen::Index small_grid = Eigen::Index{1} << 21;
   const Eigen::Index most = in.left() / 5;
   Eigen::Index valid = 0;
@@ -82,14 +82,14 @@ struct prior_domain {
           (conventions & 2u) == 0 ? cosine_weighting::product : cosine_weighting::larger, (conventions & 4u) != 0};
 }
 
-/// The fewest bytes that follow the counts: the share of the variance, a length for each text, all numbers.
+/// Returns the fewest bytes that can follow the counts: explained variance, a length for each text, all numbers.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE double least_rest_of_prior(double cells, double components, double materials,
                                                                     double channels) {
   return 8.0 + 4.0 * (1.0 + materials) + components * (8.0 + 4.0 * channels * materials) + 2.0 * (8.0 + 2.0 * cells) +
          components * (8.0 + cells);
 }
 
-/// Wavelengths behind their number; none of colours.
+/// Reads the number of wavelengths and the wavelengths; returns none for a prior in RGB.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::vector<double> read_wavelengths(byte_reader& in, bool is_spectral,
                                                                               const std::string& name) {
   if (!is_spectral) return {};
@@ -152,7 +152,7 @@ GONIO_INLINE log_relative_pca read_prior(byte_reader& in, const std::string& nam
                                   static_cast<double>(channels)) > static_cast<double>(in.left()))
     gonio::refuse({name, ": the file is truncated or its counts are wrong: ", in.left(), " bytes cannot hold ",
                    components, " components of ", materials, " materials over ", cells.size(), " cells"});
-  // Read what describes the training: variance, source, names, singular values and coefficients.
+  // Read the description of the training: variance, source, names, singular values and coefficients.
   const auto explained_variance = in.read<double>();
   std::string source = in.read_text();
   std::vector<std::string> names(materials);
@@ -166,7 +166,7 @@ GONIO_INLINE log_relative_pca read_prior(byte_reader& in, const std::string& nam
   for (float& value : reference) value = std::exp(value);
   std::vector<float> mean = detail::dequantise_all(read_quantised<std::uint16_t>(in, cells.size()));
   cell_matrix functions(cells.size(), k);
-  advise_huge_pages(functions.data(), functions.size() * sizeof(float));  // an expansion reads them all
+  advise_huge_pages(functions.data(), functions.size() * sizeof(float));  // an expansion reads all of it
   for (Eigen::Index c = 0; c < k; ++c) {
     const auto column = read_quantised<std::uint8_t>(in, cells.size());
     for (Eigen::Index cell = 0; cell < cells.size(); ++cell) functions(cell, c) = dequantise(column, cell);
@@ -182,7 +182,7 @@ GONIO_INLINE log_relative_pca read_prior(byte_reader& in, const std::string& nam
   const bool finite = std::isfinite(explained_variance) && all_finite(singular) && all_finite(observed) &&
                       all_finite(values) && all_finite(mean);
   if (!finite) gonio::refuse({name, ": a value of the prior is not finite"});
-  // Construct the prior; its own checks name the file.
+  // Construct the prior; add the file's name to the errors of its checks.
   return detail::naming_prior(name, [&] {
     return log_relative_pca({cells, log_relative(cells, std::move(reference), weighting), std::move(names),
                              std::move(singular_values), std::move(functions), std::move(mean), std::move(coefficients),

@@ -49,7 +49,7 @@ GONIO_INLINE rough_surface bounded(rough_surface surface) {
 }
 
 GONIO_INLINE rgb base_below_coat(const rgb& seen, double index) {
-  // What a dielectric lets in of diffuse light, and by reciprocity what it reflects back of light from inside.
+  // Fraction of diffuse light that a dielectric transmits; by reciprocity it gives that from inside, too.
   constexpr int steps = 1000;
   double enters = 0.0;
   for (int step = 0; step < steps; ++step) {
@@ -67,7 +67,7 @@ GONIO_INLINE conductor conductor_like_schlick(double f0) {
   double least_error = std::numeric_limits<double>::infinity();
   constexpr int steps = 400;
   for (int step = 0; step <= steps; ++step) {
-    // All indices from the least to the most have an extinction with this reflectance at normal incidence.
+    // For every index in this range some extinction gives this reflectance at normal incidence.
     const double index = least * std::pow(most / least, static_cast<double>(step) / steps);
     const double squared = (bounded * std::pow(index + 1.0, 2) - std::pow(index - 1.0, 2)) / (1.0 - bounded);
     const double extinction = std::sqrt(std::max(squared, 0.0));
@@ -112,7 +112,7 @@ GONIO_INLINE rough_surface as_ggx_surface(const model::analytic_brdf& model, con
   return surface;
 }
 
-/// The rest of a glTF document: a scene of a unit sphere whose material is the first one.
+/// Returns the rest of a glTF document: a scene of a unit sphere with the first material.
 [[nodiscard]] GONIO_INLINE std::string gltf_sphere() {
   constexpr int columns = 32, rows = 16;
   std::vector<float> points;
@@ -162,14 +162,14 @@ GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
   };
   const double metalness = surface.metalness();
   if (metalness == 1.0) return "Material \"conductor\"\n" + reflectance(surface.highlight()) + roughness;
-  if (metalness > 0.0)  // a point is either, as often as it has to be
+  if (metalness > 0.0)  // each point is randomly one or the other
     return "MakeNamedMaterial \"base\"\n  \"string type\" \"diffuse\"\n" +
            reflectance(surface.diffuse / (1.0 - metalness)) +
            "MakeNamedMaterial \"metal\"\n  \"string type\" \"conductor\"\n" +
            reflectance(surface.highlight() / metalness) + roughness +
            "Material \"mix\"\n  \"string materials\" [ \"base\" \"metal\" ]\n  \"float amount\" [ " +
            shortest(metalness) + " ]\n";
-  // A thick coat absorbs, and ten bounces are too few below a dense one.
+  // A coat with thickness would absorb. Below a dense coat, the default of ten bounces is too few.
   const double index = surface.refractive_index();
   return "Material \"coateddiffuse\"\n" + reflectance(detail::base_below_coat(surface.diffuse, index)) + roughness +
          "  \"float eta\" [ " + shortest(index) + " ]\n  \"float thickness\" [ 0 ]\n  \"integer maxdepth\" [ 100 ]\n";
@@ -180,13 +180,13 @@ GONIO_INLINE std::string mitsuba_material(const model::analytic_brdf& model) {
   const auto number = [](const char* type, const char* name, double value) {
     return "<" + std::string(type) + " name=\"" + name + "\" value=\"" + shortest(value) + "\"/>\n";
   };
-  // A colour above 1 is refused unless it says that it is meant.
+  // Mitsuba refuses colours above 1 unless they are marked as unbounded.
   const auto colour = [](const char* name, const rgb& value) {
     return "<spectrum type=\"srgb\" name=\"" + std::string(name) + "\">\n      <rgb name=\"color\" value=\"" +
            detail::three_numbers(value, ", ") +
            "\"/>\n      <boolean name=\"unbounded\" value=\"true\"/>\n    </spectrum>\n";
   };
-  // A blend of equal shares of what is twice as bright is the sum.
+  // A blend in equal parts of lobes with doubled brightness is their sum.
   const auto [index, extinction] = detail::conductor_like_schlick(surface.f0);
   return "<bsdf type=\"blendbsdf\">\n  " + number("float", "weight", 0.5) + "  <bsdf type=\"diffuse\">\n    " +
          colour("reflectance", 2.0 * surface.diffuse) + "  </bsdf>\n  <bsdf type=\"roughconductor\">\n    " +
@@ -217,7 +217,7 @@ GONIO_INLINE std::string materialx_material(const model::analytic_brdf& model, c
   text += input("base_metalness", "float", shortest(metalness));
   text += input("specular_roughness", "float", shortest(std::sqrt(surface.alpha)));
   if (metalness == 0.0) text += colour("specular_color", surface.specular);
-  // The base of a metal has no highlight of its own.
+  // Below 1, the base of a metal must not have a highlight of its own: index 1.
   if (metalness < 1.0)
     text += input("specular_ior", "float", metalness > 0.0 ? "1" : shortest(surface.refractive_index()));
   return text + "  </open_pbr_surface>\n  <surfacematerial name=\"" + name + "\" type=\"material\">\n" +
@@ -241,7 +241,7 @@ GONIO_INLINE std::string gltf_material(const model::analytic_brdf& model) {
   if (metalness > 0.0)
     return begin + "  \"extensionsUsed\": [\"KHR_materials_ior\"],\n" + materials +
            ",\n      \"extensions\": {\"KHR_materials_ior\": {\"ior\": 1}}" + end;
-  // f0 and f90 are multiplied by the factor, f0 alone by the colour.
+  // The factor scales f0 and f90, the colour only f0.
   const double factor = std::min(surface.specular.maxCoeff(), 1.0);
   const rgb colour = factor > 0.0 ? rgb(surface.specular / factor) : rgb(rgb::Ones());
   return begin + "  \"extensionsUsed\": [\"KHR_materials_ior\", \"KHR_materials_specular\"],\n" + materials +

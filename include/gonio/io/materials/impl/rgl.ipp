@@ -24,10 +24,10 @@ namespace gonio::io::detail {
 
 inline constexpr std::string_view tensor_magic{"tensor_file\0", 12};
 inline constexpr std::uint8_t tensor_uint8 = 1, tensor_float32 = 10;
-/// Bytes of an element by the code of its type: nothing, eight kinds of integers, then float16, float32 and float64.
+/// Bytes of an element for each type code: nothing, eight kinds of integers, then float16, float32 and float64.
 inline constexpr std::array<std::uint64_t, 12> tensor_element_size{0, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8};
 
-/// Bytes of an array, or more than `most` if that is exceeded.
+/// Returns the bytes of an array, or more than `most` if they exceed it.
 [[nodiscard]] inline std::uint64_t tensor_size(const tensor_field& field, std::uint64_t most) {
   std::uint64_t size = tensor_element_size[field.type];
   for (const std::uint64_t extent : field.shape) {
@@ -66,7 +66,7 @@ GONIO_INLINE std::map<std::string, tensor_field> tensor_fields(std::span<const s
   return fields;
 }
 
-/// What a material's file holds, asked for by name.
+/// The arrays of a material's file by name.
 class rgl_arrays {
  public:
   rgl_arrays(std::span<const std::byte> bytes, const std::string& name)
@@ -74,7 +74,7 @@ class rgl_arrays {
 
   [[nodiscard]] bool has(const std::string& field) const { return fields_.contains(field); }
 
-  /// The shape of an array of this many dimensions.
+  /// Returns the shape of an array; refuses another number of dimensions.
   [[nodiscard]] const std::vector<std::uint64_t>& shape(const std::string& field, std::size_t dimensions) const {
     const tensor_field& found = array(field);
     if (found.shape.size() != dimensions)
@@ -82,7 +82,7 @@ class rgl_arrays {
     return found.shape;
   }
 
-  /// An array of bytes as text.
+  /// Returns an array of bytes as text.
   [[nodiscard]] std::string text(const std::string& field) const {
     const std::span<const std::byte> letters = array(field).elements;
     return {reinterpret_cast<const char*>(letters.data()), letters.size()};
@@ -94,8 +94,8 @@ class rgl_arrays {
     return byte_reader(found.elements, name_).read_all<float>(found.elements.size() / sizeof(float));
   }
 
-  /// The last two dimensions of an array as tables; of an array over the azimuths of the light, of which an isotropic
-  /// material may have two, the tables of the first.
+  /// Returns the last two dimensions of an array as tables. If the array is over the azimuths of the light, of which an
+  /// isotropic material may have two, returns the tables of the first.
   [[nodiscard]] model::unit_square_tables tables(const std::string& field, std::size_t dimensions) const {
     const std::vector<std::uint64_t>& extents = shape(field, dimensions);
     std::vector<float> values = numbers(field);
@@ -121,7 +121,7 @@ class rgl_arrays {
   const std::string& name_;
 };
 
-/// Red, green and blue of spectra: black where nobody sees any of the wavelengths.
+/// Returns red, green and blue of spectra: black if no wavelength is visible.
 [[nodiscard]] inline model::unit_square_tables rgb_of(const rgl_spectra& spectra) {
   const bool is_seen = std::ranges::any_of(spectra.wavelengths, is_visible);
   const Eigen::MatrixXd weights =
@@ -158,7 +158,7 @@ inline void require_spectra(const rgl_spectra& spectra, std::size_t angles) {
   return spectra;
 }
 
-/// The arrays of a container that is written, which must outlive this: spectra take hundreds of megabytes.
+/// The arrays of a container to write. Keeps views of them, because spectra take hundreds of megabytes.
 class tensor_writer {
  public:
   using extents = std::vector<std::uint64_t>;
@@ -170,14 +170,14 @@ class tensor_writer {
   void add(const std::string& name, const extents& shape, const std::vector<float>& numbers) {
     add(name, shape, std::as_bytes(std::span(numbers)), tensor_float32);
   }
-  /// The last two dimensions are the tables'.
+  /// The tables give the last two dimensions.
   void add(const std::string& name, extents shape, const model::unit_square_tables& tables) {
     shape.push_back(static_cast<std::uint64_t>(tables.rows));
     shape.push_back(static_cast<std::uint64_t>(tables.columns));
     add(name, shape, tables.values);
   }
 
-  /// Calls `write(bytes)` for one part after the other.
+  /// Calls `write(bytes)` for each part of the file in order.
   template <class Write>
   void write_parts(Write&& write) const {
     write(std::span<const std::byte>(head()));
@@ -215,7 +215,8 @@ class tensor_writer {
   std::vector<field> fields_;
 };
 
-/// How bright the values are: by this, renderers draw directions. Every point can be drawn.
+/// Returns the luminance of the values, by which renderers sample directions: at least 0.001 of the mean, so that every
+/// direction can be sampled.
 [[nodiscard]] inline std::vector<float> luminances(const model::unit_square_tables& colours) {
   constexpr double least_share = 1e-3;
   const Eigen::Index size = colours.rows * colours.columns, angles = colours.tables / 3;
@@ -236,7 +237,7 @@ class tensor_writer {
   return all;
 }
 
-/// Calls `write(bytes)` for one part of the file after the other.
+/// Calls `write(bytes)` for each part of the file in order.
 template <class Write>
 void write_rgl_parts(const rgl_material& material, Write&& write) {
   const model::adaptive_brdf_parts& parts = material.material.parts();
@@ -311,11 +312,11 @@ GONIO_INLINE rgl_material read_rgl(std::span<const std::byte> bytes, const std::
   const std::vector<float> theta_i = arrays.numbers("theta_i");
   std::string description;
   if (arrays.has("description")) description = arrays.text("description");
-  // Without it the file has the values themselves, and no distribution of normals is to be multiplied by.
+  // Without `jacobian` the file holds plain values, which are not to be multiplied by the distribution of normals.
   if (arrays.has("jacobian") && arrays.text("jacobian") != std::string("\1"))
     gonio::refuse({name, ": the array 'jacobian' is not 1, expected values that are relative to the normals"});
   try {
-    // A float's pi/2 may be larger than a double's.
+    // pi/2 as a float may be larger than as a double.
     std::vector<double> angles(theta_i.begin(), theta_i.end());
     for (double& angle : angles)
       if (angle > 0.5 * std::numbers::pi && angle < 0.5 * std::numbers::pi + 1e-6) angle = 0.5 * std::numbers::pi;

@@ -17,8 +17,7 @@
 
 namespace gonio::io::detail {
 
-/// Three of some wavelengths of a spectral table in the places of red, green and blue; the last one stands for those
-/// that there are not.
+/// Three wavelengths of a spectral table in the places of red, green and blue; the last one fills missing places.
 class three_wavelengths {
  public:
   three_wavelengths(const spectral_table& table, std::span<const Eigen::Index> chosen, Eigen::Index first)
@@ -43,8 +42,8 @@ class three_wavelengths {
 
 static_assert(brdf<three_wavelengths>);
 
-/// Copies tables between those of three channels and those of all wavelengths, from `first` on: at each theta_i one for
-/// each.
+/// Calls `copy` for each pair of tables with the same theta_i and wavelength: one of three channels, the other of all
+/// wavelengths from `first` on.
 template <class Copy>
 void for_each_shared_table(Eigen::Index angles, Eigen::Index bands, Eigen::Index first, const Copy& copy) {
   for (Eigen::Index angle = 0; angle < angles; ++angle)
@@ -56,14 +55,14 @@ GONIO_INLINE void require_in_spectra(const rgl_material& material) {
   if (!material.spectra) gonio::refuse("the material is in RGB, expected one in spectra");
 }
 
-/// The last of ascending numbers that is not above a value, and which share of the way to the next that value is.
+/// Returns the last of ascending numbers that is at most `value`, and the fraction of the way from it to the next.
 [[nodiscard]] GONIO_INLINE std::pair<Eigen::Index, double> between(const std::vector<double>& numbers, double value) {
   const auto next = std::ranges::upper_bound(numbers, value);
   const Eigen::Index lower = next - numbers.begin() - 1;
   return {lower, next == numbers.end() ? 0.0 : (value - numbers[lower]) / (*next - numbers[lower])};
 }
 
-/// The material at three of its wavelengths.
+/// Returns the material at three of its wavelengths.
 [[nodiscard]] GONIO_INLINE model::adaptive_brdf three_wavelengths_of(const rgl_material& material, Eigen::Index first) {
   model::adaptive_brdf_parts parts = material.material.parts();
   const model::unit_square_tables& all = material.spectra->values;
@@ -83,7 +82,7 @@ GONIO_INLINE rgl_material tabulate_adaptively(const spectral_table& table, doubl
                                               const std::string& description, thread_count threads) {
   if (table.bands() < 2) refuse("a spectral material needs at least two wavelengths, not one: write a table in RGB");
   const std::vector<Eigen::Index> chosen = model::sufficient_wavelengths(table, tolerance, threads);
-  // Where and how finely to tabulate is told by the colours, or by three wavelengths where nobody sees one.
+  // Colours decide where and how finely to tabulate; three wavelengths do if none is visible.
   const bool has_colours = std::ranges::any_of(table.wavelengths(), is_visible);
   rgl_material made{has_colours ? model::tabulate_adaptively(table.colours(illuminant::d65, threads), {}, threads)
                                 : model::tabulate_adaptively(detail::three_wavelengths(table, chosen, 0), {}, threads),

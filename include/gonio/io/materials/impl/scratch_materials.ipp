@@ -19,7 +19,7 @@ namespace gonio::io {
 
 namespace detail {
 
-/// A file without a name, or one whose name is removed at once.
+/// Opens a file without a name, or removes its name at once.
 [[nodiscard]] GONIO_INLINE descriptor open_scratch(const std::filesystem::path& folder) {
   const auto fail = [&] { refuse_file(folder, {"cannot hold a scratch file: ", system_reason(errno)}); };
 #if defined(O_TMPFILE)
@@ -34,7 +34,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// The file is one matrix behind the other, row-major: cells x columns of as many materials as came together.
+/// The file is a sequence of row-major matrices, each cells x columns of the materials that were written together.
 struct scratch_materials::state {
   struct part {
     std::uint64_t offset;       ///< in the file
@@ -44,17 +44,17 @@ struct scratch_materials::state {
   std::filesystem::path folder;
   std::uint64_t memory;
   std::vector<std::string> names;
-  std::optional<valid_cells> cells;  ///< of the first one
-  std::vector<double> wavelengths;   ///< of the first one
-  std::vector<cell_matrix> held;     ///< the last ones, not in the file
+  std::optional<valid_cells> cells;  ///< of the first material
+  std::vector<double> wavelengths;   ///< of the first material
+  std::vector<cell_matrix> held;     ///< the last tables, not yet in the file
   std::vector<part> parts;
   descriptor file;
   std::uint64_t size = 0;
 
-  /// Columns of the tables that are in memory.
+  /// Returns the number of columns of the tables in memory.
   [[nodiscard]] Eigen::Index held_columns() const { return held.empty() ? 0 : std::ssize(held) * held.front().cols(); }
 
-  /// Copies rows of the tables that are in memory to some columns.
+  /// Copies rows of the tables in memory to columns of `out`.
   void gather(block range, cell_rows out) const {
     for (Eigen::Index m = 0; m < std::ssize(held); ++m) {
       const Eigen::Index channels = held[m].cols();

@@ -17,7 +17,7 @@
 
 namespace gonio::io::detail {
 
-/// Its length of 64 bits, and the payload of a prior.
+/// Writes a prior's length in 64 bits, and its payload.
 GONIO_INLINE void write_half(byte_writer& out, const log_relative_pca& prior) {
   byte_writer half;
   write_prior(half, prior);

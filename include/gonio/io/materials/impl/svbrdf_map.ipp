@@ -34,11 +34,11 @@ namespace gonio::io::detail {
 
 inline constexpr checked_file_kind svbrdf_kind{"gonio-svbrdf", 1, "map of a spatially varying BRDF"};
 
-/// What a header may claim: sizes are computed of it before the file is looked at.
+/// Limits for a header: sizes are computed from it before the file is read.
 inline constexpr std::uint32_t most_svbrdf_texels = 1u << 17, most_svbrdf_components = 1u << 12,
                                most_svbrdf_directions = 1u << 16;
 inline constexpr std::uint64_t most_svbrdf_band = std::uint64_t{1} << 30;  ///< bytes
-/// Before the header's own bytes: magic word, version, and how many bytes follow before the first band.
+/// Before the header's own bytes: magic word, version, and the number of bytes before the first band.
 inline constexpr std::size_t svbrdf_start = 12 + 2 * sizeof(std::uint32_t);
 
 [[nodiscard]] GONIO_INLINE std::uint64_t bytes_of_band(const svbrdf_header& header, Eigen::Index band) {
@@ -52,7 +52,7 @@ inline constexpr std::size_t svbrdf_start = 12 + 2 * sizeof(std::uint32_t);
                    : static_cast<std::uint64_t>(band - 1) * bytes_of_band(header, 0) + bytes_of_band(header, band - 1);
 }
 
-/// Throws gonio::error, starting with `name`, for a header that cannot be.
+/// Throws gonio::error starting with `name` if the header is invalid.
 GONIO_INLINE void require_possible(const svbrdf_header& header, const std::string& name) {
   const auto require = [&](const char* what, Eigen::Index value, Eigen::Index most) {
     if (value < 1 || value > most) gonio::refuse({name, ": has ", value, " ", what, ", expected from 1 to ", most});
@@ -73,7 +73,7 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
       if (!(w->allFinite() && w->z() > 0.0)) gonio::refuse({name, ": a direction is not above the horizon"});
 }
 
-/// All before the first band: a multiple of 64 bytes, of which the last are a checksum of the others.
+/// Returns all bytes before the first band: a multiple of 64, the last of them a checksum of the others.
 [[nodiscard]] GONIO_INLINE std::vector<std::byte> write_svbrdf_header(const svbrdf_header& header) {
   byte_writer own;
   for (const Eigen::Index each : {header.rows, header.columns, header.band_rows, std::ssize(header.directions),
@@ -122,7 +122,7 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
   return header;
 }
 
-/// Bytes of a file at an offset: fewer where it ends before.
+/// Returns the bytes of a file at an offset, fewer if the file ends first.
 [[nodiscard]] GONIO_INLINE std::vector<std::byte> bytes_at(const descriptor& file, std::uint64_t offset,
                                                            std::size_t count, const std::filesystem::path& path) {
   std::vector<std::byte> bytes(count);
@@ -130,7 +130,7 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
   return bytes;
 }
 
-/// Does a band end in the checksum of its other bytes?
+/// Are a band's last bytes the checksum of the others?
 [[nodiscard]] GONIO_INLINE bool is_whole_band(std::span<const std::byte> bytes) {
   std::uint32_t expected = 0;
   if (bytes.size() < sizeof expected) return false;
@@ -139,7 +139,7 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
   return checksum(own) == expected;
 }
 
-/// Throws gonio::error naming the number that half floats cannot hold.
+/// Throws gonio::error naming the first number outside the range of half floats.
 template <class Numbers>
 void to_halves(const Numbers& numbers, std::vector<std::uint16_t>& halves, thread_count threads) {
   halves.resize(static_cast<std::size_t>(numbers.size()));
@@ -156,7 +156,7 @@ void to_halves(const Numbers& numbers, std::vector<std::uint16_t>& halves, threa
       threads);
 }
 
-/// Texels of the sample whose numbers are rounded to zero get the smallest half float, 6e-8: zeros have no material.
+/// Gives texels of the sample whose numbers round to zero the smallest half float, 6e-8: zeros mean no material.
 GONIO_INLINE void keep_materials(const texel_estimates& found, svbrdf_band& band) {
   const std::size_t own = band.weights.size() / std::max<std::size_t>(band.uncertainty.size(), 1);
   for (std::size_t i = 0; i < band.uncertainty.size(); ++i) {
@@ -238,13 +238,13 @@ GONIO_INLINE svbrdf_writer::svbrdf_writer(const std::filesystem::path& path, con
 }
 
 GONIO_INLINE void svbrdf_writer::open() {
-  // Without O_NONBLOCK, opening a pipe that nobody reads from would wait forever.
+  // Without O_NONBLOCK, opening a pipe without a reader would wait forever.
   file_ = descriptor(::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666));
   if (!file_.is_open()) fail();
   static_cast<void>(size_of_regular(file_, part_));
   const bool is_locked = ::flock(file_.get(), LOCK_EX | LOCK_NB) == 0;
   if (!is_locked && errno != EWOULDBLOCK) fail();
-  // Another process may have finished the file, and given it its name, since it was opened.
+  // Since it was opened, another process may have finished and renamed the file.
   struct stat opened {
   }, named{};
   const bool is_ours = ::fstat(file_.get(), &opened) == 0 && ::stat(part_.c_str(), &named) == 0 &&

@@ -25,7 +25,7 @@
 
 namespace gonio::io::detail {
 
-/// How a line of numbers says the directions.
+/// How the numbers of a line give the directions.
 enum class alta_input {
   half_difference,
   half_difference_with_azimuth,
@@ -49,14 +49,14 @@ inline constexpr std::array<alta_parametrisation, 6> alta_inputs{
      {"ISOTROPIC_TL_TV_PROJ_DPHI", alta_input::projected, 3},
      {"CARTESIAN", alta_input::vectors, 6}}};
 
-/// Reads such a file line by line.
+/// Reads a file line by line.
 class alta_reader {
  public:
   explicit alta_reader(text_place& place) : place_(place) {}
 
   void read(std::string_view line);
 
-  /// What was read. Throws gonio::error if that is not a whole measurement.
+  /// Returns the samples read. Throws gonio::error if the measurement is incomplete.
   [[nodiscard]] sample_collector samples() &&;
 
  private:
@@ -73,7 +73,7 @@ class alta_reader {
 
   text_place& place_;
   const alta_parametrisation* input_ = nullptr;
-  std::size_t inputs_ = 0, outputs_ = 0;  ///< by #DIM
+  std::size_t inputs_ = 0, outputs_ = 0;  ///< from #DIM
   std::string output_;
   std::optional<sample_collector> collector_;
   std::vector<std::string_view> words_;
@@ -134,7 +134,7 @@ GONIO_INLINE void alta_reader::read_output(std::string_view name) {
   output_ = name;
 }
 
-/// The header has been read.
+/// Checks the header at its end and prepares the collector.
 GONIO_INLINE void alta_reader::begin_rows() {
   if (input_ == nullptr) place_.refuse("there is no line #PARAM_IN above the numbers");
   if (output_.empty())
@@ -152,7 +152,7 @@ GONIO_INLINE void alta_reader::begin_rows() {
 }
 
 GONIO_INLINE double alta_reader::polar_angle(double angle) const {
-  // Rounded, pi / 2 may be a little more than it.
+  // A rounded pi / 2 may be slightly larger than pi / 2.
   if (!(std::abs(angle) < std::numbers::pi / 2.0 + 1e-3))
     place_.refuse({"a polar angle is ", shortest(angle), ", expected radians from -pi / 2 to pi / 2",
                    std::abs(angle) <= 90.0 ? "; are these degrees?" : ""});
@@ -172,7 +172,7 @@ GONIO_INLINE direction alta_reader::unit_vector(std::span<const double> numbers)
   return w / length;
 }
 
-/// Light and viewer. ALTA's difference vector is the viewer's, MERL's and gonio's is the light's.
+/// Returns light and viewer. ALTA's difference vector is the viewer's; MERL's and gonio's is the light's.
 GONIO_INLINE direction_pair alta_reader::directions() const {
   const std::vector<double>& x = numbers_;
   const auto of_half = [&](double theta_h, double theta_d, double phi_d) {
@@ -207,7 +207,7 @@ GONIO_INLINE void alta_reader::read_row(std::string_view line) {
   split_at_blanks(line, words_);
   for (const std::string_view word : words_)
     numbers_.push_back(read_number(word, place_, [&] { return message_of({"number ", numbers_.size() + 1}); }));
-  const std::size_t needed = inputs_ + outputs_, most = needed + 2 * outputs_;  // confidence intervals
+  const std::size_t needed = inputs_ + outputs_, most = needed + 2 * outputs_;  // with confidence intervals
   if (numbers_.size() < needed || numbers_.size() > most)
     place_.refuse({numbers_.size(), " numbers, expected ", needed, " as #DIM says"});
   const direction_pair pair = directions();

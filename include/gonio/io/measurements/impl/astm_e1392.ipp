@@ -24,14 +24,14 @@
 
 namespace gonio::io::detail {
 
-/// Reads such a file line by line.
+/// Reads a file line by line.
 class astm_reader {
  public:
   explicit astm_reader(text_place& place) : place_(place) {}
 
   void read(std::string_view line);
 
-  /// What was read. Throws gonio::error if that is not a whole measurement.
+  /// Returns the samples read. Throws gonio::error if the measurement is incomplete.
   [[nodiscard]] sample_collector samples() &&;
 
  private:
@@ -46,8 +46,8 @@ class astm_reader {
 
   text_place& place_;
   std::optional<double> points_;
-  std::array<std::size_t, 4> angles_{};  ///< the columns of the angles
-  std::vector<std::size_t> values_;      ///< those of the values
+  std::array<std::size_t, 4> angles_{};  ///< columns of the angles
+  std::vector<std::size_t> values_;      ///< columns of the values
   std::vector<std::string> names_;
   std::vector<std::string_view> fields_;
   std::vector<double> reflectances_;
@@ -123,7 +123,7 @@ GONIO_INLINE double astm_reader::number(std::size_t column) const {
 
 GONIO_INLINE direction astm_reader::read_direction(std::size_t angle) const {
   const double theta = number(angles_[angle]), phi = number(angles_[angle + 1]);
-  // Rounded to four digits, pi / 2 may be a little more than it.
+  // pi / 2 rounded to four digits may be slightly larger than pi / 2.
   if (!(theta >= 0.0 && theta < std::numbers::pi / 2.0 + 1e-3))
     place_.refuse({"column '", angle_names[angle], "': ", shortest(theta), ", expected radians from 0 to pi / 2",
                    theta > 1.6 && theta <= 90.0 ? "; are these degrees?" : ""});

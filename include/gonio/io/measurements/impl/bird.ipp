@@ -1,5 +1,5 @@
 #pragma once
-/// Bodies of io/measurements/bird.hpp: samples of what was read, grouped by directions, averaged and weighed.
+/// Bodies of io/measurements/bird.hpp: makes samples of the measurements: groups by direction, averages, weights.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
@@ -28,20 +28,20 @@
 
 namespace gonio::io::detail {
 
-/// What was measured at one wavelength in one pair of directions.
+/// The measurements at one wavelength in one pair of directions.
 struct bird_mean {
   double value = 0.0, squared_uncertainty = 0.0;
   std::array<double, 3> stokes{};
   double count = 0.0;
 };
 
-/// What was measured in one pair of directions, by wavelength.
+/// The measurements in one pair of directions, by wavelength.
 struct bird_group {
   direction_pair pair;
   std::map<double, bird_mean> spectrum;
 };
 
-/// Makes samples of what was read.
+/// Converts the data of a file to samples.
 class bird_samples {
  public:
   bird_samples(const bird_data& data, const text_place& place) : data_(data), place_(place) {}
@@ -64,7 +64,7 @@ class bird_samples {
   const bird_data& data_;
   const text_place& place_;
   const bird_variable* wavelengths_ = nullptr;
-  double nanometres_ = 1.0;  ///< of the unit of wavelengths
+  double nanometres_ = 1.0;  ///< nanometres in the file's unit of wavelengths
 };
 
 GONIO_INLINE const bird_variable& bird_samples::require(std::string_view variable) const {

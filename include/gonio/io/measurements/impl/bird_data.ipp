@@ -1,5 +1,5 @@
 #pragma once
-/// What a BiRD file (io/measurements/bird.hpp) has in its object `data`, and who reads it.
+/// The object `data` of a BiRD file (io/measurements/bird.hpp), and its reader.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
@@ -22,7 +22,7 @@
 
 namespace gonio::io::detail {
 
-/// A variable of `data`: its numbers, and an uncertainty that is the same for all.
+/// A variable of `data`: its numbers, and possibly one uncertainty for all of them.
 struct bird_variable {
   std::string unit;
   std::vector<double> values;
@@ -30,10 +30,10 @@ struct bird_variable {
   std::string uncertainty_unit;
 };
 
-/// The states of polarisation of the measurements: Stokes parameters 2 to 4, the first being 1.
+/// The polarisation states of the measurements: Stokes parameters 2 to 4; the first is 1.
 using stokes_states = std::vector<std::array<double, 3>>;
 
-/// What `data` has.
+/// The content of `data`.
 struct bird_data {
   std::map<std::string, bird_variable, std::less<>> variables;
   stokes_states illumination;
@@ -45,7 +45,7 @@ struct bird_data {
   }
 };
 
-/// Reads such a file key by key.
+/// Reads a file key by key.
 class bird_reader {
  public:
   bird_reader(std::string_view text, text_place& place) : json_(text, place), name_(place.name) {}
@@ -87,7 +87,7 @@ GONIO_INLINE bird_data bird_reader::read() {
   return std::move(data_);
 }
 
-/// Goes into the objects in which cones are said, and past the others. Paths end with a point.
+/// Enters the objects that contain the cones, and skips the others. Paths end with a point.
 GONIO_INLINE void bird_reader::read_metadata(const std::string& path) {
   constexpr std::string_view receiver = "metadata.instrumentation.detection_system.solid_angle.",
                              source = "metadata.instrumentation.illumination_system.beam.divergence.";
@@ -105,7 +105,7 @@ GONIO_INLINE void bird_reader::read_metadata(const std::string& path) {
   }
 }
 
-/// A value and its unit.
+/// Reads a value and its unit.
 GONIO_INLINE std::pair<double, std::string> bird_reader::read_quantity(const std::string& path) {
   std::pair<double, std::string> quantity{0.0, ""};
   json_.open_object(path);
@@ -120,7 +120,7 @@ GONIO_INLINE std::pair<double, std::string> bird_reader::read_quantity(const std
   return quantity;
 }
 
-/// Half of the full angle of a beam, radians.
+/// Returns half of the full angle of a beam, radians.
 GONIO_INLINE double bird_reader::half_divergence(const std::pair<double, std::string>& quantity) const {
   const auto& [value, unit] = quantity;
   const double half_angle = 0.5 * value * (unit == "rad" ? 1.0 : radians(1.0));
@@ -191,7 +191,7 @@ GONIO_INLINE stokes_states bird_reader::read_polarisation(const std::string& key
   json_.open_object(key);
   while (const auto field = json_.next_key()) {
     if (*field != "values") {
-      json_.skip();  // the notation shows in the values
+      json_.skip();  // the values show the notation
       continue;
     }
     json_.open_array(key + ".values");

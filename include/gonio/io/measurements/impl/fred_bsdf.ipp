@@ -23,7 +23,7 @@
 
 namespace gonio::io::detail {
 
-/// Refuses a line `format` that says anything but degrees and plain values.
+/// Throws gonio::error unless a line `format` states degrees and plain values.
 GONIO_INLINE void check_fred_format(std::string_view line, const text_place& place) {
   std::vector<std::string_view> words;
   split_at_blanks(line, words);
@@ -31,7 +31,7 @@ GONIO_INLINE void check_fred_format(std::string_view line, const text_place& pla
   if (words != expected) place.refuse({in_quotes(line), " is not read, expected '", listed(expected, " "), "'"});
 }
 
-/// A direction by polar angle and azimuth, degrees; `turn` is added to the azimuth.
+/// Reads a direction from polar angle and azimuth in degrees; `turn` is added to the azimuth.
 [[nodiscard]] GONIO_INLINE direction fred_direction(std::string_view theta, std::string_view phi, double turn,
                                                     const text_place& place) {
   const double polar = read_number(theta, place, [] { return "a polar angle"; }),

@@ -26,7 +26,7 @@ namespace gonio::io::detail {
 
 // ---- bases ---------------------------------------------------------------------------------------------------------
 
-/// Centres of the patches of a basis, ring by ring; `azimuth` counts patches from 0.
+/// A patch's centre. Patches are ordered ring by ring, from azimuth 0.
 struct klems_patch {
   double theta, azimuth;  ///< radians
 };
@@ -57,7 +57,7 @@ inline constexpr std::size_t most_patches = 4096;
   return patches;
 }
 
-/// The basis of this name.
+/// Reads the basis of this name.
 [[nodiscard]] GONIO_INLINE std::vector<klems_patch> basis_named(const xml_element& definition, std::string_view name,
                                                                 const text_place& place) {
   for (const xml_element& each : definition.all("AngleBasis"))
@@ -67,7 +67,7 @@ inline constexpr std::size_t most_patches = 4096;
 
 // ---- matrices ------------------------------------------------------------------------------------------------------
 
-// Where a word stands takes a while to count: only if it is refused.
+// Finding a word's position takes long: only for errors.
 GONIO_INLINE double scattering_value(const xml_element& data, std::string_view word) {
   double number = 0.0;
   if (const char* wrong = read_number(word, number))
@@ -76,7 +76,7 @@ GONIO_INLINE double scattering_value(const xml_element& data, std::string_view w
   return number;
 }
 
-/// The numbers of a matrix, which commas or blanks separate. More than expected are refused before they are kept.
+/// Reads the numbers of a matrix, separated by commas or blanks. Refuses surplus numbers before they are stored.
 [[nodiscard]] GONIO_INLINE std::vector<double> read_matrix(const xml_element& data, std::size_t count) {
   constexpr std::string_view between = ", \t\r\n";
   std::vector<double> numbers;
@@ -116,7 +116,7 @@ GONIO_INLINE xml_element reflection_of(const xml_element& file, const std::strin
                  found.empty() ? "no matrix" : found});
 }
 
-/// A direction by the centre of its patch; `turn` is added to the azimuth.
+/// Returns the direction of a patch's centre; `turn` is added to the azimuth.
 [[nodiscard]] GONIO_INLINE direction centre_of(const klems_patch& patch, double turn) {
   return spherical_direction(patch.theta, patch.azimuth + turn);
 }

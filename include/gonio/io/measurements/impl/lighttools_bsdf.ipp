@@ -25,16 +25,16 @@
 
 namespace gonio::io::detail {
 
-/// A table of one angle of incidence and one channel: azimuths, and for each of them polar angles.
+/// A table of one angle of incidence and one channel: polar angles for each azimuth.
 struct lighttools_block {
-  double incidence = 0.0, wavelength = 0.0;  ///< degrees and nanometres; 0 where the file has none
+  double incidence = 0.0, wavelength = 0.0;  ///< degrees and nanometres; 0 if the file has none
   int tristimulus = -1;                      ///< 0, 1, 2: X, Y, Z
   bool is_front = true, is_reflection = true;
   std::vector<double> values = {};
   std::size_t line = 0;
 };
 
-/// Reads such a file word by word.
+/// Reads a file word by word.
 class lighttools_reader {
  public:
   lighttools_reader(std::string_view text, text_place& place) : words_(text, place) {}
@@ -42,7 +42,7 @@ class lighttools_reader {
   [[nodiscard]] sample_set read();
 
  private:
-  using channel_blocks = std::map<double, const lighttools_block*>;  ///< by their channels
+  using channel_blocks = std::map<double, const lighttools_block*>;  ///< by channel number
 
   void read_header();
   void read_blocks();
@@ -73,7 +73,7 @@ GONIO_INLINE void lighttools_reader::read_header() {
   while (!words_.read_if("DataBegin")) {
     const std::string_view key = words_.read("DataBegin");
     if (key == "Source" || key == "Symmetry")
-      static_cast<void>(words_.read(key));  // the list of azimuths says what was measured
+      static_cast<void>(words_.read(key));  // the list of azimuths shows what was measured
     else if (key == "SpectralContent")
       is_tristimulus_ = words_.read_one_of({"Monochrome", "XYZ"}) == 1;
     else if (key == "ScatterAzimuth")
@@ -87,7 +87,7 @@ GONIO_INLINE void lighttools_reader::read_header() {
   if (polar_angles_.empty()) words_.place().refuse("ScatterRadial is missing above DataBegin");
 }
 
-/// Transmission is passed over.
+/// Skips transmission.
 GONIO_INLINE void lighttools_reader::read_blocks() {
   while (!words_.peek().empty() && !words_.read_if("DataEnd")) {
     lighttools_block block = read_block();
@@ -100,7 +100,7 @@ GONIO_INLINE void lighttools_reader::read_blocks() {
     std::erase_if(blocks_, [](const lighttools_block& block) { return !block.is_front; });
 }
 
-/// Its keywords, in any order, TIS being the last.
+/// Reads a block: its keywords in any order, TIS last.
 GONIO_INLINE lighttools_block lighttools_reader::read_block() {
   lighttools_block block;
   for (std::string_view key = words_.read("TIS"); key != "TIS"; key = words_.read("TIS")) read_keyword(key, block);
@@ -140,7 +140,7 @@ GONIO_INLINE void lighttools_reader::read_values(lighttools_block& block) {
   }
 }
 
-/// The number of the channel of a block: its wavelength, or 0, 1, 2.
+/// Returns the channel number of a block: its wavelength, or 0, 1, 2.
 GONIO_INLINE double lighttools_reader::channel_of(const lighttools_block& block) const {
   if (!is_tristimulus_) return block.wavelength;
   if (block.tristimulus < 0) refuse(block, {"a block of XYZ has no TristimulusValue above its TIS"});
@@ -152,7 +152,7 @@ GONIO_INLINE void lighttools_reader::refuse(const lighttools_block& block,
   text_place{words_.place().name, block.line}.refuse(what);
 }
 
-/// The blocks of each angle of incidence, which have the same channels.
+/// Returns the blocks by angle of incidence; all angles must have the same channels.
 GONIO_INLINE std::map<double, lighttools_reader::channel_blocks> lighttools_reader::sorted_blocks() const {
   std::map<double, channel_blocks> sorted;
   for (const lighttools_block& block : blocks_)
@@ -192,7 +192,7 @@ GONIO_INLINE void lighttools_reader::add(sample_collector& to, double incidence,
   std::vector<double> values;
   for (std::size_t row = 0; row < azimuths_.size(); ++row)
     for (std::size_t column = 0; column < polar_angles_.size(); ++column) {
-      if (!are_new[row] || (polar_angles_[column] == 0.0 && row > 0)) continue;  // the normal is in every row
+      if (!are_new[row] || (polar_angles_[column] == 0.0 && row > 0)) continue;  // every row contains the normal
       values.clear();
       for (const auto& [channel, block] : blocks) values.push_back(block->values[row * polar_angles_.size() + column]);
       to.add({wi, spherical_direction(radians(polar_angles_[column]), radians(azimuths_[row]))}, values);

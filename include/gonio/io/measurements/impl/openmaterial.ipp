@@ -35,7 +35,7 @@ inline constexpr std::string_view openmaterial_meaning =
     "Values are the BRDF in 1/sr, without the cosine of any angle. Azimuth 0 is the side of the light, pi that of the "
     "mirror direction. Spectra are smooth ones of linear Rec. 709 colours under D65.";
 
-/// The angle of a node, with the six decimals that the schema's limits have; at most the full angle.
+/// Returns the angle of a node, rounded down to the six decimals of the schema's limits.
 [[nodiscard]] inline double openmaterial_angle(Eigen::Index node, Eigen::Index steps, double full) {
   constexpr double millionths = 1e6;
   return std::floor(full * static_cast<double>(node) / static_cast<double>(steps) * millionths + 1e-3) / millionths;
@@ -63,13 +63,13 @@ GONIO_INLINE std::vector<direction_pair> openmaterial_directions(const openmater
   return pairs;
 }
 
-/// A number as that of a float, in the fewest digits.
+/// Appends a float in the fewest digits.
 inline void append_float(std::string& text, float value) {
   std::array<char, 32> digits{};
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-/// A text in JSON's quotes.
+/// Returns a text in JSON's quotes.
 [[nodiscard]] inline std::string json_quoted(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -79,7 +79,7 @@ inline void append_float(std::string& text, float value) {
   return quoted + '"';
 }
 
-/// 128 bits that follow from the name and the numbers (RFC 9562, version 8), so that the same table has the same.
+/// Returns 128 bits derived from the name and the numbers (RFC 9562, version 8), so that equal tables have equal ids.
 [[nodiscard]] inline std::string openmaterial_uuid(std::string_view name, std::span<const float> values) {
   constexpr std::uint64_t prime = 0x100000001b3;  // FNV-1a
   std::array<std::uint64_t, 2> hash{0xcbf29ce484222325, 0x84222325cbf29ce4};
@@ -151,7 +151,7 @@ GONIO_INLINE std::string openmaterial_text(const std::vector<rgb>& colours, cons
 
 // ---- reading
 
-/// Reads such a file row by row.
+/// Reads a file row by row.
 class openmaterial_reader {
  public:
   openmaterial_reader(std::string_view text, text_place& place) : json_(text, place), place_(place) {}
@@ -170,8 +170,7 @@ class openmaterial_reader {
   }
 
  private:
-  /// In a file wavelength, zenith angles of light and viewer, azimuth of the viewer, value; here the wavelength, in
-  /// nanometres, comes after the angles.
+  /// Theta_i, theta_o, phi, wavelength in nanometres, value. The file has the wavelength, in metres, first.
   using row = std::array<double, 5>;
 
   void read_brdf() {
@@ -192,7 +191,7 @@ class openmaterial_reader {
     }
   }
 
-  /// One for each wavelength; a sample has one receiver.
+  /// Reads one solid angle for each wavelength and averages them, since a sample has one receiver.
   void read_solid_angles() {
     double sum = 0.0, count = 0.0;
     json_.open_array("brdf.receiverSolidAngles");
@@ -210,7 +209,7 @@ class openmaterial_reader {
     if (count > 0.0) receiver_.receiver = receiver_half_angle(sum / count, json_);
   }
 
-  /// Nothing if one of the numbers is null.
+  /// Returns nothing if one of the numbers is null.
   [[nodiscard]] std::optional<row> read_row() {
     row values{};
     std::size_t count = 0;
@@ -233,13 +232,13 @@ class openmaterial_reader {
   [[nodiscard]] row checked(const row& values) const {
     const auto [wavelength, theta_i, theta_o, phi, value] = values;
     require("wavelength in metres", wavelength, 1e-9, 17.16e-3);
-    // Limits that were rounded up are met.
+    // Accept limits that were rounded up.
     require("zenith angle of the light in rad", theta_i, 0.0, 1.5708);
     require("zenith angle of the viewer in rad", theta_o, 0.0, 1.5708);
     require("azimuth in rad", phi, 0.0, 6.2832);
     if (std::abs(value) > double{std::numeric_limits<float>::max()})
       json_.refuse({shortest(value), " sr^-1 is beyond the range of float"});
-    // The same direction has one azimuth.
+    // Equal directions must have equal azimuths.
     const bool is_none = theta_i == 0.0 || theta_o == 0.0 || phi >= 6.28318;
     return {theta_i, theta_o, is_none ? 0.0 : phi, 1e9 * wavelength, value};
   }
@@ -287,7 +286,7 @@ namespace gonio::io {
 
 GONIO_INLINE void write_openmaterial(const std::filesystem::path& path, const std::string& text) {
   if (!path.filename().string().ends_with("_brdf.xompt"))
-    gonio::refuse({path.native(), ": tables of reflectance of OpenMATERIAL need a name that ends in _brdf.xompt"});
+    gonio::refuse({path.string(), ": tables of reflectance of OpenMATERIAL need a name that ends in _brdf.xompt"});
   write_atomically(path, std::as_bytes(std::span(text)));
 }
 

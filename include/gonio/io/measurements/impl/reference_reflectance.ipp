@@ -23,12 +23,12 @@
 
 namespace gonio::io::detail {
 
-// The columns; the numbers below index this list.
+// The columns. The numbers below are indices into this list.
 inline constexpr std::array<std::string_view, 6> reflectance_columns{"theta_i",  "theta_o",  "factor",
                                                                      "factor_r", "factor_g", "factor_b"};
 using reflectance_row = std::array<double, reflectance_columns.size()>;
 
-/// The file as it is read: which column each field of a line is, and the table so far.
+/// The reader's state: the column of each field of a line, and the table so far.
 class reflectance_table {
  public:
   void read_header(const csv_reader& file);
@@ -39,7 +39,7 @@ class reflectance_table {
  private:
   struct scaled_column {
     std::size_t column;
-    double scale;  ///< to degrees, and of per cent
+    double scale;  ///< to degrees, or from per cent
   };
 
   [[nodiscard]] static std::optional<scaled_column> column_of(const written_column& written);
@@ -98,7 +98,7 @@ GONIO_INLINE void reflectance_table::read_row(csv_reader& file) {
   factors_.push_back(has(2) ? rgb::Constant(row[2]) : rgb(row[3], row[4], row[5]));
 }
 
-/// The first theta_i says which theta_o every one of them has.
+/// The first theta_i determines the theta_o that all of them must have.
 GONIO_INLINE void reflectance_table::add_angles(double theta_i, double theta_o, const text_place& place) {
   const std::size_t number = factors_.size();
   if (!has(1)) return theta_i_.push_back(theta_i);
@@ -126,14 +126,14 @@ namespace gonio::io {
 
 GONIO_INLINE capture::reference_reflectance read_reference_reflectance(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  csv_reader file(as_text(bytes), path.native());
+  csv_reader file(as_text(bytes), path.string());
   detail::reflectance_table read;
   if (file.next()) read.read_header(file);
   while (file.next()) read.read_row(file);
   try {
     return read.table();
   } catch (const error& unusable) {
-    gonio::refuse({path.native(), ": ", unusable.what()});
+    gonio::refuse({path.string(), ": ", unusable.what()});
   }
 }
 

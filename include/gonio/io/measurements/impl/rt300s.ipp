@@ -26,12 +26,12 @@ namespace gonio::io::detail {
 
 inline constexpr std::string_view rt300s_type = "BRDF(RT-300S)";
 
-/// Where light and receiver stand, degrees.
+/// The directions of light and receiver, degrees.
 struct rt300s_pose {
   double azimuth = 0.0, incidence = 0.0, receiver = 0.0;
 };
 
-/// Adds a reading; `scale` makes RT of it.
+/// Adds a reading; `scale` converts it to RT.
 GONIO_INLINE void add_reading(sample_collector& to, const rt300s_pose& pose, double value, double scale,
                               const text_place& place) {
   const direction wi = spherical_direction(radians(pose.incidence), 0.0),
@@ -61,12 +61,12 @@ class rt300s_reader {
   text_place& place_;
   std::vector<std::string_view> fields_;
   std::optional<double> incidence_;
-  std::vector<double> receivers_;  ///< degrees, of the columns
+  std::vector<double> receivers_;  ///< degrees, for each column
   bool is_in_table_ = false, has_type_ = false;
   sample_collector collector_;
 };
 
-/// Turns to the next line that holds something, without the empty fields at its end.
+/// Moves to the next line that is not blank, and drops empty fields at its end.
 GONIO_INLINE bool rt300s_reader::next() {
   std::string_view line;
   if (!next_whole_line(text_, place_, line)) return false;
@@ -132,7 +132,7 @@ GONIO_INLINE void rt300s_reader::read_row() {
 
 // ---- the sheet -----------------------------------------------------------------------------------------------------
 
-/// The row of a name, a number for each reading. Those without a value are none.
+/// Returns a row: a number for each reading, or nothing if it has no value.
 [[nodiscard]] GONIO_INLINE std::vector<std::optional<double>> sheet_row(csv_reader& sheet, std::string_view name) {
   std::vector<std::optional<double>> numbers;
   for (std::size_t i = 1; i < sheet.fields().size(); ++i) {
@@ -149,7 +149,7 @@ GONIO_INLINE void rt300s_reader::read_row() {
   return numbers;
 }
 
-/// The rows of angles stand above that of RT, which ends what is read.
+/// The rows of angles are above the row RT, the last one to be read.
 [[nodiscard]] GONIO_INLINE sample_collector collect_rt300s_sheet(std::string_view text, const std::string& name) {
   csv_reader sheet(text, name);
   std::vector<std::optional<double>> azimuths, incidences, receivers, readings;

@@ -20,7 +20,7 @@ namespace gonio::io::detail {
 
 inline constexpr sample_quantity named_factor = sample_quantity::reflectance_factor;
 
-/// In small letters and digits alone.
+/// Names in lower-case letters and digits only.
 inline constexpr std::array known_names{
     known_name{"thetah", 0}, known_name{"thetad", 1}, known_name{"phid", 2},
     // the light's polar angle
@@ -29,7 +29,7 @@ inline constexpr std::array known_names{
     known_name{"solarzenith", 3}, known_name{"solarzenithangle", 3}, known_name{"einfallswinkel", 3},
     known_name{"beleuchtungswinkel", 3}, known_name{"lichteinfallswinkel", 3}, known_name{"angleincidence", 3},
     known_name{"angledincidence", 3}, known_name{"angledeclairage", 3}, known_name{"angleeclairage", 3},
-    // its azimuth
+    // the light's azimuth
     known_name{"phii", 4}, known_name{"phiin", 4}, known_name{"saa", 4}, known_name{"solarazimuth", 4},
     known_name{"solarazimuthangle", 4}, known_name{"einfallsazimut", 4}, known_name{"azimutincidence", 4},
     known_name{"azimutdincidence", 4},
@@ -42,11 +42,11 @@ inline constexpr std::array known_names{
     known_name{"reflexionswinkel", 5}, known_name{"detektorwinkel", 5}, known_name{"angleobservation", 5},
     known_name{"angledobservation", 5}, known_name{"anglereflexion", 5}, known_name{"angledereflexion", 5},
     known_name{"anglededetection", 5}, known_name{"angledetection", 5},
-    // its azimuth
+    // the viewer's azimuth
     known_name{"phio", 6}, known_name{"phiout", 6}, known_name{"phir", 6}, known_name{"phis", 6}, known_name{"vaa", 6},
     known_name{"viewazimuth", 6}, known_name{"viewazimuthangle", 6}, known_name{"beobachtungsazimut", 6},
     known_name{"azimutobservation", 6}, known_name{"azimutdobservation", 6},
-    // less that of the light
+    // the viewer's azimuth relative to the light's
     known_name{"phi", 6, {}, true}, known_name{"dphi", 6, {}, true}, known_name{"deltaphi", 6, {}, true},
     known_name{"phirel", 6, {}, true}, known_name{"raa", 6, {}, true}, known_name{"relativeazimuth", 6, {}, true},
     known_name{"relativeazimuthangle", 6, {}, true}, known_name{"relativazimut", 6, {}, true},
@@ -85,11 +85,11 @@ inline constexpr std::array greek_letters{
     letter{"\xCE\xB4", "delta"},  letter{"\xE1\xB5\xA2", "i"}, letter{"\xE1\xB5\xA3", "r"},
     letter{"\xE2\x82\x92", "o"},  letter{"\xE2\x82\x9B", "s"}};
 
-/// A to y with an accent, as Latin-1 numbers them from 0xC0 on; of others a blank.
+/// Unaccented letters for Latin-1 from 0xC0 on; blank for other characters.
 inline constexpr std::string_view latin_letters = "aaaaaa ceeeeiiii nooooo  uuuu   aaaaaa ceeeeiiii nooooo  uuuu  y";
 static_assert(latin_letters.size() == 64);
 
-/// The bytes of the UTF-8 letter that the text begins with; 1 of ASCII and Latin-1.
+/// Returns the bytes of the first UTF-8 letter; 1 for ASCII and Latin-1.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::size_t letter_size(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const auto goes_on = [&](std::size_t i) { return (byte(i) & 0xC0) == 0x80; };
@@ -97,7 +97,7 @@ static_assert(latin_letters.size() == 64);
   return byte(0) >= 0xE0 && goes_on(2) ? 3 : 2;
 }
 
-/// The name in a to z and 0 to 9, without all else: "theta_i" is thetai, "Longueur d'onde" longueurdonde.
+/// Returns the name with only a to z and 0 to 9: "theta_i" is thetai, "Longueur d'onde" longueurdonde.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string plain_letters(std::string_view name) {
   std::string plain;
   for (std::size_t size = 1; !name.empty(); name.remove_prefix(size)) {
@@ -129,8 +129,8 @@ static_assert(latin_letters.size() == 64);
        {"deg", column_unit::degrees},
        {"degree", column_unit::degrees},
        {"degrees", column_unit::degrees},
-       {"\xC2\xB0", column_unit::degrees},  // the sign in UTF-8
-       {"\xB0", column_unit::degrees},      // and in Latin-1
+       {"\xC2\xB0", column_unit::degrees},  // degree sign in UTF-8
+       {"\xB0", column_unit::degrees},      // degree sign in Latin-1
        {"grad", column_unit::degrees},      // German; gradians are written gon
        {"rad", column_unit::radians},
        {"radian", column_unit::radians},
@@ -160,7 +160,7 @@ static_assert(latin_letters.size() == 64);
   std::string text;
   for (std::size_t i = 0; i < field.size(); ++i) {
     text += field[i];
-    if (field.substr(i).starts_with("\"\"")) ++i;  // a doubled quote is one
+    if (field.substr(i).starts_with("\"\"")) ++i;  // a doubled quote stands for one
   }
   std::string_view name = text;
   std::string unit;

@@ -1,6 +1,6 @@
 #pragma once
-/// Bodies of io/measurements/sample_header.hpp. What is done once for a file is cold: compilers then do not spend
-/// seconds on making it fast.
+/// Bodies of io/measurements/sample_header.hpp. Functions called once per file are cold, so that compilers do not
+/// spend seconds on optimising them.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/spelling.hpp>
@@ -24,8 +24,8 @@ namespace gonio::io::detail {
 
 // ---- names ---------------------------------------------------------------------------------------------------------
 
-/// The nanometres that a column is called by: 400nm, "400 [nm]", w400, lambda_400, or a bare number that may be some; 0
-/// of any other name.
+/// Returns the wavelength in a column's name: 400nm, "400 [nm]", w400, lambda_400, or a bare number in a plausible
+/// range; 0 for any other name.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE double wavelength_named(const written_column& written) {
   constexpr double least_bare = 100.0, most_bare = 20'000.0;
   std::string_view name = written.name;
@@ -40,7 +40,7 @@ namespace gonio::io::detail {
     name = trimmed(name.substr(0, name.size() - 2));
     is_bare = false;
   }
-  std::string digits(name);  // the header line is above the number that shows the file's decimal mark
+  std::string digits(name);  // the file's decimal mark is not known yet
   std::ranges::replace(digits, ',', '.');
   double nanometres = 0.0;
   if (read_number(digits, nanometres) != nullptr || !(nanometres > 0.0)) return 0.0;
@@ -53,7 +53,7 @@ namespace gonio::io::detail {
   return column;
 }
 
-/// The column that is called otherwise in this file, if this is it.
+/// Returns the caller's entry for this name of the file; nullptr if there is none.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE const column_name* find_renamed(const written_column& written,
                                                                          const std::vector<column_name>& names) {
   const std::string text = lower_case(written.text);
@@ -64,7 +64,7 @@ namespace gonio::io::detail {
   return nullptr;
 }
 
-/// No longer one is compared with the columns' names.
+/// Longer names are not compared with the columns' names.
 inline constexpr std::size_t longest_name = 40;
 
 // ---- the header line -----------------------------------------------------------------------------------------------
@@ -127,7 +127,7 @@ inline constexpr std::size_t longest_name = 40;
   find_weights(place);
 }
 
-/// The angle down, then values.
+/// The first column is the angle down, the others are values.
 [[gnu::cold]] GONIO_INLINE void sample_header::read_matrix(const std::vector<written_column>& names,
                                                            const text_place& place) {
   columns_.assign(names.size(), grey_group.first);
@@ -140,7 +140,7 @@ inline constexpr std::size_t longest_name = 40;
       return quantity_.state_percent_signs("the line of units", place);
 }
 
-/// Angles that have no column. Azimuths count beside the column of the other one: a file without both is in one plane.
+/// Adds stated angles without a column. An azimuth counts only if the other has a column; else the file is in-plane.
 [[gnu::cold]] GONIO_INLINE void sample_header::find_stated(std::span<const stated_angle> stated) {
   if (!has_any(angle_group)) return;
   const auto take = [&](std::size_t column) {
@@ -172,14 +172,14 @@ inline constexpr std::size_t longest_name = 40;
   extra_.push_back(written);
 }
 
-/// False if it has a unit that the column cannot have.
+/// Returns false if the unit does not fit the column.
 [[gnu::cold]] GONIO_INLINE bool sample_header::add_known(const written_column& written, const known_name& known,
                                                          const text_place& place) {
   const std::size_t column = known.column;
   const column_unit unit = unit_named(written.unit);
   if (!fits(unit, column)) return false;
-  if (known.is_relative && has(column)) return false;  // phi_o says it
-  // In small letters these are chromaticities, or places.
+  if (known.is_relative && has(column)) return false;  // phi_o has a column of its own
+  // In lower case these are chromaticities or coordinates.
   if (tristimulus_group.has(column) && (has(column) || written.text.front() < 'A' || written.text.front() > 'Z'))
     return false;
   const std::string text = in_quotes(written.text);
@@ -196,7 +196,7 @@ inline constexpr std::size_t longest_name = 40;
   return true;
 }
 
-/// False if the name is no wavelength.
+/// Returns false if the name is not a wavelength.
 [[gnu::cold]] GONIO_INLINE bool sample_header::add_wavelength(const written_column& written, const text_place& place) {
   const double nanometres = wavelength_named(written);
   if (nanometres == 0.0) return false;
@@ -213,7 +213,7 @@ inline constexpr std::size_t longest_name = 40;
   return message_of({shortest(wavelengths_[column - ignored - 1]), "nm"});
 }
 
-/// Refuses a file that has not all columns that the caller named.
+/// Throws gonio::error if a column named by the caller is missing.
 [[gnu::cold]] GONIO_INLINE void sample_header::require_named(const sample_reading& reading,
                                                              const text_place& place) const {
   for (const column_name& each : reading.columns)
@@ -241,7 +241,7 @@ inline constexpr std::size_t longest_name = 40;
   for (const std::size_t polar : {std::size_t{3}, std::size_t{5}})
     if (!knows(polar)) refuse_missing(polar, place);
   if (!is_in_plane_) return;
-  // An azimuth that is misspelt is not one that is absent.
+  // A misspelt azimuth does not count as an absent one.
   for (const written_column& each : extra_)
     for (const std::size_t azimuth : {std::size_t{4}, std::size_t{6}})
       if (each.name.find("phi") != std::string::npos || each.name.find("azim") != std::string::npos ||
@@ -270,7 +270,7 @@ inline constexpr std::size_t longest_name = 40;
     place.refuse({"the column wavelength stands beside ", name_of(ignored + 1), ", expected one of them"});
 }
 
-/// X, Y and Z are tristimulus values where all three are there, and no other values.
+/// X, Y and Z are tristimulus values only if all three are present and there are no other values.
 [[gnu::cold]] GONIO_INLINE void sample_header::ignore_tristimulus(const std::vector<written_column>& names) {
   bool are_values = !has_any(grey_group) && !has_any(colour_group) && wavelengths_.empty();
   for (std::size_t k = 0; k < tristimulus_group.count; ++k) are_values &= has(tristimulus_group.first + k);
@@ -282,7 +282,7 @@ inline constexpr std::size_t longest_name = 40;
   }
 }
 
-/// A column R without G and B is no red: with percent signs it is a reflectance factor.
+/// A column R without G and B is not red; with percent signs it is a reflectance factor.
 [[gnu::cold]] GONIO_INLINE void sample_header::take_r_for_value(const text_place& place) {
   const auto r = std::ranges::find(columns_, colour_group.first);
   if (r == columns_.end() || has(colour_group.first + 1) || has(colour_group.first + 2) || has_any(grey_group)) return;
@@ -314,7 +314,7 @@ inline constexpr std::size_t longest_name = 40;
     if (!knows(column)) refuse_missing(column, place);
 }
 
-/// Has it a column, or is it stated for all samples?
+/// Does it have a column, or is it stated for all samples?
 [[gnu::cold]] GONIO_INLINE bool sample_header::knows(std::size_t column) const {
   return has(column) || std::ranges::find(stated_, column, &stated_angle::column) != stated_.end();
 }
@@ -335,7 +335,7 @@ inline constexpr std::size_t longest_name = 40;
        looks});
 }
 
-/// Of lists of names, which may be long, so many are listed.
+/// How many names of a long list messages show.
 inline constexpr std::size_t most_listed = 6;
 
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string how_many_more(std::size_t count) {

@@ -19,7 +19,7 @@ namespace gonio::io::detail {
 
 inline constexpr std::size_t column_theta_i = angle_group.first, column_theta_o = angle_group.first + 2;
 
-/// Degrees, perhaps with their sign. The header line is above the number that shows the file's decimal mark.
+/// Reads degrees, with or without their sign. The file's decimal mark is not known yet.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::optional<double> degrees_in(std::string_view field) {
   std::string digits(without_degree_sign(trimmed(field)));
   std::ranges::replace(digits, ',', '.');
@@ -32,7 +32,7 @@ inline constexpr std::size_t column_theta_i = angle_group.first, column_theta_o 
   return column == column_theta_i ? column_theta_o : column_theta_i;
 }
 
-/// The angles of the first field of a matrix, without those across.
+/// Returns the angles of a matrix's first field, without those across.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::optional<sample_matrix> corner_of(std::string_view field,
                                                                                 const column_finder& find_column) {
   const std::size_t between = field.find_first_of("\\/|");
@@ -46,7 +46,7 @@ inline constexpr std::size_t column_theta_i = angle_group.first, column_theta_o 
   return sample_matrix{.down = down, .across = across};
 }
 
-/// An angle across: a number, or a name and a number.
+/// Reads an angle across: a number, or a name and a number.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::optional<double> angle_across(std::string_view field, std::size_t across,
                                                                             const column_finder& find_column) {
   if (const auto angle = degrees_in(field)) return angle;
@@ -90,7 +90,7 @@ inline constexpr std::size_t column_theta_i = angle_group.first, column_theta_o 
   const std::size_t column = find_column(trimmed(line.substr(0, end)));
   if (!angle_group.has(column) || unit_named(written(line.substr(0, end)).unit) == column_unit::radians) return {};
   std::string_view value = line.substr(std::min(line.find_first_not_of(" :=;,\t", end), line.size()));
-  // What a spreadsheet puts behind; a decimal comma stays.
+  // Drop separators added by a spreadsheet; keep a decimal comma.
   value = value.substr(0, value.find_first_of(";\t"));
   while (!value.empty() && (value.back() == ',' || value.back() == '"' || value.back() == ' ')) value.remove_suffix(1);
   const auto angle = degrees_in(value);

@@ -1,6 +1,6 @@
 #pragma once
-/// Bodies of io/measurements/sample_rows.hpp. What is done once for a file is cold: compilers then do not spend seconds
-/// on making it fast.
+/// Bodies of io/measurements/sample_rows.hpp. Functions called once per file are cold, so that compilers do not
+/// spend seconds on optimising them.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
@@ -44,7 +44,7 @@ GONIO_INLINE bool sample_rows::next() {
   return false;
 }
 
-/// Turns to the next line, or to the next cell of a matrix's line.
+/// Moves to the next line, or to the next cell of a matrix's line.
 GONIO_INLINE bool sample_rows::next_row() {
   if (header_.matrix() && cell_ + 1 < header_.columns().size()) {
     ++cell_;
@@ -54,7 +54,7 @@ GONIO_INLINE bool sample_rows::next_row() {
   return csv_.next([this](std::string_view text) { read_comment(text); });
 }
 
-/// Is a field of the line one of the row's? Of a matrix these are the first and one other.
+/// Does a field of the line belong to the current row? In a matrix, these are the first field and one other.
 GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
   return !header_.matrix() || field == 0 || field == cell_;
 }
@@ -85,7 +85,7 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
   sign_ = stated;
 }
 
-/// Of all lines below that have no column of it.
+/// Sets the half angle of all lines below, unless they have a column for it.
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_half_angle(std::size_t column, const comment_entry& entry) {
   if (const char* wrong = csv_.read_number(entry.value, numbers_[column]); wrong != nullptr)
     csv_.place().refuse({entry.key, ": ", in_quotes(entry.value), wrong, ", expected degrees"});
@@ -99,7 +99,7 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
   return [this](std::string_view name) { return find_column(name, reading_); };
 }
 
-/// Among the lines of a preamble.
+/// Looks for the header line below a preamble.
 [[gnu::cold]] GONIO_INLINE void sample_rows::find_header() {
   if (csv_.find_header([this](const auto& fields) { return name_directions(fields, reading_); })) return;
   if (csv_.find_header([this](const auto& fields) { return name_angle_and_values(fields, reading_); })) return;
@@ -139,7 +139,7 @@ GONIO_INLINE void sample_rows::read_fields() {
   if (header_.is_in_plane()) look_at_sides();
 }
 
-/// What instruments and programs write where they have no number.
+/// Is the field one of the words that instruments and programs write instead of a number?
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE bool is_no_value(std::string_view field) {
   constexpr std::array<std::string_view, 42> words{
       "",          "-",         "--",         "---",     "?",         "nan",    "-nan",     "+nan",     "nan(ind)",
@@ -150,7 +150,7 @@ GONIO_INLINE void sample_rows::read_fields() {
   return field.size() <= 10 && std::ranges::find(words, lower_case(field)) != words.end();
 }
 
-/// Has the line a number in every column that is needed? Those that have not are counted.
+/// Does the line have a number in every needed column? Counts lines that do not.
 GONIO_INLINE bool sample_rows::has_value() {
   const std::vector<std::size_t>& columns = header_.columns();
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -199,7 +199,7 @@ GONIO_INLINE void sample_rows::read_number_of(std::size_t column, std::string_vi
                        description(csv_.dialect())});
 }
 
-/// The file may say in each line what its numbers are, if it is the same in all.
+/// A file may repeat its quantity in each line; it must be the same in all.
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_quantity(std::string_view field) {
   const auto quantity = quantity_named(field);
   if (!quantity)
@@ -209,7 +209,7 @@ GONIO_INLINE void sample_rows::read_number_of(std::size_t column, std::string_vi
   quantity_.state(*quantity, "the column quantity", csv_.place());
 }
 
-/// Values have percent signs everywhere or nowhere.
+/// Throws gonio::error unless all values of the file have percent signs or none has.
 [[gnu::cold]] GONIO_INLINE void sample_rows::check_percent_signs(std::size_t signs) {
   const std::size_t count = header_.values().count;
   if (rows_ == 0) has_percent_signs_ = signs > 0;
@@ -237,7 +237,7 @@ GONIO_INLINE void sample_rows::check_weights() const {
           {"column ", sample_columns[column], ": ", shortest(numbers_[column]), " is negative, expected at least 0"});
 }
 
-/// Without azimuths, one negative angle in the file shows that signs tell the sides of the normal apart.
+/// Without azimuths, a single negative angle in the file shows that signs give the side of the normal.
 [[gnu::cold]] GONIO_INLINE void sample_rows::look_at_sides() {
   if (sign_) {
     if (*sign_ == theta_o_sign::mirror) numbers_[angle_group.first + 2] *= -1.0;
@@ -260,7 +260,7 @@ GONIO_INLINE void sample_rows::check_weights() const {
   if (reading_.note) note_assumptions();
 }
 
-/// What the file does not say, and what of it is not read.
+/// Notes assumptions about the file, and its lines and columns that are ignored.
 [[gnu::cold]] GONIO_INLINE void sample_rows::note_assumptions() const {
   const std::string& name = csv_.place().name;
   if (const std::size_t lines = csv_.passed_over().size(); lines > 0)
@@ -280,7 +280,7 @@ GONIO_INLINE void sample_rows::check_weights() const {
                               "mirror direction (--theta-o-sign mirror: the other way round)"}));
 }
 
-/// Angles that have no column, and what X, Y and Z are taken for.
+/// Notes angles without a column, and the assumed meaning of X, Y and Z.
 [[gnu::cold]] GONIO_INLINE void sample_rows::note_layout() const {
   const std::string& name = csv_.place().name;
   if (const auto& matrix = header_.matrix())

@@ -26,8 +26,8 @@
 
 namespace gonio::io::detail {
 
-/// A polar angle in radians. A goniometer's arm may lean to either side: there a negative angle is as good
-/// as an azimuth of 180 degrees.
+/// Returns a polar angle in radians. With `either_side` it may be negative, as for a goniometer's arm: the same as an
+/// azimuth of 180 degrees.
 [[nodiscard]] GONIO_INLINE double polar_angle(const sample_row& row, std::size_t column, bool either_side,
                                               const text_place& place) {
   const double angle = row[column];
@@ -65,13 +65,13 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
   row.place.refuse({"a direction is at or below the horizon (", given, ")"});
 }
 
-/// Of a row that gives half and difference angles.
+/// Returns the angles of a row that gives half and difference angles.
 [[nodiscard]] GONIO_INLINE half_difference given_angles(const parsed_row& row) {
   return {polar_angle(row.numbers, 0, false, row.place), polar_angle(row.numbers, 1, false, row.place),
           azimuth(row.numbers, 2, row.place)};
 }
 
-/// Light and viewer of a row that gives directions.
+/// Returns light and viewer of a row that gives directions.
 [[nodiscard]] GONIO_INLINE direction_pair given_directions(const parsed_row& row) {
   const sample_row& numbers = row.numbers;
   const text_place& place = row.place;
@@ -81,14 +81,14 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
           spherical_direction(theta_o, azimuth(numbers, 6, place))};
 }
 
-/// Angles as they were given. Those of phi_d beyond half a turn exchange light and viewer: they are kept as a pair.
+/// Returns the angles as given. A phi_d outside half a turn exchanges light and viewer: then they are kept as a pair.
 [[nodiscard]] GONIO_INLINE sample_directions directions_of(const half_difference& given) {
   if (fold_phi_d(given.phi_d) == given.phi_d) return given;
   return to_directions(given);
 }
 
-/// A row's directions. Rounding may put one that grazes the surface below it in one of the two ways alone; it is
-/// refused in both.
+/// Returns a row's directions. Rounding can put grazing directions below the horizon in only one representation; they
+/// are refused in both.
 [[nodiscard]] GONIO_INLINE sample_directions row_directions(const parsed_row& row) {
   const sample_directions at = row.has_half_difference() ? directions_of(given_angles(row)) : given_directions(row);
   require_above_horizon(cosines(at.angles()), row);
@@ -96,7 +96,7 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
   return at;
 }
 
-/// Does a row measure where light or viewer graze the surface, at 90 degrees? Arms go there, but there is no BRDF.
+/// Is light or viewer at 90 degrees? Goniometers reach this angle, but there is no BRDF.
 [[nodiscard]] GONIO_INLINE bool is_at_horizon(const parsed_row& row) {
   if (row.has_half_difference() || row.group.first == vector_group.first) return false;
   return std::abs(row.numbers[3]) == 90.0 || std::abs(row.numbers[5]) == 90.0;
@@ -118,7 +118,7 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
   return {half_angle(half_angle_group.first), half_angle(half_angle_group.first + 1)};
 }
 
-/// Refuses numbers that may be of any quantity: those of r,g,b are a BRDF.
+/// Throws gonio::error if the quantity is unknown; r,g,b are always a BRDF.
 GONIO_INLINE void require_quantity(const parsed_row& row) {
   if (row.quantity || row.values.first == colour_group.first) return;
   row.place.refuse({"the file does not say what the numbers of ", row.header.name_of(row.values.first),
@@ -131,7 +131,7 @@ GONIO_INLINE void refuse_beyond_float(const parsed_row& row, std::size_t column,
       {"column ", row.header.name_of(column), ": ", shortest(value), " sr^-1 is beyond the range of float"});
 }
 
-/// The values of a row as a BRDF, sr^-1.
+/// Converts the values of a row to a BRDF, sr^-1.
 GONIO_INLINE void read_row_values(const parsed_row& row, const sample_directions& at, std::vector<double>& values) {
   require_quantity(row);
   const double factor = brdf_factor(row.quantity.value_or(sample_quantity::brdf), at.pair().wo);
@@ -147,14 +147,14 @@ GONIO_INLINE void read_row_values(const parsed_row& row, const sample_directions
       refuse_beyond_float(row, row.values.first + k, values[k]);
 }
 
-/// The channels of a file whose first row has been read.
+/// Returns the channels of a file whose first row has been read.
 [[nodiscard]] GONIO_INLINE channels channels_of(const sample_rows& rows) {
   if (rows.row().values.count == 3 && rows.header().wavelengths().empty()) return {};
   if (!rows.header().wavelengths().empty()) return channels(rows.header().wavelengths());
   return rows.wavelength() ? channels({*rows.wavelength()}) : channels::one_value();
 }
 
-/// Refuses a scan without azimuths that is bright where the light comes from and dark in the mirror direction.
+/// Throws gonio::error for a scan without azimuths that is bright towards the light and dark in the mirror direction.
 GONIO_INLINE void require_plausible_sides(const sample_set& samples, const std::string& name) {
   const double ratio = brightness_towards_light(samples);
   if (ratio > implausible_brightness_towards_light)
@@ -164,7 +164,7 @@ GONIO_INLINE void require_plausible_sides(const sample_set& samples, const std::
          "give --theta-o-sign mirror; a material that reflects the light back needs --theta-o-sign light"});
 }
 
-/// Says how many rows are left out and why; refuses a file more than half of which is. `kept` rows are not.
+/// Notes how many rows are left out and why; throws gonio::error if these are more than half. `kept` rows remain.
 GONIO_INLINE void note_left_out(const sample_rows& rows, std::size_t at_horizon, std::size_t kept,
                                 const sample_reading& reading, const std::string& name) {
   const std::size_t left_out = at_horizon + rows.rows_without_value();
@@ -177,9 +177,9 @@ GONIO_INLINE void note_left_out(const sample_rows& rows, std::size_t at_horizon,
   if (reading.note) reading.note(counts);
 }
 
-/// The reading of a file of X, Y and Z that does not say what they are, by a first look at it: percent of a perfect
-/// diffuser's Y if half of the values Y are above 1.5, which no matt surface reaches, reflectance factors if none is
-/// above 1.
+/// Returns the reading with the assumed scale of a file of X, Y and Z that states no quantity, from a first pass over
+/// it: percent of a perfect diffuser's Y if the median of Y is above 1.5, which no matt surface reaches; reflectance
+/// factors if no Y is above 1.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE sample_reading with_assumed_scale(std::string_view text,
                                                                            const std::string& name,
                                                                            const sample_reading& reading) {
@@ -204,7 +204,7 @@ GONIO_INLINE void note_left_out(const sample_rows& rows, std::size_t at_horizon,
   return with_scale;
 }
 
-/// The names of the columns of values.
+/// Returns the names of the columns of values.
 [[nodiscard]] GONIO_INLINE std::string column_names(const channels& kinds) {
   if (kinds.are_colours()) return "r,g,b,";
   if (kinds.wavelengths().empty()) return "value,";
@@ -241,6 +241,7 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
     const sample_directions at = detail::row_directions(row);
     detail::read_row_values(row, at, values);
     file.samples.add(at, values, detail::row_weight(row), detail::row_aperture(row));
+    file.text.lines.push_back(row.place.line);
   }
   if (file.samples.empty()) gonio::refuse({name, ": has no sample above the horizon, expected at least one"});
   detail::note_left_out(rows, at_horizon, static_cast<std::size_t>(file.samples.size()), reading, name);
@@ -249,6 +250,9 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
   file.quantity = rows.quantity();
   file.sign = rows.sign();
   file.provenance = rows.provenance();
+  file.text.dialect = rows.dialect();
+  file.text.rows_left_out = at_horizon + rows.rows_without_value();
+  file.text.assumes_side = rows.assumes_side();
   return file;
 }
 
@@ -259,7 +263,7 @@ GONIO_INLINE sample_set read_samples(std::string_view text, const std::string& n
 [[gnu::cold]] GONIO_INLINE sample_file read_sample_file(const std::filesystem::path& path,
                                                         const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  return read_sample_file(as_text(bytes), path.native(), reading);
+  return read_sample_file(as_text(bytes), path.string(), reading);
 }
 
 [[gnu::cold]] GONIO_INLINE bool has_directions_alone(std::string_view text, const std::string& name,
@@ -283,7 +287,7 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
 [[gnu::cold]] GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem::path& path,
                                                                         const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  return read_directions(as_text(bytes), path.native(), reading);
+  return read_directions(as_text(bytes), path.string(), reading);
 }
 
 [[gnu::cold]] GONIO_INLINE std::vector<direction_pair> read_direction_pairs(std::string_view text, const std::string& name,
@@ -297,7 +301,7 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
 [[gnu::cold]] GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
                                                                             const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  return read_direction_pairs(as_text(bytes), path.native(), reading);
+  return read_direction_pairs(as_text(bytes), path.string(), reading);
 }
 
 GONIO_INLINE std::string write_samples(const sample_set& samples, const sample_provenance& provenance) {
@@ -326,7 +330,7 @@ GONIO_INLINE void write_samples(const std::filesystem::path& path, const sample_
   try {
     require_usable(samples);
   } catch (const error& unusable) {
-    gonio::refuse({path.native(), ": ", unusable.what()});
+    gonio::refuse({path.string(), ": ", unusable.what()});
   }
   detail::write_text(path, write_samples(samples, provenance));
 }

@@ -39,7 +39,7 @@ GONIO_INLINE bool has_control_characters(std::string_view text) {
   return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
 }
 
-/// A line without its end.
+/// Returns a pose's line without its end.
 GONIO_INLINE std::string pose_fields(std::string text, const direction_pair& pose) {
   for (const direction& w : {pose.wi, pose.wo})
     for (const double component : w) text += ' ' + shortest(component);
@@ -100,7 +100,7 @@ GONIO_INLINE capture::reading read_reading(number_reader& numbers, std::uint16_t
   }
   const std::size_t pixels = numbers.next_whole(1e6, "the number of pixels");
   if (frames == 0 || pixels == 0) place.refuse("a reading needs a frame, and a frame a pixel");
-  if (numbers.left() != frames * pixels * 3 + 1)  // and the checksum
+  if (numbers.left() != frames * pixels * 3 + 1)  // the last one is the checksum
     place.refuse("has " + std::to_string(numbers.left() - std::min<std::size_t>(numbers.left(), 1)) +
                  " counts, expected " + std::to_string(frames * pixels * 3));
   for (std::size_t i = 0; i < frames; ++i) {
@@ -112,7 +112,7 @@ GONIO_INLINE capture::reading read_reading(number_reader& numbers, std::uint16_t
   return taken;
 }
 
-/// Unit vectors of light and viewer above the horizon?
+/// Are light and viewer unit vectors above the horizon?
 GONIO_INLINE bool is_pose(const direction_pair& pose) {
   const auto is_above = [](const direction& w) { return std::abs(w.norm() - 1.0) < 1e-6 && w.z() > 0.0; };
   return is_above(pose.wi) && is_above(pose.wo);
@@ -190,7 +190,7 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
 }
 
 GONIO_INLINE void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name) {
-  // Readings come last: without one, the process may have been killed while it wrote the head.
+  // Readings come last: if there is none, the process may have been killed while it wrote the head.
   const std::string_view again =
       all.has_reading ? "" : "; if the scan was stopped before its first reading, the same command begins it again";
   if (scan.largest_count == 0) gonio::refuse({name, ": the line largest_count is missing", again});
@@ -244,14 +244,14 @@ GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const
   open();
   auto bytes = read_bytes(path);
   if (bytes.size() < header.size() && header.starts_with(as_text(bytes))) {
-    // A new file, or one whose process was killed before it had written all of the same head.
+    // A new file, or the process was killed while it wrote the same head.
     write(std::string_view(header).substr(bytes.size()));
     bytes = read_bytes(path);
   }
   const std::string_view text = as_text(bytes);
   scan_ = read_scan(text, path.string());
   require_same(subject, poses, largest_count);
-  // The next line must not be joined to what a killed process left of its last.
+  // Remove an incomplete last line, so that the next line is not joined to it.
   if (::ftruncate(file_.get(), static_cast<off_t>(detail::whole_lines(text).size())) != 0) fail();
 }
 
@@ -269,7 +269,7 @@ GONIO_INLINE void scan_journal::add_pose(const direction_pair& pose) {
 }
 
 GONIO_INLINE void scan_journal::open() {
-  // Without O_NONBLOCK, opening a pipe that nobody reads from would wait forever.
+  // Without O_NONBLOCK, opening a pipe without a reader would wait forever.
   file_ = descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666));
   if (!file_.is_open()) fail();
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return;

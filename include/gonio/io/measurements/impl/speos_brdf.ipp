@@ -26,19 +26,19 @@ namespace gonio::io::detail {
 inline constexpr std::string_view speos_header = "OPTIS - brdf surface file",
                                   speos_anisotropic_header = "OPTIS - Anisotropic BSDF surface file";
 
-/// Of one wavelength: values in the order of `theta`, for each of these in that of `phi`, degrees.
+/// The table of one wavelength: values ordered by `theta`, then by `phi`, degrees.
 struct speos_table {
   std::vector<double> theta, phi, values;
 };
 
-/// The tables of one azimuth of the light about the file's anisotropy vector, for each of its angles of incidence.
+/// The tables of one azimuth of the light about the file's anisotropy vector, one for each angle of incidence.
 struct speos_turn {
   double azimuth = 0.0;  ///< degrees
   std::vector<double> incidences;
   std::vector<speos_table> tables;
 };
 
-/// The rows above the numbers. Takes them off the front of the text; `place` is then the last of them.
+/// Takes the rows above the numbers from the front of the text; `place` is then at the last of them.
 GONIO_INLINE void read_speos_rows(std::string_view& text, text_place& place) {
   const auto line = [&] {
     if (text.empty())
@@ -64,7 +64,7 @@ GONIO_INLINE void read_speos_rows(std::string_view& text, text_place& place) {
   static_cast<void>(line());
 }
 
-/// Weights of the values at ascending nodes in an integral of `density` over the angle, linear between nodes.
+/// Returns the weights of values at ascending nodes, linear in between, in an integral of `density` over the angle.
 template <class Density>
 [[nodiscard]] std::vector<double> node_weights(const std::vector<double>& nodes, const Density& density) {
   constexpr int steps = 64;
@@ -80,13 +80,13 @@ template <class Density>
   return weights;
 }
 
-/// Reads the numbers of such a file.
+/// Reads the numbers of a file.
 class speos_reader {
  public:
   speos_reader(std::string_view text, text_place& place) : words_(text, place), size_(text.size()) {}
 
   [[nodiscard]] sample_collector read();
-  /// Of the anisotropic kind.
+  /// Reads a file of the anisotropic kind.
   [[nodiscard]] sample_collector read_anisotropic();
 
  private:
@@ -143,7 +143,7 @@ GONIO_INLINE speos_table speos_reader::read_table() {
   return table;
 }
 
-/// Of a whole turn, or of half of one, which the other half mirrors. A turn may leave out its end.
+/// Returns the weights of a whole turn, or of half a symmetric one. A whole turn may omit its end.
 GONIO_INLINE std::vector<double> speos_reader::azimuth_weights(const std::vector<double>& phi) const {
   const auto one = [](double) { return 1.0; };
   constexpr double rounding = 1e-3;
@@ -164,7 +164,7 @@ GONIO_INLINE std::vector<double> speos_reader::azimuth_weights(const std::vector
   return weights;
 }
 
-/// Of the table times the cosine, over its directions: what it says of the reflectance, up to a factor.
+/// Returns the integral of the table times the cosine over its directions: the reflectance up to a factor.
 GONIO_INLINE double speos_reader::integral(const speos_table& table) const {
   const std::vector<double> of_phi = azimuth_weights(table.phi),
                             of_theta = node_weights(table.theta, [&](double theta) {
@@ -178,7 +178,7 @@ GONIO_INLINE double speos_reader::integral(const speos_table& table) const {
   return sum;
 }
 
-/// To the BRDF.
+/// Scales a table to the BRDF.
 GONIO_INLINE void speos_reader::scale(speos_table& table, double factor) const {
   for (std::size_t i = 0; i < table.theta.size(); ++i)
     for (std::size_t k = 0; k < table.phi.size(); ++k) {
@@ -189,7 +189,7 @@ GONIO_INLINE void speos_reader::scale(speos_table& table, double factor) const {
     }
 }
 
-/// `turn` is added to both azimuths; `read_values(i, values)` has the spectrum of value i.
+/// Adds samples; `turn` is added to both azimuths, `read_values(i, values)` gives the spectrum of value i.
 template <class ReadValues>
 void speos_reader::add(sample_collector& to, double incidence, double turn, const speos_table& table,
                        const ReadValues& read_values) const {
@@ -198,7 +198,7 @@ void speos_reader::add(sample_collector& to, double incidence, double turn, cons
   std::vector<double> values;
   for (std::size_t i = 0; i < table.theta.size(); ++i)
     for (std::size_t k = 0; k < table.phi.size(); ++k) {
-      const bool is_at_pole = table.theta[i] == 0.0;  // one direction, whatever its azimuth
+      const bool is_at_pole = table.theta[i] == 0.0;  // the same direction for every azimuth
       if (table.theta[i] == 90.0 || !are_new[k] || (is_at_pole && k > 0)) continue;
       values.clear();
       read_values(i * table.phi.size() + k, values);
@@ -206,7 +206,7 @@ void speos_reader::add(sample_collector& to, double incidence, double turn, cons
     }
 }
 
-/// Reflection alone, and what tables are proportional to.
+/// Requires pure reflection, and reads whether tables include the cosine.
 GONIO_INLINE void speos_reader::read_kind() {
   const bool reflects = words_.read_one_of({"0", "1"}) == 1, transmits = words_.read_one_of({"0", "1"}) == 1;
   if (!reflects || transmits)
@@ -245,7 +245,7 @@ GONIO_INLINE sample_collector speos_reader::read() {
 
 // ---- the anisotropic kind ------------------------------------------------------------------------------------------
 
-/// The azimuths of the light, and the angles of incidence of each, without their tables.
+/// Reads the azimuths of the light and the angles of incidence of each, without their tables.
 GONIO_INLINE std::vector<speos_turn> speos_reader::read_turns() {
   constexpr double most = 10'000.0;
   std::vector<speos_turn> turns;
@@ -259,13 +259,13 @@ GONIO_INLINE std::vector<speos_turn> speos_reader::read_turns() {
   return turns;
 }
 
-/// A line that is no number.
+/// Skips a line that is not a number.
 GONIO_INLINE void speos_reader::skip_title() {
   double number = 0.0;
   if (io::read_number(words_.peek(), number) != nullptr) static_cast<void>(words_.read_rest_of_line());
 }
 
-/// Linear between the tables of the angles of incidence about one; beyond them that of the nearest.
+/// Interpolates linearly between angles of incidence; outside their range uses the nearest.
 GONIO_INLINE double speos_reader::integral_at(const speos_turn& turn, double incidence) const {
   const std::vector<double>& all = turn.incidences;
   const auto above = static_cast<std::size_t>(std::ranges::lower_bound(all, incidence) - all.begin());
@@ -275,7 +275,7 @@ GONIO_INLINE double speos_reader::integral_at(const speos_turn& turn, double inc
   return (1.0 - share) * integral(turn.tables[above - 1]) + share * integral(turn.tables[above]);
 }
 
-/// A file has each value once, samples have it for each wavelength.
+/// Limits memory: the file has each value once, samples have it for each wavelength.
 GONIO_INLINE void speos_reader::require_room(std::size_t wavelengths, const std::vector<speos_turn>& turns) const {
   constexpr std::size_t small = 4'000'000, of_each_byte = 64;
   std::size_t values = 0;

@@ -164,7 +164,7 @@ GONIO_INLINE sample_collector ssdd_reader::samples(const block_header& block,
   for (std::size_t i = 0; i < numbers.size() / count; ++i) {
     // The first list varies fastest.
     for (std::size_t k = 0, left = i; k < 4; left /= extents[k++]) at[k] = left % extents[k];
-    const bool is_at_pole = block.angles[2][at[2]] == 0.0;  // one direction, whatever its azimuth
+    const bool is_at_pole = block.angles[2][at[2]] == 0.0;  // the same direction for every azimuth
     if (!are_new[at[3]] || (is_at_pole && at[3] > 0)) continue;
     std::array<double, 4> angles{};
     for (std::size_t k = 0; k < 4; ++k) angles[k] = block.angles[k].empty() ? 0.0 : radians(block.angles[k][at[k]]);

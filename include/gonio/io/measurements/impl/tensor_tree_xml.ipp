@@ -26,14 +26,13 @@
 
 namespace gonio::io::detail {
 
-/// A cube of directions: its corner of the smallest coordinates, and the length of its edges.
+/// A cube of directions: the corner with the smallest coordinates, and the length of its edges.
 struct tree_cell {
   std::array<double, 4> corner{};
   double size = 1.0;
 };
 
-/// The direction whose x and y are the point of the unit disk that Shirley and Chiu's map has for a point of the unit
-/// square.
+/// Returns the direction whose x and y are the image of a point of the unit square under Shirley and Chiu's map.
 [[nodiscard]] GONIO_INLINE direction direction_of_square(double u, double v) {
   const double a = 2.0 * u - 1.0, b = 2.0 * v - 1.0;
   const bool is_along_a = std::abs(a) > std::abs(b);
@@ -44,7 +43,7 @@ struct tree_cell {
   return {x, y, std::sqrt(std::max(0.0, 1.0 - x * x - y * y))};
 }
 
-/// Reads the tree of a block: nodes in braces, of 2^rank nodes each, or of the values of a grid.
+/// Reads the tree of a block: nodes in braces, each with 2^rank nodes or the values of a grid.
 class tensor_tree_reader {
  public:
   tensor_tree_reader(const xml_element& data, std::size_t rank)
@@ -53,7 +52,7 @@ class tensor_tree_reader {
   [[nodiscard]] sample_collector read();
 
  private:
-  /// Deeper trees would tell directions apart that are less than a thousandth of a degree from each other.
+  /// Deeper trees would separate directions less than a thousandth of a degree apart.
   static constexpr int most_levels = 16;
 
   [[nodiscard]] bool read_if(char c);
@@ -78,7 +77,7 @@ GONIO_INLINE sample_collector tensor_tree_reader::read() {
   return std::move(collector_);
 }
 
-/// Takes the next character that is no blank off the front of the text if it is this one.
+/// Skips blanks and commas; takes the next character from the front of the text if it is `c`.
 GONIO_INLINE bool tensor_tree_reader::read_if(char c) {
   rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n,"), rest_.size()));
   if (!rest_.starts_with(c)) return false;
@@ -105,7 +104,7 @@ GONIO_INLINE void tensor_tree_reader::read_node(const tree_cell& cell, int level
   expect('}');
 }
 
-/// Of as many values along each axis, the last one the fastest. The brace before it was read.
+/// Reads a grid with equally many values along each axis, the last axis fastest. Its opening brace has been read.
 GONIO_INLINE void tensor_tree_reader::read_grid(const tree_cell& cell) {
   std::vector<double> values;
   while (!read_if('}')) {
@@ -138,7 +137,7 @@ GONIO_INLINE void tensor_tree_reader::add_cells(const tree_cell& cell, const std
   }
 }
 
-/// Divides wide cells.
+/// Adds a cell; divides a wide one.
 GONIO_INLINE void tensor_tree_reader::add_cell(const tree_cell& cell, double value) {
   constexpr double widest = 1.0 / 8.0;
   const auto along_axis = static_cast<std::size_t>(std::max(1.0, cell.size / widest));
@@ -148,7 +147,7 @@ GONIO_INLINE void tensor_tree_reader::add_cell(const tree_cell& cell, double val
   add_cells(cell, std::vector<double>(count, value), along_axis);
 }
 
-/// Of trees of rank 3 the first axis goes from grazing light (0) to the normal (.5); beyond there is nothing.
+/// In trees of rank 3 the first axis goes from grazing light (0) to the normal (0.5); cells above 0.5 are empty.
 GONIO_INLINE void tensor_tree_reader::add_centre(const tree_cell& cell, double value) {
   std::array<double, 4> centre = cell.corner;
   for (double& coordinate : centre) coordinate += 0.5 * cell.size;

@@ -24,7 +24,7 @@
 namespace gonio::io::detail {
 
 GONIO_INLINE direction about_specular(double theta, double phi, double radial, double azimuth) noexcept {
-  // In the plane of incidence light comes from +x: the specular direction, and what points from it to the normal.
+  // In the plane of incidence, with light from +x: the specular direction, and that from it towards the normal.
   const direction specular{-std::sin(theta), 0.0, std::cos(theta)}, to_normal{std::cos(theta), 0.0, std::sin(theta)};
   const double across = std::sin(radial);
   direction w = gonio::detail::combined(std::cos(radial), specular, across * std::cos(azimuth), to_normal);
@@ -55,7 +55,7 @@ GONIO_INLINE void zemax_bsdf_reader::read_header() {
   while (!is_data(words_.peek())) {
     const std::string_view key = words_.read(start_of_data);
     if (key == "Source" || key == "Symmetry")
-      static_cast<void>(words_.read(key));  // the list of azimuths says what was measured
+      static_cast<void>(words_.read(key));  // the list of azimuths shows what was measured
     else if (key == "SpectralContent")
       is_tristimulus_ = words_.read_one_of({"Monochrome", "XYZ"}) == 1;
     else if (key == "ScatterType")
@@ -115,7 +115,7 @@ GONIO_INLINE sample_set zemax_bsdf_reader::samples(const std::vector<plane>& pla
     for (std::size_t row = 0; row < azimuths_.size(); ++row)
       for (std::size_t column = 0; column < columns; ++column) {
         const double radial = radians(radials_[column]);
-        if (!are_new[row] || (radial == 0.0 && row > 0)) continue;  // the specular direction is in every row
+        if (!are_new[row] || (radial == 0.0 && row > 0)) continue;  // every row contains the specular direction
         for (std::size_t c = 0; c < planes.size(); ++c) values[c] = planes[c][b * block + row * columns + column];
         const direction wo = about_specular(theta, phi, radial, radians(azimuths_[row]));
         collector.add({spherical_direction(theta, phi), wo}, {values.data(), collector.channel_count()});

@@ -19,7 +19,7 @@ GONIO_INLINE design::polar_range read_polar_range(const text_rule& rule, std::si
   return {radians(smallest), radians(largest)};
 }
 
-/// By how much what a rule says may be missed, unless it says so itself.
+/// The tolerance of a rule that gives none.
 inline constexpr double default_tolerance = radians(0.5);
 
 [[nodiscard]] GONIO_INLINE double read_tolerance(double angle, const text_place& place) {
@@ -36,7 +36,7 @@ inline constexpr double default_tolerance = radians(0.5);
           spherical_direction(radians(angles[2]), radians(angles[3]))};
 }
 
-/// A rule's only number, from 0 to less than a limit.
+/// Returns a rule's only number, from 0 to less than a limit.
 [[nodiscard]] GONIO_INLINE double only_number_of(const text_rule& rule, double limit, const text_place& place) {
   require_numbers(rule, {1}, place);
   if (!(rule.numbers[0] >= 0.0 && rule.numbers[0] < limit))

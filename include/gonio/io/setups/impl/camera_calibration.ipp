@@ -19,8 +19,8 @@
 
 namespace gonio::io::detail {
 
-/// The entries of a file of OpenCV, YAML or XML, found by their names: what stands between a name and the next one is
-/// its value. Only numbers and matrices of numbers are understood.
+/// The entries of a file of OpenCV, YAML or XML, found by name: the value is the text between a name and the next one.
+/// Understands only numbers and matrices of numbers.
 class storage_text {
  public:
   storage_text(std::string_view text, const std::string& name)
@@ -34,14 +34,14 @@ class storage_text {
     std::vector<double> values;
   };
 
-  /// The matrix by the first of these names that is there; nothing if none is.
+  /// Returns the matrix under the first of these names that is present; nothing if none is.
   [[nodiscard]] std::optional<matrix> find_matrix(std::initializer_list<std::string_view> names) const {
     for (const std::string_view each : names)
       if (const auto value = find(text_, each)) return matrix_of(*value, each);
     return {};
   }
 
-  /// The word of an entry, without quotes; nothing if it is not there.
+  /// Returns the word of an entry, without quotes; nothing if it is missing.
   [[nodiscard]] std::optional<std::string_view> find_word(std::string_view entry) const {
     const auto value = find(text_, entry);
     if (!value) return {};
@@ -53,7 +53,7 @@ class storage_text {
     return text;
   }
 
-  /// A whole number that counts pixels.
+  /// Returns a whole number that counts pixels.
   [[nodiscard]] std::size_t pixels(std::initializer_list<std::string_view> names) const {
     for (const std::string_view each : names)
       if (const auto value = find(text_, each)) return count_of(trimmed(*value), each);
@@ -69,7 +69,7 @@ class storage_text {
     return is_xml_ ? find_element(within, entry) : find_key(within, entry);
   }
 
-  /// What stands between <entry ...> and </entry>.
+  /// Returns the text between <entry ...> and </entry>.
   [[nodiscard]] std::optional<std::string_view> find_element(std::string_view within, std::string_view entry) const {
     const std::string opening = "<" + std::string(entry), closing = "</" + std::string(entry) + ">";
     for (std::size_t at = within.find(opening); at != within.npos; at = within.find(opening, at + 1)) {
@@ -82,8 +82,8 @@ class storage_text {
     return {};
   }
 
-  /// What follows "entry:" at the start of a line, up to the next line that is indented no deeper, or of a list up to
-  /// its bracket.
+  /// Returns the text after "entry:" at the start of a line, up to the next line that is not indented deeper; for a
+  /// list, up to its bracket.
   [[nodiscard]] std::optional<std::string_view> find_key(std::string_view within, std::string_view entry) const {
     for (std::size_t begin = 0; begin < within.size();) {
       const std::size_t end = std::min(within.find('\n', begin), within.size());
@@ -99,7 +99,7 @@ class storage_text {
     return {};
   }
 
-  /// Where a value ends that began in a line which ends at `end`.
+  /// Returns the end of a value whose first line ends at `end`.
   [[nodiscard]] static std::size_t end_of_value(std::string_view within, std::size_t end, std::size_t depth) {
     while (end < within.size()) {
       const std::size_t next = std::min(within.find('\n', end + 1), within.size());
@@ -164,7 +164,7 @@ GONIO_INLINE camera_intrinsics calibrated_intrinsics(const storage_text& text) {
           k[5] + 0.5};
 }
 
-/// Refuses lenses whose coefficients mean something else.
+/// Refuses lens models whose coefficients have another meaning.
 GONIO_INLINE void require_radial_and_tangential(const storage_text& text) {
   constexpr std::string_view way_out = ": undistort the images before, by cv::fisheye::undistortImage for instance";
   if (const auto fisheye = text.find_word("fisheye_model"); fisheye && *fisheye != "0")

@@ -73,7 +73,7 @@ GONIO_INLINE const setup_text::placed_rule& setup_text::at(std::string_view name
   return *find(name);
 }
 
-/// The focal length that an angle from the left to the right of the image says.
+/// Returns the focal length for an angle from the left to the right of the image.
 GONIO_INLINE double focal_length_of_view(const setup_text& text, double columns) {
   const double angle = text.numbers("field_of_view")[0];
   if (!(angle > 0.0 && angle < 180.0))
@@ -129,7 +129,7 @@ GONIO_INLINE lens_camera setup_camera(const setup_text& text, const std::optiona
   return text.naming_file([&] { return lens_camera(pinhole, distortion); });
 }
 
-/// An entry of one number for all channels, or of three.
+/// Returns an entry of one number for all channels, or of three.
 GONIO_INLINE rgb setup_colour(const setup_text& text, std::string_view name) {
   if (!text.has(name)) return rgb::Ones();
   const auto& values = text.numbers(name);

@@ -19,7 +19,7 @@ namespace gonio::io::detail {
 inline constexpr auto sphere_setup_entries =
     with_photograph_entries(std::array<setup_entry, 3>{{{"sphere", 1, 4}, {"outline", 3}, {"smallest_cosine", 1}}});
 
-/// Where the sphere is said to be.
+/// Reads the position and radius of the sphere, if the file gives them.
 GONIO_INLINE void read_sphere(const setup_text& text, sphere_setup& setup) {
   if (text.has("outline") && !text.has("sphere")) text.refuse("outline", "needs 'sphere', its radius");
   if (!text.has("sphere")) return;

@@ -49,8 +49,7 @@ namespace gonio::io::detail {
     gonio::refuse({name, ": looks like a workbook of a spreadsheet, expected text: save its sheet as CSV"});
 }
 
-/// Takes a field that begins with a double quote off the front of a line, with both its quotes. False if there is no
-/// second one.
+/// Takes a field in double quotes from the front of a line. Returns false if the closing quote is missing.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE bool read_quoted(std::string_view& line, std::string_view& field) {
   std::size_t end = line.find('"', 1);
   while (end != std::string_view::npos && line.substr(end + 1).starts_with('"')) end = line.find('"', end + 2);
@@ -66,7 +65,7 @@ namespace gonio::io::detail {
   if (separator == ' ') line = trimmed(line);
   fields.clear();
   while (true) {
-    // A blank before a field is none of it, but a tab that separates is.
+    // Blanks before a field do not belong to it, but a separating tab does count.
     line.remove_prefix(std::min(line.find_first_not_of(separator == '\t' ? " " : blanks), line.size()));
     std::string_view field;
     const bool has_quotes = line.starts_with('"');
@@ -79,9 +78,9 @@ namespace gonio::io::detail {
   }
 }
 
-/// Digits in groups of three, perhaps with a sign, and what follows them; nothing if there are no such groups.
+/// Returns a number without the marks between its groups of three digits; empty if it has no such groups.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string without_group_marks(std::string_view field) {
-  // Apostrophes, no-break and thin spaces; points and commas if the other one follows.
+  // Apostrophes, no-break and thin spaces; a point or a comma if the other follows.
   const std::size_t comma = field.find(','), point = field.find('.');
   const bool has_both = comma != std::string_view::npos && point != std::string_view::npos;
   const std::string_view both = comma < point ? "," : ".";
@@ -105,7 +104,7 @@ namespace gonio::io::detail {
   return {};
 }
 
-/// Numbers of files with decimal commas, and of those that have shown no decimal mark yet.
+/// Reads a number of a file that has decimal commas, or whose decimal mark is not known yet.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE const char* read_marked_number(std::string_view field, csv_dialect& dialect,
                                                                         double& value) {
   const std::string grouped = without_group_marks(field);

@@ -81,14 +81,14 @@ GONIO_INLINE bool csv_reader::next(const std::function<void(std::string_view)>& 
   if (!next_line(line, read_comment)) return false;
   if (columns_ == 0) dialect_ = dialect_of_header(line);
   if (const char* wrong = dialect_.split(line, fields_)) place_.refuse(wrong);
-  // Spreadsheets end lines with separators.
+  // Spreadsheets pad lines with separators.
   while (fields_.size() > std::max<std::size_t>(columns_, 1) && fields_.back().empty()) fields_.pop_back();
   if (columns_ == 0) columns_ = fields_.size();
   if (fields_.size() != columns_) refuse_size(line);
   return true;
 }
 
-/// A spreadsheet puts a comment in quotes; below the header line that is a field.
+/// Spreadsheets put quotes around a comment. Below the header line a quoted text is a field.
 GONIO_INLINE bool csv_reader::next_line(std::string_view& line,
                                         const std::function<void(std::string_view)>& read_comment) {
   while (next_whole_line(left_, place_, line)) {
@@ -96,7 +96,7 @@ GONIO_INLINE bool csv_reader::next_line(std::string_view& line,
     const bool in_quotes = columns_ == 0 && line.substr(first).starts_with("\"# ");
     if (in_quotes || line[first] == '#') {
       const std::string_view comment = line.substr(first + (in_quotes ? 2 : 1));
-      const std::size_t last = comment.find_last_not_of(",;\" \t\r");  // what a spreadsheet puts behind
+      const std::size_t last = comment.find_last_not_of(",;\" \t\r");  // separators added by a spreadsheet
       if (read_comment) read_comment(comment.substr(0, last == std::string_view::npos ? 0 : last + 1));
       continue;
     }

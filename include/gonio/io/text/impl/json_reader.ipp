@@ -120,7 +120,7 @@ GONIO_INLINE void json_reader::append_escaped(std::string& string) {
     put(0xC0u | code >> 6);
     put(0x80u | (code & 0x3Fu));
   } else if (code >= 0xD800u && code < 0xE000u) {
-    put('?');  // half of a pair
+    put('?');  // half of a surrogate pair
   } else {
     put(0xE0u | code >> 12);
     put(0x80u | (code >> 6 & 0x3Fu));

@@ -63,7 +63,7 @@ GONIO_INLINE bool next_whole_line(std::string_view& text, text_place& place, std
   while (!text.empty()) {
     ++place.line;
     std::size_t end = std::min(text.find('\n'), text.size());
-    // A carriage return that no line feed follows ends a line, too.
+    // A carriage return without a line feed ends a line, too.
     if (const std::size_t alone = text.substr(0, end).find('\r'); alone != std::string_view::npos && alone + 1 < end)
       end = alone;
     line = text.substr(0, end);
@@ -102,12 +102,12 @@ GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string
 }
 
 [[gnu::cold]] GONIO_INLINE std::errc read_by_strtod(std::string_view digits, double& value) {
-  // What strtod takes and from_chars does not: blanks and plus signs before a number, and hexadecimal digits.
+  // Refuse what strtod accepts and from_chars does not: leading blanks and plus signs, and hexadecimal digits.
   constexpr std::string_view begins = "-.0123456789iInN";
   if (digits.empty() || begins.find(digits.front()) == std::string_view::npos) return std::errc::invalid_argument;
   if (digits.find_first_of("xX") != std::string_view::npos) return std::errc::invalid_argument;
   static const ::locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
-  const std::string text(digits);  // which ends with a zero
+  const std::string text(digits);  // zero-terminated, for strtod
   char* end = nullptr;
   errno = 0;
   const double number = ::strtod_l(text.c_str(), &end, plain);
@@ -127,7 +127,7 @@ GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string
 }
 
 GONIO_INLINE const char* read_number(std::string_view field, double& value) {
-  // Instruments print a plus sign, which from_chars does not know.
+  // Instruments print plus signs, which from_chars does not accept.
   const bool plus = field.size() > 1 && field[0] == '+' && field[1] != '-';
   const std::string_view digits = field.substr(plus ? 1 : 0);
   const std::errc failed = read_whole(digits, value);

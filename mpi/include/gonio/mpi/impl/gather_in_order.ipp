@@ -18,7 +18,7 @@ namespace gonio::mpi {
 
 namespace detail {
 
-/// The last byte of a message says whether it is a part, or its rank's last message.
+/// The last byte of a message tells whether it is a part or its rank's last message.
 inline constexpr std::byte is_part{1}, is_end{0};
 
 [[nodiscard]] inline std::exception_ptr thrown_by(const std::function<void()>& work) {
@@ -30,7 +30,7 @@ inline constexpr std::byte is_part{1}, is_end{0};
   return nullptr;
 }
 
-/// Rank 0: takes all, or until a part fails anywhere; then tells the others to stop and waits until they do.
+/// Rank 0: takes all parts, or until one fails anywhere. Then tells the others to stop and waits for them.
 [[nodiscard]] GONIO_INLINE std::exception_ptr take_in_order(
     const ranks& ranks, block range, const std::function<std::vector<std::byte>(Eigen::Index)>& compute,
     const std::function<void(Eigen::Index, std::vector<std::byte>)>& take) {
@@ -45,7 +45,7 @@ inline constexpr std::byte is_part{1}, is_end{0};
     for (Eigen::Index i = range.begin; i < range.end; ++i) {
       const int owner = static_cast<int>((i - range.begin) % ranks.size());
       std::vector<std::byte> bytes = owner == 0 ? compute(i) : receive(owner);
-      if (has_ended[static_cast<std::size_t>(owner)]) return;  // its owner knows why
+      if (has_ended[static_cast<std::size_t>(owner)]) return;  // the owner knows the reason
       take(i, std::move(bytes));
     }
   });
@@ -56,7 +56,7 @@ inline constexpr std::byte is_part{1}, is_end{0};
   return thrown;
 }
 
-/// Another rank: sends its parts until there are no more, one fails, or rank 0 says to stop.
+/// Another rank: sends its parts until there are no more, one fails, or rank 0 tells it to stop.
 [[nodiscard]] GONIO_INLINE std::exception_ptr send_in_order(
     const ranks& ranks, block range, const std::function<std::vector<std::byte>(Eigen::Index)>& compute) {
   const auto thrown = thrown_by([&] {

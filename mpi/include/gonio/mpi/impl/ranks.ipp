@@ -25,18 +25,18 @@ namespace gonio::mpi {
 
 namespace detail {
 
-/// Bytes on their way. A message of MPI is counted by an int: longer bytes are sent in pieces, and a full piece is
-/// followed by another.
+/// A message being sent. MPI counts its size as int, so long messages are sent in pieces. A full piece is followed by
+/// another.
 struct posted {
   std::vector<std::byte> bytes;
   std::vector<MPI_Request> pieces;
 };
 
 inline constexpr std::size_t full_piece = std::size_t{1} << 30;
-/// What `together` sends has a tag of its own: a rank that failed alone is known by it.
+/// Messages of `together` have their own tag, which identifies a rank that failed alone.
 inline constexpr int message_tag = 0, outcome_tag = 1;
 
-/// Adds the processor time of this thread, while it lives, to a sum.
+/// Adds this thread's processor time during the timer's lifetime to a sum.
 class processor_timer {
  public:
   explicit processor_timer(double& sum) : sum_(sum), start_(now()) {}
@@ -57,13 +57,13 @@ class processor_timer {
 
 }  // namespace detail
 
-// Errors of MPI itself end the job: that is what a communicator does unless it is told otherwise.
+// Errors of MPI itself end the job, the default of a communicator.
 struct ranks::state {
   MPI_Comm all = MPI_COMM_NULL;
   int rank = 0, size = 1, on_this_machine = 1;
   int tag = detail::message_tag;
   bool ends_mpi = false, failed_together = false;
-  std::string failure;  ///< of this rank, while the others are told
+  std::string failure;  ///< of this rank, while it is told to the others
   traffic sent;
   std::deque<detail::posted> under_way;
 
@@ -80,7 +80,7 @@ struct ranks::state {
     }
     return pieces;
   }
-  /// Ends the job, because one of two ranks failed where the other went on.
+  /// Ends the job because one of two ranks failed while the other continued.
   [[noreturn]] void end_apart(int other, int tag_of_other, std::span<const std::byte> bytes) const {
     std::string why = failure;
     if (tag_of_other == detail::outcome_tag) {
@@ -92,7 +92,7 @@ struct ranks::state {
                     " failed alone: ", why.empty() ? "its work is not that of the others" : why.substr(1), "\n"});
     std::fputs(sentence.c_str(), stderr);
     MPI_Abort(all, 1);
-    std::abort();  // which MPI has done
+    std::abort();  // not reached, MPI_Abort has ended the process
   }
   void finish(std::vector<MPI_Request>& pieces) {
     const detail::processor_timer timer(sent.processor_seconds);
@@ -102,7 +102,7 @@ struct ranks::state {
 
 namespace detail {
 
-/// What a failed rank tells: a letter of what was thrown, and the sentence.
+/// The message of a failed rank: a letter for the kind of exception, and the text.
 inline constexpr char is_refusal = 'r', is_failure = 'f';
 
 [[nodiscard]] GONIO_INLINE std::string failure_of(const std::function<void()>& work) {
@@ -118,8 +118,8 @@ inline constexpr char is_refusal = 'r', is_failure = 'f';
   }
 }
 
-/// What all ranks are told of their failures: nothing if none failed; otherwise that of the first that did, and which
-/// it was unless all did.
+/// Returns the message for all ranks: empty if none failed; otherwise the first failure, with its rank unless all
+/// failed.
 [[nodiscard]] GONIO_INLINE std::vector<std::byte> outcome_of(const std::vector<std::vector<std::byte>>& failures) {
   const auto has_failed = [](const auto& failure) { return !failure.empty(); };
   const auto first = std::ranges::find_if(failures, has_failed);
@@ -165,7 +165,7 @@ GONIO_INLINE bool ranks::failed_together() const noexcept { return state_->faile
 
 GONIO_INLINE void ranks::abort(int code) const {
   MPI_Abort(state_->all, code);
-  std::abort();  // which MPI has done
+  std::abort();  // not reached, MPI_Abort has ended the process
 }
 
 // ---- messages ----------------------------------------------------------------------------------
@@ -224,7 +224,7 @@ GONIO_INLINE std::vector<std::vector<std::byte>> ranks::gather(std::span<const s
 }
 
 GONIO_INLINE std::vector<std::byte> ranks::broadcast(std::vector<std::byte> bytes) const {
-  // Rank r has the bytes from r without its lowest bit, and hands them to r with each lower bit.
+  // Rank r receives from r without its lowest set bit, and sends to r plus each lower bit.
   const unsigned own = static_cast<unsigned>(rank()), count = static_cast<unsigned>(size());
   const unsigned lowest = own == 0 ? std::bit_ceil(count) : own & (~own + 1u);
   if (own != 0) bytes = receive(static_cast<int>(own - lowest));

@@ -22,7 +22,7 @@ namespace gonio::mpi {
 
 namespace detail {
 
-/// A partial sum as a message: its rows, its columns and its numbers; nothing if there is none.
+/// Encodes a partial sum as a message: its number of rows and its values; no values if it is empty.
 [[nodiscard]] GONIO_INLINE std::vector<std::byte> message_of_sum(const Eigen::MatrixXd& sum) {
   std::vector<std::byte> bytes(static_cast<std::size_t>(sum.size() + 1) * sizeof(double));
   const Eigen::Index rows = sum.rows();
@@ -39,7 +39,7 @@ namespace detail {
   return sum;
 }
 
-/// The binary tree of sums, each at the rank of its first group.
+/// The binary tree of sums. Each sum is at the rank of its first group.
 class tree_of_sums {
  public:
   tree_of_sums(const ranks& ranks, Eigen::Index groups, const std::function<Eigen::MatrixXd(Eigen::Index)>& partial)
@@ -50,7 +50,8 @@ class tree_of_sums {
     }
   }
 
-  /// Of the groups of a range, if its first is this rank's; otherwise nothing, and what this rank knows of it is sent.
+  /// Returns the sum of a range of groups if its first is this rank's. Otherwise returns nothing and sends this rank's
+  /// part of it.
   [[nodiscard]] Eigen::MatrixXd sum(block range) {
     if (owner(range.begin) > ranks_.rank() || owner(range.end - 1) < ranks_.rank()) return {};
     if (range.size() == 1) return leaf(range.begin);
@@ -61,12 +62,12 @@ class tree_of_sums {
     if (to != from && from == ranks_.rank()) ranks_.send(to, message_of_sum(rest));
     if (to != ranks_.rank()) return {};
     if (to != from) rest = sum_of_message(ranks_.receive(from));
-    if (total.rows() != rest.rows() || total.cols() != rest.cols()) return {};  // one has failed
+    if (total.rows() != rest.rows() || total.cols() != rest.cols()) return {};  // one rank has failed
     total += rest;
     return total;
   }
 
-  /// What `partial` threw, if it did.
+  /// Returns the exception of `partial`, if any.
   [[nodiscard]] const std::exception_ptr& thrown() const noexcept { return thrown_; }
 
  private:

@@ -45,7 +45,7 @@ GONIO_INLINE similarity_transform similarity_transform::after(const similarity_t
 
 namespace gonio::shape::detail {
 
-/// Points without their weighted centroid, each times the root of its share of the weights.
+/// Points minus their weighted centroid, each times the square root of its relative weight.
 struct centred_points {
   Eigen::Vector3d centroid;
   point_columns scaled;
@@ -63,7 +63,7 @@ GONIO_INLINE centred_points::centred_points(const point_columns& points, const E
   }
 }
 
-/// The shares of all weights: 1/n each if there are none.
+/// Returns weights that sum to 1: 1/n each if none are given.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd weight_shares(const Eigen::VectorXd& weights, Eigen::Index points) {
   Eigen::VectorXd shares = weights.size() > 0 ? weights : Eigen::VectorXd::Ones(points);
   if (shares.size() != points) refuse({"an alignment of ", points, " points is given ", shares.size(), " weights"});
@@ -71,12 +71,12 @@ GONIO_INLINE centred_points::centred_points(const point_columns& points, const E
     refuse("the weights of an alignment must be finite and not negative");
   const auto positive = std::ranges::count_if(shares, [](double weight) { return weight > 0.0; });
   if (positive < 3) refuse({"an alignment needs three points of positive weight, not ", positive});
-  shares /= shares.maxCoeff();  // whose sum does not overflow
+  shares /= shares.maxCoeff();  // keeps the sum from overflowing
   shares /= shares.sum();
   return shares;
 }
 
-/// The sum of a_i b_i' over the columns.
+/// Returns the sum of a_i b_i' over the columns.
 [[nodiscard]] GONIO_INLINE Eigen::Matrix3d sum_of_outer_products(const point_columns& a, const point_columns& b) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (Eigen::Index v = 0; v < a.cols(); ++v)
@@ -113,7 +113,7 @@ GONIO_INLINE similarity_transform align(const point_columns& from, const point_c
     singular[2] = -singular[2];
     left.col(2) = -left.col(2);
   }
-  // How much the sum of squares rises with a small turn, about the axis about which it rises least.
+  // The rise of the sum of squares for a small rotation about the axis with the smallest rise.
   const double stiffness = singular[1] + singular[2];
   constexpr double undetermined = 1e-9;
   if (!(stiffness > undetermined * source.scaled.norm() * target.scaled.norm()))
@@ -145,7 +145,7 @@ GONIO_INLINE void require_corresponded(const std::vector<point_columns>& shapes,
   return sum / static_cast<double>(shapes.size());
 }
 
-/// About its centroid.
+/// Scales a shape about its centroid.
 GONIO_INLINE void rescale(point_columns& shape, double size) {
   const Eigen::Vector3d centroid = centroid_of(shape);
   const double factor = size / centroid_size(shape);

@@ -24,7 +24,7 @@ GONIO_INLINE Eigen::Index bootstrap_result::accepted() const {
 
 namespace gonio::shape::detail {
 
-/// Shapes and their names, which a model is learned from again and again.
+/// Shapes and their names, from which a model is learned repeatedly.
 class growing_model {
  public:
   growing_model(std::vector<point_columns> shapes, std::vector<std::string> names, triangle_columns triangles,
@@ -34,7 +34,7 @@ class growing_model {
 
   void add(std::string name, point_columns shape);
 
-  /// How many shapes it has not learned from yet, as a share of those that it has.
+  /// Returns the number of shapes not yet learned, relative to those learned.
   [[nodiscard]] double unlearned() const {
     return static_cast<double>(shapes_.size()) / static_cast<double>(model_.shapes()) - 1.0;
   }
@@ -60,7 +60,7 @@ GONIO_INLINE void growing_model::add(std::string name, point_columns shape) {
   shapes_.push_back(std::move(shape));
 }
 
-/// One attempt at a scan.
+/// Makes one attempt at a scan.
 [[nodiscard]] GONIO_INLINE bootstrap_outcome attempt(const shape_model& model, const shape_context_matcher& matcher,
                                                      const triangle_mesh& scan, const bootstrap_options& options,
                                                      thread_count threads) {
@@ -76,7 +76,7 @@ GONIO_INLINE void growing_model::add(std::string name, point_columns shape) {
     outcome.registered = register_scan(model, surface_index(scan), aligned.transform, options.registration, threads);
     outcome.refusal = outcome.registered->refusal;
   } catch (const error& refusal) {
-    outcome.refusal = refusal.what();  // it is no surface, or shows hardly any of the model
+    outcome.refusal = refusal.what();  // the mesh is not a surface, or shows hardly any of the model
   }
   return outcome;
 }

@@ -59,14 +59,14 @@ GONIO_INLINE vertex_observations closest_places(const posed_scan& scan, const tr
   const Eigen::Index count = shape.vertices.cols();
   point_columns places(3, shape.vertices.cols());
   Eigen::VectorXd weights(shape.vertices.cols());
-  std::vector<char> shown(count, 0);  // not bool: threads write neighbours
+  std::vector<char> shown(count, 0);  // not bool: threads write neighbouring elements
   for_each_index(
       count, 128,
       [&](Eigen::Index vertex) {
         const surface_point found = scan.closest(shape.vertices.col(vertex));
         places.col(vertex) = found.position;
         weights[vertex] = scan.weight_at(found);
-        // What is missing in the scan is nearest to where it ends.
+        // The closest point to a missing part is on the scan's border.
         shown[vertex] = !found.on_border && found.distance <= options.reach &&
                         scan.normal(found).dot(normals.col(vertex)) >= options.normal_agreement;
       },

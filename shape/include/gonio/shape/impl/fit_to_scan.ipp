@@ -65,14 +65,14 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
   return weights;
 }
 
-/// Where a scan is noisy, vertices are off by its noise besides the position error.
+/// Returns the weights of a scan's vertices: noise adds to the position error.
 [[nodiscard]] GONIO_INLINE Eigen::RowVectorXd surface_weights(const surface_index& scan, double position_error) {
   Eigen::RowVectorXd weights = noise_variances(scan.mesh(), scan.topology());
   for (double& noise : weights) noise = 1.0 / (1.0 + noise / (position_error * position_error));
   return weights;
 }
 
-/// The places of a posed scan that a shape has, and their weights.
+/// Returns the closest points of a posed scan, and their weights.
 [[nodiscard]] GONIO_INLINE vertex_observations weighted_places(const posed_scan& scan, const triangle_mesh& shape,
                                                                const fit_to_scan_options& options,
                                                                thread_count threads) {
@@ -83,7 +83,7 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
   return places;
 }
 
-/// The weights of the shape that has these places, and of its motion, which are 0 where the pose is held.
+/// Returns the weights of the shape that fits some positions, and of its motion; these are 0 if the pose is held.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd fitted_weights(const shape_with_motion& functions,
                                                           const vertex_observations& places, const tikhonov& solver,
                                                           bool holds_pose, thread_count threads) {
@@ -113,7 +113,7 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
     shape_with_motion functions(part.basis(), shape.vertices);
     Eigen::VectorXd weights = detail::fitted_weights(functions, places, solver, options.holds_pose, threads);
     const auto [shape_weights, motion] = functions.split(weights);
-    // The scan moves, not the shape.
+    // Move the scan, not the shape.
     posed.pose = motion.inverse() * posed.pose;
     point_columns vertices = shape_of(part.basis(), shape_weights);
     const double change = (vertices - shape.vertices).norm();

@@ -15,8 +15,7 @@
 
 namespace gonio::shape::detail {
 
-/// Calls `arrive(vertex, distance)` once for each vertex that can be reached from the source, in the order of
-/// distances, until it returns false.
+/// Calls `arrive(vertex, distance)` for each vertex reachable from the source, nearest first, until it returns false.
 GONIO_INLINE void walk_edges(const triangle_mesh& mesh, const mesh_topology& topology, Eigen::Index source,
                              const std::function<bool(Eigen::Index vertex, double distance)>& arrive) {
   if (mesh.vertices.cols() != topology.vertices())
@@ -32,7 +31,7 @@ GONIO_INLINE void walk_edges(const triangle_mesh& mesh, const mesh_topology& top
   while (!pending.empty()) {
     const auto [distance, vertex] = pending.top();
     pending.pop();
-    if (distance > distances[vertex]) continue;  // was reached by a shorter path
+    if (distance > distances[vertex]) continue;  // a shorter path reached it before
     if (!arrive(vertex, distance)) return;
     for (const int neighbour : topology.neighbours(vertex)) {
       const Eigen::Vector3d edge = mesh.vertices.col(neighbour) - mesh.vertices.col(vertex);
@@ -64,7 +63,7 @@ GONIO_INLINE std::vector<Eigen::Index> nearest_along_surface(const triangle_mesh
                                                              Eigen::Index count) {
   std::vector<std::pair<double, Eigen::Index>> found;
   detail::walk_edges(mesh, topology, source, [&](Eigen::Index vertex, double distance) {
-    // All as far as the last one, which may have lower numbers.
+    // Include all vertices at the same distance as the last one: they may have lower numbers.
     if (std::ssize(found) >= count && (count == 0 || distance > found[count - 1].first)) return false;
     if (is_candidate(vertex)) found.emplace_back(distance, vertex);
     return true;

@@ -17,8 +17,8 @@
 
 namespace gonio::shape::detail {
 
-/// The neighbours along the border of a vertex on it: there are two. All its neighbours if that does not come out,
-/// where three edges are a ring but no triangle.
+/// Returns the two neighbours along the border of a border vertex. Returns all its neighbours if there are not two, as
+/// where three edges form a ring but no triangle.
 [[nodiscard]] GONIO_INLINE std::vector<int> along_border(const mesh_topology& topology, Eigen::Index vertex) {
   const auto neighbours = topology.neighbours(vertex);
   std::vector<int> along, common;
@@ -32,17 +32,17 @@ namespace gonio::shape::detail {
   return {neighbours.begin(), neighbours.end()};
 }
 
-/// A vertex and what its position is multiplied by.
+/// A vertex and the factor of its position.
 struct vertex_share {
   int vertex;
   double share;
 };
 
-/// The vertices' shares in a vector that should be short: the energy is the sum of its square over all terms.
+/// A linear combination of vertices that should be short. The energy is the sum of its squared length over all terms.
 using energy_term = std::vector<vertex_share>;
 
-/// How far the middle of each vertex's neighbours is from it. On a border the neighbours are those along it: the middle
-/// of all is inwards even of a plane, which would hold back surfaces that are continued to their end.
+/// Returns the difference between each vertex and the mean of its neighbours. On a border, only neighbours along it
+/// count: the mean of all is inwards even on a plane, which would retract continued surfaces.
 [[nodiscard]] GONIO_INLINE std::vector<energy_term> umbrella_terms(const mesh_topology& topology) {
   std::vector<energy_term> terms;
   for (Eigen::Index v = 0; v < topology.vertices(); ++v) {
@@ -57,7 +57,7 @@ using energy_term = std::vector<vertex_share>;
   return terms;
 }
 
-/// How far each vertex is from each of its neighbours with a higher number.
+/// Returns the difference between each vertex and each of its neighbours with a higher number.
 [[nodiscard]] GONIO_INLINE std::vector<energy_term> edge_terms(const mesh_topology& topology) {
   std::vector<energy_term> terms;
   for (Eigen::Index v = 0; v < topology.vertices(); ++v)
@@ -66,7 +66,7 @@ using energy_term = std::vector<vertex_share>;
   return terms;
 }
 
-/// Throws gonio::error at the first vertex that no known one is joined to by edges.
+/// Throws gonio::error for the first vertex that no path of edges joins to a known one.
 GONIO_INLINE void require_reached(const mesh_topology& topology, std::vector<bool> reached) {
   std::vector<Eigen::Index> pending;
   for (Eigen::Index v = 0; v < topology.vertices(); ++v)
@@ -87,7 +87,7 @@ GONIO_INLINE void require_reached(const mesh_topology& topology, std::vector<boo
 }
 
 /// The linear system of the missing vertices, numbered in their order: the lower triangle of a symmetric matrix, and
-/// what the known vertices pull by, x, y and z of each missing one in a row.
+/// the contribution of the known vertices, x, y and z of each missing one per row.
 struct filling_system {
   Eigen::SparseMatrix<double> matrix;
   Eigen::MatrixXd rhs;
@@ -95,7 +95,7 @@ struct filling_system {
 
 [[nodiscard]] GONIO_INLINE filling_system system_of(const std::vector<energy_term>& terms, const point_columns& points,
                                                     const std::vector<Eigen::Index>& missing) {
-  std::vector<int> number(points.cols(), -1);  // among the missing
+  std::vector<int> number(points.cols(), -1);  // index among the missing
   for (Eigen::Index i = 0; i < std::ssize(missing); ++i) number[missing[i]] = static_cast<int>(i);
   const Eigen::Index count = std::ssize(missing);
   filling_system system{Eigen::SparseMatrix<double>(count, count), Eigen::MatrixXd::Zero(count, 3)};

@@ -45,13 +45,13 @@ GONIO_INLINE mesh_view mesh_view::of(const triangle_mesh& mesh, const Eigen::Vec
 
 namespace gonio::shape::detail {
 
-/// An image and how near what it shows is.
+/// An image and the depth of each pixel.
 struct depth_image {
   image picture;
   std::vector<double> nearest;
 };
 
-/// Draws one triangle, whose corners are (column, row, depth) with colours as columns.
+/// Draws one triangle with corners (column, row, depth) and colours as columns.
 GONIO_INLINE void draw_triangle(depth_image& onto, const Eigen::Matrix3d& corners, const Eigen::Matrix3d& colours) {
   const std::size_t pixels = onto.picture.shape(0);
   const auto last = static_cast<double>(pixels) - 1.0;

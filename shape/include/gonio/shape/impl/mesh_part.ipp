@@ -14,7 +14,7 @@
 
 namespace gonio::shape::detail {
 
-/// The corners of triangles, three for each, in groups that are one vertex: those that an edge of two triangles joins.
+/// Groups the corners of triangles, three each, into vertices: corners joined by an edge of two triangles.
 class joined_corners {
  public:
   explicit joined_corners(const triangle_columns& triangles);
@@ -30,7 +30,7 @@ class joined_corners {
 
 GONIO_INLINE joined_corners::joined_corners(const triangle_columns& triangles) : parent_(triangles.size()) {
   std::iota(parent_.begin(), parent_.end(), Eigen::Index{0});
-  std::map<std::pair<int, int>, Eigen::Index> from;  // where an edge begins, by its vertices
+  std::map<std::pair<int, int>, Eigen::Index> from;  // the corner where an edge begins, by its vertices
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
     for (Eigen::Index side = 0; side < 3; ++side)
       from[{triangles(side, t), triangles((side + 1) % 3, t)}] = 3 * t + side;

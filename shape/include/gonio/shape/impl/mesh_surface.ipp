@@ -53,7 +53,7 @@ GONIO_INLINE void triangle_tree::add_node(Eigen::Index first, Eigen::Index count
   add_node(first + count / 2, count - count / 2);
 }
 
-/// Does a ray meet a box before a distance?
+/// Returns whether a ray meets a box before a distance.
 [[nodiscard]] GONIO_INLINE bool meets_box(const ray& line, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
                                           double before) {
   double enter = 0.0, leave = before;
@@ -67,7 +67,7 @@ GONIO_INLINE void triangle_tree::add_node(Eigen::Index first, Eigen::Index count
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
   }
-  // A hair of tolerance: a flat box has no depth.
+  // A small tolerance, because a flat box has no depth.
   return enter <= leave + 1e-9 * (1.0 + std::abs(enter));
 }
 

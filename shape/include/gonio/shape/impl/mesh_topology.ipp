@@ -79,7 +79,7 @@ GONIO_INLINE void mesh_topology::gather(const std::vector<half_edge>& edges, Eig
 }
 
 GONIO_INLINE void mesh_topology::require_single_fans(const triangle_columns& triangles, Eigen::Index vertices) {
-  // What is opposite to each vertex: an edge for each of its triangles.
+  // The edge opposite to each vertex, for each of its triangles.
   std::vector<std::vector<half_edge>> opposite(vertices);
   for (const auto& corners : triangles.colwise())
     for (int side = 0; side < 3; ++side)
@@ -91,7 +91,7 @@ GONIO_INLINE void mesh_topology::require_single_fans(const triangle_columns& tri
 
 GONIO_INLINE bool mesh_topology::is_one_chain(const std::vector<half_edge>& edges) {
   const auto leaving = [&](int vertex) { return std::ranges::find(edges, vertex, &half_edge::from); };
-  // An open chain begins at a vertex that no edge arrives at, a closed one anywhere.
+  // An open chain begins at a vertex without an incoming edge, a closed one anywhere.
   const auto begins = [&](const half_edge& edge) {
     return std::ranges::find(edges, edge.from, &half_edge::to) == edges.end();
   };

@@ -21,7 +21,7 @@
 
 namespace gonio::shape::detail {
 
-/// Throws gonio::error if the shape that was fitted to a scan is too far from the mean.
+/// Throws gonio::error if the fitted shape is too far from the mean.
 GONIO_INLINE void require_of_family(const fit_to_scan_result& fit, const shape_model& model, double confidence) {
   const Eigen::Index weights = fit.weights().size();
   const double limit = chi_square_quantile(confidence, static_cast<double>(weights));
@@ -49,13 +49,13 @@ GONIO_INLINE recovered_shape recover(const shape_model& model, const surface_ind
 
 namespace gonio::shape::detail {
 
-/// Every vertex predicted from the known ones nearest to it along the mean shape.
+/// Predicts every vertex from the known ones nearest to it along the mean shape.
 [[nodiscard]] GONIO_INLINE point_columns predict_locally(const shape_model& model, const triangle_mesh& mean,
                                                          const vertex_observations& known,
                                                          const algorithm_1_options& options, thread_count threads) {
   const truncated_svd solver{options.last_explained_variance};
   const std::vector<bool> marks = marks_of(known, model.vertices());
-  std::vector<Eigen::Index> place(marks.size(), 0);  // of a known vertex among the known
+  std::vector<Eigen::Index> place(marks.size(), 0);  // index of a known vertex among the known
   for (Eigen::Index i = 0; i < std::ssize(known.vertices); ++i) place[known.vertices[i]] = i;
   const auto is_known = [&](Eigen::Index vertex) { return bool{marks[vertex]}; };
   point_columns predicted(3, model.vertices());
@@ -94,7 +94,7 @@ GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const
   triangle_mesh shape = model.mesh(begin.shape());
   vertex_observations known = closest_places(posed, shape, options.correspondence, threads);
   for (int round = 0; round < options.rounds + options.local_rounds; ++round) {
-    // Procrustes alignment of the shape to the mean, and of the scan with it.
+    // Procrustes alignment: align the shape to the mean, and the scan with it.
     if (options.aligns) {
       point_columns whole = shape.vertices;
       for (Eigen::Index i = 0; i < std::ssize(known.vertices); ++i)
@@ -104,14 +104,14 @@ GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const
       known.positions = step(known.positions);
       known.normals = similarity_transform{1.0, step.rotation}(known.normals);
     }
-    // Predict what is missing, and what is known.
+    // Predict the missing vertices and the known ones.
     if (round < options.rounds) {
       const truncated_svd solver{detail::explained_variance_in(round, options)};
       shape.vertices = fit_shape(model.basis(), solver, known, threads).vertices();
     } else {
       shape.vertices = detail::predict_locally(model, mean, known, options, threads);
     }
-    // Find where the scan shows the vertices now.
+    // Find the vertices on the scan again.
     known = closest_places(posed, shape, options.correspondence, threads);
     require_shown(known, model);
   }

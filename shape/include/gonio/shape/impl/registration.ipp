@@ -35,7 +35,7 @@ GONIO_INLINE double smallest_angle_percentile(const triangle_mesh& mesh, double 
 
 namespace gonio::shape::detail {
 
-/// Where lines along the smoothed normals of a shape meet the scan.
+/// Returns the intersections of the scan with lines along the smoothed normals of a shape.
 [[nodiscard]] GONIO_INLINE vertex_observations places_along_normals(const posed_scan& scan, const shape_model& model,
                                                                     const triangle_mesh& shape,
                                                                     const registration_options& options,
@@ -58,7 +58,7 @@ namespace gonio::shape::detail {
   return shown_vertices(places, normals, shown, options.fit.correspondence.tangential);
 }
 
-/// The sentence of the first test that fails.
+/// Returns a message for the first test that fails.
 [[nodiscard]] GONIO_INLINE std::string refusal_of(const registration& found, const fit_to_scan_result& fit,
                                                   const registration_options& options) {
   const auto weights = static_cast<double>(fit.weights().size());

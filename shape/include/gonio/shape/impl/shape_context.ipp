@@ -39,7 +39,7 @@ GONIO_INLINE void require_context(const shape_context_options& options) {
             options.least_inclination});
 }
 
-/// What sampling and describing need of a mesh, which may be less than a surface.
+/// The requirements of sampling and describing on a mesh, which are weaker than for a surface.
 GONIO_INLINE void require_finite_mesh(const triangle_mesh& mesh) {
   if (!mesh.vertices.allFinite()) refuse("the vertices of a mesh to describe must be finite");
   if (mesh.triangles.cols() == 0) refuse("a mesh to describe has no triangles");
@@ -47,9 +47,9 @@ GONIO_INLINE void require_finite_mesh(const triangle_mesh& mesh) {
     refuse({"a triangle of a mesh to describe names a vertex that is not among its ", mesh.vertices.cols()});
 }
 
-/// A third of the area of the triangles around each vertex.
+/// Returns a third of the area of the triangles around each vertex.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd vertex_areas(const triangle_mesh& mesh) {
-  const point_columns normals = area_normals(mesh);  // as long as twice the area
+  const point_columns normals = area_normals(mesh);  // length: twice the area
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(mesh.vertices.cols());
   for (Eigen::Index t = 0; t < normals.cols(); ++t) {
     const double share = normals.col(t).norm() / 6.0;
@@ -106,7 +106,7 @@ GONIO_INLINE Eigen::Index context_bin(const Eigen::Vector3d& place, const shape_
 GONIO_INLINE std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh, Eigen::Index count) {
   detail::require_finite_mesh(mesh);
   if (count < 0) refuse("the number of vertices to choose must not be negative");
-  // Squared distances from what was chosen; vertices of no triangle are as near as those chosen.
+  // Squared distances from the chosen vertices. Vertices of no triangle have distance 0, like chosen ones.
   const std::ptrdiff_t vertices = mesh.vertices.cols();
   std::vector<double> nearest(vertices, 0.0);
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
@@ -135,7 +135,7 @@ GONIO_INLINE std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh
 
 GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::vector<Eigen::Index>& chosen,
                                         const shape_context_options& options, thread_count threads) {
-  // Refuse options, meshes and vertices that cannot be used.
+  // Refuse unusable options, meshes and vertices.
   detail::require_context(options);
   detail::require_finite_mesh(mesh);
   for (const Eigen::Index vertex : chosen)
@@ -161,7 +161,7 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
   for_each_index(
       chosen.size(), 8, [&](Eigen::Index i) { fill(i); }, threads);
 
-  // Normalise the histograms, and leave out vertices that see nothing.
+  // Normalise the histograms, and skip empty ones.
   shape_descriptors found;
   std::vector<Eigen::Index> filled;
   for (Eigen::Index point = 0; point < histograms.cols(); ++point) {
@@ -182,7 +182,7 @@ GONIO_INLINE Eigen::MatrixXd chi_square_costs(const shape_descriptors& from, con
   if (from.histograms.rows() != onto.histograms.rows())
     refuse({"descriptors of ", from.histograms.rows(), " and ", onto.histograms.rows(), " bins cannot be compared"});
   Eigen::MatrixXd costs(from.histograms.cols(), onto.histograms.cols());
-  // Empty in both: 0 / least, which is 0.
+  // Bins that are empty in both: 0 / least, which is 0.
   constexpr float least = std::numeric_limits<float>::min();
   for_each_block(
       costs.cols(), 8,

@@ -58,7 +58,7 @@ GONIO_INLINE std::pair<similarity_transform, Eigen::Index> robust_pose(const mat
   return {pose, used};
 }
 
-/// The vertices that triangles have.
+/// Returns the vertices of triangles.
 [[nodiscard]] GONIO_INLINE point_columns surface_vertices(const triangle_mesh& mesh) {
   std::vector<bool> in_use(mesh.vertices.cols(), false);
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
@@ -69,7 +69,7 @@ GONIO_INLINE std::pair<similarity_transform, Eigen::Index> robust_pose(const mat
   return chosen_columns(mesh.vertices, kept);
 }
 
-/// Of points in a pose to those of a tree.
+/// Returns the mean distance of posed points to the points of a tree.
 [[nodiscard]] GONIO_INLINE double mean_distance(const similarity_transform& pose, const point_columns& points,
                                                 const point_tree& tree, thread_count threads) {
   const auto add = [&](double& sum, block some) {
@@ -78,7 +78,7 @@ GONIO_INLINE std::pair<similarity_transform, Eigen::Index> robust_pose(const mat
   return sum_over_blocks(points.cols(), 256, 0.0, add, threads) / static_cast<double>(points.cols());
 }
 
-/// What looks alike is looked for among these.
+/// Points to match and their descriptors.
 struct described_points {
   shape_descriptors descriptors;
   point_columns places;

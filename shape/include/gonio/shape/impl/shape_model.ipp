@@ -24,7 +24,7 @@ GONIO_INLINE shape_model shape_model::truncated_to_variance(double share) const 
 
 GONIO_INLINE shape_model learn_shape_model(const std::vector<point_columns>& shapes, std::vector<std::string> names,
                                            triangle_columns triangles, thread_count threads) {
-  (void)shape_set::of(shapes, names);  // refuses what does not belong together, by name
+  (void)shape_set::of(shapes, names);  // refuses inconsistent shapes, and names them
   if (std::ranges::all_of(shapes, [&](const point_columns& shape) { return shape == shapes.front(); }))
     refuse({"a shape model needs at least two shapes that differ, not ", shapes.size(), " that do not"});
   const aligned_shapes aligned = procrustes_mean(shapes);

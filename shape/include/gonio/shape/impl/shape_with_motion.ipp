@@ -26,7 +26,7 @@ GONIO_INLINE shape_with_motion::shape_with_motion(shape_basis shape, const point
   for (Eigen::Index vertex = 0; vertex < moved.cols(); ++vertex) {
     std::array<float, 3> arm{};
     for (Eigen::Index axis = 0; axis < 3; ++axis) arm[axis] = static_cast<float>(moved(axis, vertex) - centroid_[axis]);
-    // turn x arm, and the shift
+    // rotation x arm, and the shift
     const std::array<std::array<float, motions>, 3> displaced{
         {{0, arm[2], -arm[1], 1, 0, 0}, {-arm[2], 0, arm[0], 0, 1, 0}, {arm[1], -arm[0], 0, 0, 0, 1}}};
     for (Eigen::Index axis = 0; axis < 3; ++axis)

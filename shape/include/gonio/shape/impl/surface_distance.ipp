@@ -35,7 +35,7 @@ GONIO_INLINE surface_distance surface_distance::of(const Eigen::VectorXd& signed
   }
   if (found.largest == 0.0) return found;
   const auto count = static_cast<double>(signed_distances.size());
-  double squares = 0.0;  // in shares of the largest, so that they do not overflow
+  double squares = 0.0;  // relative to the largest, so that they do not overflow
   for (const double distance : signed_distances) {
     const double share = distance / found.largest;
     found.signed_mean += distance;

@@ -24,17 +24,17 @@
 
 namespace gonio::shape::detail {
 
-/// Shares of a triangle's corners below which a point is on the opposite side.
+/// The barycentric coordinate below which a point counts as on the opposite side.
 inline constexpr double on_side = 1e-9;
 
-/// The shares of the corners in the point of a triangle that is closest to `point`: where it projects to or, if that is
-/// outside, the closest point of a side. Triangles without area consist of their sides.
+/// Returns the barycentric coordinates of a triangle's point closest to `point`: its projection or, if that is outside,
+/// the closest point of a side. Triangles without area consist of their sides.
 [[nodiscard]] GONIO_INLINE Eigen::Vector3d closest_barycentric(const Eigen::Matrix3d& corners,
                                                                const Eigen::Vector3d& point) {
   const std::array<Eigen::Vector3d, 3> corner{corners.col(0), corners.col(1), corners.col(2)};
   const Eigen::Vector3d first = corner[1] - corner[0], second = corner[2] - corner[0], towards = point - corner[0],
                         normal = first.cross(second);
-  // Below this sine of an angle, 1e-10, rounding decides about the projection.
+  // Below this sine of an angle, 1e-10, rounding determines the projection.
   if (normal.squaredNorm() > 1e-20 * first.squaredNorm() * second.squaredNorm()) {
     const Eigen::Vector3d beside_first = first.cross(towards), beside_second = towards.cross(second);
     const double of_second = beside_first.dot(normal) / normal.squaredNorm(),
@@ -59,14 +59,14 @@ inline constexpr double on_side = 1e-9;
   return best;
 }
 
-/// Where a line meets a triangle.
+/// The intersection of a line and a triangle.
 struct line_hit {
-  double along;  ///< from where the line begins, in lengths of its direction
+  double along;  ///< from the line's origin, in lengths of its direction
   Eigen::Vector3d barycentric;
 };
 
-/// Moeller and Trumbore's test. Sides belong to the triangle with a little slack, so that no line slips between two
-/// triangles. A triangle seen edge-on is not met.
+/// Moeller and Trumbore's test. A small slack at the sides keeps lines from slipping between two triangles. A triangle
+/// seen edge-on is not hit.
 [[nodiscard]] GONIO_INLINE std::optional<line_hit> meet(const Eigen::Matrix3d& corners, const Eigen::Vector3d& origin,
                                                         const Eigen::Vector3d& line) {
   const Eigen::Vector3d corner = corners.col(0), next = corners.col(1), last = corners.col(2), first = next - corner,
@@ -82,7 +82,7 @@ struct line_hit {
   return line_hit{second.dot(turned) / volume, shares};
 }
 
-/// How far points reach along the axes.
+/// The bounds of points along the axes.
 struct extent {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d high = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());
@@ -96,7 +96,7 @@ struct extent {
   [[nodiscard]] Eigen::Vector3d centre() const { return 0.5 * (low + high); }
 };
 
-/// A box along the axes, by its middle; a little larger than asked for, so that its bounds hold after rounding.
+/// An axis-aligned box, by its centre. It is slightly enlarged, so that its bounds hold after rounding.
 struct centred_box {
   static constexpr double slack = 1e-12;
 
@@ -118,8 +118,8 @@ struct centred_box {
     return (1.0 - slack) * sum;
   }
 
-  /// Does a line of a direction of length 1 pass through it? None of the three axes across the line and an axis of
-  /// space separates them.
+  /// Returns whether a line with a unit direction passes through the box: none of the three axes across the line and an
+  /// axis of space separates them.
   [[nodiscard]] bool meets_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& line) const {
     const Eigen::Vector3d between = origin - centre;
     double apart = -std::numeric_limits<double>::infinity(), farthest = 0.0;
@@ -133,14 +133,14 @@ struct centred_box {
   }
 };
 
-/// Boxes around the triangles of a mesh, in a binary tree.
+/// A binary tree of boxes around the triangles of a mesh.
 class box_tree {
  public:
   /// O(n log n) for n triangles.
   explicit box_tree(const triangle_mesh& mesh);
 
-  /// Calls `visit` with the number of each triangle in a box whose `bound` is at most `limit`, near ones first. `visit`
-  /// returns the limit from then on.
+  /// Calls `visit` with the number of each triangle in a box whose `bound` is at most `limit`, near boxes first.
+  /// `visit` returns the new limit.
   template <class Bound, class Visit>
   void search(double limit, const Bound& bound, const Visit& visit) const {
     std::array<std::pair<double, Eigen::Index>, 64> pending;  // one for each halving of the triangles
@@ -211,7 +211,7 @@ GONIO_INLINE Eigen::Index box_tree::build(const std::vector<extent>& boxes, Eige
   return place;
 }
 
-/// A corner, or the side that begins at a corner, or neither: inside.
+/// The feature of a triangle that contains a point: a corner, the side that begins at a corner, or neither (inside).
 struct triangle_feature {
   std::optional<Eigen::Index> corner, side;
 };
@@ -227,7 +227,7 @@ struct triangle_feature {
   return {};
 }
 
-/// The triangle beyond the side from each corner to the next, or -1.
+/// Returns the triangle across the side from each corner to the next, or -1.
 [[nodiscard]] GONIO_INLINE triangle_columns across_sides(const triangle_columns& triangles) {
   using side_of = std::tuple<int, int, int>;  // from, to, triangle
   std::vector<side_of> sides;
@@ -247,7 +247,7 @@ struct triangle_feature {
   return across;
 }
 
-/// At each vertex the mean of its triangles' normals by their angles there.
+/// Returns the mean normal at each vertex, weighted by its triangles' angles there.
 [[nodiscard]] GONIO_INLINE point_columns angle_weighted(const triangle_mesh& mesh, const point_columns& normals) {
   point_columns sums = point_columns::Zero(3, mesh.vertices.cols());
   for (Eigen::Index t = 0; t < normals.cols(); ++t)
@@ -326,7 +326,7 @@ GONIO_INLINE std::optional<surface_point> surface_index::along(const Eigen::Vect
   if (!(reach >= 0.0)) refuse({"the reach of a line that is to meet a surface must not be negative, and is ", reach});
   const Eigen::Vector3d unit = unit_vector(line);
   std::optional<surface_point> best;
-  // Boxes that the line misses are infinitely far, so the limit is finite.
+  // Boxes that the line misses have infinite distance, so the limit must be finite.
   const auto squared = [](double distance) {
     return std::min(distance * distance, std::numeric_limits<double>::max());
   };

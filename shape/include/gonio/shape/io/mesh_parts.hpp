@@ -1,5 +1,5 @@
 #pragma once
-/// What the readers of mesh files have in common.
+/// Shared parts of the mesh readers.
 
 #include <cstddef>
 #include <limits>
@@ -8,10 +8,10 @@
 
 namespace gonio::io::detail {
 
-/// Takes the next word off the front of a line; it is empty where the line ends.
+/// Takes the next word off the front of a line; empty at the end of the line.
 [[nodiscard]] std::string_view read_word(std::string_view& line) noexcept;
 
-/// What a file held so far.
+/// The data read from a file so far.
 struct mesh_parts {
   std::vector<double> coordinates;  // x, y and z of a vertex adjacent
   std::vector<int> corners;         // the three of a triangle adjacent
@@ -19,8 +19,7 @@ struct mesh_parts {
   [[nodiscard]] std::size_t vertices() const noexcept { return coordinates.size() / 3; }
 };
 
-/// Splits a polygon into a fan about its first vertex. It does not look where the vertices are, so that shapes in
-/// correspondence are split alike.
+/// Splits a polygon into a fan about its first vertex. Ignores positions, so corresponded shapes are split alike.
 class polygon_fan {
  public:
   explicit polygon_fan(std::vector<int>& corners) noexcept : corners_(corners) {}

@@ -8,8 +8,7 @@
 
 namespace gonio::io::detail {
 
-/// What is in the text of an OBJ file. Throws gonio::error, which starts with `name`, for what `read_mesh` refuses of
-/// one.
+/// Reads the text of an OBJ file. Throws gonio::error that starts with `name` for files that `read_mesh` refuses.
 [[nodiscard]] mesh_parts read_obj(std::string_view text, const std::string& name);
 
 }  // namespace gonio::io::detail

@@ -8,7 +8,7 @@
 
 namespace gonio::io::detail {
 
-/// What is in the bytes of a PLY file. Throws gonio::error, with the place, for what `read_mesh` refuses of one.
+/// Reads the bytes of a PLY file. Throws gonio::error with the place for files that `read_mesh` refuses.
 [[nodiscard]] mesh_parts read_ply(std::string_view text, text_place place);
 
 }  // namespace gonio::io::detail

@@ -18,17 +18,17 @@ inline constexpr checked_file_kind shape_model_kind{"gonio-shapes", 1, "shape mo
 
 }  // namespace detail
 
-/// A model as the bytes of a file: nothing is lost.
+/// Converts a model to the bytes of a file without loss.
 [[nodiscard]] std::vector<std::byte> write_shape_model(const shape::shape_model& model);
 
-/// The model in the bytes of a file. Throws gonio::error starting with `name` for what `read_checked` refuses, counts
-/// that lie, values that are not finite, and triangles that are no surface.
+/// Reads a model from the bytes of a file. Throws gonio::error that starts with `name` for bytes that `read_checked`
+/// refuses, wrong counts, values that are not finite, and triangles that are not a surface.
 [[nodiscard]] shape::shape_model read_shape_model(std::span<const std::byte> bytes, const std::string& name);
 
 /// Writes a model. An existing file is replaced only once the new one is complete.
 void write_shape_model(const std::filesystem::path& path, const shape::shape_model& model);
 
-/// Reads a file, which is refused for the same reasons.
+/// Reads a model from a file. Refuses it for the same reasons.
 [[nodiscard]] shape::shape_model read_shape_model(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -33,7 +33,7 @@ enum class mesh_format { ply, obj };
   refuse_file(path, "a mesh has the extension .ply or .obj, not " + in_quotes(std::string_view(extension)));
 }
 
-/// What is asked of a mesh that is read or written; whether it is a surface, `mesh_topology` checks.
+/// Checks a mesh to read or write. `mesh_topology` checks whether it is a surface.
 GONIO_INLINE void check_mesh(const shape::triangle_mesh& mesh, const std::filesystem::path& path) {
   const Eigen::Index vertices = mesh.vertices.cols();
   if (vertices > mesh_vertex_limit) refuse_file(path, "has 2^31 or more vertices, which are counted in int");
@@ -54,7 +54,7 @@ GONIO_INLINE void check_mesh(const shape::triangle_mesh& mesh, const std::filesy
   return {code(linear[0]), code(linear[1]), code(linear[2])};
 }
 
-/// Of no colours where there are none to write.
+/// Writes colours unless `colours` is empty.
 GONIO_INLINE void write_ply(const std::filesystem::path& path, const shape::triangle_mesh& mesh,
                             std::span<const rgb> colours) {
   std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.vertices.cols()) +

@@ -16,7 +16,7 @@
 
 namespace gonio::io::detail {
 
-/// The lines of an OBJ of points and polygons.
+/// Reads the lines of an OBJ with points and polygons.
 class obj_reader {
  public:
   obj_reader(std::string_view text, const std::string& name) : text_(text), place_{name} {}
@@ -31,7 +31,7 @@ class obj_reader {
 
   void add_face(std::string_view line);
 
-  /// The vertex of v, v/vt, v//vn or v/vt/vn: from 1 on, or backwards from -1, the latest one.
+  /// Returns the vertex of v, v/vt, v//vn or v/vt/vn. Numbers start from 1, or count backwards from -1, the latest one.
   [[nodiscard]] int vertex_of(std::string_view corner);
 
   [[noreturn]] void refuse_vertex(std::string_view number) const;
@@ -39,12 +39,12 @@ class obj_reader {
   std::string_view text_;
   text_place place_;
   mesh_parts parts_;
-  std::size_t largest_ = 0, largest_line_ = 0;  // vertex number from 1, and where it is named
+  std::size_t largest_ = 0, largest_line_ = 0;  // largest vertex number, from 1, and its line
 };
 
 GONIO_INLINE mesh_parts obj_reader::read() {
   for_each_line(text_, place_, [&](std::string_view line) { add(line.substr(0, line.find('#'))); });
-  // A face may name vertices of lines that follow.
+  // A face may name vertices of later lines.
   if (largest_ > parts_.vertices()) {
     place_.line = largest_line_;
     refuse_vertex(std::to_string(largest_));
@@ -53,7 +53,7 @@ GONIO_INLINE mesh_parts obj_reader::read() {
 }
 
 GONIO_INLINE void obj_reader::add(std::string_view line) {
-  // What neither moves nor renumbers the vertices and polygons. Anything else may be damage.
+  // Keywords that neither move nor renumber vertices and polygons. Any other keyword may be damage.
   constexpr std::array<std::string_view, 18> ignored{"vt",     "vn",     "vp",    "l",        "p",        "o",
                                                      "g",      "s",      "mg",    "mtllib",   "lod",      "usemtl",
                                                      "maplib", "usemap", "bevel", "c_interp", "d_interp", "shadow_obj"};

@@ -35,7 +35,7 @@ template <class Number>
   return static_cast<double>(std::bit_cast<Number>(own));
 }
 
-/// A type of number; double holds all values of each.
+/// A number type. double can represent all its values.
 struct ply_type {
   std::string_view name, newer_name;
   std::size_t size;
@@ -54,12 +54,12 @@ inline constexpr std::array<ply_type, 8> ply_types{{
     {"double", "float64", 8, false, &read_ply_number<double>},
 }};
 
-/// What a property says of a mesh. The first three index a point's coordinates.
+/// The meaning of a property. The first three are indices of a point's coordinates.
 enum class ply_role : std::size_t { x, y, z, corners, ignored };
 
 struct ply_property {
   std::string_view name;
-  std::optional<ply_type> count;  // of lists alone
+  std::optional<ply_type> count;  // only for lists
   ply_type value;
   ply_role role = ply_role::ignored;
 };
@@ -76,7 +76,7 @@ struct ply_element {
 
 enum class ply_encoding { ascii, little_endian, big_endian };
 
-/// The names are those in the file's text.
+/// The names refer to the file's text.
 struct ply_header {
   std::optional<ply_encoding> encoding;
   std::vector<ply_element> elements;
@@ -105,7 +105,7 @@ class ply_header_reader {
 
   [[nodiscard]] static ply_role role_of(const ply_element& element, const ply_property& property);
 
-  /// Rows without properties take no bytes, so that any count of them would be believed.
+  /// Rows without properties take no bytes, so a wrong count of them could not be detected.
   void check(const ply_element& element) const;
 
   std::string_view& text_;
@@ -136,7 +136,7 @@ class ply_binary_rows {
   const std::string& name_;
 };
 
-/// The rows of an ascii PLY, each on a line of its own.
+/// The rows of an ascii PLY, one per line.
 class ply_text_rows {
  public:
   ply_text_rows(std::string_view body, text_place& place) : left_(body), place_(place) {}
@@ -157,7 +157,7 @@ class ply_text_rows {
   [[noreturn]] void refuse(const std::string& what) const { place_.refuse(what); }
 
  private:
-  /// Goes to the next line that holds something, if there is one.
+  /// Goes to the next non-empty line, if there is one.
   [[nodiscard]] bool next_line();
   [[nodiscard]] std::string_view read_field();
 
@@ -185,7 +185,7 @@ void read_ply_face(const ply_type& type, std::size_t size, std::size_t vertices,
   }
 }
 
-/// Nothing is allocated for rows that the file does not have, whatever its header counts.
+/// Allocates nothing for rows that the file does not have, even if its header counts them.
 template <class Rows>
 [[nodiscard]] mesh_parts read_ply_elements(const ply_header& header, Rows rows) {
   mesh_parts parts;

@@ -26,7 +26,7 @@ namespace gonio::io::detail {
 
 using pose_matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
-/// Of four lines of numbers.
+/// Reads four lines of numbers.
 [[nodiscard]] GONIO_INLINE pose_matrix read_matrix(std::string_view text, const std::string& name) {
   text_place place{name};
   std::vector<double> numbers;
@@ -43,7 +43,7 @@ using pose_matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
   return matrix;
 }
 
-/// Of a rotation and a translation.
+/// Reads a rotation and a translation.
 [[nodiscard]] GONIO_INLINE pose_matrix read_parts(std::string_view text, const std::string& name) {
   static constexpr std::array<setup_entry, 2> entries{{{"rotation", 9}, {"translation", 3}}};
   const setup_text parts(text, name, entries);
@@ -53,7 +53,7 @@ using pose_matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
   return matrix;
 }
 
-/// Does a text name what it has?
+/// Returns whether a text names its entries.
 [[nodiscard]] GONIO_INLINE bool has_names(std::string_view text) {
   text_place place{};
   std::string_view line;
@@ -69,7 +69,7 @@ namespace gonio::io {
 GONIO_INLINE shape::similarity_transform read_pose(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
   const std::string_view text = as_text(bytes);
-  const std::string name = path.native();
+  const std::string name = path.string();
   const detail::pose_matrix matrix =
       detail::has_names(text) ? detail::read_parts(text, name) : detail::read_matrix(text, name);
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();

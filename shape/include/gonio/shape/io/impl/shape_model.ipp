@@ -37,7 +37,7 @@ GONIO_INLINE void write_shape_model(byte_writer& out, const shape::shape_model& 
   write_matrix(basis.components());
 }
 
-/// A matrix of so many rows and columns, as its numbers lie in memory.
+/// Reads a matrix in its memory order.
 template <class Matrix>
 [[nodiscard]] Matrix read_matrix(byte_reader& in, std::size_t rows, std::size_t columns) {
   const auto bytes = in.read_bytes(rows * columns * sizeof(typename Matrix::Scalar));
@@ -46,14 +46,14 @@ template <class Matrix>
   return matrix;
 }
 
-/// The fewest bytes that follow the counts: the share of the variance, a length for each text, all numbers.
+/// Returns the minimum number of bytes after the counts: the explained variance, a length for each text, all numbers.
 [[nodiscard]] GONIO_INLINE double least_rest(double vertices, double triangles, double components, double shapes) {
   return 8.0 + 4.0 * (1.0 + shapes) + 12.0 * triangles + components * (8.0 + 4.0 * shapes) +
          12.0 * vertices * (1.0 + components);
 }
 
 [[nodiscard]] GONIO_INLINE shape::shape_model read_shape_model(byte_reader& in, const std::string& name) {
-  // Read the counts, and refuse those that the rest of the file cannot hold.
+  // Read the counts. Refuse counts that the rest of the file cannot hold.
   const std::size_t vertices = in.read<std::uint32_t>(), triangles = in.read<std::uint32_t>(),
                     components = in.read<std::uint32_t>(), shapes = in.read<std::uint32_t>();
   if (components == 0 || components > shapes || shapes > in.left() / sizeof(std::uint32_t))
@@ -80,7 +80,7 @@ template <class Matrix>
                       functions.allFinite() &&
                       std::ranges::all_of(mean, [](float value) { return std::isfinite(value); });
   if (!finite) gonio::refuse(name + ": a value of the shape model is not finite");
-  // Construct the model; its own checks name the file.
+  // Construct the model. Errors of its own checks get the file's name.
   try {
     return {shape::shape_basis({{std::ssize(mean) / 3},
                                 lin{},
