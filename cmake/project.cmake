@@ -54,7 +54,7 @@ function(gonio_precompile target)
   endif()
   set_property(GLOBAL PROPERTY gonio_precompiled ${target})
   target_precompile_headers(${target} PRIVATE
-    <Eigen/Core> <xtensor/xtensor.hpp> <algorithm> <array> <cmath> <filesystem> <functional> <memory> <numbers>
+    <Eigen/Core> <gonio/core/arrays.hpp> <algorithm> <array> <cmath> <filesystem> <functional> <memory> <numbers>
     <optional> <random> <span> <string> <utility> <vector>)
 endfunction()
 

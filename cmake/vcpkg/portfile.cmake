@@ -1,10 +1,11 @@
-# Untested: no machine of ours has vcpkg. An overlay port of this checkout: vcpkg install gonio --overlay-ports=cmake
-# with the folder's name changed to gonio. The headers alone, so that there is nothing to debug.
+# An overlay port of this checkout: vcpkg install gonio --overlay-ports=cmake/vcpkg. The headers alone, so that there is
+# nothing to debug.
 set(VCPKG_BUILD_TYPE release)
+cmake_path(SET checkout NORMALIZE "${CURRENT_PORT_DIR}/../..")
 vcpkg_cmake_configure(
-  SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../.."
+  SOURCE_PATH "${checkout}"
   OPTIONS -DGONIO_BUILD_COMPILED=OFF -DGONIO_BUILD_TESTS=OFF -DGONIO_BUILD_EXAMPLES=OFF -DGONIO_BUILD_BENCH=OFF)
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH share/cmake/gonio)
 vcpkg_fixup_pkgconfig()
-vcpkg_install_copyright(FILE_LIST "${CMAKE_CURRENT_LIST_DIR}/../../LICENSE")
+vcpkg_install_copyright(FILE_LIST "${checkout}/LICENSE")

@@ -1,6 +1,6 @@
 #pragma once
-/// All of `core/` except k_d_tree.hpp, which needs nanoflann: directions, half and difference angles, colours, errors,
-/// parallel loops.
+/// All of `core/` except arrays.hpp, which needs xtensor, and k_d_tree.hpp, which needs nanoflann: directions, half and
+/// difference angles, colours, errors, parallel loops.
 
 #include <gonio/core/arc_tangent.hpp>
 #include <gonio/core/assertion.hpp>

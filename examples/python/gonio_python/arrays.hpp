@@ -4,13 +4,13 @@
 /// Input: a float64 array in C order is read in place, any other array is converted once. Output: a view of memory that
 /// an object owns, which keeps the object alive, or a new array.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/core/direction.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <Eigen/Core>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
-#include <xtensor/xtensor.hpp>
 
 #include <initializer_list>
 #include <memory>

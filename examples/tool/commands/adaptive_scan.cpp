@@ -1,8 +1,8 @@
 #include "adaptive_scan.hpp"
 
 #include "tool/options/machine_choice.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/pages/fixed.hpp"
-#include <gonio/io/materials/prior.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -31,8 +31,7 @@ adaptive_choice::adaptive_choice(const adaptive_options& options, const calibrat
     : options_(options),
       calibration_(calibration_of(calibration, readings_of(reference), reference.largest_count)),
       reference_(reference_readings_of(reference)),
-      chooser_(gonio::reconstruction{gonio::io::read_prior(options.prior),
-                                     {.noise = gonio::design::usual_apparatus().noise}},
+      chooser_(gonio::reconstruction{read_prior(options.prior), {.noise = gonio::design::usual_apparatus().noise}},
                gonio::design::usual_apparatus()) {}
 
 gonio::sample_set adaptive_choice::samples_of(const gonio::io::recorded_scan& scan) const {

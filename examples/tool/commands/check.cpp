@@ -12,7 +12,6 @@
 #include "tool/pages/report_page.hpp"
 #include "tool/pages/sample_facts.hpp"
 #include <gonio/conformity/conformity.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/io/text/text.hpp>
 
 #include <algorithm>
@@ -136,7 +135,7 @@ void write_report(const check_options& given, const json& check) {
 bool check_files(const check_options& given) {
   if (given.parts.size() > 1 && given.report.is_given())
     gonio::refuse({"--report needs one part, not ", given.parts.size()});
-  const gonio::log_relative_pca prior = gonio::io::read_prior(given.prior);
+  const gonio::log_relative_pca prior = read_prior(given.prior);
   std::vector<std::pair<measured_surface, measured_surface>> surfaces;
   for (const std::filesystem::path& part : given.parts) surfaces.push_back(read_both(part, given, prior));
   std::vector<checked_part> checked;

@@ -10,7 +10,6 @@
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/sphere_delta_e.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/model/instrument_readings.hpp>
 #include <gonio/render/environment_map.hpp>
 
@@ -77,7 +76,7 @@ void print(const gonio::comparison& errors, std::optional<double> natural) {
 void compare_tables(const compare_options& options) {
   const auto truth = gonio::io::read_merl_any(options.truth);
   const auto estimate = gonio::io::read_merl_any(options.estimate);
-  const auto prior = gonio::io::read_prior(options.prior);
+  const auto prior = read_prior(options.prior);
   const gonio::appearance_metric appearance(truth.cells(), 36, options.threads);
   const auto errors = gonio::compare(estimate, truth, prior.metric(), appearance, options.threads);
   std::optional<double> natural;

@@ -17,7 +17,6 @@
 #include <gonio/evaluate/next_measurement.hpp>
 #include <gonio/io/bytes/checked_file.hpp>
 #include <gonio/io/bytes/file.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/io/setups/apparatus.hpp>
 
@@ -90,7 +89,7 @@ void run_given(const design_command& command) {
   const gonio::io::sample_file measured = read_colour_file(command.given, command.reading);
   const gonio::sample_set& samples = measured.samples;
   const gonio::reconstruction estimator{
-      gonio::io::read_prior(command.prior), {.noise = command.noise.value_or(0.0)}, command.design.threads};
+      read_prior(command.prior), {.noise = command.noise.value_or(0.0)}, command.design.threads};
   const gonio::measurement_chooser chooser{estimator, command.design.apparatus, gonio::design::default_candidates(),
                                            command.design.threads};
   const auto paint = estimator.fit(samples);
@@ -192,7 +191,7 @@ std::uint32_t checksum_of(const design_command& command) {
                                       command.largest_polar_angle.value_or(-1.0), command.separation.value_or(-1.0)}
                                      .dump()};
   for (const std::filesystem::path& file : {command.prior, command.constraint, command.start})
-    words.push_back(file.empty() ? "" : std::to_string(gonio::io::checksum(gonio::io::read_bytes(file))));
+    words.push_back(file.empty() ? "" : std::to_string(gonio::io::checksum(read_input(file))));
   return cli::checksum_of(words);
 }
 
@@ -242,10 +241,10 @@ void run(design_command command, const team& processes) {
   if (command.until) gonio::refuse("--until needs --given");
   if (command.noise && command.design.criterion == "condition")
     gonio::refuse("--noise needs --criterion expected-error or perceived: a condition number does not depend on noise");
-  const auto prior = gonio::io::read_prior(command.prior);
+  const auto prior = read_prior(command.prior);
   command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
   command.design.near_field.step = gonio::radians(command.step);
-  if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start, reading_of());
+  if (!command.start.empty()) command.design.start = read_direction_pairs(command.start, reading_of());
   if (!is_published) return search(command, prior, bar, processes);
   bar.wipe();
   if (processes.writes()) finish(command, prior, set_of_the_literature(prior, command), true);

@@ -14,7 +14,6 @@
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/io/materials/merl.hpp>
 #include <gonio/io/materials/networks.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/model/formula_materials.hpp>
 
@@ -84,7 +83,7 @@ void write_spectra(const expand_options& options, const gonio::spectral_table& t
 
 /// Writes one of the prior's own materials from its stored coefficients, or the mean, plus the given weights.
 void write_of_prior(const expand_options& options, const gonio::valid_cells& cells) {
-  const auto prior = gonio::io::read_prior(options.prior);
+  const auto prior = read_prior(options.prior);
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), prior.channels());
   if (!options.name.empty()) weights = prior.weights_of(material_number(prior, options.name, options.prior));
   if (!options.weights.empty()) weights += given_weights(options, prior);

@@ -4,13 +4,13 @@
 #include "tool/files/described_files.hpp"
 #include "tool/files/json.hpp"
 #include "tool/options/prior_material.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/component_figure.hpp"
 #include <gonio/basis/component_variance.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/printable.hpp>
 #include <gonio/io/images/image.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/io/text/text.hpp>
 
 #include <iostream>
@@ -70,7 +70,7 @@ json describe_components(const gonio::log_relative_pca& prior, const info_option
 }
 
 json describe_prior(const info_options& options) {
-  const auto prior = gonio::io::read_prior(options.file);
+  const auto prior = read_prior(options.file);
   json facts = describe(prior);
   if (!options.weights_of.empty()) facts["weights"] = weights_of(prior, options);
   if (!options.components.empty() || !options.component_spheres.empty())

@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "tool/options/materials.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/options/team.hpp"
 #include "tool/options/thinning.hpp"
 #include "tool/options/threads_option.hpp"
@@ -118,7 +119,7 @@ void learn(const learn_options& options, const team& processes) {
     print_residual(learned.exact, learned.residual);
   };
   if (!options.add_to.empty()) {
-    const auto old = gonio::io::read_prior(options.add_to);
+    const auto old = read_prior(options.add_to);
     const auto materials = stream(options, old.cells(), bar.listener(), processes);
     const std::string source =
         old.source() + (old.source().empty() ? "" : "; then ") + source_of(options.materials, materials);

@@ -10,7 +10,6 @@
 #include <gonio/capture/colour_clusters.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/io/images/image.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/io/setups/near_field_setup.hpp>
 
@@ -64,7 +63,7 @@ using samples_of_materials = std::vector<std::vector<gonio::sample_set>>;
 std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, samples_of_materials samples,
                                        const near_field_command& options) {
   gonio::pose_refinement refinement(
-      gonio::io::read_prior(options.prior), std::move(samples),
+      read_prior(options.prior), std::move(samples),
       {.deviation = gonio::radians(options.angular_error),
        .calibrated_by = has_reference_in_place(images, options) ? gonio::light_calibration::reference_in_place
                                                                 : gonio::light_calibration::irradiance,

@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "tool/files/measurement_files.hpp"
+#include "tool/options/shipped_data.hpp"
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/measurements/samples.hpp>
@@ -22,8 +23,7 @@ struct sample_options {
 };
 
 std::vector<Eigen::Index> chosen_cells(const sample_options& options, const gonio::valid_cells& cells) {
-  if (!options.directions.empty())
-    return gonio::cells_at(cells, gonio::io::read_directions(options.directions, reading_of()));
+  if (!options.directions.empty()) return gonio::cells_at(cells, read_directions(options.directions, reading_of()));
   const Eigen::Index count = options.count != 0 ? options.count : gonio::share_of(cells.size(), options.ratio);
   return gonio::random_cells(cells, count, options.seed);
 }

@@ -11,7 +11,6 @@
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/io/bytes/checked_file.hpp>
 #include <gonio/io/bytes/npy.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/texels/texel_decomposition.hpp>
 
@@ -49,7 +48,7 @@ class svbrdf_job {
   explicit svbrdf_job(const svbrdf_command& options)
       : options_(options),
         list_(read_image_list(options.images)),
-        prior_(gonio::io::read_prior(options.prior)),
+        prior_(read_prior(options.prior)),
         eta_(options.eta ? *options.eta
                          : gonio::eta_of_noise(prior_, samples_of(list_), options.noise, options.threads)),
         estimator_(prior_, gonio::locate_samples(prior_.cells(), samples_of(list_)).locations, gonio::tikhonov(eta_)),

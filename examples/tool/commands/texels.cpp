@@ -15,7 +15,6 @@
 #include <gonio/io/bytes/npy.hpp>
 #include <gonio/io/images/image.hpp>
 #include <gonio/io/materials/merl.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/render/exposure.hpp>
 #include <gonio/render/false_colour.hpp>
@@ -224,7 +223,7 @@ void run(const texels_options& options) {
   write_part(options.disagreement, map, &band::disagreement, of_disagreement,
              [](double value) { return 0.25 * value; });
   if (options.clusters == 0 && options.other.empty()) return;
-  const gonio::log_relative_pca prior = gonio::io::read_prior(options.prior);
+  const gonio::log_relative_pca prior = read_prior(options.prior);
   if (options.clusters > 0) cluster(options, map, prior);
   if (!options.other.empty()) compare(options, map, prior);
 }

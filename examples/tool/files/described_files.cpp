@@ -5,6 +5,7 @@
 #include "lab/recorded_frames.hpp"
 #include "measurement_kinds.hpp"
 #include "tiff_files.hpp"
+#include "tool/options/shipped_data.hpp"
 #include "tool/pages/measures_as_json.hpp"
 #include "tool/pages/read_as.hpp"
 #include "tool/pages/sample_facts.hpp"
@@ -254,11 +255,14 @@ bool is_list_of_numbers(const file_look& file) {
   return false;
 }
 
-json describe_directions(const path_type& path, const gonio::io::sample_reading& reading) {
-  const std::vector<gonio::direction_pair> pairs = gonio::io::read_direction_pairs(path, reading);
+json facts_of_directions(const std::vector<gonio::direction_pair>& pairs) {
   json facts{{"kind", "directions"}};
   facts.update(facts_of(pairs));
   return facts;
+}
+
+json describe_directions(const path_type& path, const gonio::io::sample_reading& reading) {
+  return facts_of_directions(gonio::io::read_direction_pairs(path, reading));
 }
 
 json describe_exposure_times(const path_type& path) {
@@ -394,6 +398,9 @@ json describe(const gonio::log_relative_pca& prior) {
 }
 
 json describe_file(const std::filesystem::path& path, const measurement_options& reading) {
+  // It may be in the program, and is a prior or directions.
+  if (is_shipped(path) && lower_extension(path) == ".prior") return describe(read_prior(path));
+  if (is_shipped(path)) return facts_of_directions(read_direction_pairs(path, {}));
   const file_look file(path);
   const auto kind = std::ranges::find_if(kinds, [&](const described_kind& each) { return each.recognises(file); });
   if (kind == kinds.end())

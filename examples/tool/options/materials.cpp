@@ -1,11 +1,11 @@
 #include "materials.hpp"
 
 #include "chosen_networks.hpp"
+#include "shipped_data.hpp"
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/io/bytes/checked_file.hpp>
 #include <gonio/io/materials/merl_directory.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/io/materials/rgl_spectra.hpp>
 #include <gonio/io/text/text.hpp>
 
@@ -204,7 +204,7 @@ gonio::material_rows stream_folder(const material_source& source, gonio::io::scr
 }  // namespace
 
 gonio::log_relative_pca prior_of(const material_source& source) {
-  return source.held_prior ? *source.held_prior : gonio::io::read_prior(source.prior);
+  return source.held_prior ? *source.held_prior : read_prior(source.prior);
 }
 
 option_group add_material_options(command& to, material_source& source) {

@@ -4,6 +4,7 @@
 
 #include "materials.hpp"
 #include "scattered_samples.hpp"
+#include "shipped_data.hpp"
 #include "solver_choice.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/progress_bar.hpp"
@@ -107,7 +108,7 @@ reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& option
   const std::filesystem::path& file = options.materials.prior;
   if (options.materials.held_prior)
     gonio::refuse("--method soft-specular needs the file of a --prior that gonio learn --split wrote");
-  if (gonio::io::is_prior(file))
+  if (is_shipped(file) || gonio::io::is_prior(file))
     gonio::refuse({"--method soft-specular needs a --prior that gonio learn --split wrote; ", file.native(),
                    " has one of all materials"});
   const gonio::soft_specular_prior prior = gonio::io::read_soft_specular_prior(file);

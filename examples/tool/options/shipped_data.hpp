@@ -1,9 +1,15 @@
 #pragma once
-/// Files shipped with gonio: the prior, descriptions of apparatus.
+/// Files shipped with gonio: the learned prior, sets of directions, descriptions of apparatus. They are installed
+/// beside the tool, are in the source tree that it was built from, or are in the program itself (GONIO_EMBED_DATA).
+/// Whoever names a prior or directions may write `shipped:` and a file's path in examples/data.
 
 #include "command.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/core/direction.hpp>
 #include <gonio/design/apparatus.hpp>
+#include <gonio/io/measurements/samples.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -11,8 +17,21 @@
 
 namespace cli {
 
-/// Returns a file of examples/data: installed beside the tool, or in the source tree of the build.
-[[nodiscard]] std::filesystem::path shipped_file(const std::filesystem::path& name);
+/// A path of examples/data as the functions here read it: `shipped:NAME` where it is in the program.
+[[nodiscard]] std::filesystem::path shipped_file(const std::string& name);
+
+/// Does the path begin with `shipped:`?
+[[nodiscard]] bool is_shipped(const std::filesystem::path& path);
+
+/// The bytes of a file, shipped or not. Throws gonio::error naming it.
+[[nodiscard]] std::vector<std::byte> read_input(const std::filesystem::path& path);
+
+/// As gonio::io reads them.
+[[nodiscard]] gonio::log_relative_pca read_prior(const std::filesystem::path& path);
+[[nodiscard]] std::vector<gonio::half_difference> read_directions(const std::filesystem::path& path,
+                                                                  const gonio::io::sample_reading& reading);
+[[nodiscard]] std::vector<gonio::direction_pair> read_direction_pairs(const std::filesystem::path& path,
+                                                                      const gonio::io::sample_reading& reading);
 
 /// Adds `--prior FILE` with the shipped prior as the default.
 void add_prior_option(command& to, std::filesystem::path& prior);

@@ -1,7 +1,7 @@
 #include "team.hpp"
 
+#include "shipped_data.hpp"
 #include <gonio/io/bytes/checked_file.hpp>
-#include <gonio/io/bytes/file.hpp>
 
 #include <algorithm>
 #include <future>
@@ -50,7 +50,7 @@ void agree_on_file(const team& processes, const std::filesystem::path& path, con
   if (processes.is_alone()) return;
   std::uint32_t checksum = 0;
   processes.together([&] {
-    if (!path.empty()) checksum = gonio::io::checksum(gonio::io::read_bytes(path));
+    if (!path.empty()) checksum = gonio::io::checksum(read_input(path));
   });
   processes.agree_on(checksum, what);
 }

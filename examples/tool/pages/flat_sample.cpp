@@ -1,8 +1,8 @@
 #include "flat_sample.hpp"
 
+#include "tool/options/shipped_data.hpp"
 #include <gonio/core/half.hpp>
 #include <gonio/core/statistics.hpp>
-#include <gonio/io/materials/prior.hpp>
 #include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/render/exposure.hpp>
 #include <gonio/table/location.hpp>
@@ -101,7 +101,7 @@ gonio::image flat_sample_image(const std::filesystem::path& map, const std::file
                                std::span<const gonio::directional_light> lights, std::optional<double> exposure,
                                gonio::thread_count threads) {
   const gonio::io::svbrdf_map opened(map);
-  const gonio::log_relative_pca own = gonio::io::read_prior(prior);
+  const gonio::log_relative_pca own = read_prior(prior);
   gonio::image picture = flat_sample(opened, own, lights).radiance(threads);
   gonio::render::expose(picture, exposure ? *exposure : gonio::render::exposure_of(picture));
   return picture;

@@ -3,11 +3,11 @@
 /// object one measurement per pixel: Marschner et al. 2000 (doi:10.1364/AO.39.002592) for spheres, Noell, Koehler and
 /// Stricker 2014 for objects of known shape. shape/mesh_surface.hpp does this for meshes.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/core/lens_distortion.hpp>
 #include <gonio/table/surface_image.hpp>
 
 #include <Eigen/Core>
-#include <xtensor/xtensor.hpp>
 
 #include <optional>
 #include <string>

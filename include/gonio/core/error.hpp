@@ -12,14 +12,16 @@ namespace gonio {
 /// it.
 class message_part {
  public:
-  message_part(std::string_view text) : text_(text.data()), size_(text.size()) {}      // NOLINT: conversions are
-  message_part(const char* text) : message_part(std::string_view(text)) {}             // NOLINT: the point
-  message_part(const std::string& text) : message_part(std::string_view(text)) {}      // NOLINT
-  message_part(double number) : real_(number), size_(real) {}                          // NOLINT
-  message_part(long number) : integer_(number), size_(integer) {}                      // NOLINT
-  message_part(unsigned long number) : natural_(number), size_(natural) {}             // NOLINT
-  message_part(int number) : message_part(static_cast<long>(number)) {}                // NOLINT
-  message_part(unsigned number) : message_part(static_cast<unsigned long>(number)) {}  // NOLINT
+  message_part(std::string_view text) : text_(text.data()), size_(text.size()) {}           // NOLINT: conversions are
+  message_part(const char* text) : message_part(std::string_view(text)) {}                  // NOLINT: the point
+  message_part(const std::string& text) : message_part(std::string_view(text)) {}           // NOLINT
+  message_part(double number) : real_(number), size_(real) {}                               // NOLINT
+  message_part(long long number) : integer_(number), size_(integer) {}                      // NOLINT
+  message_part(unsigned long long number) : natural_(number), size_(natural) {}             // NOLINT
+  message_part(int number) : message_part(static_cast<long long>(number)) {}                // NOLINT
+  message_part(long number) : message_part(static_cast<long long>(number)) {}               // NOLINT
+  message_part(unsigned number) : message_part(static_cast<unsigned long long>(number)) {}  // NOLINT
+  message_part(unsigned long number) : message_part(static_cast<unsigned long long>(number)) {}  // NOLINT
 
   void append_to(std::string& sentence) const;
 
@@ -30,8 +32,8 @@ class message_part {
   union {
     const char* text_;
     double real_;
-    long integer_;
-    unsigned long natural_;
+    long long integer_;
+    unsigned long long natural_;
   };
   std::size_t size_;  ///< of the text, or the kind of number
 };

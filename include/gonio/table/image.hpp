@@ -1,10 +1,9 @@
 #pragma once
 /// Images in memory.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/rgb.hpp>
-
-#include <xtensor/xtensor.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,10 +1,14 @@
 #pragma once
 /// The only interface between the library's tables and xtensor: zero-copy views, and dense arrays for export.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/table/brdf_table.hpp>
 
+#if __has_include(<xtensor/containers/xadapt.hpp>)
+#include <xtensor/containers/xadapt.hpp>
+#else
 #include <xtensor/xadapt.hpp>
-#include <xtensor/xtensor.hpp>
+#endif
 
 #include <array>
 #include <limits>

@@ -16,8 +16,8 @@ namespace gonio {
   std::array<char, 400> digits;
   int count = -1;
   if (size_ == real) count = std::snprintf(digits.data(), digits.size(), "%f", real_);
-  if (size_ == integer) count = std::snprintf(digits.data(), digits.size(), "%ld", integer_);
-  if (size_ == natural) count = std::snprintf(digits.data(), digits.size(), "%lu", natural_);
+  if (size_ == integer) count = std::snprintf(digits.data(), digits.size(), "%lld", integer_);
+  if (size_ == natural) count = std::snprintf(digits.data(), digits.size(), "%llu", natural_);
   if (count < 0)
     sentence.append(text_, size_);
   else

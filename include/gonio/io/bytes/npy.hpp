@@ -6,10 +6,9 @@
 /// xtensor's own reader (xnpy.hpp) trusts the file: it checks neither that reads succeed nor that the shape's product
 /// fits in memory, and it needs the header's keys in one order.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/core/half.hpp>
 #include <gonio/io/bytes/file.hpp>
-
-#include <xtensor/xtensor.hpp>
 
 #include <algorithm>
 #include <array>
@@ -168,7 +167,7 @@ void write_npy_halves(const std::filesystem::path& path, const xt::xtensor<float
     const float value = array.data()[i];
     halves[i] = to_half(value);
     if (std::isfinite(value) && !std::isfinite(from_half(halves[i])))
-      gonio::refuse({path.native(), ": element ", i, " is ", double{value},
+      gonio::refuse({path.string(), ": element ", i, " is ", double{value},
                      ", beyond the range of half floats, 65504: write float32"});
   }
   const std::string header = npy_header("<f2", npy_shape_text(array.shape()));

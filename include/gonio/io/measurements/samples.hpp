@@ -58,10 +58,14 @@ struct sample_file {
 [[nodiscard]] sample_set read_samples(const std::filesystem::path& path, const sample_reading& reading = {});
 
 /// Reads only directions; columns of reflectance and weights are checked and ignored.
+[[nodiscard]] std::vector<half_difference> read_directions(std::string_view text, const std::string& name,
+                                                           const sample_reading& reading = {});
 [[nodiscard]] std::vector<half_difference> read_directions(const std::filesystem::path& path,
                                                            const sample_reading& reading = {});
 
 /// Reads the same files as pairs, which distinguish light and viewer.
+[[nodiscard]] std::vector<direction_pair> read_direction_pairs(std::string_view text, const std::string& name,
+                                                               const sample_reading& reading = {});
 [[nodiscard]] std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
                                                                const sample_reading& reading = {});
 

@@ -1,12 +1,11 @@
 #pragma once
 /// Bodies of table/image.hpp.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/rgb.hpp>
 #include <gonio/table/image.hpp>
-
-#include <xtensor/xtensor.hpp>
 
 #include <algorithm>
 #include <cstddef>

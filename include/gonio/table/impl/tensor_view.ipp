@@ -1,12 +1,10 @@
 #pragma once
 /// Bodies of table/tensor_view.hpp.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/tensor_view.hpp>
-
-#include <xtensor/xadapt.hpp>
-#include <xtensor/xtensor.hpp>
 
 #include <array>
 #include <limits>

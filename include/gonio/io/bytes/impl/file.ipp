@@ -36,7 +36,7 @@ namespace gonio::io {
 
 [[gnu::cold]] GONIO_INLINE void refuse_file(const std::filesystem::path& path,
                                             std::initializer_list<message_part> what) {
-  gonio::refuse({path.native(), ": ", message_of(what)});
+  gonio::refuse({path.string(), ": ", message_of(what)});
 }
 
 [[gnu::cold]] GONIO_INLINE descriptor open_to_read(const std::filesystem::path& path) {
@@ -154,7 +154,7 @@ class machine_name {
   std::error_code failed;
   std::filesystem::directory_iterator entry(folder, failed);
   for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed)) {
-    const std::string name = entry->path().filename().native();
+    const std::string name = entry->path().filename().string();
     if (!may_be_abandoned(name)) continue;
     const descriptor file(::openat(opened.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat info {};

@@ -1,12 +1,12 @@
 #pragma once
 /// Bodies of io/bytes/npy.hpp.
 
+#include <gonio/core/arrays.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/bytes/npy.hpp>
 
 #include <Eigen/Core>
-#include <xtensor/xtensor.hpp>
 
 #include <algorithm>
 #include <array>

@@ -286,7 +286,7 @@ namespace gonio::io {
 
 GONIO_INLINE void write_openmaterial(const std::filesystem::path& path, const std::string& text) {
   if (!path.filename().string().ends_with("_brdf.xompt"))
-    gonio::refuse({path.native(), ": tables of reflectance of OpenMATERIAL need a name that ends in _brdf.xompt"});
+    gonio::refuse({path.string(), ": tables of reflectance of OpenMATERIAL need a name that ends in _brdf.xompt"});
   write_atomically(path, std::as_bytes(std::span(text)));
 }
 

@@ -126,14 +126,14 @@ namespace gonio::io {
 
 GONIO_INLINE capture::reference_reflectance read_reference_reflectance(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  csv_reader file(as_text(bytes), path.native());
+  csv_reader file(as_text(bytes), path.string());
   detail::reflectance_table read;
   if (file.next()) read.read_header(file);
   while (file.next()) read.read_row(file);
   try {
     return read.table();
   } catch (const error& unusable) {
-    gonio::refuse({path.native(), ": ", unusable.what()});
+    gonio::refuse({path.string(), ": ", unusable.what()});
   }
 }
 

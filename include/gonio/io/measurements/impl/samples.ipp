@@ -263,7 +263,7 @@ GONIO_INLINE sample_set read_samples(std::string_view text, const std::string& n
 [[gnu::cold]] GONIO_INLINE sample_file read_sample_file(const std::filesystem::path& path,
                                                         const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  return read_sample_file(as_text(bytes), path.native(), reading);
+  return read_sample_file(as_text(bytes), path.string(), reading);
 }
 
 [[gnu::cold]] GONIO_INLINE bool has_directions_alone(std::string_view text, const std::string& name,
@@ -276,22 +276,33 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
   return read_sample_file(path, reading).samples;
 }
 
+[[gnu::cold]] GONIO_INLINE std::vector<half_difference> read_directions(std::string_view text, const std::string& name,
+                                                                        const sample_reading& reading) {
+  detail::sample_rows rows(text, name, false, reading);
+  std::vector<half_difference> all;
+  while (rows.next()) all.push_back(detail::row_directions(rows.row()).angles());
+  return all;
+}
+
 [[gnu::cold]] GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem::path& path,
                                                                         const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  detail::sample_rows rows(as_text(bytes), path.native(), false, reading);
-  std::vector<half_difference> all;
-  while (rows.next()) all.push_back(detail::row_directions(rows.row()).angles());
+  return read_directions(as_text(bytes), path.string(), reading);
+}
+
+[[gnu::cold]] GONIO_INLINE std::vector<direction_pair> read_direction_pairs(std::string_view text,
+                                                                            const std::string& name,
+                                                                            const sample_reading& reading) {
+  detail::sample_rows rows(text, name, false, reading);
+  std::vector<direction_pair> all;
+  while (rows.next()) all.push_back(detail::row_directions(rows.row()).pair());
   return all;
 }
 
 [[gnu::cold]] GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
                                                                             const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  detail::sample_rows rows(as_text(bytes), path.native(), false, reading);
-  std::vector<direction_pair> all;
-  while (rows.next()) all.push_back(detail::row_directions(rows.row()).pair());
-  return all;
+  return read_direction_pairs(as_text(bytes), path.string(), reading);
 }
 
 GONIO_INLINE std::string write_samples(const sample_set& samples, const sample_provenance& provenance) {
@@ -320,7 +331,7 @@ GONIO_INLINE void write_samples(const std::filesystem::path& path, const sample_
   try {
     require_usable(samples);
   } catch (const error& unusable) {
-    gonio::refuse({path.native(), ": ", unusable.what()});
+    gonio::refuse({path.string(), ": ", unusable.what()});
   }
   detail::write_text(path, write_samples(samples, provenance));
 }

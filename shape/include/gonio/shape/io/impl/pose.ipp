@@ -69,7 +69,7 @@ namespace gonio::io {
 GONIO_INLINE shape::similarity_transform read_pose(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
   const std::string_view text = as_text(bytes);
-  const std::string name = path.native();
+  const std::string name = path.string();
   const detail::pose_matrix matrix =
       detail::has_names(text) ? detail::read_parts(text, name) : detail::read_matrix(text, name);
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
