@@ -8,9 +8,11 @@ if(NOT OUTPUT)
 endif()
 set(include "${source}/include")
 set(materials "${source}/examples/data/materials.prior")
+set(directions "${source}/examples/data/directions")
 if(PREFIX)
   set(include "${PREFIX}/include")
   set(materials "${PREFIX}/share/gonio/materials.prior")
+  set(directions "${PREFIX}/share/gonio/directions")
 endif()
 set(lessons "${source}/examples/lessons")
 set(report "${source}/examples/report")
@@ -33,7 +35,10 @@ endfunction()
 # The payload of the prior follows a head of 25 bytes (docs/reference/formats.md).
 base64(module "${estimator}" 1)
 base64(prior "${materials}" 26)
-set(data "{\"estimator\": \"${module}\", \"prior\": \"${prior}\"}")
+# theta_i, phi_i, theta_o and phi_o of each direction.
+file(STRINGS "${directions}/point-20-perceived.csv" rows REGEX "^[0-9]")
+list(JOIN rows "], [" rows)
+set(data "{\"estimator\": \"${module}\", \"prior\": \"${prior}\", \"directions\": [[${rows}]]}")
 file(REMOVE "${estimator}")
 
 # The form and the style are those of gonio report's pages, whose policy allows no WebAssembly.

@@ -6,7 +6,7 @@
 set(gonio_library_packages
   g++ ninja-build libeigen3-dev libxtensor-dev zlib1g-dev libstb-dev libcli11-dev nlohmann-json3-dev)
 set(gonio_shape_packages libdlib-dev libblas-dev liblapack-dev libnanoflann-dev)
-set(gonio_python_packages pybind11-dev python3-dev python3-numpy python3-venv)
+set(gonio_python_packages pybind11-dev python3-dev python3-numpy python3-matplotlib python3-venv)
 set(gonio_mpi_packages libopenmpi-dev openmpi-bin)
 set(gonio_test_packages doctest-dev librapidcheck-dev libopenexr-dev libtiff-dev libexif-dev libnanoflann-dev)
 
@@ -41,6 +41,7 @@ set(gonio_packages
   "pybind11-dev        header  pybind11/pybind11.h"
   "python3-dev         header  python3.11/Python.h"
   "python3-numpy       program dh_numpy3"
+  "python3-matplotlib  header  python3/dist-packages/matplotlib/pyplot.py"
   "python3-venv        header  python3.11/ensurepip/__init__.py"
   "libopenmpi-dev      header  openmpi/include/mpi.h"
   "openmpi-bin         program mpirun"

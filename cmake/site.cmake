@@ -16,6 +16,8 @@ set(version "${CMAKE_MATCH_1}")
 file(COPY "${source}/README.md" "${source}/CHANGELOG.md" "${source}/CONTRIBUTING.md" "${source}/SECURITY.md" "${source}/docs"
      DESTINATION "${pages}")
 file(COPY "${source}/examples/data/directions/README.md" DESTINATION "${pages}/examples/data/directions")
+file(COPY "${source}/examples/python/notebooks/twenty_numbers.ipynb" DESTINATION "${pages}/examples/python/notebooks")
+file(COPY "${source}/examples/learn/spheres_by_number.sh" DESTINATION "${pages}/examples/learn")
 file(GLOB programs RELATIVE "${source}/examples/learn" "${source}/examples/learn/*.cpp")
 set(listing "# Teaching programs\n")
 foreach(program IN LISTS programs)

@@ -94,13 +94,13 @@ function error_chart(points) {
   const chart = Plot.plot({
     width: width_of(640), height: 340, marginLeft: 56, marginRight: 92, marginBottom: 44, style: { fontSize: "13px" },
     x: { type: "log", domain: [0.9, 22], label: "measurements", labelArrow: "none", ticks: counts, tickFormat: String, labelAnchor: "center" },
-    y: { type: "log", domain: [0.8, 90], label: "Delta E of a sphere", ticks: [1, 2, 5, 10, 20, 50], tickFormat: String, grid: true },
+    y: { type: "log", domain: [0.6, 60], label: "Delta E of a sphere", ticks: [1, 2, 5, 10, 20, 50], tickFormat: String, grid: true },
     marks: [
       Plot.ruleY([1], { stroke: "var(--soft)", strokeDasharray: "4,3" }),
       ...painted_materials.flatMap((name, i) => [
         Plot.line(points.filter((each) => each.name === name), { x: "count", y: "error", stroke: colours[i], strokeWidth: 2 }),
         Plot.dot(points.filter((each) => each.name === name), { x: "count", y: "error", fill: colours[i], r: 4, symbol: ["circle", "square"][i] }),
-        Plot.text(points.filter((each) => each.name === name && each.count === 20), { x: "count", y: "error", text: "name", fill: colours[i], textAnchor: "start", dx: 8, dy: i ? -7 : 7 }),
+        Plot.text(points.filter((each) => each.name === name && each.count === 20), { x: "count", y: "error", text: "name", fill: colours[i], textAnchor: "start", dx: 8, dy: i ? 7 : -7 }),
       ]),
     ],
   });
@@ -121,7 +121,8 @@ function fill_errors(section, computed) {
         status.textContent = `Measuring ${painted_materials[i]} in ${count} ${count === 1 ? "direction" : "directions"} ...`;
         await painted();
         if (mine !== change) return;
-        points.push({ name: painted_materials[i], count, error: computed.calls.delta_e(i, count, viewer.state.components) });
+        computed.tell(data.directions.slice(0, count).flat());
+        points.push({ name: painted_materials[i], count, error: computed.calls.delta_e(i, viewer.state.components) });
       }
     figure.replaceChildren(error_chart(points));
     values.replaceChildren(table(["measurements", ...painted_materials],
@@ -132,7 +133,7 @@ function fill_errors(section, computed) {
   components.show();
   section.append(element("div", { className: "controls" }, components.row), status, figure, values,
     paragraph("This runs the program of the lesson (examples/learn/why_twenty.cpp): two materials by formula, which the 137 do not contain, " +
-      "measured without noise in the directions of Nielsen et al. 2015. The dashed line is a difference that an observer just notices.", "soft"));
+      "measured without noise in the first directions that gonio design chooses, reconstructed as gonio reconstruct does it. The dashed line is a difference that an observer just notices.", "soft"));
   return compute();
 }
 

@@ -3,14 +3,12 @@
 /// ("Leaves"). Angles are in degrees, reflectance in sr^-1.
 
 #include <gonio/basis/component_variance.hpp>
-#include <gonio/design/published_directions.hpp>
-#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/materials/prior_payload.hpp>
 #include <gonio/model/formula_materials.hpp>
-#include <gonio/solve/tikhonov.hpp>
 
 #include <algorithm>
 #include <array>
@@ -129,18 +127,22 @@ PAGE_CALLS(tabulate) const float* tabulate() {
   return table.values().data();
 }
 
-/// Finds: nothing. Returns Delta E of a sphere of a formula material (0: red-paint, 1: blue-rubber) reconstructed with
-/// a number of components from 1, 2, 5, 10 or 20 directions of Nielsen et al. 2015: examples/learn/why_twenty.cpp.
-PAGE_CALLS(delta_e) double delta_e(int material, Eigen::Index directions, Eigen::Index components) {
+/// Finds: theta_i, phi_i, theta_o and phi_o of each direction. Delta E of a sphere of a formula material (0: red-paint,
+/// 1: blue-rubber), measured there and reconstructed by so many components as gonio reconstruct does it:
+/// examples/learn/why_twenty.cpp.
+PAGE_CALLS(delta_e) double delta_e(int material, Eigen::Index components) {
   static const gonio::appearance_metric appearance(gonio::valid_cells(gonio::grid({90, 30, 36})));
   static const std::array names{"red-paint", "blue-rubber"};
   const auto truth = gonio::model::formula_material(names[material]);
   gonio::sample_set samples;
-  for (const gonio::half_difference& angles : gonio::design::nielsen_directions(directions)) {
-    const auto [wi, wo] = gonio::to_directions(angles);
-    samples.push_back({angles, truth(wi, wo)});
+  for (std::size_t i = 0; i + 4 <= buffer.size(); i += 4) {
+    const auto towards = [&](std::size_t at) {
+      return gonio::spherical_direction(gonio::radians(buffer[at]), gonio::radians(buffer[at + 1]));
+    };
+    const gonio::direction_pair pair{towards(i), towards(i + 2)};
+    samples.push_back({pair, truth(pair.wi, pair.wo)});
   }
-  const auto fit = gonio::decomposition{prior->truncated(components), gonio::tikhonov{5.0}}.fit(samples);
+  const auto fit = gonio::reconstruction{prior->truncated(components)}.fit(samples);
   return appearance.difference(fit.tabulate(appearance.cells()), gonio::tabulate(truth, appearance.cells()))
       .environment;
 }

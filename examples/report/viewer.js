@@ -198,6 +198,21 @@ function lit_canvas(description) {
   return canvas;
 }
 
+// What the halves of the image show, where a border parts them.
+function half_labels() {
+  const halves = ["from the samples", "the truth"].map((text) => element("span", {}, text));
+  const box = element("div", { className: "halves" }, ...halves);
+  return {
+    box,
+    show: () => {
+      const { truth, blends } = viewer.state;
+      box.hidden = !data.viewer.truth || blends;
+      halves[0].hidden = truth === 100;
+      halves[1].hidden = truth === 0;
+    },
+  };
+}
+
 async function fill_viewer(section) {
   const canvas = lit_canvas("The material under a light, which arrow keys move");
   if (typeof DecompressionStream === "undefined") throw new Error("this browser cannot unpack tables");
@@ -212,8 +227,10 @@ async function fill_viewer(section) {
   const panel = controls(() => changed(), surround);
   const lobe = lobe_figure((...directions) => reflects(viewer.state.blends ? viewer.state.truth / 100 : 0, ...directions), uncertainty);
   const readout = element("p", { className: "soft readout" });
+  const labels = half_labels();
   const changed = () => {
     panel.show();
+    labels.show();
     redraw();
     readout.textContent = "";
     lobe.draw({ known: viewer.state.known && !is_surrounded(), is_view: is_surrounded() });
@@ -227,7 +244,7 @@ async function fill_viewer(section) {
   });
   panel.box.append(lobe.box);
   section.append(paragraph("Drag, or use the arrow keys, to move the light. A pointer over the sphere reads the BRDF there, and shows its lobe."),
-    element("div", { className: "viewer" }, element("div", {}, canvas, readout), panel.box));
+    element("div", { className: "viewer" }, element("div", {}, element("div", { className: "image" }, canvas, labels.box), readout), panel.box));
   changed();
 }
 

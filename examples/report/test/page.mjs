@@ -169,6 +169,23 @@ const colours_of_middle = (page, states) => page.evaluate((states) => states.map
   return [...pixels];
 }), states);
 
+// What the halves are called, beside one another; blended they have no names.
+async function check_halves(page, name) {
+  const shown = (state) => page.evaluate(async (state) => {
+    const before = { ...viewer.state }, slider = document.querySelector(".viewer label:not([hidden]) input[type=range]");
+    const redraw = () => slider.dispatchEvent(new Event("input"));
+    Object.assign(viewer.state, state);
+    redraw();
+    const names = [...document.querySelectorAll(".halves span")].filter((each) => each.checkVisibility()).map((each) => each.textContent);
+    Object.assign(viewer.state, before);
+    redraw();
+    return names.join(" | ");
+  }, state);
+  const found = [];
+  for (const state of [{ truth: 50 }, { truth: 0 }, { truth: 100 }, { truth: 50, blends: true }]) found.push(await shown({ blends: false, ...state }));
+  check(found.join("; ") === "from the samples | the truth; from the samples; the truth; ", `${name}: the halves are named: ${found.join("; ")}`);
+}
+
 // By keyboard: the slider mixes the fit with the truth, which are both ends.
 async function check_blend(page, name) {
   await page.locator("label", { hasText: "Truth is shown" }).locator("select").focus();
@@ -265,7 +282,10 @@ async function check_page(browser, name) {
       await check_keyboard(page, name);
       await check_pointer(page, name);
       await check_model(page, name);
-      if (await page.evaluate(() => data.viewer.truth !== undefined)) await check_blend(page, name);
+      if (await page.evaluate(() => data.viewer.truth !== undefined)) {
+        await check_halves(page, name);
+        await check_blend(page, name);
+      }
       if (name === "scattered") await check_environment(page, name);
       const pdf = await page.pdf({ path: at(`${name}.pdf`), format: "A4" });
       const pages = pdf.toString("latin1").match(/\/Type\s*\/Page\b/g).length;
