@@ -23,6 +23,10 @@ struct reported_fit {
 /// of 68 %. Of more than `most_residuals` samples, so many at random are shown, and those that were left out.
 [[nodiscard]] json report_data(const reported_fit& fit);
 
+/// Adds another measurement to what `report_data` returned: its readings, its albedo, and its luminance in the planes
+/// of the scans.
+void add_measurement(json& report, const std::string& name, const reported_fit& other);
+
 /// A model, what it was fitted to, and what `gonio fit --json` prints.
 struct reported_model {
   std::string name;
