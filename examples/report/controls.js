@@ -12,9 +12,9 @@ function slider(label, key, [min, max, step], told, changed) {
 }
 
 // `options` are pairs of a value of the state and what it is called.
-function choice(label, key, options, changed) {
+function choice(label, key, options, changed, state = viewer.state) {
   const select = element("select", {}, ...options.map(([value, name]) => element("option", { value }, name)));
-  select.addEventListener("input", () => { viewer.state[key] = options[select.selectedIndex][0]; changed(); });
+  select.addEventListener("input", () => { state[key] = options[select.selectedIndex][0]; changed(); });
   return element("label", {}, element("span", {}, label), select);
 }
 

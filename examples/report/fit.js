@@ -10,11 +10,9 @@ function fit_answer() {
   const { details } = data, distance = median_distance();
   const rows = details.lobes.map((lobe) => [lobe.lobe, channels(lobe.colour),
     Object.entries(lobe.parameters ?? {}).map(([name, value]) => `${name} ${Array.isArray(value) ? channels(value) : digits(value)}`).join(", ")]);
-  add(element("h1", {}, data.name), element("div", { className: "answer" },
-    element("img", { src: data.sphere, alt: "A sphere of the model under two lights", width: 260, height: 260 }),
-    element("div", {},
-      paragraph(`Half of the ${data.of_table ? "values of the table below" : "samples"} are within ${percent(distance)} of the model.`, "headline"),
-      element("div", { className: "scroll" }, table(["lobe", "colour", "parameters"], rows)),
-      paragraph(`${details.measurements} measurements, loss ${digits(details.loss)} after ${details.evaluations} evaluations` +
-        (details.converged ? "." : ", which did not converge."), "soft"))));
+  add(element("h1", {}, data.name), sphere_and_readings("A sphere of the model under two lights"),
+    paragraph(`Half of the ${data.of_table ? "values of the table below" : "samples"} are within ${percent(distance)} of the model.`, "headline"),
+    element("div", { className: "scroll" }, table(["lobe", "colour", "parameters"], rows)),
+    paragraph(`${details.measurements} measurements, loss ${digits(details.loss)} after ${details.evaluations} evaluations` +
+      (details.converged ? "." : ", which did not converge."), "soft"));
 }

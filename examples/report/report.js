@@ -1,5 +1,5 @@
 // The pages of gonio report, and of --report of other commands: draws their data. Text of files becomes text nodes,
-// never HTML. check.js and design.js have the parts that are theirs alone.
+// never HTML. check.js and design.js have the parts that are theirs alone; readings.js and scans.js those of fits.
 
 // ---- numbers --------------------------------------------------------------------------------------
 const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -11,18 +11,24 @@ const is_grey = (value) => value[0] === value[1] && value[1] === value[2];
 
 const add = (...children) => page.append(...children);
 
-// A chart with a caption, and its values as a table: whoever cannot see the one reads the other.
-function figure(chart, description, caption, head, rows) {
+// A chart that tells what it shows.
+function described(chart, description) {
   const image = chart.tagName === "svg" ? chart : chart.querySelector("svg:last-of-type");
   image.setAttribute("role", "img");
   image.setAttribute("aria-label", description);
   without_names(image);
-  return element("figure", {}, chart, element("figcaption", {}, caption),
+  return chart;
+}
+// Charts with a caption, and their values as a table: whoever cannot see the ones reads the other.
+function captioned(charts, caption, head, rows) {
+  return element("figure", {}, charts, element("figcaption", {}, caption),
     element("details", {}, element("summary", {}, "Values"), element("div", { className: "scroll" }, table(head, rows))));
 }
+const figure = (chart, description, ...rest) => captioned(described(chart, description), ...rest);
 
 const by_number = new Map((data.samples ?? []).map((each) => [each.sample, each]));
 const is_off = (each) => each.disagrees;
+const of_the_first = () => (others.length ? `Of ${measurements[0].name} alone. ` : "");
 const off = (data.samples ?? []).filter(is_off);
 const where = (each) => `theta_i ${angle(each.theta_i)}, theta_o ${angle(each.theta_o)}, half angle ${angle(each.theta_h)}`;
 const known_suffix = (each) => (each.known_to === undefined ? "" : `, known to ${percent(each.known_to)}`);
@@ -76,100 +82,11 @@ function answer() {
       (details.highlight_known_to_factor > 100 ? "is not known." : `to a factor of ${digits(details.highlight_known_to_factor)} (95 of 100 cases).`)),
     verdict(),
     paragraph(`From ${count} ${count === 1 ? "sample" : "samples"}. \u201cKnown to 6 %\u201d: in 68 of 100 cases the true value is ` +
-      "within 6 % of the fit, for materials like those that the prior knows.", "soft"));
+      "within 6 % of the fit, for materials like those that the prior knows. Of a reading it is the certainty in the direction of the receptor\u2019s " +
+      "centre, of reflectance that of all directions together; \u201cnot known\u201d is a factor of 3 or more.", "soft"));
   const repeats = /^sample \d+ disagrees/; // which the verdict says
   for (const sentence of data.warnings.filter((each) => !repeats.test(each))) words.append(paragraph("Note: " + sentence, "soft"));
-  add(element("h1", {}, data.name), element("div", { className: "answer" },
-    element("img", { src: data.sphere, alt: "A sphere of the reconstructed material under two lights", width: 260, height: 260 }), words));
-}
-
-// ---- polar plots -----------------------------------------------------------------------------------------------
-// Radius of a reflectance: logarithmic if it varies much, so that a highlight does not hide all else. Rings are at
-// round values.
-function radius_of(values) {
-  const largest = Math.max(...values), smallest = Math.min(...values.filter((value) => value > 0));
-  if (!(largest > 0)) return { rings: [], radius: () => 0, kind: "of no meaning: nothing is reflected" };
-  if (largest / smallest < 6) {
-    const step = [1, 2, 5, 10].map((k) => k * 10 ** Math.floor(Math.log10(largest / 4))).find((k) => largest / k <= 4.5);
-    const end = Math.ceil(largest / step) * step, rings = [];
-    for (let k = 1; k * step <= end * 1.0001; ++k) rings.push(k * step);
-    return { rings, radius: (value) => Math.max(value, 0) / end, kind: "linear" };
-  }
-  const low = Math.floor(Math.log10(Math.max(smallest, largest * 1e-7))), high = Math.ceil(Math.log10(largest));
-  const rings = [];
-  for (let k = low + 1; k <= high; ++k) rings.push(10 ** k);
-  return { rings, radius: (value) => Math.max(Math.log10(Math.max(value, 1e-30)) - low, 0) / (high - low), kind: `logarithmic, ${digits(10 ** low)} in the middle` };
-}
-
-const ring = (radius, size = 90) => Array.from({ length: 2 * size + 1 }, (_, i) => {
-  const at = (i / size - 1) * Math.PI / 2;
-  return [radius * Math.sin(at), radius * Math.cos(at)];
-});
-
-function polar_plot(scan) {
-  const points = scan.samples.map((number) => by_number.get(number));
-  const fit = scan.curve.map((each) => ({ ...each, y: luminance(each.fit) }));
-  const { rings, radius, kind } = radius_of([...fit.map((each) => each.y), ...points.map((each) => luminance(each.measured))]);
-  const project = (degrees, value) => {
-    const r = Math.min(radius(value), 1.12), at = degrees * Math.PI / 180;
-    return { x: r * Math.sin(at), y: r * Math.cos(at) };
-  };
-  const outer = fit.map((each) => project(each.angle, each.y * (1 + (each.known_to ?? 0))));
-  const inner = fit.map((each) => project(each.angle, each.y / (1 + (each.known_to ?? 0)))).reverse();
-  const placed = points.map((each) => ({ ...each, at: project(each.in_plane, luminance(each.measured)) }));
-  // The fit has tips of its own where no sample is.
-  const between = fit.filter((each) => points.every((point) => Math.abs(point.in_plane - each.angle) > 1.5)).map((each) => ({
-    at: project(each.angle, each.y),
-    tip: `viewer ${angle(each.angle)}\nfit ${channels(each.fit)}${known_suffix(each)}` }));
-  const ray = (degrees, r) => ({ x: r * Math.sin(degrees * Math.PI / 180), y: r * Math.cos(degrees * Math.PI / 180) });
-  const spoke = (degrees, options) => Plot.line([ray(degrees, 0), ray(degrees, 1.04)], { x: "x", y: "y", ...options });
-  const xy = { x: (each) => each[0], y: (each) => each[1] };
-  return Plot.plot({
-    width: 520, height: 284, margin: 10, marginBottom: 24, axis: null,
-    x: { domain: [-1.16, 1.16] }, y: { domain: [0, 1.16] },
-    marks: [
-      ...rings.map((value) => Plot.line(ring(radius(value)), { ...xy, stroke: "var(--line)" })),
-      ...[-90, -60, -30, 0, 30, 60, 90].map((at) => spoke(at, { stroke: "var(--line)" })),
-      Plot.text([-60, -30, 0, 30, 60], { x: (at) => ray(at, 1.09).x, y: (at) => ray(at, 1.09).y, text: (at) => `${at}\u00b0`, fill: "var(--soft)" }),
-      spoke(-scan.theta_i, { stroke: "var(--soft)", strokeDasharray: "7 4", strokeWidth: 1.5 }),
-      spoke(scan.theta_i, { stroke: "var(--soft)", strokeDasharray: "2 4", strokeWidth: 1.5 }),
-      Plot.line([...outer, ...inner], { x: "x", y: "y", fill: "var(--fit)", fillOpacity: 0.22, stroke: "none", curve: "linear-closed" }),
-      Plot.line(fit.map((each) => project(each.angle, each.y)), { x: "x", y: "y", stroke: "var(--fit)", strokeWidth: 2 }),
-      Plot.text(rings, { x: radius, y: 0, text: digits, dy: 11, fill: "var(--soft)" }),
-      Plot.text([{ at: -scan.theta_i, name: "light" }, { at: scan.theta_i, name: "mirror" }].filter((_, i) => i === 0 || scan.theta_i > 8), {
-        x: (each) => ray(each.at, 0.9).x, y: (each) => ray(each.at, 0.9).y, text: "name", fill: "var(--soft)", stroke: "var(--paper)", strokeWidth: 4 }),
-      ...samples_as_marks(placed, (each) => each.at.x, (each) => each.at.y, between),
-    ],
-    ariaDescription: kind,
-  });
-}
-
-// What the dots of polar plots are.
-function told_of_dots(measured, has_band) {
-  if (data.of_table) return "Dots: the table. ";
-  if (!measured) return "No three samples lie in the plane of one light: this is the fit alone. ";
-  return has_band ? "Dots: samples; crosses: those that disagree. " : "Dots: samples. ";
-}
-
-function scans() {
-  const has_band = data.scans.some((scan) => scan.curve.some((each) => each.known_to !== undefined));
-  const known = (each) => (has_band ? [percent(each.known_to)] : []);
-  const measured = data.scans.some((scan) => scan.samples.length);
-  add(element("h2", {}, measured ? "In-plane scans" : "In the plane of incidence"),
-    paragraph(told_of_dots(measured, has_band) + "Line: the fit." + (has_band ? " Band: in 68 of 100 cases the truth is within." : "") + " The luminance of the BRDF, sr\u207b\u00b9; dashes: the light; dots: its mirror direction."));
-  const charts = element("div", { className: "charts" });
-  for (const scan of data.scans) {
-    const chart = polar_plot(scan), every_tenth = scan.curve.filter((each) => each.angle % 5 === 0);
-    const peak = scan.curve.reduce((best, each) => (luminance(each.fit) > luminance(best.fit) ? each : best));
-    const rows = scan.samples.length
-      ? scan.samples.map((number) => by_number.get(number)).sort((a, b) => a.in_plane - b.in_plane).map((each) => [angle(each.in_plane), String(each.sample), channels(each.measured), channels(each.fit), ...known(each)])
-      : every_tenth.map((each) => [angle(each.angle), "", "", channels(each.fit), ...known(each)]);
-    charts.append(figure(chart,
-      `Polar plot for light at ${angle(scan.theta_i)}: ${scan.samples.length} samples; the fit is largest at ${angle(peak.angle)}, ${digits(luminance(peak.fit))} per steradian`,
-      `Light at ${angle(scan.theta_i)}; radius ${chart.getAttribute("aria-description")}`,
-      ["viewer", "sample", "measured", "fit", ...(has_band ? ["known to"] : [])], rows));
-  }
-  add(charts);
+  add(element("h1", {}, data.name), sphere_and_readings("A sphere of the reconstructed material under two lights"), words);
 }
 
 // ---- where ----------------------------------------------------------------------------------------------------
@@ -194,7 +111,7 @@ function fields_of_map(map) {
 
 function uncertainty_map() {
   add(element("h2", {}, "Where was measured, and where the fit is unsure"),
-    paragraph("The number in each field: to how many percent directions are known, the median over the third angle. Dots: samples; crosses: those that disagree. " +
+    paragraph(`${of_the_first()}The number in each field: to how many percent directions are known, the median over the third angle. Dots: samples; crosses: those that disagree. ` +
       "Left: the highlight; top: grazing light and viewer."));
   const { cells, scale, marks } = fields_of_map(data.map), many = data.samples.length > 200;
   const chart = Plot.plot({
@@ -224,9 +141,9 @@ function residuals() {
   const shown = data.samples.map((each) => ({ ...each, residual: residual(each), grazing: Math.max(each.theta_i, each.theta_o) }))
     .filter((each) => Number.isFinite(each.residual));
   add(element("h2", {}, "Residuals by direction"),
-    paragraph(has_others ? "By how many deviations each sample is above or below what all others say of it. 95 of 100 should be in the band."
+    paragraph(of_the_first() + (has_others ? "By how many deviations each sample is above or below what all others say of it. 95 of 100 should be in the band."
       : `By how many percent each ${data.of_table ? "value of the table in these planes" : "sample"} is above or below the fit` +
-        (data.samples.length < data.count ? `; ${data.samples.length} of ${data.count} samples: 1000 at random${data.kind === "fit" ? "." : ", and the worst."}` : ".")));
+        (data.samples.length < data.count ? `; ${data.samples.length} of ${data.count} samples: 1000 at random${data.kind === "fit" ? "." : ", and the worst."}` : "."))));
   residual_charts(shown, { title: "Residuals", unit: has_others ? "deviations" : "percent", has_band: has_others, tip: told,
     head: ["measured", has_others ? "the others" : "fit"], values: (each) => [each.measured, has_others ? each.others : each.fit] });
 }
@@ -260,11 +177,12 @@ function residual_charts(shown, { title, unit, has_band, tip, head, values }) {
 function albedo() {
   add(element("h2", {}, "Albedo by angle"),
     paragraph("What share of the light is reflected in all directions together." + (data.kind === "fit" ? " Thin line: the luminance."
-      : " Band, and thin line: the luminance, and what it would be if all directions were off together.")));
+      : " Band, and thin line: the luminance, and what it would be if all directions were off together.") +
+      (others.length ? " The others: their luminance." : "")), ...key_of_measurements());
   const grey = data.albedo.every((each) => is_grey(each.albedo)), names = grey ? ["grey"] : ["red", "green", "blue"];
   const dashes = ["none", "8 3", "2 3"], last = data.albedo[data.albedo.length - 1];
   const bands = data.albedo.filter((each) => each.known_to !== null);
-  const highest = Math.max(...data.albedo.flatMap((each) => each.albedo));
+  const beside = measurements.slice(1), highest = Math.max(...[data, ...beside].flatMap((each) => each.albedo.flatMap(({ albedo }) => albedo)));
   const top = Math.max(1.05, Math.min(1.1 * highest, 20));
   // The lines' names at their ends, kept apart.
   const ends = names.map((name, c) => ({ name, y: last.albedo[c] })).sort((a, b) => a.y - b.y);
@@ -282,14 +200,19 @@ function albedo() {
       Plot.text([0], { x: 1, y: 1, text: () => "all light", dy: -8, textAnchor: "start", fill: "var(--soft)" }),
       ...names.map((name, c) => Plot.line(data.albedo, { x: "theta_i", y: (each) => each.albedo[c], stroke: grey ? "var(--ink)" : `var(--${name})`,
         strokeWidth: 2, strokeDasharray: dashes[c] })),
+      ...beside.map((other) => Plot.line(other.albedo, { x: "theta_i", y: (each) => luminance(each.albedo), stroke: other.look.stroke, strokeWidth: 2,
+        strokeDasharray: other.look.dashes })),
+      ...beside.map((other) => Plot.dot(other.albedo, { x: "theta_i", y: (each) => luminance(each.albedo), r: 4, symbol: other.look.symbol, fill: other.look.dot,
+        stroke: "var(--paper)" })),
       Plot.tip(data.albedo, Plot.pointer({ x: "theta_i", y: (each) => luminance(each.albedo),
         title: (each) => `light at ${angle(each.theta_i)}\n${names.map((name, c) => `${name} ${digits(each.albedo[c])}`).join("\n")}` })),
     ],
   });
   const key = names.length === 1 ? "" : " Red: solid; green: dashes; blue: dots.";
   add(figure(chart, `Albedo by angle: ${channels(data.albedo[0].albedo)} at 0 degrees, ${channels(last.albedo)} at ${angle(last.theta_i)}`,
-    `At normal incidence ${channels(data.albedo[0].albedo)} (red, green, blue).` + key, ["light", ...names, ...(bands.length ? ["known to"] : [])],
-    data.albedo.map((each) => [angle(each.theta_i), ...names.map((_, c) => digits(each.albedo[c])), ...(bands.length ? [each.known_to === null ? "-" : percent(each.known_to)] : [])])));
+    `At normal incidence ${channels(data.albedo[0].albedo)} (red, green, blue).` + key, ["light", ...names, ...(bands.length ? ["known to"] : []), ...beside.map((each) => each.name)],
+    data.albedo.map((each, i) => [angle(each.theta_i), ...names.map((_, c) => digits(each.albedo[c])), ...(bands.length ? [each.known_to === null ? "-" : percent(each.known_to)] : []),
+      ...beside.map((other) => digits(luminance(other.albedo[i].albedo)))])));
 }
 
 // ---- what was done ---------------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 #include "../base64.hpp"
 #include "../io/scratch.hpp"
 #include "../json.hpp"
-#include "tool.hpp"
+#include "report_pages.hpp"
 #include "tool/pages/report_page.hpp"
 #include <gonio/core/direction.hpp>
 #include <gonio/io/bytes/gzip.hpp>
@@ -15,68 +15,15 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <random>
 #include <span>
 #include <string>
 #include <vector>
-
-namespace {
-
-/// A scan of red paint in the plane of a light at 45 degrees; the seventh sample of `wrong` is five times too bright.
-std::string in_plane_scan(const std::string& comments, bool wrong) {
-  const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
-  const gonio::direction light = gonio::spherical_direction(gonio::radians(45.0), 0.0);
-  std::string text = comments + "theta_i,phi_i,theta_o,phi_o,r,g,b\n";
-  for (int i = 0; i < 15; ++i) {
-    const int degrees = -70 + 10 * i;
-    const double phi = degrees < 0 ? 0.0 : 180.0;
-    const gonio::direction view = gonio::spherical_direction(gonio::radians(std::abs(degrees)), gonio::radians(phi));
-    const gonio::rgb value = paint(light, view) * (wrong && i == 6 ? 5.0 : 1.0);
-    std::array<char, 160> line{};
-    std::snprintf(line.data(), line.size(), "45,0,%d,%.0f,%.6g,%.6g,%.6g\n", std::abs(degrees), phi, value.x(),
-                  value.y(), value.z());
-    text += line.data();
-  }
-  return text;
-}
-
-struct page_files {
-  scratch::folder folder;
-
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder / name).string(); }
-
-  /// The page that is made of a file of this name and text.
-  [[nodiscard]] std::string page_of(const std::string& name, const std::string& text,
-                                    const std::string& arguments = "") const {
-    scratch::put(folder / name, text);
-    run("report '" + path(name) + "' -o '" + path("page.html") + "' " + arguments);
-    return scratch::get(folder / "page.html");
-  }
-};
-
-std::size_t occurrences(const std::string& text, const std::string& word) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
-  return count;
-}
-
-std::string data_text(const std::string& page) {
-  const std::string opening = R"(<script id="data" type="application/json">)";
-  const std::size_t start = page.find(opening);
-  REQUIRE(start != std::string::npos);
-  const std::size_t end = page.find("</script>", start);
-  REQUIRE(end != std::string::npos);
-  return page.substr(start + opening.size(), end - start - opening.size());
-}
-
-}  // namespace
 
 TEST_CASE("gonio report: text is escaped") {
   CHECK(cli::escape_html("a<b> & \"c\" 'd'") == "a&lt;b&gt; &amp; &quot;c&quot; &#39;d&#39;");
@@ -265,6 +212,12 @@ TEST_CASE("gonio report: what is wrong is refused, and nothing is written") {
   refuses("report " + good, {"--output"});
   refuses("report absent.csv -o '" + files.path("page.html") + "'", {"absent.csv"});
   refuses("report " + good + " --truth " + good + " -o '" + files.path("page.html") + "'", {"good.csv"});
+  const std::string page = " -o '" + files.path("page.html") + "'";
+  refuses("report " + good + " " + good + " --truth " + good + page, {"--truth", "one file", "2"});
+  refuses("report " + good + " " + bad + page, {"bad.csv", "line 2"});
+  std::string seven;
+  for (int i = 0; i < 7; ++i) seven += " " + good;
+  refuses("report" + seven + page, {"at most 6", "7"});
   refuses("report " + good + " --noise 2 -o '" + files.path("page.html") + "'", {"--noise"});
   CHECK_FALSE(std::filesystem::exists(files.folder / "page.html"));
 }
@@ -310,6 +263,8 @@ TEST_CASE("--report: pages of reconstruct, check, design and fit") {
   CHECK_FALSE(of_samples["samples"][0].contains("known_to"));
   CHECK(of_samples["scans"][0]["samples"].size() == 15);
   CHECK(of_samples["albedo"][0]["known_to"].is_null());
+  CHECK(of_samples["readings"]["gloss"]["60"].get<double>() > 0.0);
+  CHECK_FALSE(of_samples["readings"].contains("known_to"));
   const auto of_table = data_of("fit " + files.path("out.binary") + " --model ggx");
   CHECK(of_table["of_table"] == true);
   CHECK(of_table["scans"].size() == 3);

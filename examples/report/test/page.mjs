@@ -1,5 +1,5 @@
-// The page of gonio report in a browser: its charts have their data, pointer and keyboard work, it asks no network, it
-// is accessible (axe), and it prints on two pages. Screenshots stay in the folder.
+// The page of gonio report in a browser: its charts and readings have their data, switches, pointer and keyboard work, it
+// asks no network, it is accessible (axe), and it prints on two pages, of several files on three. Screenshots stay in the folder.
 import { join } from "node:path";
 import { readFileSync, writeFileSync } from "node:fs";
 import { check, check_access, finish, folder, frames_a_second, gonio, launch, open, ready, repository } from "./browser.mjs";
@@ -45,6 +45,72 @@ async function check_charts(page, name) {
   // Where a sample disagrees, the map draws its cross twice, for a rim.
   check(map.fields === data.map && map.dots === data.samples + data.off, `${name}: the map has ${map.fields} fields and ${map.dots} dots`);
   check(residuals.length === 2 && residuals.every((each) => each.dots === each.rows), `${name}: residuals of ${residuals[0]?.rows} samples`);
+}
+
+// Eleven readings of each measurement, those that are not known without a number.
+async function check_readings(page, name) {
+  const { rows, unknown, told } = await page.evaluate(() => {
+    const cells = [...document.querySelectorAll("table.readings tbody tr")].map((row) => [...row.cells].map((each) => each.textContent));
+    const all = [data, ...(data.others ?? [])].map(({ readings: { known_to: known } }) =>
+      [...Object.values(known.gloss), known.haze_20, known.reflectance_8, known.reflectance_8_specular_excluded, ...known.colours]);
+    return { rows: cells, unknown: all.flat().filter((each) => each >= 2).length, told: cells.flat().filter((each) => /^not known/.test(each)).length };
+  });
+  const several = await page.evaluate(() => (data.others ?? []).length > 0);
+  check(rows.length === (several ? 12 : 11) && rows.every((row) => row.slice(1).every((each) => /\d/.test(each) || each === "not known")),
+    `${name}: ${rows.length} rows of readings, such as ${rows[1].join(" | ")}`);
+  check(told === unknown, `${name}: ${told} of them are said not to be known`);
+}
+
+// The switches draw each scan again: its axes, and the scale that its caption tells.
+async function check_switches(page, name) {
+  const labels = () => page.evaluate(() => [...document.querySelectorAll(".pair svg")].map((each) => each.getAttribute("aria-label").split(" ")[0]));
+  const captions = () => page.evaluate(() => [...document.querySelectorAll("figure:has(> .pair) > figcaption")].map((each) => each.textContent));
+  const scale = page.locator("label", { hasText: "Scale" }).locator("select"), axes = page.locator("label", { hasText: "Axes" }).locator("select");
+  const scans = await page.evaluate(() => data.scans.length), both = await labels();
+  check(both.length === 2 * scans && both.every((each, i) => each === (i % 2 ? "Cartesian" : "Polar")), `${name}: ${scans} scans in polar and in Cartesian axes`);
+  await scale.focus();
+  await page.keyboard.press("ArrowDown");
+  const linear = await captions();
+  await page.keyboard.press("ArrowDown");
+  const logarithmic = await captions();
+  check(linear.every((each) => /radius linear$/.test(each)) && logarithmic.every((each) => /radius logarithmic, .* in the middle$/.test(each)),
+    `${name}: the keyboard switches from "${linear[0]}" to "${logarithmic[0]}"`);
+  const ends = await page.evaluate(() => [...document.querySelectorAll(".pair svg path")].some((each) => /NaN|Infinity/.test(each.getAttribute("d"))));
+  check(!ends, `${name}: in logarithmic axes every point has a place`);
+  await axes.selectOption("cartesian");
+  const one = await labels();
+  check(one.length === scans && one.every((each) => each === "Cartesian"), `${name}: Cartesian axes alone`);
+  await axes.selectOption("both");
+  await scale.selectOption("auto");
+}
+
+// Several measurements: a name, a line and dots for each in the plots of scans and albedo, and a column of readings.
+async function check_several(browser, name) {
+  for (const colorScheme of ["light", "dark"]) {
+    const { page, complaints, requests } = await open(browser, at(`${name}.html`), { colorScheme });
+    await ready(page);
+    await page.waitForTimeout(700);
+    await page.screenshot({ path: at(`${name}-${colorScheme}.png`), fullPage: true });
+    await check_access(page, `${name}, ${colorScheme}`);
+    const { keys, columns, strokes, samples, wanted } = await page.evaluate(() => ({
+      keys: [...document.querySelectorAll(".key")].map((key) => [...key.children].map((each) => each.innerText.trim())),
+      columns: [...document.querySelectorAll("table.readings th")].map((each) => each.innerText.trim()).slice(1),
+      wanted: data.others[0].scans.reduce((sum, each) => sum + each.samples.length, 0),
+      strokes: [...document.querySelectorAll(".pair")].map((pair) => new Set([...pair.querySelectorAll("g[data-mark=line]")]
+        .map((each) => each.getAttribute("stroke")).filter((each) => /--fit|--other/.test(each))).size),
+      samples: document.querySelectorAll(".pair svg:first-child g[data-mark=dot][fill='var(--other-1)'] path").length }));
+    const names = ["reference", "scan", "blue"];
+    check(keys.length === 2 && [...keys, columns].every((each) => each.join() === names.join()), `${name}: names ${columns.join(", ")} above plots and readings`);
+    check(strokes.every((each) => each === names.length) && samples === wanted && samples > 5, `${name}: ${names.length} curves in each plot, ${samples} dots of the second`);
+    if (colorScheme === "light") {
+      await check_readings(page, name);
+      await check_switches(page, name);
+      const pages = (await page.pdf({ format: "A4" })).toString("latin1").match(/\/Type\s*\/Page\b/g).length;
+      check(pages <= 3, `${name}: prints on ${pages} pages`);
+    }
+    check(complaints.length === 0 && requests.length === 1, `${name}, ${colorScheme}: the console is empty and nothing is requested ${complaints} ${requests.slice(1)}`);
+    await page.close();
+  }
 }
 
 async function check_pointer(page, name) {
@@ -279,7 +345,9 @@ async function check_page(browser, name) {
     await check_access(page, `${name}, ${colorScheme}`);
     if (colorScheme === "light") {
       await check_charts(page, name);
+      await check_readings(page, name);
       await check_keyboard(page, name);
+      await check_switches(page, name);
       await check_pointer(page, name);
       await check_model(page, name);
       if (await page.evaluate(() => data.viewer.truth !== undefined)) {
@@ -327,11 +395,15 @@ gonio("report", at("many.csv"), "-o", at("many.html"));
 
 gonio("sample", at("red.binary"), "--directions", at("scan-directions.csv"), "--noise", "0.02", "-o", at("reference.csv"));
 try { gonio("check", at("scan.csv"), "--reference", at("reference.csv"), "--noise", "0.02", "--report", at("check.html")); } catch { /* exit code 1: it differs */ }
+gonio("expand", "--formula", "blue-rubber", "-o", at("blue.binary"));
+gonio("sample", at("blue.binary"), "--directions", at("scan-directions.csv"), "--noise", "0.02", "-o", at("blue.csv"));
+gonio("report", at("reference.csv"), at("scan.csv"), at("blue.csv"), "--noise", "0.02", "-o", at("several.html"));
 gonio("fit", at("reference.csv"), "--model", "ggx", "--report", at("fit-samples.html"));
 gonio("fit", at("red.binary"), "--model", "ggx", "--report", at("fit-table.html"));
 gonio("design", "-n", "6", "-o", at("six.csv"), "--report", at("design.html"));
 gonio("design", "-n", "3", "--given", at("reference.csv"), "--noise", "0.02", "-o", at("three.csv"), "--report", at("given.html"));
 
+await check_several(browser, "several");
 await check_plain_page(browser, "check", 3);
 await check_plain_page(browser, "fit-samples", 5);
 await check_plain_page(browser, "fit-table", 6);

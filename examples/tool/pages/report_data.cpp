@@ -4,6 +4,7 @@
 #include "images.hpp"
 #include "measures_as_json.hpp"
 #include "report_page.hpp"
+#include "report_readings.hpp"
 #include "sample_facts.hpp"
 #include "sample_warnings.hpp"
 #include "tool/files/measurement_files.hpp"
@@ -12,6 +13,7 @@
 #include <gonio/core/statistics.hpp>
 #include <gonio/io/materials/prior.hpp>
 #include <gonio/io/text/base64.hpp>
+#include <gonio/model/instrument_readings.hpp>
 #include <gonio/model/physical_properties.hpp>
 
 #include <algorithm>
@@ -166,13 +168,26 @@ std::vector<in_plane_scan> find_scans(const json& samples) {
   return all;
 }
 
+/// Returns light and viewer in one plane, degrees from the normal; the viewer's is positive on the far side from the
+/// light.
+gonio::direction_pair in_plane_pair(double theta_i, double angle) {
+  return {gonio::spherical_direction(radians(theta_i), 0.0), gonio::spherical_direction(radians(-angle), 0.0)};
+}
+
+/// Returns the viewer's angles of all curves, -87 to 87 degrees.
+std::vector<double> curve_angles() {
+  std::vector<double> angles;
+  for (int half = -2 * 87; half <= 2 * 87; ++half) angles.push_back(0.5 * half);
+  return angles;
+}
+
 /// Returns the fit in the plane of a light, at -87 to 87 degrees of the viewer from the normal.
 json curve_of(double theta_i, const known_fit& known) {
-  const gonio::direction wi = gonio::spherical_direction(radians(theta_i), 0.0);
   json curve = json::array();
-  for (int half = -2 * 87; half <= 2 * 87; ++half) {
-    json told{{"angle", 0.5 * half}};
-    known.describe(wi, gonio::spherical_direction(radians(-0.5 * half), 0.0), told);
+  for (const double angle : curve_angles()) {
+    json told{{"angle", angle}};
+    const auto [wi, wo] = in_plane_pair(theta_i, angle);
+    known.describe(wi, wo, told);
     curve.push_back(std::move(told));
   }
   return curve;
@@ -189,6 +204,25 @@ json scans_of(const json& samples, const known_fit& known) {
   for (const double theta_i : {15.0, 45.0, 70.0})
     all.push_back({{"theta_i", theta_i}, {"samples", json::array()}, {"curve", curve_of(theta_i, known)}});
   return all;
+}
+
+/// Returns the luminance of a fit, and of samples within half a degree, in the plane of another file's light.
+json luminance_in_plane(double theta_i, const reported_fit& fit, const known_fit& known) {
+  json curve = json::array(), samples = json::array();
+  for (const double angle : curve_angles()) {
+    const auto [wi, wo] = in_plane_pair(theta_i, angle);
+    curve.push_back(five_digits(std::max(gonio::luminance(known.value(wi, wo)), 0.0)));
+  }
+  for (const Eigen::Index i : shown_samples(fit)) {
+    const gonio::sample& sample = fit.measured.samples[i];
+    const gonio::direction_pair& pair = sample.directions.pair();
+    const double angle = in_plane_angle(pair);
+    if (std::isnan(angle) || std::abs(gonio::degrees(gonio::polar_angle(pair.wi)) - theta_i) > 0.5) continue;
+    samples.push_back({{"sample", i + 1},
+                       {"in_plane", rounded_degrees(angle)},
+                       {"luminance", five_digits(gonio::luminance(sample.value))}});
+  }
+  return {{"curve", std::move(curve)}, {"samples", std::move(samples)}};
 }
 
 /// Returns the median over phi_d of the uncertainty of directions: columns of theta_h, denser near highlights, and rows
@@ -252,6 +286,13 @@ json warnings_of(const reported_fit& fit) {
   return all;
 }
 
+/// Returns the readings of instruments on the fit, with `known_to`.
+json readings_of(const reconstruction& found) {
+  json readings = to_json(gonio::model::read_instruments(found.table));
+  readings["known_to"] = readings_known_to(found.table, *found.uncertainty);
+  return readings;
+}
+
 /// Returns the record of the fit, in addition to the command.
 json record_of_fit(const reported_fit& fit) {
   const auto& [options, measured, found, truth] = fit;
@@ -283,8 +324,7 @@ gonio::sample_set in_plane_values(const gonio::brdf_table& table) {
   gonio::sample_set samples;
   for (const double light : {15.0, 45.0, 70.0})
     for (int viewer = -85; viewer <= 85; viewer += 5) {
-      const gonio::direction_pair pair{gonio::spherical_direction(radians(light), 0.0),
-                                       gonio::spherical_direction(radians(-viewer), 0.0)};
+      const gonio::direction_pair pair = in_plane_pair(light, viewer);
       samples.push_back({pair, value(pair.wi, pair.wo), 1.0});
     }
   return samples;
@@ -306,6 +346,7 @@ json model_report_data(const reported_model& model) {
             {"name", model.name},
             {"count", counting.size()},
             {"sphere", sphere_url(gonio::tabulate(seen, gonio::valid_cells(), model.threads), model.threads)},
+            {"readings", to_json(gonio::model::read_instruments(seen))},
             {"details", model.details}};
   data["scans"] = scans_of(samples, known);
   data["samples"] = std::move(samples);
@@ -324,11 +365,31 @@ json report_data(const reported_fit& fit) {
             {"worst", worst_of(fit.found)},
             {"warnings", warnings_of(fit)},
             {"samples", samples_of(fit, known)}};
+  data["readings"] = readings_of(fit.found);
   data["scans"] = scans_of(data["samples"], known);
   data["map"] = map_of(known);
   data["albedo"] = albedo_of(known);
   data["record"] = record_of_fit(fit);
   return data;
+}
+
+void add_measurement(json& report, const std::string& name, const reported_fit& other) {
+  const known_fit known(other.found);
+  json scans = json::array();
+  for (const json& scan : report["scans"].elements())
+    scans.push_back(luminance_in_plane(scan["theta_i"].number(), other, known));
+  report["others"].push_back({{"name", name},
+                              {"count", gonio::counting_positions(other.measured.samples).size()},
+                              {"details", {{"known_to", other.found.details["known_to"]}}},
+                              {"readings", readings_of(other.found)},
+                              {"scans", std::move(scans)},
+                              {"albedo", albedo_of(known)}});
+  const json warnings = warnings_of(other);
+  for (const json& sentence : warnings.elements()) report["warnings"].push_back(name + ": " + sentence.text());
+  report["record"].push_back(json::array(
+      {"Beside", other.options.samples.string() + ": " + std::to_string(other.measured.samples.size()) + ", of which " +
+                     std::to_string(gonio::counting_positions(other.measured.samples).size()) + " count; " +
+                     other.found.sentence}));
 }
 
 }  // namespace cli

@@ -23,6 +23,10 @@ struct reported_fit {
 /// probability of 68 %. If there are more than `most_residuals` samples, shows that many at random and the rejected.
 [[nodiscard]] json report_data(const reported_fit& fit);
 
+/// Adds another measurement to the result of `report_data`: its readings, its albedo, and its luminance in the planes
+/// of the scans.
+void add_measurement(json& report, const std::string& name, const reported_fit& other);
+
 /// A model, its samples, and the output of `gonio fit --json`.
 struct reported_model {
   std::string name;
