@@ -244,7 +244,7 @@ void run(design_command command, const team& processes) {
   const auto prior = read_prior(command.prior);
   command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
   command.design.near_field.step = gonio::radians(command.step);
-  if (!command.start.empty()) command.design.start = read_direction_pairs(command.start, reading_of());
+  if (!command.start.empty()) command.design.start = cli::read_direction_pairs(command.start, reading_of());
   if (!is_published) return search(command, prior, bar, processes);
   bar.wipe();
   if (processes.writes()) finish(command, prior, set_of_the_literature(prior, command), true);

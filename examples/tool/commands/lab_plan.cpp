@@ -58,7 +58,7 @@ timed_plan plan_of(const plan_command& options) {
     if (options.machine.name != "robot") gonio::refuse("--whole requires --machine robot");
     return whole_hemisphere(lab::robot(room, gonio::radians(options.machine.tolerance)));
   }
-  const auto pairs = read_direction_pairs(options.directions, reading_of());
+  const auto pairs = cli::read_direction_pairs(options.directions, reading_of());
   timed_plan result;
   result.plan = with_machine(options.machine, room,
                              [&](const auto& machine) { return gonio::capture::plan_scan(machine, pairs); });

@@ -160,7 +160,7 @@ void run(const scan_command& options) {
   if (options.adaptive && options.choice.reference.empty())
     gonio::refuse("--adaptive needs --reference, a scan of the white reference by the same machine");
   if (!options.adaptive && !options.choice.reference.empty()) gonio::refuse("--reference needs --adaptive");
-  const auto poses = read_direction_pairs(options.plan, reading_of());
+  const auto poses = cli::read_direction_pairs(options.plan, reading_of());
   lab::dark_room room = room_of(options);
   with_machine(options.machine, room, [&](auto& machine) {
     if (options.adaptive) return scan_adaptively(options, machine, poses);

@@ -197,7 +197,7 @@ gonio::image drawing_of(const std::vector<pose>& poses) {
 
 void run(const plan_options& options) {
   std::vector<pose> poses;
-  for (const gonio::direction_pair& pair : read_direction_pairs(options.directions, reading_of()))
+  for (const gonio::direction_pair& pair : cli::read_direction_pairs(options.directions, reading_of()))
     poses.push_back(to_pose(pair));
   if (!options.image.empty()) gonio::io::write_png(options.image, drawing_of(poses));
   if (options.print_json)

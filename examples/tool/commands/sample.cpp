@@ -23,7 +23,8 @@ struct sample_options {
 };
 
 std::vector<Eigen::Index> chosen_cells(const sample_options& options, const gonio::valid_cells& cells) {
-  if (!options.directions.empty()) return gonio::cells_at(cells, read_directions(options.directions, reading_of()));
+  if (!options.directions.empty())
+    return gonio::cells_at(cells, cli::read_directions(options.directions, reading_of()));
   const Eigen::Index count = options.count != 0 ? options.count : gonio::share_of(cells.size(), options.ratio);
   return gonio::random_cells(cells, count, options.seed);
 }

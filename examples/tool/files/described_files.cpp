@@ -400,7 +400,7 @@ json describe(const gonio::log_relative_pca& prior) {
 json describe_file(const std::filesystem::path& path, const measurement_options& reading) {
   // It may be in the program, and is a prior or directions.
   if (is_shipped(path) && lower_extension(path) == ".prior") return describe(read_prior(path));
-  if (is_shipped(path)) return facts_of_directions(read_direction_pairs(path, {}));
+  if (is_shipped(path)) return facts_of_directions(cli::read_direction_pairs(path, {}));
   const file_look file(path);
   const auto kind = std::ranges::find_if(kinds, [&](const described_kind& each) { return each.recognises(file); });
   if (kind == kinds.end())

@@ -1,7 +1,7 @@
 #pragma once
 /// Files shipped with gonio: the learned prior, sets of directions, descriptions of apparatus. They are installed
 /// beside the tool, are in the source tree that it was built from, or are in the program itself (GONIO_EMBED_DATA).
-/// Whoever names a prior or directions may write `shipped:` and a file's path in examples/data.
+/// A prior or a set of directions may be named `shipped:PATH`, a path in examples/data.
 
 #include "command.hpp"
 #include <gonio/basis/pca.hpp>
@@ -17,16 +17,16 @@
 
 namespace cli {
 
-/// A path of examples/data as the functions here read it: `shipped:NAME` where it is in the program.
+/// Returns the path of a file of examples/data: `shipped:NAME` if it is in the program.
 [[nodiscard]] std::filesystem::path shipped_file(const std::string& name);
 
 /// Does the path begin with `shipped:`?
 [[nodiscard]] bool is_shipped(const std::filesystem::path& path);
 
-/// The bytes of a file, shipped or not. Throws gonio::error naming it.
+/// Returns the bytes of a file, shipped or not. Throws gonio::error that names it.
 [[nodiscard]] std::vector<std::byte> read_input(const std::filesystem::path& path);
 
-/// As gonio::io reads them.
+/// These read shipped files too; otherwise they are gonio::io::read_prior and so on.
 [[nodiscard]] gonio::log_relative_pca read_prior(const std::filesystem::path& path);
 [[nodiscard]] std::vector<gonio::half_difference> read_directions(const std::filesystem::path& path,
                                                                   const gonio::io::sample_reading& reading);
