@@ -40,9 +40,9 @@ namespace detail {
 ///
 /// Without an initial guess: the consecutive optimisation of Nielsen et al. 2014 from typical shapes (colours; shapes;
 /// all), which for squares of linear residuals becomes variable projection: the shapes alone, with the colours that are
-/// best for them. `metric` maps reflectance before it is compared: lin, log or root. Throws
-/// gonio::error for fewer measurements than parameters, or if all are zero. O(N (L + P)^2) an iteration for N
-/// observations, L lobes and P parameters.
+/// best for them. The paper's last stage holds the diffuse colour: `diffuse_stays`. `metric` maps reflectance before it
+/// is compared: lin, log or root. Throws gonio::error for fewer measurements than parameters, or if all are zero. O(N
+/// (L + P)^2) an iteration for N observations, L lobes and P parameters.
 ///
 /// ```cpp
 /// const std::vector kinds{&gonio::model::lobe_kind::of<gonio::model::lambert_shape>(),

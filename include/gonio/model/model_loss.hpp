@@ -34,6 +34,8 @@ struct model_fit_options {
   double rounding = 1e-3, huber_width = 0.1;
   /// What a channel of the model may reflect at most of light that falls in at up to 88 degrees; 1 is all of it.
   double largest_albedo = std::numeric_limits<double>::infinity();
+  /// Does a Lambertian lobe keep the colour that the first stage gave it, as Nielsen et al. 2014 print the last one?
+  bool diffuse_stays = false;
   /// Random starts beside the consecutive scheme, of which the best end counts.
   Eigen::Index random_starts = 0;
   std::uint64_t seed = 0;
@@ -65,6 +67,9 @@ class model_loss {
   [[nodiscard]] Eigen::Index shapes() const noexcept { return std::ssize(owners_); }
   /// Shape parameters first, then the colours, lobe by lobe for each channel.
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return shapes() + 3 * lobes(); }
+
+  /// Does a lobe have no shape, as Lambert's?
+  [[nodiscard]] bool is_diffuse(Eigen::Index lobe) const { return kinds_[lobe]->parameters().empty(); }
 
   /// Logarithms of those parameters whose steps are factors.
   [[nodiscard]] Eigen::VectorXd coded(std::span<const lobe_kind::values> parameters) const;
