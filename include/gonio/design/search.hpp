@@ -1,8 +1,9 @@
 #pragma once
 /// Searches for what to measure, for any geometry of candidates and any objective that tells what a set of them is
-/// worth. Random swaps: Matusik, Pfister, Brand and McMillan 2003. Descent on the grid: Nielsen, Jensen and Ramamoorthi
-/// 2015 (doi:10.1145/2816795.2818085), section 4; from the best of many candidates: Xu et al. 2016
-/// (doi:10.1145/2980179.2982396), section 5.1.
+/// worth. Random swaps: Matusik, Pfister, Brand and McMillan 2003. Descent on the grid: after Nielsen, Jensen and
+/// Ramamoorthi 2015 (doi:10.1145/2816795.2818085), section 4, whose steps follow the numerical gradient instead
+/// (examples/papers/nielsen2015/gradient_descent.hpp, no better: docs/results/figures.md); from the best of many
+/// candidates: Xu et al. 2016 (doi:10.1145/2980179.2982396), section 5.1.
 
 #include <gonio/core/error.hpp>
 #include <gonio/core/progress.hpp>
@@ -182,9 +183,8 @@ template <capture_geometry Geometry, plan_objective Objective>
   return plan;
 }
 
-/// Adds one candidate after another, the best of `tries` random ones each time, and descends after each. With one try
-/// it is Nielsen et al.'s search, with 500 Xu et al.'s. Throws gonio::error unless n is from 1 to the number of
-/// candidates.
+/// Adds one candidate after another, the best of `tries` random ones each time, and descends after each: one try as
+/// Nielsen et al., 500 as Xu et al. Throws gonio::error unless n is from 1 to the number of candidates.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan grow_and_descend(const Geometry& geometry, const Objective& objective, Eigen::Index n,
                                             Eigen::Index tries = 500, std::uint64_t seed = 0,
