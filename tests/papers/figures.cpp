@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 
 namespace {
@@ -42,6 +43,20 @@ class figures_database {
     for (const Eigen::Index cell : gonio::random_cells(cells, 400, 1)) {
       const auto [wi, wo] = gonio::to_directions(cells.angles(cell));
       samples.push_back({cells.angles(cell), paint(wi, wo)});
+    }
+    gonio::io::write_samples(folder_ / name, samples);
+    return at(name);
+  }
+
+  /// Every 5 degrees in the plane of incidence with the light at 45, of the same material.
+  [[nodiscard]] std::string scanned(const std::string& name) const {
+    const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
+    const gonio::direction wi = gonio::spherical_direction(gonio::radians(45.0), 0.0);
+    gonio::sample_set samples;
+    for (int view = -80; view <= 80; view += 5) {
+      const gonio::direction wo =
+          gonio::spherical_direction(gonio::radians(std::abs(view)), view < 0 ? 0.0 : std::numbers::pi);
+      samples.push_back({gonio::direction_pair{wi, wo}, paint(wi, wo)});
     }
     gonio::io::write_samples(folder_ / name, samples);
     return at(name);
@@ -149,6 +164,23 @@ TEST_CASE("figures: with either cosine weight, and with both side by side") {
   }
   const auto refused = database.evaluate("figures --figure 2016-3 --cosine-weight larger larger");
   CHECK(refused.exit_code == 2);
+}
+
+TEST_CASE("figure 2015-10: a scan in the plane of incidence") {
+  const figures_database database;
+  const json tables = database.draw("2015-10 --samples " + database.scanned("scan.csv"), "9 15");
+  REQUIRE(tables.size() == 2);
+  REQUIRE(tables[0]["rows"].size() == 2);  // from the published directions, and from ours
+  for (const json& row : tables[0]["rows"]) {
+    CHECK(row["directions of the scan"] == 33);
+    CHECK(row["rms of ln(f + 0.001)"].get<double>() > 0.0);
+    CHECK(row["rms of ln(f + 0.001)"].get<double>() < 10.0);
+  }
+  REQUIRE(tables[1]["rows"].size() == 1);
+  CHECK(tables[1]["rows"][0]["0"].get<std::string>().find(" / ") != std::string::npos);
+  const auto nothing = database.evaluate("figures --figure 2015-10", "9 15");
+  CHECK(nothing.exit_code != 0);
+  CHECK(nothing.output.find("--samples") != std::string::npos);
 }
 
 TEST_CASE("figure 2015-penalties: the best penalties are no worse than the others") {

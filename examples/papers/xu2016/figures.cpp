@@ -59,6 +59,7 @@ constexpr std::array all_figures{figure{"2015-2", nielsen_2},
                                  figure{"2015-7", nielsen_7},
                                  figure{"2015-8", nielsen_8},
                                  figure{"2015-9", nielsen_9},
+                                 figure{"2015-10", nielsen_10},
                                  figure{"2015-11", nielsen_11},
                                  figure{"2015-12", nielsen_12},
                                  figure{"2016-2", xu_2},
@@ -216,8 +217,9 @@ void add_figures(command& app) {
       .check(check::one_of({"product", "larger"}))
       .capture_default_str();
   command.add_input_folder("--tables", given.measured_tables, {".binary", ".gz"},
-                           "2016-17: folder of measured tables to make samples of, too");
-  command.add_input("--samples", given.measured_samples, "2015-12: measured samples to judge, too (.csv, .brdf)");
+                           "2015-10: folder of measured tables to scan; 2016-17: to make samples of, too");
+  command.add_input("--samples", given.measured_samples,
+                    "2015-10, 2015-12: measured samples to judge, too (.csv, .brdf)");
   command.add_output("--spheres", given.spheres, {".png"},
                      "2015-2, 2015-12, 2016-2, 2016-15: image to write, a row a material, the truth at the right");
   command.add_option("--eta", given.eta, "Tikhonov's penalty").check(check::positive_number()).capture_default_str();

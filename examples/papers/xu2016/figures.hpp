@@ -141,6 +141,7 @@ template <gonio::design::sweeping_objective Objective>
 [[nodiscard]] tables nielsen_5(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_6(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_7(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_10(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_11(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_12(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_penalties(const options& given, const gonio::progress& listener);
