@@ -103,6 +103,24 @@ TEST_CASE("also by L1 and Huber's norm, in other metrics, weighted by the cosine
     }
 }
 
+TEST_CASE("the last stage as printed: the diffuse colour stays what the first one found, which costs") {
+  const auto pairs = scattered_pairs(600);
+  const lobe_kind &lambert = lobe_kind::of<gonio::model::lambert_shape>(),
+                  &ward = lobe_kind::of<gonio::model::ward_shape>();
+  const auto samples = observed(analytic_brdf({{lambert, {0.1, 0.3, 0.5}, {}}, {ward, {0.4, 0.2, 0.1}, {0.2}}}), pairs);
+  for (const auto norm : {gonio::model::fit_norm::l1, gonio::model::fit_norm::l2}) {
+    const auto fit = [&](bool diffuse_stays) {
+      return gonio::model::fit_model({&lambert, &ward}, samples, gonio::lin(),
+                                     {.norm = norm, .diffuse_stays = diffuse_stays});
+    };
+    const auto all = fit(false), printed = fit(true);
+    CHECK(printed.converged);
+    CHECK(printed.loss >= all.loss);
+    CHECK(error_of(all.model.lobes()[0], {lambert, {0.1, 0.3, 0.5}, {}}) < 1e-6);
+    CHECK(error_of(printed.model.lobes()[0], {lambert, {0.1, 0.3, 0.5}, {}}) > 1e-3);
+  }
+}
+
 TEST_CASE("a fit reflects no more than falls in, by any norm and metric, and is no other where that holds anyway") {
   const auto pairs = scattered_pairs(400);
   const lobe_kind &lambert = lobe_kind::of<gonio::model::lambert_shape>(),

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 
 namespace {
@@ -47,6 +48,20 @@ class figures_database {
     return at(name);
   }
 
+  /// Every 5 degrees in the plane of incidence with the light at 45, of the same material.
+  [[nodiscard]] std::string scanned(const std::string& name) const {
+    const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
+    const gonio::direction wi = gonio::spherical_direction(gonio::radians(45.0), 0.0);
+    gonio::sample_set samples;
+    for (int view = -80; view <= 80; view += 5) {
+      const gonio::direction wo =
+          gonio::spherical_direction(gonio::radians(std::abs(view)), view < 0 ? 0.0 : std::numbers::pi);
+      samples.push_back({gonio::direction_pair{wi, wo}, paint(wi, wo)});
+    }
+    gonio::io::write_samples(folder_ / name, samples);
+    return at(name);
+  }
+
   /// The tables of a figure.
   [[nodiscard]] json draw(const std::string& arguments, const std::string& thinning = "3 5") const {
     const auto result = evaluate("figures --json --figure " + arguments, thinning);
@@ -68,16 +83,19 @@ std::vector<json> rows_with(const json& table, const char* column, const json& v
 }  // namespace
 
 TEST_CASE("figure 2015-5: searches in the same time") {
-  const json tables = figures_database().draw("2015-5 --most 5 --repetitions 2");
-  REQUIRE(tables.size() == 2);
-  CHECK(tables[0]["rows"].size() == 8);
-  const auto descent = rows_with(tables[0], "search", "descent (Nielsen et al.)");
-  const auto swaps = rows_with(tables[0], "search", "random swaps, five times the time");
-  REQUIRE(descent.size() == 2);
-  REQUIRE(swaps.size() == 2);
-  CHECK(swaps[1]["seconds"].get<double>() > descent[1]["seconds"].get<double>());
+  const json tables = figures_database().draw("2015-5 --most 5 --repetitions 2 --components 3 400");
+  REQUIRE(tables.size() == 3);  // of 3 components, of all, and by expected error
+  CHECK(tables[0]["title"].get<std::string>().find("of the first 3 components") != std::string::npos);
+  for (const std::size_t by_condition : {std::size_t{0}, std::size_t{1}}) {
+    CHECK(tables[by_condition]["rows"].size() == 14);
+    const auto along = rows_with(tables[by_condition], "search", "along the gradient (Nielsen et al.)");
+    const auto swaps = rows_with(tables[by_condition], "search", "random swaps, five times the time");
+    REQUIRE(along.size() == 2);
+    REQUIRE(swaps.size() == 2);
+    CHECK(swaps[1]["seconds"].get<double>() > along[1]["seconds"].get<double>());
+  }
   for (const json& n : {json(2), json(5)}) {
-    const auto rows = rows_with(tables[1], "n", n);
+    const auto rows = rows_with(tables[2], "n", n);
     REQUIRE(rows.size() == 5);
     CHECK(rows[3]["search"] == "greedy over all cells");
     CHECK(rows[4]["E, best"].get<double>() <= rows[3]["E, best"].get<double>() * (1.0 + 1e-6));
@@ -86,35 +104,106 @@ TEST_CASE("figure 2015-5: searches in the same time") {
 }
 
 TEST_CASE("figure 2015-6: all pairs of a coarse grid bound what searches find on it") {
-  const json tables = figures_database().draw("2015-6 --step 30 --repetitions 4");
-  REQUIRE(tables.size() == 4);
+  const json tables = figures_database().draw("2015-6 --step 30 --repetitions 4 --components 2");
+  REQUIRE(tables.size() == 5);
   const json& best = tables[0]["rows"];
-  REQUIRE(best.size() == 6);
+  REQUIRE(best.size() == 7);
   // The exhaustive pairs are worth what their criterion says of them when it is asked again.
   const json& shares = tables[1]["rows"];
   CHECK(best[0]["condition"].get<double>() ==
         doctest::Approx(shares[0]["best of the grid"].get<double>()).epsilon(1e-6));
-  CHECK(best[4]["E"].get<double>() == doctest::Approx(shares[2]["best of the grid"].get<double>()).epsilon(1e-4));
-  CHECK(best[4]["E"].get<double>() <= best[0]["E"].get<double>() * (1.0 + 1e-4));
+  CHECK(best[5]["E"].get<double>() == doctest::Approx(shares[3]["best of the grid"].get<double>()).epsilon(1e-4));
+  CHECK(best[5]["E"].get<double>() <= best[0]["E"].get<double>() * (1.0 + 1e-4));
   for (const json& row : shares) {
     CHECK(row["lowest"].get<double>() <= row["median"].get<double>());
     CHECK(row["median"].get<double>() <= row["highest"].get<double>());
     CHECK(row["as good as the grid's"].get<int>() <= row["within 1 %"].get<int>());
   }
-  CHECK(tables[2]["rows"].size() == 6);
+  CHECK(tables[2]["rows"].size() == 8);
+  // Of all components it is the same pair and the same searches.
+  const json& by_components = tables[4]["rows"];
+  REQUIRE(by_components.size() == 2);
+  CHECK(by_components[0]["k"] == 2);
+  CHECK(by_components[1]["best of the grid"] == shares[0]["best of the grid"]);
+  CHECK(by_components[1]["median"] == shares[0]["median"]);
+  CHECK(by_components[1]["published pair"] == best[4]["condition"]);
+}
+
+TEST_CASE("figures 2015-table-1 and -2: the condition number of the first k components") {
+  const figures_database database;
+  const json points = database.draw("2015-table-1 --repetitions 3 --most 5 --components 2 3");
+  REQUIRE(points[0]["rows"].size() == 6);
+  for (const json& row : points[0]["rows"]) {
+    CHECK(row["best found"].get<double>() >= 1.0);
+    CHECK(row["% of 2000 random sets below it"].get<double>() <= 100.0);
+  }
+  CHECK(points[0]["rows"][0]["of the published"] == points[0]["rows"][2]["of the published"]);
+
+  const json spheres = database.draw("2015-table-2 --repetitions 3 --components 3 5");
+  REQUIRE(spheres.size() == 2);
+  REQUIRE(spheres[0]["rows"].size() == 3);
+  for (const json& row : spheres[0]["rows"]) {
+    // No other image and no other pair is better than the best; the published ones have a rank among them.
+    CHECK(row["its condition"].get<double>() <= row["of the published, 5"].get<double>() * (1.0 + 1e-9));
+    CHECK(row["its rank of 30"].get<int>() >= 1);
+    CHECK(row["their rank of 435"].get<int>() <= 435);
+    CHECK(row["their condition"].get<double>() <= row["its condition"].get<double>() * (1.0 + 1e-9));
+  }
+  CHECK(spheres[1]["rows"].size() == 3);
+}
+
+TEST_CASE("figures: with either cosine weight, and with both side by side") {
+  const figures_database database;
+  const json both = database.draw("2016-3 --cosine-weight product larger", "9 15"),
+             product = database.draw("2016-3", "9 15"), larger = database.draw("2016-3 --cosine-weight larger", "9 15");
+  REQUIRE(both[0]["rows"].size() == 11);
+  for (std::size_t m = 0; m < 11; ++m) {
+    CHECK(both[0]["rows"][m]["material"] == product[0]["rows"][m]["material"]);
+    CHECK(both[0]["rows"][m]["E_deviation, product"] == product[0]["rows"][m]["E_deviation"]);
+    CHECK(both[0]["rows"][m]["E_deviation, larger"] == larger[0]["rows"][m]["E_deviation"]);
+  }
+  const auto refused = database.evaluate("figures --figure 2016-3 --cosine-weight larger larger");
+  CHECK(refused.exit_code == 2);
+}
+
+TEST_CASE("figure 2015-10: a scan in the plane of incidence") {
+  const figures_database database;
+  const json tables = database.draw("2015-10 --samples " + database.scanned("scan.csv"), "9 15");
+  REQUIRE(tables.size() == 2);
+  REQUIRE(tables[0]["rows"].size() == 2);  // from the published directions, and from ours
+  for (const json& row : tables[0]["rows"]) {
+    CHECK(row["directions of the scan"] == 33);
+    CHECK(row["rms of ln(f + 0.001)"].get<double>() > 0.0);
+    CHECK(row["rms of ln(f + 0.001)"].get<double>() < 10.0);
+  }
+  REQUIRE(tables[1]["rows"].size() == 1);
+  CHECK(tables[1]["rows"][0]["0"].get<std::string>().find(" / ") != std::string::npos);
+  const auto nothing = database.evaluate("figures --figure 2015-10", "9 15");
+  CHECK(nothing.exit_code != 0);
+  CHECK(nothing.output.find("--samples") != std::string::npos);
 }
 
 TEST_CASE("figure 2015-penalties: the best penalties are no worse than the others") {
-  const json tables = figures_database().draw("2015-penalties --most 5");
-  REQUIRE(tables.size() == 6);
-  for (const std::size_t first : {std::size_t{0}, std::size_t{3}})
+  const json tables = figures_database().draw("2015-penalties --most 5 --components 2 5");
+  REQUIRE(tables.size() == 10);
+  for (const std::size_t first : {std::size_t{0}, std::size_t{5}})
     for (const json& row : tables[first]["rows"]) {
       CHECK(row["ridge, the best eta"].get<double>() <= row["ridge, eta = 40"].get<double>());
       CHECK(row["weights not zero"].get<double>() <= row["n"].get<double>() + 1e-9);  // as the Lasso's solutions are
     }
   // The column of eta = 40 is that reconstruction.
   CHECK(tables[1]["rows"][0]["eta = 40"] == tables[0]["rows"][0]["ridge, eta = 40"]);
-  CHECK(tables[3]["rows"][0]["eta = 0"] != tables[0]["rows"][0]["eta = 0"]);
+  CHECK(tables[5]["rows"][0]["eta = 0"] != tables[0]["rows"][0]["eta = 0"]);
+  // With all components it is the same least squares and the same ridge.
+  for (std::size_t set = 0; set < tables[0]["rows"].size(); ++set) {
+    const json &squares = tables[3]["rows"][set], &ridge = tables[4]["rows"][set], &all = tables[0]["rows"][set];
+    REQUIRE(squares.size() == 5);
+    for (const auto& [column, value] : squares.items()) {
+      if (!column.starts_with("k = ") || column == "k = 2" || column == "k = 5") continue;
+      CHECK(value.get<double>() == doctest::Approx(all["eta = 0"].get<double>()));
+      CHECK(ridge[column].get<double>() == doctest::Approx(all["ridge, eta = 40"].get<double>()));
+    }
+  }
 }
 
 TEST_CASE("figures 2015-2, 2015-12, 2016-2 and 2016-15: material by material") {

@@ -111,6 +111,13 @@ TEST_CASE("noell-measured: a spectral measurement is judged where it was not use
   CHECK(rows[5]["method"] == "lc");
   for (const auto& row : rows) CHECK(row["log_error"].get<double>() < 2.0);
 
+  const auto rivals = read_json(database.evaluate(arguments + " --json --outliers 0 --methods lc rbf pull-push"));
+  REQUIRE(rivals.size() == 3);
+  CHECK(rivals[0]["log_error"] == rows[2]["log_error"]);
+  CHECK(rivals[1]["method"] == "rbf");
+  CHECK(rivals[2]["method"] == "pull-push");
+  for (const auto& row : rivals) CHECK(row["log_error"].get<double>() < 5.0);
+
   const auto everything = gonio_papers("noell-measured --data 1 --networks " + database.at("n.npy") + " --samples " +
                                        database.at("paint.brdf"));
   CHECK(everything.exit_code == 2);

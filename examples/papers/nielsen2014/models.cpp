@@ -28,7 +28,7 @@ namespace {
 struct models_options : resumable_options {
   std::filesystem::path networks;
   std::vector<std::string> models{"phong", "blinn-phong", "phong-blinn", "phong-blinn-fresnel"}, losses{"l1", "l2"},
-      only;
+      last_stages{"all"}, only;
   std::string metric = "lin";
   gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
   bool print_json = false;
@@ -45,11 +45,13 @@ std::string significant(double value) {
 gonio::valid_cells cells_of_fit() { return gonio::valid_cells(gonio::grid({90, 30, 36})); }
 
 json fit_one(const models_options& given, const std::string& model, const std::string& loss,
-             std::span<const gonio::model::fit_observation> observations, const gonio::brdf_table& truth,
-             const gonio::appearance_metric& appearance) {
-  const gonio::model::model_fit fit = fit_by_metric(
-      given.metric, lobes_named(model), observations,
-      {.norm = loss == "l1" ? gonio::model::fit_norm::l1 : gonio::model::fit_norm::l2, .threads = given.threads});
+             const std::string& last_stage, std::span<const gonio::model::fit_observation> observations,
+             const gonio::brdf_table& truth, const gonio::appearance_metric& appearance) {
+  const gonio::model::model_fit fit =
+      fit_by_metric(given.metric, lobes_named(model), observations,
+                    {.norm = loss == "l1" ? gonio::model::fit_norm::l1 : gonio::model::fit_norm::l2,
+                     .diffuse_stays = last_stage == "printed",
+                     .threads = given.threads});
   const auto seen =
       appearance.difference(gonio::tabulate(fit.model, truth.cells(), given.threads), truth, given.threads);
   return {{"converged", fit.converged},    {"evaluations", fit.evaluations}, {"loss", fit.loss},
@@ -72,12 +74,18 @@ json fit_all(const models_options& given, progress_bar& bar) {
     const gonio::brdf_table truth = materials.table(m);
     const auto observations = gonio::model::fit_observations(truth, given.threads, given.cell_weights);
     for (const std::string& model : given.models)
-      for (const std::string& loss : given.losses) {
-        const json key{materials.names[m], model, loss, given.metric, static_cast<int>(given.cell_weights)};
-        const json& fit =
-            results.once(key, m, [&] { return fit_one(given, model, loss, observations, truth, appearance); });
-        rows.push_back({{"material", materials.names[m]}, {"model", model}, {"loss", loss}, {"fit", fit}});
-      }
+      for (const std::string& loss : given.losses)
+        for (const std::string& last_stage : given.last_stages) {
+          const json key{materials.names[m], model, loss, given.metric, static_cast<int>(given.cell_weights),
+                         last_stage};
+          const json& fit = results.once(
+              key, m, [&] { return fit_one(given, model, loss, last_stage, observations, truth, appearance); });
+          rows.push_back({{"material", materials.names[m]},
+                          {"model", model},
+                          {"loss", loss},
+                          {"last_stage", last_stage},
+                          {"fit", fit}});
+        }
   }
   return rows;
 }
@@ -89,31 +97,39 @@ std::vector<json> of(const std::vector<json>& rows, const std::string& key, cons
   return some;
 }
 
+/// Of one model by one loss, given its fits.
+void print_mean(const std::vector<json>& rows) {
+  std::vector<double> lights, environment, evaluations, losses;
+  std::size_t converged = 0;
+  for (const json& row : rows) {
+    const json& fit = row["fit"];
+    lights.push_back(fit["delta_e_lights"].number());
+    environment.push_back(fit["delta_e_env"].number());
+    evaluations.push_back(fit["evaluations"].number());
+    losses.push_back(fit["loss"].number());
+    if (fit["converged"].truth()) ++converged;
+  }
+  const distribution l(lights), e(environment), least(losses);
+  std::cout << " | " << lights.size() << " | " << converged << " | " << fixed(distribution(evaluations).mean, 0)
+            << " | " << significant(least.mean) << " | " << significant(least.median);
+  for (const double value : {l.mean, l.median, l.worst, e.mean, e.median, e.worst})
+    std::cout << " | " << fixed(value, 2);
+  std::cout << " |\n";
+}
+
 void print_means(const models_options& given, const json& rows) {
+  const bool compares = given.last_stages.size() > 1;
   std::cout
-      << "| model | loss | fits | converged | evaluations, mean | its value: mean | median | Delta E lights: mean | "
-         "median | worst | Delta E env: mean | median | worst "
-         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      << "| model | loss | " << (compares ? "last stage | " : "")
+      << "fits | converged | evaluations, mean | its value: mean | median | Delta E lights: mean | median | worst "
+         "| Delta E env: mean | median | worst |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+      << (compares ? "---|\n" : "\n");
   for (const std::string& model : given.models)
-    for (const std::string& loss : given.losses) {
-      std::vector<double> lights, environment, evaluations, losses;
-      std::size_t converged = 0;
-      for (const json& row : of(of(rows.elements(), "model", model), "loss", loss)) {
-        const json& fit = row["fit"];
-        lights.push_back(fit["delta_e_lights"].number());
-        environment.push_back(fit["delta_e_env"].number());
-        evaluations.push_back(fit["evaluations"].number());
-        losses.push_back(fit["loss"].number());
-        if (fit["converged"].truth()) ++converged;
+    for (const std::string& loss : given.losses)
+      for (const std::string& last_stage : given.last_stages) {
+        std::cout << "| " << model << " | " << loss << (compares ? " | " + last_stage : "");
+        print_mean(of(of(of(rows.elements(), "model", model), "loss", loss), "last_stage", last_stage));
       }
-      const distribution l(lights), e(environment), least(losses);
-      std::cout << "| " << model << " | " << loss << " | " << lights.size() << " | " << converged << " | "
-                << fixed(distribution(evaluations).mean, 0) << " | " << significant(least.mean) << " | "
-                << significant(least.median);
-      for (const double value : {l.mean, l.median, l.worst, e.mean, e.median, e.worst})
-        std::cout << " | " << fixed(value, 2);
-      std::cout << " |\n";
-    }
 }
 
 /// alpha of the variant, what is made small, and what is seen of each model, by material.
@@ -150,7 +166,7 @@ void run(const models_options& given) {
     return;
   }
   print_means(given, rows);
-  print_materials(given, rows);
+  if (given.last_stages.size() == 1) print_materials(given, rows);
 }
 
 }  // namespace
@@ -162,6 +178,12 @@ void add_models(command& app, const team& processes) {
   add_networks_option(command, options->networks);
   command.add_option("--models", options->models, "As `gonio fit --model` has them").capture_default_str();
   command.add_option("--losses", options->losses, "l1 and l2").check(check::one_of({"l1", "l2"})).capture_default_str();
+  command
+      .add_option("--last-stage", options->last_stages,
+                  "What the last of the three stages of a fit finds: all parameters, or as printed all but the diffuse "
+                  "colours")
+      .check(check::one_of({"all", "printed"}))
+      .capture_default_str();
   command.add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log or cubic")
       .check(check::one_of({"lin", "log", "cubic"}))
       .capture_default_str();

@@ -114,6 +114,28 @@ table beside_each_other(const std::string& title, const laboratory& lab, const o
   return shown;
 }
 
+/// Errors of one solver with the first k components: of more components than measurements, least squares has no inverse
+/// (Eq. 9) and is the shortest of all weights that fit.
+template <gonio::solver Solver>
+table by_components(const std::string& title, const laboratory& lab, const options& given,
+                    const std::vector<measured_set>& sets, const Solver& solver) {
+  const Eigen::Index all = lab.prior().size();
+  std::vector<Eigen::Index> swept = given.swept_components({1, 2, 3, 5, 10, 15, 20, 30, 50, 100}, all);
+  swept.push_back(all);
+  table shown{title, {{"set"}, {"n", 0}}};
+  for (const Eigen::Index k : swept) shown.columns.push_back({"k = " + std::to_string(k)});
+  for (const measured_set& set : sets) {
+    auto& row = shown.rows.emplace_back(std::vector<json>{set.name, set.count});
+    for (const Eigen::Index k : swept) {
+      const gonio::least_squares_problem first(set.problem.rows().leftCols(k), set.problem.right_hand_side());
+      Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(all, set.problem.right_hand_side().cols());
+      weights.topRows(k) = solver.solve(first).weights;
+      row.emplace_back(lab.tested.of_weights(weights).mean());
+    }
+  }
+  return shown;
+}
+
 /// All tables of the sets as they are.
 tables compared(const std::string& condition, const laboratory& lab, const options& given,
                 const std::vector<measured_set>& sets) {
@@ -124,7 +146,11 @@ tables compared(const std::string& condition, const laboratory& lab, const optio
   }
   return {beside_each_other("Mean mapped error of the ten materials, " + condition, lab, given, sets, ridges, lassos),
           curves("Ridge, " + condition, "eta", etas, sets, ridges),
-          curves("Lasso, " + condition, "lambda", lambdas, sets, lassos)};
+          curves("Lasso, " + condition, "lambda", lambdas, sets, lassos),
+          by_components("Least squares with the first k components, " + condition + ": Eq. 9 where k is at most n", lab,
+                        given, sets, gonio::least_squares()),
+          by_components("Ridge, eta = " + short_number(given.eta) + ", with the first k components, " + condition, lab,
+                        given, sets, gonio::tikhonov(given.eta))};
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
-/// Nielsen et al. 2015, Fig. 5: their search, and those of Xu et al. 2016 and ours, against random swaps in the same
-/// time.
+/// Nielsen et al. 2015, Fig. 5: their search along the gradient, ours to the best neighbour and that of Xu et al. 2016
+/// against random swaps in the same time.
 
 #include "papers/experiments.hpp"
+#include "papers/nielsen2015/gradient_descent.hpp"
 #include "papers/xu2016/figures.hpp"
 #include <gonio/design/cell_candidates.hpp>
 #include <gonio/design/criterion_of_plan.hpp>
@@ -62,6 +63,15 @@ void add_row(table& shown, std::size_t n, const record& searched, const Objectiv
                         lab.error(samples_of(objective.geometry(), best->plan.candidates))});
 }
 
+/// A search from some seeds.
+template <class Search>
+record timed_record(const char* name, const options& given, const Search& search) {
+  record timings{name};
+  for (Eigen::Index r = 0; r < given.repetitions; ++r)
+    timings.found.push_back(timed([&] { return search(given.seed + r); }));
+  return timings;
+}
+
 /// A search from some seeds, then random swaps in its time, and in five times its time.
 template <class Objective, class Search>
 std::vector<record> race(const std::string& name, const Objective& objective, std::size_t n, const options& given,
@@ -84,8 +94,11 @@ std::vector<Eigen::Index> race_counts(const options& given) {
   return counts;
 }
 
-table race_by_condition(const laboratory& lab, const options& given, const gonio::progress& listener) {
-  table shown{"By condition number (the figure's): reached from several seeds",
+/// Of the first k components. Directions are found by them, and judged with all.
+table race_by_condition(const laboratory& lab, const options& given, Eigen::Index k, const gonio::progress& listener) {
+  table shown{"By condition number of the first " + std::to_string(k) +
+                  " components (the figure's): reached from "
+                  "several seeds",
               {{"n", 0},
                {"search"},
                {"seeds", 0},
@@ -94,16 +107,21 @@ table race_by_condition(const laboratory& lab, const options& given, const gonio
                {"condition, best", 2},
                {"mapped error of the best"}}};
   const gonio::design::point_geometry points(lab.prior().cells());
-  const gonio::design::criterion_of_plan condition{lab.prior(), points, gonio::design::condition_number{}};
+  const gonio::design::criterion_of_plan condition{lab.prior().truncated(k), points, gonio::design::condition_number{}};
   for (const Eigen::Index n : race_counts(given)) {
     gonio::report(listener, "searches of " + std::to_string(n), 0.0);
-    auto records = race("descent (Nielsen et al.)", condition, n, given, [&](std::uint64_t seed) {
-      return gonio::design::grow_and_descend(points, condition, n, 1, seed);
-    });
-    record& guessed = records.emplace_back(record{"descent from the best of 500"});
-    for (Eigen::Index r = 0; r < given.repetitions; ++r)
-      guessed.found.push_back(
-          timed([&] { return gonio::design::grow_and_descend(points, condition, n, 500, given.seed + r); }));
+    auto records = race("along the gradient (Nielsen et al.)", condition, n, given,
+                        [&](std::uint64_t seed) { return grow_along_gradient(points, condition, n, seed); });
+    records.push_back(timed_record("along the gradient, steps of 1", given, [&](std::uint64_t seed) {
+      return grow_along_gradient(points, condition, n, seed, {1});
+    }));
+    records.push_back(timed_record("along the gradient, steps of 9, 3, 1", given, [&](std::uint64_t seed) {
+      return grow_along_gradient(points, condition, n, seed, {9, 3, 1});
+    }));
+    for (const Eigen::Index tries : {1, 500})
+      records.push_back(timed_record(
+          tries == 1 ? "to the best neighbour (ours)" : "to the best neighbour from the best of 500", given,
+          [&](std::uint64_t seed) { return gonio::design::grow_and_descend(points, condition, n, tries, seed); }));
     for (const record& searched : records) add_row(shown, n, searched, condition, lab, 1.0);
   }
   return shown;
@@ -122,7 +140,7 @@ table race_by_expected_error(const laboratory& lab, const options& given, const 
   const double scale = std::sqrt(static_cast<double>(lab.prior().cells().size()));
   for (const Eigen::Index n : race_counts(given)) {
     gonio::report(listener, "searches of " + std::to_string(n), 0.5);
-    auto records = race("descent from the best of 500 (Xu et al.)", candidates, n, given, [&](std::uint64_t seed) {
+    auto records = race("to the best neighbour from the best of 500", candidates, n, given, [&](std::uint64_t seed) {
       return gonio::design::grow_and_descend(candidates.geometry(), candidates, n, 500, seed);
     });
     records.push_back({"greedy over all cells", {timed([&] { return gonio::design::grow_greedily(candidates, n); })}});
@@ -141,7 +159,12 @@ table race_by_expected_error(const laboratory& lab, const options& given, const 
 
 tables nielsen_5(const options& given, const gonio::progress& listener) {
   const laboratory lab = open_laboratory(given, listener);
-  return {race_by_condition(lab, given, listener), race_by_expected_error(lab, given, listener)};
+  tables shown;
+  for (const Eigen::Index k : given.swept_components({5, 10, 20}, lab.prior().size()))
+    shown.push_back(race_by_condition(lab, given, k, listener));
+  shown.push_back(race_by_condition(lab, given, lab.prior().size(), listener));
+  shown.push_back(race_by_expected_error(lab, given, listener));
+  return shown;
 }
 
 }  // namespace papers::figures

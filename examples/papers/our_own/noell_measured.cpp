@@ -11,14 +11,18 @@
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/progress_bar.hpp"
+#include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/interpolate/pull_push.hpp>
 #include <gonio/io/materials/merl_directory.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/networks.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/robust/robust_reconstruction.hpp>
+#include <gonio/solve/tikhonov.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -26,11 +30,15 @@ namespace papers {
 
 namespace {
 
+/// Of radial basis functions, as in Table 1.
+const gonio::tikhonov radial_penalty{1e-6};
+
 struct measured_options {
   std::filesystem::path networks, environment, tables;
   std::vector<std::filesystem::path> samples;
   double data_ratio = 0.1;
   std::vector<double> outlier_ratios{0.0, 0.2};
+  std::vector<std::string> methods{"our", "printed", "lc"};
   std::uint64_t seed = 1;
   bool print_json = false;
   gonio::thread_count threads;
@@ -39,26 +47,33 @@ struct measured_options {
 /// The materials on some cells, their corrections, and the measures of error there.
 struct benchmark_setup {
   benchmark_setup(const measured_options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
-      : threads(given.threads),
+      : methods(given.methods),
+        threads(given.threads),
         materials(gonio::model::tabulate_networks(gonio::io::read_networks(given.networks), cells, threads, listener),
                   gonio::log{}, threads),
         corrections(materials, {}, gonio::nnls{}, threads),
         printed_corrections(materials, gonio::correction_rule::as_printed(), gonio::nnls{}, threads),
         measures(cells, given.environment, threads) {}
 
-  /// Calls `use(name, fit)` for ours, the paper's method as printed, and the combination of materials.
+  /// Calls `use(name, fit)` for each of the methods: ours, the paper's as printed, and those it compares with.
   template <class Use>
   void reconstruct(const gonio::sample_set& samples, double outlier_ratio, Use&& use) const {
     const gonio::decomposition combination{materials, gonio::nnls{}, threads};
     const gonio::relative_deviation_weights weights{noell_gamma(outlier_ratio)};
     const gonio::correction_limits ten_rounds{.smallest_change = 0.0, .inertia = 0.0};
-    use("our", gonio::robust_reconstruction{materials, corrections, {}, {}, threads}.fit(samples));
-    use("printed",
-        gonio::correction_iteration{combination, printed_corrections, weights, gonio::nnls{}, ten_rounds, threads}.fit(
-            samples));
-    use("lc", combination.fit(samples));
+    const auto use_of = [&](const char* name, const auto& estimator) {
+      if (std::ranges::find(methods, name) != methods.end()) use(name, estimator.fit(samples));
+    };
+    use_of("our", gonio::robust_reconstruction{materials, corrections, {}, {}, threads});
+    use_of("printed",
+           gonio::correction_iteration{combination, printed_corrections, weights, gonio::nnls{}, ten_rounds, threads});
+    use_of("lc", combination);
+    if (std::ranges::find(methods, "rbf") != methods.end())
+      use_of("rbf", gonio::decomposition{gonio::rbf{materials.cells(), gonio::log{}}, radial_penalty, threads});
+    use_of("pull-push", gonio::pull_push{materials.cells(), threads});
   }
 
+  std::vector<std::string> methods;
   gonio::thread_count threads;
   gonio::measured<gonio::log> materials;
   gonio::correction corrections, printed_corrections;
@@ -68,6 +83,29 @@ struct benchmark_setup {
 /// One for each method and share of outliers.
 json row(const std::string& name, const std::string& method, std::size_t samples, double outlier_ratio) {
   return {{"name", name}, {"method", method}, {"samples", samples}, {"outlier_ratio", outlier_ratio}};
+}
+
+/// Means over the tables, one row a method and share of outliers.
+void print_means(const measured_options& given, const json& rows) {
+  std::cout
+      << "\nMeans over the tables\n\n| outliers | method | tables | error | Delta E formula light | natural light "
+         "|\n|---|---|---|---|---|---|\n";
+  for (const double outlier_ratio : given.outlier_ratios)
+    for (const std::string& method : given.methods) {
+      double count = 0.0, error = 0.0, formula = 0.0, natural = 0.0;
+      for (const json& result : rows.elements()) {
+        if (result["method"].text() != method || result["outlier_ratio"].number() != outlier_ratio) continue;
+        if (!result.contains("delta_e_env")) continue;  // judged on samples
+        count += 1.0;
+        error += result["log_error"].number();
+        formula += result["delta_e_env"].number();
+        natural += result["delta_e_natural"].number();
+      }
+      if (count == 0.0) continue;
+      std::cout << "| " << fixed(outlier_ratio, 1) << " | " << method << " | " << fixed(count, 0) << " | "
+                << fixed(error / count, 3) << " | " << fixed(formula / count, 2) << " | " << fixed(natural / count, 2)
+                << " |\n";
+    }
 }
 
 /// Judged on the whole table.
@@ -159,6 +197,7 @@ void run(const measured_options& given) {
     judge_samples(given, shop_for(shop ? shop->materials.cells() : gonio::valid_cells()), file, rows);
   bar.wipe();
   print(given, rows);
+  if (!given.print_json && !given.tables.empty()) print_means(given, rows);
 }
 
 }  // namespace
@@ -178,6 +217,9 @@ void add_noell_measured(command& app) {
       .capture_default_str();
   command.add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
       .check(check::range(0.0, 1.0))
+      .capture_default_str();
+  command.add_option("--methods", options->methods, "Any of: our, printed, lc, rbf, pull-push")
+      .check(check::one_of({"our", "printed", "lc", "rbf", "pull-push"}))
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of cells and outliers").capture_default_str();
   command.add_flag("--json", options->print_json, "Print as JSON");

@@ -26,7 +26,7 @@ laboratory open_laboratory(const options& given, const gonio::model::named_netwo
                            const gonio::progress& listener) {
   const auto cells = given.networks.cells();
   const auto others = networks_in(given.networks.read(), gonio::nielsen_test_materials());
-  return {mapped_errors(learn_all_components(learned, cells, given.threads, listener),
+  return {mapped_errors(learn_all_components(learned, cells, given.threads, listener, given.weighting),
                         gonio::model::tabulate_networks(others, cells, given.threads), given.eta, given.threads)};
 }
 
@@ -50,15 +50,27 @@ struct figure {
   tables (*draw)(const options&, const gonio::progress&);
 };
 
-constexpr std::array all_figures{figure{"2015-2", nielsen_2},   figure{"2015-5", nielsen_5},
-                                 figure{"2015-6", nielsen_6},   figure{"2015-penalties", nielsen_penalties},
-                                 figure{"2015-7", nielsen_7},   figure{"2015-8", nielsen_8},
-                                 figure{"2015-9", nielsen_9},   figure{"2015-11", nielsen_11},
-                                 figure{"2015-12", nielsen_12}, figure{"2016-2", xu_2},
-                                 figure{"2016-3", xu_3},        figure{"2016-5", xu_5},
-                                 figure{"2016-6", xu_6},        figure{"2016-7", xu_7},
-                                 figure{"2016-8", xu_8},        figure{"2016-13", xu_13},
-                                 figure{"2016-15", xu_15},      figure{"2016-17", xu_17},
+constexpr std::array all_figures{figure{"2015-2", nielsen_2},
+                                 figure{"2015-5", nielsen_5},
+                                 figure{"2015-6", nielsen_6},
+                                 figure{"2015-penalties", nielsen_penalties},
+                                 figure{"2015-table-1", nielsen_table_1},
+                                 figure{"2015-table-2", nielsen_table_2},
+                                 figure{"2015-7", nielsen_7},
+                                 figure{"2015-8", nielsen_8},
+                                 figure{"2015-9", nielsen_9},
+                                 figure{"2015-10", nielsen_10},
+                                 figure{"2015-11", nielsen_11},
+                                 figure{"2015-12", nielsen_12},
+                                 figure{"2016-2", xu_2},
+                                 figure{"2016-3", xu_3},
+                                 figure{"2016-5", xu_5},
+                                 figure{"2016-6", xu_6},
+                                 figure{"2016-7", xu_7},
+                                 figure{"2016-8", xu_8},
+                                 figure{"2016-13", xu_13},
+                                 figure{"2016-15", xu_15},
+                                 figure{"2016-17", xu_17},
                                  figure{"2016-19", xu_19}};
 
 std::vector<std::string> names_of_figures() {
@@ -103,16 +115,63 @@ json to_json(const tables& shown) {
   return all;
 }
 
-void run_figure(const options& given, const std::string& name, bool print_json) {
+/// A table that was drawn twice, with either cosine weight: what differs has two columns. Two tables where the rows are
+/// of other things.
+tables beside(table product, table larger) {
+  bool alike = product.rows.size() == larger.rows.size() && product.columns.size() == larger.columns.size();
+  for (std::size_t row = 0; alike && row < product.rows.size(); ++row)
+    alike = product.rows[row].front() == larger.rows[row].front();
+  if (!alike) {
+    product.title += " (product of the cosines)";
+    larger.title += " (larger cosine)";
+    return {std::move(product), std::move(larger)};
+  }
+  table both{product.title, {}, std::vector<std::vector<json>>(product.rows.size())};
+  for (std::size_t c = 0; c < product.columns.size(); ++c) {
+    bool same = true;
+    for (std::size_t row = 0; row < both.rows.size(); ++row) {
+      both.rows[row].push_back(product.rows[row][c]);
+      same = same && product.rows[row][c] == larger.rows[row][c];
+    }
+    both.columns.push_back(product.columns[c]);
+    if (same) continue;
+    both.columns.back().title += ", product";
+    both.columns.push_back({product.columns[c].title + ", larger", product.columns[c].digits});
+    for (std::size_t row = 0; row < both.rows.size(); ++row) both.rows[row].push_back(larger.rows[row][c]);
+  }
+  return {std::move(both)};
+}
+
+/// A figure with each of the cosine weights.
+tables drawn(const figure& chosen, options given, const std::vector<std::string>& weights,
+             const gonio::progress& listener) {
+  std::vector<tables> each;
+  for (const std::string& weight : weights) {
+    given.weighting = weight == "larger" ? gonio::cosine_weighting::larger : gonio::cosine_weighting::product;
+    each.push_back(chosen.draw(given, listener));
+  }
+  if (each.size() == 1) return std::move(each.front());
+  tables all;
+  for (std::size_t i = 0; i < each[0].size(); ++i)
+    for (table& one : beside(std::move(each[0][i]), std::move(each[1][i]))) all.push_back(std::move(one));
+  return all;
+}
+
+void run_figure(const options& given, const std::string& name, const std::vector<std::string>& weights,
+                bool print_json) {
+  if (weights.size() > 2 || (weights.size() == 2 && (weights[0] == weights[1] || weights[0] == "larger")))
+    gonio::refuse("--cosine-weight takes product, larger, or product larger");
   progress_bar bar;
   const auto chosen = std::ranges::find(all_figures, name, [](const figure& f) { return std::string(f.name); });
-  const tables shown = chosen->draw(given, bar.listener());
+  const tables shown = drawn(*chosen, given, weights, bar.listener());
   bar.wipe();
   if (print_json) {
     std::cout << json{{"figure", name}, {"tables", to_json(shown)}}.dump(2) << '\n';
     return;
   }
-  std::cout << "Figure " << name << ", eta = " << given.eta << ", seed " << given.seed << '\n';
+  std::cout << "Figure " << name << ", eta = " << given.eta << ", seed " << given.seed;
+  if (weights.front() == "larger") std::cout << ", mapped with the larger cosine";
+  std::cout << '\n';
   for (const table& one : shown) print(one);
 }
 
@@ -124,6 +183,7 @@ void add_figures(command& app) {
   struct choice {
     figures::options given;
     std::string name;
+    std::vector<std::string> cosine_weights{"product"};
     bool print_json = false;
   };
   auto command = app.add_subcommand("figures", "A figure of Nielsen et al. 2015 or Xu et al. 2016 as a table");
@@ -146,16 +206,28 @@ void add_figures(command& app) {
   command.add_option("--step", given.step, "Near field, pairs of 2015-6: degrees between candidates")
       .check(check::positive_number())
       .capture_default_str();
+  command
+      .add_option("--components", given.components,
+                  "2015-5, 2015-6, 2015-penalties, 2015-table-1 and -2: how many components k are swept beside all")
+      .check(check::positive_number());
+  command
+      .add_option("--cosine-weight", chosen->cosine_weights,
+                  "The mapping weights by the product of both cosines (Nielsen 2015), the larger one (Xu 2016), or "
+                  "both, side by side: product larger")
+      .check(check::one_of({"product", "larger"}))
+      .capture_default_str();
   command.add_input_folder("--tables", given.measured_tables, {".binary", ".gz"},
-                           "2016-17: folder of measured tables to make samples of, too");
-  command.add_input("--samples", given.measured_samples, "2015-12: measured samples to judge, too (.csv, .brdf)");
+                           "2015-10: folder of measured tables to scan; 2016-17: to make samples of, too");
+  command.add_input("--samples", given.measured_samples,
+                    "2015-10, 2015-12: measured samples to judge, too (.csv, .brdf)");
   command.add_output("--spheres", given.spheres, {".png"},
                      "2015-2, 2015-12, 2016-2, 2016-15: image to write, a row a material, the truth at the right");
   command.add_option("--eta", given.eta, "Tikhonov's penalty").check(check::positive_number()).capture_default_str();
   command.add_option("--seed", given.seed, "Seed of what is random").capture_default_str();
   command.add_flag("--json", chosen->print_json, "Print as JSON");
   add_threads_option(command, given.threads);
-  command.callback([chosen] { figures::run_figure(chosen->given, chosen->name, chosen->print_json); });
+  command.callback(
+      [chosen] { figures::run_figure(chosen->given, chosen->name, chosen->cosine_weights, chosen->print_json); });
 }
 
 }  // namespace papers

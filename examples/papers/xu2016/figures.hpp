@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace papers::figures {
@@ -27,8 +28,18 @@ struct options {
   Eigen::Index repetitions = 5, random_sets = 20;
   double eta = 40.0, step = 10.0;
   std::vector<double> fields_of_view{15.0, 25.0, 35.0, 45.0};
+  std::vector<Eigen::Index> components;  ///< how many components a sweep has; none: as the figure says
+  gonio::cosine_weighting weighting = gonio::cosine_weighting::product;
   std::uint64_t seed = 0;
   gonio::thread_count threads;
+
+  /// The numbers of components below all of them that are swept.
+  [[nodiscard]] std::vector<Eigen::Index> swept_components(std::vector<Eigen::Index> of_figure,
+                                                           Eigen::Index all) const {
+    std::vector<Eigen::Index> swept = components.empty() ? std::move(of_figure) : components;
+    std::erase_if(swept, [&](Eigen::Index k) { return k >= all; });
+    return swept;
+  }
 
   [[nodiscard]] std::size_t up_to(std::size_t most_of_figure) const noexcept {
     return most > 0 ? most : most_of_figure;
@@ -85,8 +96,9 @@ inline constexpr double figures_field_of_view = 25.0;
 /// All samples of images of 25 degrees, given light and camera as seen from the middle of each.
 [[nodiscard]] std::vector<gonio::half_difference> samples_of_images(const std::vector<gonio::direction_pair>& poses);
 
-/// Two images by a camera that stays as Xu et al. 2016 print them (Fig. 14 a).
+/// Two images by a camera that stays as Xu et al. 2016 print them (Fig. 14 a), and by a light that stays (Fig. 14 b).
 [[nodiscard]] std::vector<gonio::direction_pair> printed_fixed_camera();
+[[nodiscard]] std::vector<gonio::direction_pair> printed_fixed_light();
 
 /// The slices of a set of spheres: `published` in Nielsen et al. 2015, Table 2, or one that ships with the tool. None
 /// for a number that there is no set of.
@@ -129,9 +141,12 @@ template <gonio::design::sweeping_objective Objective>
 [[nodiscard]] tables nielsen_5(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_6(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_7(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_10(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_11(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_12(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_penalties(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_table_1(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_table_2(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_8(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_9(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables xu_2(const options& given, const gonio::progress& listener);

@@ -2,6 +2,7 @@
 
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
+#include "papers/nielsen2015/gradient_descent.hpp"
 #include "papers/xu2016/figures.hpp"
 #include "tool/files/json.hpp"
 #include "tool/options/chosen_networks.hpp"
@@ -112,28 +113,6 @@ table points_for_images(const std::vector<std::pair<std::string, std::vector<jso
       shown.rows.push_back({name, i + 1, errors[i], fewest(points.published, errors[i].number()),
                             fewest(points.expected, errors[i].number())});
   return shown;
-}
-
-/// Nielsen et al. 2015's search, whose plan of n measurements grows to that of n + 1: a random one more, then a
-/// descent.
-template <gonio::design::capture_geometry Geometry, gonio::design::plan_objective Objective>
-std::vector<gonio::design::capture_plan> plans_by_descent(const Geometry& geometry, const Objective& objective,
-                                                          std::size_t most, std::uint64_t seed,
-                                                          const gonio::progress& listener) {
-  std::mt19937_64 generator(seed);
-  std::uniform_int_distribution<std::size_t> any(0, geometry.size() - 1);
-  std::vector<gonio::design::capture_plan> plans;
-  gonio::design::capture_plan plan;
-  while (plans.size() < most) {
-    std::size_t added = any(generator);
-    while (!geometry.allows(added) || std::ranges::find(plan.candidates, added) != plan.candidates.end())
-      added = any(generator);
-    plan.candidates.push_back(added);
-    plan = gonio::design::descend(geometry, objective, std::move(plan), generator());
-    plans.push_back(plan);
-    gonio::report(listener, "condition", static_cast<double>(plans.size()) / static_cast<double>(most));
-  }
-  return plans;
 }
 
 /// Half and difference angles of the images of a plan in degrees, as the paper tabulates them.
@@ -253,7 +232,12 @@ tables xu_5(const options& given, const gonio::progress& listener) {
     errors.emplace_back(name + ", expected error",
                         errors_of(lab, fine, refined_plans(lab, given, all, most, listener)));
     const gonio::design::criterion_of_plan condition{lab.prior(), fine, gonio::design::condition_number{}};
-    const auto theirs = plans_by_descent(fine, condition, most, given.seed, listener);
+    const auto theirs = grown_plans(
+        fine, most, given.seed,
+        [&](gonio::design::capture_plan plan, std::uint64_t order) {
+          return gonio::design::descend(fine, condition, std::move(plan), order);
+        },
+        listener);
     std::vector<json> reached;
     for (const gonio::design::capture_plan& plan : theirs) reached.emplace_back(plan.value);
     errors.emplace_back(name + ", condition", errors_of(lab, fine, theirs));
@@ -333,9 +317,10 @@ tables xu_13(const options& given, const gonio::progress& listener) {
   table angles = table_of_angles();
   for (const auto& [name, plans] : {std::pair{"free", &free}, {"fixed camera", &camera}, {"fixed light", &light}})
     add_angles(angles, name, all.geometry(), (*plans)[std::min<std::size_t>(most, 2) - 1]);
-  table printed{"Two images by a fixed camera as printed (Fig. 14 a: theta_h, theta_d, phi_d 4 63 90 and 39 34 124)",
+  table printed{"Two images as printed (Fig. 14: theta_h, theta_d, phi_d 4 63 90, and 39 34 124 or 39 33 126)",
                 {{"set"}, {"mapped error"}},
-                {{"printed", lab.error(samples_of_images(printed_fixed_camera()))}}};
+                {{"fixed camera (Fig. 14 a)", lab.error(samples_of_images(printed_fixed_camera()))},
+                 {"fixed light (Fig. 14 b)", lab.error(samples_of_images(printed_fixed_light()))}}};
   return {side_by_side("Mean mapped error of the ten materials by number n of images at 25 degrees, or of points",
                        {{"free", errors_of(lab, all.geometry(), free)},
                         {"fixed camera", errors_of(lab, all.geometry(), camera)},

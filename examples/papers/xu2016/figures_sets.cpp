@@ -20,11 +20,21 @@ std::vector<gonio::half_difference> samples_of_images(const std::vector<gonio::d
   return samples_of(fine, candidates);
 }
 
-std::vector<gonio::direction_pair> printed_fixed_camera() {
-  const auto at = [](double theta_h, double theta_d, double phi_d) {
-    return gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(phi_d)});
-  };
-  return {at(4, 63, 90), at(39, 34, 124)};
+namespace {
+
+gonio::direction_pair at_degrees(double theta_h, double theta_d, double phi_d) {
+  return gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(phi_d)});
+}
+
+}  // namespace
+
+std::vector<gonio::direction_pair> printed_fixed_camera() { return {at_degrees(4, 63, 90), at_degrees(39, 34, 124)}; }
+
+std::vector<gonio::direction_pair> printed_fixed_light() {
+  std::vector<gonio::direction_pair> images{at_degrees(4, 63, 90), at_degrees(39, 33, 126)};
+  // As printed it is the camera that stays: (b) is (a) with light and camera exchanged.
+  for (gonio::direction_pair& image : images) std::swap(image.wi, image.wo);
+  return images;
 }
 
 std::vector<Eigen::Index> sphere_slices(const gonio::design::sphere_geometry& spheres, const std::string& set,

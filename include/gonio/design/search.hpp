@@ -1,8 +1,9 @@
 #pragma once
 /// Searches for the best measurements, for any geometry of candidates and any objective. Random swaps: Matusik,
-/// Pfister, Brand and McMillan 2003. Descent on the grid: Nielsen, Jensen and Ramamoorthi 2015
-/// (doi:10.1145/2816795.2818085), section 4. Descent from the best of many candidates: Xu et al. 2016
-/// (doi:10.1145/2980179.2982396), section 5.1.
+/// Pfister, Brand and McMillan 2003. Descent on the grid: after Nielsen, Jensen and Ramamoorthi 2015
+/// (doi:10.1145/2816795.2818085), section 4, whose steps follow the numerical gradient instead
+/// (examples/papers/nielsen2015/gradient_descent.hpp, no better: docs/results/figures.md). Descent from the best of
+/// many candidates: Xu et al. 2016 (doi:10.1145/2980179.2982396), section 5.1.
 
 #include <gonio/core/error.hpp>
 #include <gonio/core/progress.hpp>
@@ -181,8 +182,8 @@ template <capture_geometry Geometry, plan_objective Objective>
   return plan;
 }
 
-/// Adds candidates one by one, each time the best of `tries` random ones, and descends after each. One try gives the
-/// search of Nielsen et al.; 500 give that of Xu et al. Throws gonio::error unless n is from 1 to the number of
+/// Adds candidates one by one, each time the best of `tries` random ones, and descends after each. One try is close to
+/// the search of Nielsen et al.; 500 give that of Xu et al. Throws gonio::error unless n is from 1 to the number of
 /// candidates.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan grow_and_descend(const Geometry& geometry, const Objective& objective, Eigen::Index n,

@@ -40,10 +40,11 @@ namespace detail {
 /// parameters stay within their bounds.
 ///
 /// Needs no initial guess. It follows the consecutive optimisation of Nielsen et al. 2014 from typical shapes: first
-/// colours, then shapes, then all. For squares of linear residuals it uses variable projection instead: it varies only
-/// the shapes and solves for their best colours. `metric` maps reflectance before the comparison: lin, log or root.
-/// Throws gonio::error if there are fewer measurements than parameters, or if all are zero. O(N (L + P)^2) per
-/// iteration for N observations, L lobes and P parameters.
+/// colours, then shapes, then all (the paper's last stage keeps the diffuse colour: `diffuse_stays`). For squares of
+/// linear residuals it uses variable projection instead: it varies only the shapes and solves for their best colours.
+/// `metric` maps reflectance before the comparison: lin, log or root. Throws gonio::error if there are fewer
+/// measurements than parameters, or if all are zero. O(N (L + P)^2) per iteration for N observations, L lobes and P
+/// parameters.
 ///
 /// ```cpp
 /// const std::vector kinds{&gonio::model::lobe_kind::of<gonio::model::lambert_shape>(),

@@ -35,6 +35,8 @@ struct model_fit_options {
   double rounding = 1e-3, huber_width = 0.1;
   /// The largest fraction of light, from up to 88 degrees, that a channel of the model may reflect; 1 is all.
   double largest_albedo = std::numeric_limits<double>::infinity();
+  /// Lambertian lobes keep the colour of the first stage, as Nielsen et al. 2014 print the last one.
+  bool diffuse_stays = false;
   /// Random starts in addition to the consecutive scheme. The best result is kept.
   Eigen::Index random_starts = 0;
   std::uint64_t seed = 0;
@@ -66,6 +68,9 @@ class model_loss {
   [[nodiscard]] Eigen::Index shapes() const noexcept { return std::ssize(owners_); }
   /// Shape parameters first, then the colours, lobe by lobe for each channel.
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return shapes() + 3 * lobes(); }
+
+  /// Returns true if a lobe has no shape, like Lambert's.
+  [[nodiscard]] bool is_diffuse(Eigen::Index lobe) const { return kinds_[lobe]->parameters().empty(); }
 
   /// Returns the parameters, with logarithms of those marked logarithmic.
   [[nodiscard]] Eigen::VectorXd coded(std::span<const lobe_kind::values> parameters) const;

@@ -69,7 +69,7 @@ GONIO_INLINE void bound_albedo(const model_loss& loss, Eigen::VectorXd& x, local
   const levenberg_marquardt_options descent = descent_of(options);
   const Eigen::Index p = loss.shapes();
   const auto joint = [&](const Eigen::VectorXd& x) { return loss.joint(x); };
-  if (loss.separates()) {
+  if (loss.separates() && !options.diffuse_stays) {
     levenberg_marquardt_options by_products = descent;
     by_products.resolution = 1e-15 * loss.of_nothing();
     local_minimum found = levenberg_marquardt([&](const Eigen::VectorXd& u) { return loss.projected(u); }, shapes,
@@ -82,14 +82,17 @@ GONIO_INLINE void bound_albedo(const model_loss& loss, Eigen::VectorXd& x, local
     return {polished.unknowns, std::move(polished)};
   }
   const Eigen::VectorXd start = loss.with_colours(shapes);
-  // The stages of the paper: first colours, then shapes, then all.
+  // The paper's stages: first colours, then shapes, then all; as printed, all but the diffuse colours.
   unknown_bounds stage = box;
   stage.lowest.head(p) = stage.highest.head(p) = start.head(p);
   const local_minimum coloured = levenberg_marquardt(joint, start, stage, descent);
   stage = box;
   stage.lowest.tail(start.size() - p) = stage.highest.tail(start.size() - p) = coloured.unknowns.tail(start.size() - p);
   const local_minimum shaped = levenberg_marquardt(joint, coloured.unknowns, stage, descent);
-  local_minimum found = levenberg_marquardt(joint, shaped.unknowns, box, descent);
+  stage = box;
+  for (Eigen::Index i = p; i < start.size() && options.diffuse_stays; ++i)
+    if (loss.is_diffuse((i - p) % loss.lobes())) stage.lowest[i] = stage.highest[i] = shaped.unknowns[i];
+  local_minimum found = levenberg_marquardt(joint, shaped.unknowns, stage, descent);
   found.evaluations += coloured.evaluations + shaped.evaluations;
   return {found.unknowns, std::move(found)};
 }
