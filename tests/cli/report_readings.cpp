@@ -1,4 +1,4 @@
-/// gonio report: what instruments would read, and several files in one page.
+/// gonio report: what instruments would read, several files in one page, and pages on paper.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -81,4 +81,31 @@ TEST_CASE("gonio report: several files, of which the first has the page") {
   const auto both = read_json(data_text(scratch::get(files.folder / "page.html")));
   CHECK(both["name"] == "both");
   CHECK(both["others"][0]["name"] == files.path("again/a.csv"));
+}
+
+TEST_CASE("gonio report: chromium prints a page, if it is there") {
+  const page_files files;
+  scratch::put(files.folder / "scan.csv", in_plane_scan("", false));
+  const std::string chromium = files.path("chromium"), pdf = files.path("page.pdf");
+  const auto report = [&](const std::string& path) {
+    return run_program("/usr/bin/env", "PATH='" + path + "' '" + GONIO_TOOL + "' report '" + files.path("scan.csv") +
+                                           "' --noise 0.02 -o '" + pdf + "'");
+  };
+  const auto put_chromium = [&](const std::string& script) {
+    scratch::put(chromium, "#!/bin/sh\n" + script);
+    std::filesystem::permissions(chromium, std::filesystem::perms::owner_all);
+  };
+  check_refusal(report("/absent"), {"page.pdf", "chromium", "PATH", ".html"});  // before it reconstructs
+  put_chromium("exit 1\n");
+  const auto failed = report("/absent:" + files.path(""));
+  CHECK(failed.exit_code == 2);
+  CHECK(failed.output.find("page.pdf: chromium does not print the page") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(pdf));
+  // Prints the first line of the page that it is given, last.
+  put_chromium(R"(for word; do case "$word" in --print-to-pdf=*) to="${word#*=}";; esac; done
+read -r line < "$word"; echo "printed: $line" > "$to"
+)");
+  CHECK(report(files.path("")).exit_code == 0);
+  CHECK(scratch::get(pdf) == "printed: <!DOCTYPE html>\n");
+  CHECK(files.folder.entries() == 3);  // with the samples and chromium
 }

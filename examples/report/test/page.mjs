@@ -388,6 +388,10 @@ async function check_plain_page(browser, name, charts) {
 
 write_scan(at("scan.csv"));
 gonio("report", at("scan.csv"), "--noise", "0.02", "-o", at("scan.html"));
+if (!process.env.GONIO_CHROMIUM) { // which need not be on the PATH
+  gonio("report", at("scan.csv"), "--noise", "0.02", "-o", at("printed.pdf"));
+  check(/^%PDF-/.test(readFileSync(at("printed.pdf"), "latin1")), "gonio report -o printed.pdf: chromium prints the page");
+}
 gonio("sample", at("red.binary"), "--directions", join(repository, "examples/data/nielsen-20.csv"), "-o", at("scattered.csv"));
 gonio("report", at("scattered.csv"), "--truth", at("red.binary"), "-o", at("scattered.html"));
 gonio("sample", at("red.binary"), "--count", "1500", "--noise", "0.05", "-o", at("many.csv"));

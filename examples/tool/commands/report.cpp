@@ -7,6 +7,7 @@
 #include "tool/options/threads_option.hpp"
 #include "tool/pages/elapsed_time.hpp"
 #include "tool/pages/fixed.hpp"
+#include "tool/pages/page_pdf.hpp"
 #include "tool/pages/report_data.hpp"
 #include "tool/pages/report_page.hpp"
 #include "tool/pages/warning.hpp"
@@ -65,6 +66,7 @@ struct fitted_file {
 };
 
 void require_sensible(const report_options& options) {
+  if (lower_extension(options.page.path) == ".pdf") (void)chromium_for(options.page.path);
   const std::size_t files = options.samples.size();
   if (files > most_measurements)
     gonio::refuse({"a page shows at most ", most_measurements, " files of samples, not ", files});
@@ -115,8 +117,9 @@ void add_report(command& app, const std::vector<std::string>& words) {
           "has the page, and the others stand beside it in its plots and its table of readings")
       .required();
   command
-      .add_output("-o,--output", options->page.path, {".html"},
-                  "Page to write (.html): one file, which a browser shows without a network")
+      .add_output("-o,--output", options->page.path, {".html", ".pdf"},
+                  "Page to write: one file (.html), which a browser shows without a network, or on paper (.pdf), as "
+                  "chromium prints it, if it is on the PATH")
       .required();
   command.add_option("--title", options->title, "Heading of the page (default: the name of the file)");
   command.add_input(

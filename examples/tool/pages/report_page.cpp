@@ -1,6 +1,8 @@
 #include "report_page.hpp"
 
+#include "page_pdf.hpp"
 #include "report_parts.hpp"
+#include "tool/files/file_start.hpp"
 #include <gonio/io/bytes/file.hpp>
 
 #include <algorithm>
@@ -27,18 +29,9 @@ std::string replaced(std::string_view text, std::string_view from, std::string_v
 
 /// Returns a command line quoted for a shell.
 std::string as_typed(const std::vector<std::string>& words) {
-  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=,:+@%";
   std::string line = "gonio";
-  for (const std::string& word : std::span(words).subspan(std::min<std::size_t>(1, words.size()))) {
-    line += ' ';
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += '\'';
-  }
+  for (const std::string& word : std::span(words).subspan(std::min<std::size_t>(1, words.size())))
+    line += ' ' + shell_word(word);
   return line;
 }
 
@@ -115,6 +108,7 @@ void write_report_page(const page_option& page, json data) {
   for (const json& pair : data["record"].elements()) record.push_back(pair);
   data["record"] = std::move(record);
   const std::string text = report_page(data["name"].text(), data);
+  if (lower_extension(page.path) == ".pdf") return print_page(page.path, text);
   gonio::io::write_atomically(page.path, std::as_bytes(std::span(text)));
 }
 
