@@ -55,9 +55,14 @@ endfunction()
 text_of(style "${report}/style.css" "${lessons}/style.css")
 text_of(bundle "${report}/bundle.js")
 text_of(components "${report}/tables.js" "${report}/elements.js" "${report}/mesh.js" "${report}/environment.js" "${report}/shading.js"
-        "${report}/viewer.js" "${report}/controls.js" "${lessons}/estimator.js" "${lessons}/components.js")
+        "${report}/viewer.js" "${report}/controls.js" "${lessons}/estimator.js" "${lessons}/changing_table.js"
+        "${lessons}/components.js")
+text_of(library "${report}/tables.js" "${report}/elements.js" "${report}/mesh.js" "${report}/environment.js" "${report}/shading.js"
+        "${report}/viewer.js" "${report}/controls.js" "${lessons}/estimator.js" "${lessons}/changing_table.js"
+        "${lessons}/library.js")
 text_of(spoil "${report}/tables.js" "${report}/elements.js" "${lessons}/estimator.js" "${lessons}/spoil.js")
-foreach(page IN ITEMS "components:Five components by slider" "spoil:Spoil a sample")
+foreach(page IN ITEMS "components:Five components by slider" "spoil:Spoil a sample"
+        "library:Materials to browse")
   string(REGEX MATCH "(.*):(.*)" matched "${page}")
   set(html "${form}")
   foreach(part IN ITEMS "TITLE:CMAKE_MATCH_2" STYLE:style DATA:data BUNDLE:bundle "SCRIPT:${CMAKE_MATCH_1}")

@@ -67,7 +67,8 @@ while(shown)
 endwhile()
 file(REMOVE "${pages}/viewer/truth.binary" "${pages}/viewer/samples.csv")
 string(APPEND viewer "
-Two pages compute in the browser: [five components by slider](viewer/components.html), of the lesson on
+Three pages compute in the browser: [all materials of the prior to browse](library.md), beside one another and beside a model;
+[five components by slider](viewer/components.html), of the lesson on
 [why 20 measurements are enough](docs/learn/why-twenty.md), and [spoil a sample](viewer/spoil.html), of the lesson on
 [outliers](docs/learn/robust-estimation.md).
 ")
@@ -117,7 +118,12 @@ function(add_folder title folder)
   set(nav "${nav}" PARENT_SCOPE)
 endfunction()
 
-set(nav "  - Home: README.md\n  - Turn it under a light: viewer.md\n  - Gallery: docs/gallery.md\n")
+file(WRITE "${pages}/library.md" "# Materials to browse
+
+<iframe src=\"viewer/library.html\" title=\"Materials to browse, interactive\" width=\"100%\" height=\"1400\"></iframe>
+<a href=\"viewer/library.html\">Materials to browse, as a page of its own</a>
+")
+set(nav "  - Home: README.md\n  - Turn it under a light: viewer.md\n  - Materials to browse: library.md\n  - Gallery: docs/gallery.md\n")
 add_folder("How do I ..." docs/learn)
 add_folder("What is there" docs/reference)
 add_folder("Results" docs/results)

@@ -69,6 +69,15 @@ void leave_curve(const Brdf& f) {
   }
 }
 
+/// A Lambertian base below a lobe of GGX.
+auto model_in_buffer() {
+  const gonio::rgb colour(buffer[0], buffer[1], buffer[2]);
+  const double metal = buffer[3], highlight = buffer[4], alpha = buffer[5];
+  return gonio::model::sum_of_lobes{
+      gonio::model::lambertian{.albedo = (1.0 - metal) * colour},
+      gonio::model::ggx{.alpha = alpha, .f0 = metal * colour + (1.0 - metal) * highlight}};
+}
+
 const gonio::model::formula_brdf& scanned_material() {
   static const auto material = gonio::model::formula_material("red-paint");
   return material;
@@ -125,6 +134,34 @@ PAGE_CALLS(tabulate) const float* tabulate() {
   static gonio::brdf_table table(first_components->cells());
   table = gonio::fitted_brdf(*first_components, Eigen::MatrixXd(weights_in_buffer())).tabulate(table.cells());
   return table.values().data();
+}
+
+/// Returns the reflectance of each valid cell of a material of the prior, by all its components, as `tabulate` does.
+PAGE_CALLS(tabulate_material) const float* tabulate_material(Eigen::Index material) {
+  static gonio::brdf_table table(prior->cells());
+  table = gonio::fitted_brdf(*prior, prior->weights_of(material)).tabulate(table.cells());
+  return table.values().data();
+}
+
+/// Finds: red, green and blue of the colour, which share of it is the highlight's (of metal all, of paint none), the
+/// reflectance of a paint's highlight at normal incidence, and the roughness alpha. Returns the same of this model.
+PAGE_CALLS(tabulate_model) const float* tabulate_model() {
+  static gonio::brdf_table table(prior->cells());
+  table = gonio::tabulate(model_in_buffer(), table.cells());
+  return table.values().data();
+}
+
+/// Leaves: red, green and blue of a material of the prior along the curve.
+PAGE_CALLS(material_curve) void material_curve(Eigen::Index material) {
+  buffer.clear();
+  leave_curve(gonio::fitted_brdf(*prior, prior->weights_of(material)));
+}
+
+/// Finds: the model as `tabulate_model` does. Leaves: the same of it.
+PAGE_CALLS(model_curve) void model_curve() {
+  const auto model = model_in_buffer();
+  buffer.clear();
+  leave_curve(model);
 }
 
 /// Finds: theta_i, phi_i, theta_o and phi_o of each direction. Delta E of a sphere of a formula material (0: red-paint,

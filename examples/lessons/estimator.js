@@ -42,11 +42,11 @@ class estimator {
     new Float64Array(this.calls.memory.buffer, buffer, numbers.length).set(numbers);
   }
 
-  // Returns reflectance over the prior's valid cells: red, green, blue. Valid until the next call.
-  tabulate(weights) {
+  // Returns reflectance over the prior's valid cells, by a function that finds numbers: red, green, blue. Valid until the next call.
+  tabulate(numbers, by = "tabulate", ...words) {
     const { cells } = this.cells();
-    this.tell(weights);
-    const values = this.calls.tabulate();
+    this.tell(numbers);
+    const values = this.calls[by](...words);
     return new Float32Array(this.calls.memory.buffer, values, 3 * cells);
   }
 

@@ -71,6 +71,9 @@ await write_part("lesson-components.png", "components.html", "section h2, .viewe
     start.selectedIndex = [...start.options].findIndex((each) => each.text === "gold-paint");
     start.dispatchEvent(new Event("input"));
   }));
+await write_part("lesson-library.png", "library.html", "section:first-of-type, .sheet button:nth-child(-n+16)",
+  (page) => page.locator("p", { hasText: "Unpacking" }).waitFor({ state: "detached", timeout: 600000 }),
+  (page) => page.locator(".sheet button", { hasText: /^gold-paint$/ }).click());
 await write_part("lesson-spoil.png", "spoil.html", ".curves, figure, [role=status]",
   (page) => page.waitForSelector("svg [role=button]", { timeout: 120000 }),
   (page) => page.locator("svg [role=button]").nth(20).click());

@@ -199,16 +199,13 @@ function lit_canvas(description) {
 }
 
 // What the halves of the image show, where a border parts them.
-function half_labels() {
-  const halves = ["from the samples", "the truth"].map((text) => element("span", {}, text));
-  const box = element("div", { className: "halves" }, ...halves);
+function half_labels(names) {
+  const halves = names.map((name) => element("span", {}, name)), box = element("div", { className: "halves" }, ...halves);
   return {
     box,
     show: () => {
-      const { truth, blends } = viewer.state;
-      box.hidden = !data.viewer.truth || blends;
-      halves[0].hidden = truth === 100;
-      halves[1].hidden = truth === 0;
+      box.hidden = viewer.state.blends;
+      halves.forEach((each, i) => { each.hidden = viewer.state.truth === (i === 0 ? 100 : 0); });
     },
   };
 }
@@ -227,7 +224,7 @@ async function fill_viewer(section) {
   const panel = controls(() => changed(), surround);
   const lobe = lobe_figure((...directions) => reflects(viewer.state.blends ? viewer.state.truth / 100 : 0, ...directions), uncertainty);
   const readout = element("p", { className: "soft readout" });
-  const labels = half_labels();
+  const labels = half_labels(data.viewer.truth ? ["from the samples", "the truth"] : []);
   const changed = () => {
     panel.show();
     labels.show();

@@ -32,7 +32,30 @@ async function move(page, label, key, times) {
   for (let i = 0; i < times; ++i) await page.keyboard.press(key);
 }
 
-// Reflectance over the prior's cells, which are among those of a table that gonio writes.
+// The table on the sphere (0), or on its right half (1), beside a table of the tool: how far apart some of the prior's
+// cells are, which are among those of a table that gonio writes.
+async function apart_from(page, side, file) {
+  const cells = await page.evaluate((side) => {
+    const table = typeof library === "undefined" ? shown_table : library.tables[side];
+    const { grid: [heights, rows, columns] } = table.cells, found = [];
+    for (let cell = 0; cell < table.numbers.length; cell += 991) {
+      const h = Math.floor(cell / (rows * columns)), d = Math.floor(cell / columns) % rows, p = cell % columns;
+      const texel = [0, 1, 2, 3].map((k) => table.texels[4 * cell + k]);
+      found.push({ angles: [90 * ((h + 0.5) / heights) ** 2, 90 * (d + 0.5) / rows, 180 * (p + 0.5) / columns],
+        value: texel.slice(0, 3).map((each) => each / texel[3] * 16384 * table.scale) });
+    }
+    return found;
+  }, side);
+  // Those above the horizon.
+  const radians = (degrees) => degrees * Math.PI / 180;
+  const valid = cells.filter(({ angles: [h, d, p] }) => {
+    const sum = Math.cos(radians(h)) * Math.cos(radians(d)), difference = Math.sin(radians(h)) * Math.sin(radians(d)) * Math.cos(radians(p));
+    return sum - Math.abs(difference) > 0.001;
+  });
+  const truth = sampled(file, "theta_h,theta_d,phi_d", valid.map(({ angles }) => angles));
+  return { count: valid.length, off: worst_ratio(valid.flatMap(({ value }) => value), truth.flat()) };
+}
+
 async function check_material(page) {
   const middle = () => page.evaluate(() => {
     viewer.draw(1);
@@ -47,26 +70,9 @@ async function check_material(page) {
   const state = await page.evaluate(() => keys.map((key) => viewer.state[key])), after = await middle();
   check(worst_ratio(state.map((each) => each + 9), [10, 8.5, 9, 9, 11]) < 1e-9, `components: arrow keys move sliders, ${state}`);
   check(before.some((each, i) => Math.abs(each - after[i]) > 5), `components: the sphere changes, ${before} to ${after}`);
-  const cells = await page.evaluate(() => {
-    const { grid: [heights, rows, columns] } = shown_table.cells, found = [];
-    for (let cell = 0; cell < shown_table.numbers.length; cell += 991) {
-      const h = Math.floor(cell / (rows * columns)), d = Math.floor(cell / columns) % rows, p = cell % columns;
-      const texel = [0, 1, 2, 3].map((k) => shown_table.texels[4 * cell + k]);
-      found.push({ angles: [90 * ((h + 0.5) / heights) ** 2, 90 * (d + 0.5) / rows, 180 * (p + 0.5) / columns],
-        value: texel.slice(0, 3).map((each) => each / texel[3] * 16384 * shown_table.scale) });
-    }
-    return found;
-  });
-  // Those above the horizon.
-  const radians = (degrees) => degrees * Math.PI / 180;
-  const valid = cells.filter(({ angles: [h, d, p] }) => {
-    const sum = Math.cos(radians(h)) * Math.cos(radians(d)), difference = Math.sin(radians(h)) * Math.sin(radians(d)) * Math.cos(radians(p));
-    return sum - Math.abs(difference) > 0.001;
-  });
   gonio("expand", "--weights", state.join(","), "--in-deviations", "-o", at("five.binary"));
-  const truth = sampled(at("five.binary"), "theta_h,theta_d,phi_d", valid.map(({ angles }) => angles));
-  const off = worst_ratio(valid.flatMap(({ value }) => value), truth.flat());
-  check(off < 1e-3, `components: ${valid.length} cells are those of gonio expand --weights ${state}, off by ${(100 * off).toFixed(4)} %`);
+  const { count, off } = await apart_from(page, 0, at("five.binary"));
+  check(off < 1e-3, `components: ${count} cells are those of gonio expand --weights ${state}, off by ${(100 * off).toFixed(4)} %`);
 }
 
 // The page's errors are those that the lesson shows, which the tests of the documentation compute.
@@ -159,7 +165,34 @@ async function check_proposals(page) {
   console.log(`- spoil: both fits, their tables, errors and the chart take ${(1000 * seconds).toFixed(0)} ms`);
 }
 
-// ---- both ------------------------------------------------------------------------------------------------------
+// ---- materials to browse -----------------------------------------------------------------------------------------
+const sheet_ready = (page) => page.locator("p", { hasText: "Unpacking" }).waitFor({ state: "detached", timeout: 600000 });
+
+async function check_library(page) {
+  const lit = await page.evaluate(() => [...document.querySelectorAll(".sheet canvas")].filter((canvas) => {
+    const pixels = canvas.getContext("2d").getImageData(0, 0, 96, 96).data;
+    return pixels.some((each, i) => i % 4 < 3 && each > 40);
+  }).length);
+  const names = JSON.parse(gonio("info", join(repository, "examples/data/materials.prior"), "--json")).names;
+  const shown = await page.evaluate(() => [...document.querySelectorAll(".sheet span")].map((each) => each.textContent));
+  check(lit === names.length && shown.join() === names.join(), `library: all ${lit} materials have a sphere`);
+  await page.locator(".sheet button", { hasText: /^gold-paint$/ }).click();
+  check(await page.evaluate(() => location.hash === "#gold-paint" && document.querySelector(".halves span").textContent === "gold-paint"), "library: a click shows a material");
+  gonio("expand", "--name", "gold-paint", "-o", at("gold.binary"));
+  const gold = await apart_from(page, 0, at("gold.binary"));
+  check(gold.off < 1e-3, `library: ${gold.count} cells are those of gonio expand, off by ${(100 * gold.off).toFixed(4)} %`);
+  gonio("expand", "--formula", "red-paint", "-o", at("red.binary"));
+  await page.evaluate(() => {
+    Object.assign(viewer.state, { red: 0.42, green: 0.028, blue: 0.022, metal: 0, highlight: 0.04, roughness: 0.15 });
+    document.querySelectorAll(".viewer select")[1].dispatchEvent(new Event("input"));
+  });
+  const model = await apart_from(page, 1, at("red.binary"));
+  check(model.off < 1e-3, `library: with its numbers the model is red-paint, off by ${(100 * model.off).toFixed(4)} %`);
+  await page.locator(".viewer select").nth(1).selectOption("brass");
+  check(await page.locator("svg[aria-label^='Luminance of gold-paint and brass']").count() === 1 && !await page.locator("label", { hasText: "Roughness" }).isVisible(), "library: two materials in one plot, and no sliders of a model");
+}
+
+// ---- all ------------------------------------------------------------------------------------------------------
 async function check_page(name, ready, act) {
   const file = at(`${name}.html`), size = readFileSync(file).length;
   check(size < 6e6, `${name}: the page has ${(size / 1e6).toFixed(2)} MB`);
@@ -182,6 +215,7 @@ await check_page("components", errors_ready, async (page) => {
   await check_reset(page);
 });
 await check_page("spoil", (page) => page.waitForSelector("svg [role=button]", { timeout: 60000 }), check_spoiling);
+await check_page("library", sheet_ready, check_library);
 await browser.close();
 
 const without = await launch("--disable-3d-apis");
