@@ -99,8 +99,8 @@ TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
   refused(with("focal_length 10", "focal_length -10"), {"focal lengths must be positive"});
   refused(with("position 0 1 1", "position 0 1 nan"), {"line 3", "not finite"});
   refused(with("position 0 1 1", "position 0 1 -1"), {"the camera is not above"});
-  refused(with("position 0 1 1", "position 0 0 0"), {"look at another place"});
-  refused(with("position 0 1 1", "position 0 0 1"), {"not along its own upward direction"});
+  refused(with("position 0 1 1", "position 0 0 0"), {"target must differ from its position"});
+  refused(with("position 0 1 1", "position 0 0 1"), {"its upward direction from its viewing direction"});
   refused(with("target 0 0 0", "rotation 1 0 0 0 1 0 0 0 2"), {"orthogonal"});
   refused(smallest + "rotation 1 0 0 0 1 0 0 0 1\n", {"line 7", "'rotation'", "'target'", "only one"});
   refused(with("target 0 0 0", "rotation 1 0 0 0 1 0 0 0 1\nup 0 0 1"), {"'rotation'", "'up'", "only one"});

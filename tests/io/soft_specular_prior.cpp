@@ -95,13 +95,13 @@ TEST_CASE("a right checksum over impossible contents is no prior") {
   const auto soft = payload_of(prior.soft()), specular = payload_of(prior.specular());
   CHECK(refusal(file_of(0.5, soft, specular)).empty());
   CHECK(refusal(file_of(std::numeric_limits<double>::quiet_NaN(), soft, specular)) ==
-        "x.prior: the contrast between soft and specular materials must be finite");
+        "x.prior: the contrast threshold between soft and specular materials must be finite");
   CHECK(refusal(file_of(0.5, soft, specular, 0, 3)) == "x.prior: 3 bytes follow the specular prior");
   CHECK(refusal(file_of(0.5, soft, specular, 1)).starts_with("x.prior: "));
   CHECK(refusal(file_of(0.5, soft, specular, ~std::uint64_t{0} - soft.size())).find("truncated") != std::string::npos);
   CHECK(refusal(file_of(0.5, {}, specular)).find("truncated") != std::string::npos);
   const auto other = payload_of(small_split(8).specular());
-  CHECK(refusal(file_of(0.5, soft, other)).find("x.prior: the priors of soft and of specular materials must be") !=
+  CHECK(refusal(file_of(0.5, soft, other)).find("x.prior: the soft and the specular prior must be") !=
         std::string::npos);
 }
 
