@@ -117,7 +117,8 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
 
   const auto refused = gonio_tool("near-field " + images + "--misplaced -1 -o " + shots.at("no.csv"));
   CHECK(refused.exit_code == 2);
-  CHECK(refused.output.find("may be off by 0 to 45 degrees, not by -1") != std::string::npos);
+  CHECK(refused.output.find("the deviation of light and camera must be from 0 to 45 degrees, not -1") !=
+        std::string::npos);
   CHECK_FALSE(shots.has("no.csv"));
 }
 
@@ -143,7 +144,7 @@ TEST_CASE("samples that may be off their directions count less where that matter
   for (const auto& [arguments, words] :
        {std::pair{" --misplaced 1 --eta gcv", "--noise or a number as its --eta"},
         std::pair{" --misplaced 1 --solver lasso", "--solver tikhonov"},
-        std::pair{" --misplaced -2", "0 to 45 degrees, not by -2"},
+        std::pair{" --misplaced -2", "0 to 45 degrees, not -2"},
         std::pair{" --misplaced 1 --method linear", "--misplaced needs --method pca"}}) {
     CAPTURE(arguments);
     const auto refused = run(arguments);
