@@ -115,7 +115,7 @@ TEST_CASE("files of one and of two priors are told apart") {
   CHECK_FALSE(io::is_soft_specular_prior(one));
   CHECK(io::read_soft_specular_prior(two).materials() == 7);
   CHECK_THROWS_WITH_AS((void)io::read_prior(two),
-                       doctest::Contains("two.prior: a soft and a specular prior, where one"), gonio::error);
+                       doctest::Contains("two.prior: has a soft and a specular prior, expected one"), gonio::error);
   CHECK_THROWS_WITH_AS((void)io::read_soft_specular_prior(one),
                        doctest::Contains("it does not start with 'gonio-split'"), gonio::error);
   CHECK_THROWS_WITH_AS((void)io::read_soft_specular_prior(folder / "none.prior"), doctest::Contains("none.prior"),
