@@ -193,7 +193,7 @@ TEST_CASE("a highlight on the light's side is told of, and turned by an option i
   scratch::put(foreign, "{\"metadata\":{},\"data\":{" + variable("theta_i", "deg", "30,30") + "," +
                             variable("phi_i", "deg", "0,0") + "," + variable("theta_r", "deg", "30,30") + "," +
                             variable("phi_r", "deg", "0,180") + "," + variable("BRDF", "sr^-1", "8,1") + "}}");
-  CHECK(run("info " + foreign).find("it is 8.0 times as bright") != std::string::npos);
+  CHECK(run("info " + foreign).find("the sample is 8.0 times as bright") != std::string::npos);
   const std::string converted = (file.folder / "samples.csv").string();
   run("convert " + foreign + " --theta-o-sign mirror " + converted);
   CHECK(gonio::io::read_samples(converted)[0].angles().theta_h < 1e-6);

@@ -432,7 +432,7 @@ TEST_CASE("channels are data: one reading is one channel, and each of many wavel
         other.values = reference.values.leftCols(4).eval();
         return gonio::check_conformity(conformity_estimator(), part, other, noise_of(0.02));
       },
-      {"5 channels", "not of 4"});
+      {"5 channels", "the reference, 4"});
 }
 
 TEST_CASE("parts of one channel are refused as seldom as was promised") {

@@ -214,8 +214,8 @@ TEST_CASE("a material alone, and beside one that no image has, come out the same
 
 TEST_CASE("images that cannot be are refused") {
   const std::vector<sample_set> images{image_of(material(0), 0.5)};
-  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), std::vector<sample_set>{}), doctest::Contains("no image"),
-                       gonio::error);
+  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), std::vector<sample_set>{}),
+                       doctest::Contains("at least one image"), gonio::error);
   CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), {sample_set{}}), doctest::Contains("no samples"), gonio::error);
   CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), images, {.eta = 0.0}), doctest::Contains("eta must be"),
                        gonio::error);

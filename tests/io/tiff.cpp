@@ -47,7 +47,8 @@ TEST_CASE("TIFF: the exposure time is that of the EXIF data, if there is any") {
     check_refused([&] { return read_tiff_exposure_time(tiff_bytes::of(picture), "a.tif"); },
                   {"a.tif: an exposure time of", "expected from 1e-07 s to a day"});
   }
-  check_refused([] { return read_tiff_exposure_time(scratch::bytes_of("no image"), "a.tif"); }, {"a.tif", "no TIFF"});
+  check_refused([] { return read_tiff_exposure_time(scratch::bytes_of("no image"), "a.tif"); },
+                {"a.tif", "not a TIFF"});
 }
 
 TEST_CASE("TIFF: what is not supported is refused by its name") {

@@ -234,7 +234,7 @@ requires std::same_as<domain_of<Basis>, valid_cells> fitted_brdf<Basis>::fitted_
       report_(std::move(report)),
       kinds_(std::move(kinds)) {
   if (const Eigen::Index size = basis_.size(); weights_.rows() != size || weights_.cols() != kinds_.size())
-    refuse({"a fit of ", size, " functions needs one weight for each of them and of ", kinds_.size(), " channels"});
+    refuse({"a fit of ", size, " functions needs one weight per function for each of ", kinds_.size(), " channels"});
   if (!gonio::basis<Basis> && !kinds_.are_colours())
     refuse("a channelwise basis needs the channels red, green and blue");
   if (computed && weights_.rows() > most_computed_functions)

@@ -104,7 +104,7 @@ inline constexpr std::size_t longest_name = 40;
   csv_dialect of_numbers = dialect_;
   if (of_numbers.read_number(file.fields().front(), number) == nullptr)
     place.refuse(
-        {"there is no header line above the numbers, expected one like theta_i,phi_i,theta_o,phi_o,r,g,b (what stands "
+        {"there is no header line above the numbers, expected one like theta_i,phi_i,theta_o,phi_o,r,g,b (text "
          "after # is a comment); the line looks ",
          description(dialect_)});
   for (const column_name& each : reading.columns)
@@ -289,7 +289,7 @@ inline constexpr std::size_t longest_name = 40;
   if (quantity_.quantity() != sample_quantity::percent)
     place.refuse(
         {"column 'g' is missing, expected r,g,b, or value for one channel, or wavelengths, as 400nm; if the "
-         "column R is the one value, --columns value=R says so; the header line looks ",
+         "column R is the only value, give --columns value=R; the header line looks ",
          description(dialect_)});
   *r = grey_group.first;
 }
