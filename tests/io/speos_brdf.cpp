@@ -165,7 +165,7 @@ TEST_CASE("Speos: what is no such file is refused") {
   check_speos_refused(with(small, "1\t0", "1\t1"), {"line 7", "transmission", "'1 0'"});
   check_speos_refused(with(small, "1\t0", "0\t1"), {"line 7", "transmission"});
   check_speos_refused(with(small, "1\n1 1\n", "2\n1 1\n"), {"line 8", "'2'", "0 or 1"});
-  check_speos_refused(with(small, "1\n1 1\n", "1\n1.5 1\n"), {"line 9", "angles of incidence", "not a count"});
+  check_speos_refused(with(small, "1\n1 1\n", "1\n1.5 1\n"), {"line 9", "angles of incidence", "not a whole number"});
   check_speos_refused(with(small, "1\n1 1\n", "1\n1e9 1\n"), {"line 9", "'1e9'", "from 1 to 10000"});
   check_speos_refused(with(small, "\n30\n", "\n91\n"), {"line 10", "angle of incidence", "91"});
   check_speos_refused(with(small, "\n50\n", "\n101\n"), {"line 12", "reflectance", "101", "from 0 to 100"});
