@@ -238,7 +238,8 @@ requires std::same_as<domain_of<Basis>, valid_cells> fitted_brdf<Basis>::fitted_
   if (!gonio::basis<Basis> && !kinds_.are_colours())
     refuse("a channelwise basis needs the channels red, green and blue");
   if (computed && weights_.rows() > most_computed_functions)
-    refuse({"a fit of computed functions can have at most ", most_computed_functions, " of them, not ", basis_.size()});
+    refuse(
+        {"a fit of computed functions can have at most ", most_computed_functions, " functions, not ", basis_.size()});
   float_weights_ = to_float(three_columns(0));
 }
 

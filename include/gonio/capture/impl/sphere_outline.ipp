@@ -240,7 +240,7 @@ GONIO_INLINE fitted_outline fit_sphere(const std::vector<Eigen::Vector2d>& outli
     inliers = detail::within(detail::beyond_cone(rays, *plane), tolerance);
     if (3 * std::ssize(inliers) < count || detail::covered_share(rays, inliers, *plane) < 0.25)
       refuse({"no sphere is found: ", inliers.size(), " of ", count,
-              " edge points lie on one outline, expected a third of them along a quarter of it"});
+              " edge points lie on one outline, expected a third along at least a quarter of it"});
     if (options.light) {
       auto lit =
           detail::well_lit(rays, inliers, detail::sphere_of(*plane, camera, radius), camera.position(), *options.light);

@@ -32,8 +32,8 @@ namespace gonio::io::detail {
 // ---- writing
 
 inline constexpr std::string_view openmaterial_meaning =
-    "Values are the BRDF in 1/sr, without the cosine of any angle. Azimuth 0 is the side of the light, pi that of the "
-    "mirror direction. Spectra are smooth ones of linear Rec. 709 colours under D65.";
+    "Values are the BRDF in 1/sr, without the cosine of any angle. Azimuth 0 is the side of the light, pi the "
+    "mirror direction. Spectra are smooth and match linear Rec. 709 colours under D65.";
 
 /// Returns the angle of a node, rounded down to the six decimals of the schema's limits.
 [[nodiscard]] inline double openmaterial_angle(Eigen::Index node, Eigen::Index steps, double full) {
