@@ -55,8 +55,8 @@ extern "C" void end_with_the_job(int signal) {
 
 void end_with_a_sentence_on_signals(const std::string& program) {
   last_words = program +
-               ": the job was ended before its work was done: the same command, with any number of ranks, "
-               "goes on with what is written\n";
+               ": the job ended before its work was done: the same command, with any number of ranks, "
+               "continues from the written files\n";
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction ours {};
     ours.sa_handler = end_with_the_job;
@@ -112,7 +112,7 @@ int run(const job& what, const gonio::mpi::ranks& ranks, std::span<char*> given,
   if (has_begun) return code;
   try {
     const std::string complaint = unsaid ? unsaid->complaint() : "";
-    ranks.together([&] { gonio::refuse(complaint.empty() ? "was not asked for work" : complaint); });
+    ranks.together([&] { gonio::refuse(complaint.empty() ? "was given no work" : complaint); });
   } catch (const gonio::error&) {  // already printed
   }
   return code;

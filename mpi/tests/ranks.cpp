@@ -98,7 +98,7 @@ TEST_CASE("ranks: other inputs are refused by all, with one sentence") {
   CHECK_NOTHROW(all().agree_on(7, "prior"));
   const auto own = static_cast<std::uint32_t>(all().rank() == all().size() - 1 ? 1 : 0);
   const std::string expected =
-      all().size() == 1 ? "" : "the ranks read different inputs: " + last_rank() + "'s prior is not rank 0's";
+      all().size() == 1 ? "" : "the ranks read different inputs: " + last_rank() + "'s prior differs from rank 0's";
   CHECK(refusal_of([&] { all().agree_on(own, "prior"); }) == expected);
 }
 

@@ -51,7 +51,7 @@ void print_how_sure(const gonio::shape::cross_validated_uncertainty& uncertainty
   const auto count = static_cast<double>(vertices.size());
   std::cout << "expected error of these (root mean square, " << uncertainty.trials()
             << " shapes left out): " << fixed(std::sqrt(across / count), 3) << " mm across the surface, "
-            << fixed(std::sqrt(all / count), 3) << " mm with what vertices slide along it\n";
+            << fixed(std::sqrt(all / count), 3) << " mm including sliding along it\n";
 }
 
 /// Returns the initial pose: as given, or by shape context.

@@ -34,7 +34,7 @@ void run(const see_command& options) {
   Eigen::Index pixels = 0;
   for (Eigen::Index pixel = 0; pixel < seen.normals.cols(); ++pixel) pixels += seen.sees(pixel) ? 1 : 0;
   if (pixels == 0)
-    gonio::refuse({options.mesh.string(), ": the camera of ", options.setup.string(), " sees nothing of the mesh"});
+    gonio::refuse({options.mesh.string(), ": the camera of ", options.setup.string(), " does not see the mesh"});
   write_map(options.normals, seen.normals, seen);
   write_map(options.positions, seen.positions, seen);
   std::cout << pixels << " of " << seen.normals.cols() << " pixels see the mesh\n";

@@ -32,7 +32,7 @@ gonio::shape::similarity_transform find_pose(const gonio::shape::shape_model& mo
   constexpr double largest = 5.0;
   if (found.mean_scan_distance > largest)
     gonio::refuse("the scan matches the model nowhere: it is " + fixed(found.mean_scan_distance, 1) +
-                  " mm away in the mean, expected at most " + fixed(largest, 1));
+                  " mm away on average, expected at most " + fixed(largest, 1));
   return found.transform;
 }
 

@@ -135,7 +135,7 @@ TEST_CASE("what leaves an alignment undetermined is refused") {
   refused(from, onto.leftCols(4), {}, "5 and 4");
   refused(from.leftCols(2), onto.leftCols(2), {}, "three points of positive weight, not 2");
   refused(point_columns(3, 0), point_columns(3, 0), {}, "not 0");
-  refused(from, onto, Eigen::VectorXd::Ones(4), "5 points is given 4 weights");
+  refused(from, onto, Eigen::VectorXd::Ones(4), "5 points has 4 weights");
   refused(from, onto, (Eigen::VectorXd(5) << 1, 1, 1, 1, -1).finished(), "not negative");
   refused(from, onto, (Eigen::VectorXd(5) << 1, 1, 0, 0, 0).finished(), "not 2");
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -144,7 +144,7 @@ TEST_CASE("what leaves an alignment undetermined is refused") {
   broken(1, 2) = nan;
   refused(broken, onto, {}, "finite");
   refused(from, broken, {}, "finite");
-  refused(1e200 * from, 1e200 * onto, {}, "too far apart");
+  refused(1e200 * from, 1e200 * onto, {}, "so far apart");
   // Points on a line far from the origin, one repeated point, and a mirrored cube, which three rotations fit equally.
   point_columns line = Eigen::Vector3d(1.0, 2.0, -3.0) * Eigen::RowVectorXd::LinSpaced(5, -1.0, 1.0);
   line.colwise() += Eigen::Vector3d(1000.0, -300.0, 77.0);

@@ -88,7 +88,7 @@ TEST_CASE("trials that cannot be made are refused by a sentence") {
   refused(9, 5, "from 10 to 60 shapes can be left out, not 9");
   refused(61, 5, "from 10 to 60 shapes can be left out, not 61");
   refused(10, 1,
-          "60 shapes cannot be left out in 1 parts: expected at least 2, of which each leaves at least 2 shapes");
+          "60 shapes cannot be left out in 1 parts: expected at least 2 parts that each leave at least 2 shapes");
   refused(10, 61,
-          "60 shapes cannot be left out in 61 parts: expected at least 2, of which each leaves at least 2 shapes");
+          "60 shapes cannot be left out in 61 parts: expected at least 2 parts that each leave at least 2 shapes");
 }

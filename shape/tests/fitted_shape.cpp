@@ -115,7 +115,7 @@ TEST_CASE("known vertices that say nothing are refused") {
   CHECK_THROWS_WITH_AS((void)fit(known), "no vertex is known: there is nothing to predict a shape from", gonio::error);
   known.vertices = {1, 5};
   known.positions = gonio::shape::point_columns::Zero(3, 2);
-  CHECK_THROWS_WITH_AS((void)fit(known), "vertex 5 is known of shapes of 5 vertices", gonio::error);
+  CHECK_THROWS_WITH_AS((void)fit(known), "vertex 5 is known, but the shapes have 5 vertices", gonio::error);
   known.vertices = {1, 2, 3};
   CHECK_THROWS_WITH_AS((void)fit(known), "3 known vertices have 2 positions, 0 normals and 0 weights", gonio::error);
   known.vertices = {1, 2};

@@ -150,9 +150,9 @@ TEST_CASE("distances from no vertex or on another mesh are refused") {
   const mesh_topology topology(mesh);
   for (const Eigen::Index none : {-1, 4})
     CHECK_THROWS_WITH_AS(static_cast<void>(geodesic_distances(mesh, topology, none)),
-                         doctest::Contains("to walk from is none of a mesh of 4"), gonio::error);
+                         doctest::Contains("to start from does not exist, expected less than 4"), gonio::error);
   CHECK_THROWS_WITH_AS(static_cast<void>(nearest_along_surface(flat_grid(2, 3), topology, 0, any_vertex, 1)),
-                       "a mesh of 6 vertices has a topology of 4", gonio::error);
+                       "a mesh of 6 vertices cannot have a topology of 4", gonio::error);
   gonio::shape::triangle_mesh moved = mesh;
   moved.vertices(0, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(static_cast<void>(geodesic_distances(moved, topology, 0)), doctest::Contains("not finite"),

@@ -71,7 +71,7 @@ TEST_CASE("a view of a mesh holds it all") {
 TEST_CASE("images that cannot be are refused") {
   const two_squares scene;
   CHECK_THROWS_WITH_AS(gonio::shape::image_of(scene.mesh, std::span(scene.colours).first(3), {}),
-                       "an image of 8 vertices is given 3 colours", gonio::error);
+                       "an image of 8 vertices has 3 colours", gonio::error);
   gonio::shape::mesh_view view;
   view.towards = view.up;
   CHECK_THROWS_AS(gonio::shape::image_of(scene.mesh, scene.colours, view), gonio::error);

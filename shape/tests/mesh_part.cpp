@@ -31,7 +31,7 @@ TEST_CASE("what would touch in one vertex only is parted there") {
   marked.assign(9, true);
   marked[1] = marked[5] = marked[3] = marked[7] = false;
   CHECK_THROWS_WITH_AS((void)gonio::shape::part_of(mesh, marked),
-                       "no triangle has three marked corners: nothing of the surface is left", gonio::error);
+                       "no triangle has three marked corners: no surface is left", gonio::error);
 }
 
 TEST_CASE("any part of a surface is a surface, with the triangles of the whole") {

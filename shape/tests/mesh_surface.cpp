@@ -98,9 +98,9 @@ TEST_CASE("meshes that cannot be seen are refused") {
   };
   triangle_mesh mesh = square_at(0.0);
   mesh.triangles(1, 1) = 4;
-  refuses(mesh, "a vertex that is not there: there are 4");
+  refuses(mesh, "a vertex that does not exist, expected less than 4");
   mesh.triangles(1, 1) = -1;
-  refuses(mesh, "not there");
+  refuses(mesh, "does not exist");
   mesh = square_at(std::numeric_limits<double>::infinity());
   refuses(mesh, "not finite");
   mesh.triangles.resize(3, 0);

@@ -54,7 +54,7 @@ TEST_CASE("each test of a registration refuses by a sentence") {
   CHECK(refusal(options).starts_with("a fifth of its triangles have an angle below"));
   options.least_angle = 15.0;
   options.least_normal_agreement = 0.9999;
-  CHECK(refusal(options).starts_with("its normals agree with those of the fit to"));
+  CHECK(refusal(options).starts_with("its normals agree with the fit's normals to"));
   options.confidence = 1e-6;
   CHECK(refusal(options).starts_with("the Mahalanobis distance of its weights is"));
 }

@@ -251,7 +251,7 @@ TEST_CASE("what cannot be described is refused") {
   refused([](auto& o) { o.vertical.x() = nan; }, "vertical axis");
   refused([](auto& o) { o.least_inclination = 0.0; }, "least inclination");
   refused([](auto& o) { o.least_inclination = 1.6; }, "least inclination");
-  CHECK_THROWS_WITH_AS((void)describe(canal, {90}), "vertex 90 of a mesh of 90 cannot be described", gonio::error);
+  CHECK_THROWS_WITH_AS((void)describe(canal, {90}), "vertex 90 of a mesh of 90 vertices does not exist", gonio::error);
   CHECK_THROWS_AS((void)describe(canal, {-1}), gonio::error);
   CHECK_THROWS_AS((void)spread_vertices(canal, -1), gonio::error);
   const auto refused_mesh = [](const triangle_mesh& mesh, const char* why) {
@@ -263,7 +263,7 @@ TEST_CASE("what cannot be described is refused") {
   refused_mesh(broken, "finite");
   broken = canal;
   broken.triangles(1, 3) = 90;
-  refused_mesh(broken, "names a vertex that is not among its 90");
+  refused_mesh(broken, "names a vertex that does not exist, expected less than 90");
   broken.triangles(1, 3) = -1;
   refused_mesh(broken, "names a vertex");
   refused_mesh({canal.vertices, gonio::shape::triangle_columns(3, 0)}, "no triangles");

@@ -44,9 +44,9 @@ TEST_CASE("shapes that make no model are refused") {
   const auto shapes = stretched_spheres(3);
   const gonio::shape::triangle_columns triangles = sphere_mesh(1).triangles;
   CHECK_THROWS_WITH_AS(gonio::shape::learn_shape_model({shapes[0]}, synthetic_names(1), triangles),
-                       "a shape model needs at least two shapes that differ, not 1 that do not", gonio::error);
+                       "a shape model needs at least two different shapes, not 1 equal ones", gonio::error);
   CHECK_THROWS_WITH_AS(gonio::shape::learn_shape_model({shapes[0], shapes[0]}, synthetic_names(2), triangles),
-                       "a shape model needs at least two shapes that differ, not 2 that do not", gonio::error);
+                       "a shape model needs at least two different shapes, not 2 equal ones", gonio::error);
   CHECK_THROWS_AS(gonio::shape::learn_shape_model(shapes, synthetic_names(2), triangles), gonio::error);
   CHECK_THROWS_AS(gonio::shape::learn_shape_model(shapes, synthetic_names(3), tetrahedron().triangles.leftCols(0)),
                   gonio::error);

@@ -46,7 +46,7 @@ TEST_CASE("a shape with motion: the last six functions turn and shift the shape"
   for (Eigen::Index v = 0; v < expected.cols(); ++v) expected.col(v) += turn.cross(made.shape.col(v) - centroid);
   CHECK((combined(functions, made.with(turn, shift, freedom)) - expected).cwiseAbs().maxCoeff() < 1e-4);
   CHECK_THROWS_WITH_AS((void)shape_with_motion(made.basis, made.shape.leftCols(3)),
-                       "a shape of 3 vertices is to move with a basis of 8", gonio::error);
+                       "a shape of 3 vertices does not match a basis of 8", gonio::error);
 }
 
 TEST_CASE("a shape with motion: weights are split into the shape's and the motion that they stand for") {

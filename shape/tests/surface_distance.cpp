@@ -59,7 +59,7 @@ TEST_CASE("signed distances are the same by any number of threads") {
 TEST_CASE("the distance of no points or of such that are not finite is refused") {
   const gonio::shape::surface_index surface(tetrahedron());
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::shape::distance_to(surface, gonio::shape::point_columns(3, 0))),
-                       "the distance of no points to a surface has no mean", gonio::error);
+                       "the mean distance to a surface needs at least one point", gonio::error);
   gonio::shape::point_columns points = gonio::shape::point_columns::Zero(3, 2);
   points(1, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(static_cast<void>(gonio::shape::distance_to(surface, points)), gonio::error);

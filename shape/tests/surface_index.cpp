@@ -329,7 +329,7 @@ TEST_CASE("a mesh that is no surface is refused, and so are queries that are not
   const surface_index surface(tetrahedron());
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   CHECK_THROWS_WITH_AS(static_cast<void>(surface.closest({0, nan, 0})),
-                       "a point to find the closest point of a surface to is not finite", gonio::error);
+                       "the point to find the closest point for is not finite", gonio::error);
   CHECK_THROWS_WITH_AS(static_cast<void>(surface.closest({1e200, 0, 0})), doctest::Contains("so far"), gonio::error);
   CHECK_THROWS_AS(static_cast<void>(surface.signed_distance({infinity, 0, 0})), gonio::error);
   CHECK_THROWS_WITH_AS(static_cast<void>(surface.along({nan, 0, 0}, {1, 0, 0}, 1.0)),
@@ -339,6 +339,6 @@ TEST_CASE("a mesh that is no surface is refused, and so are queries that are not
   CHECK_THROWS_WITH_AS(static_cast<void>(surface.along({0, 0, 0}, {0, 0, 0}, 1.0)), doctest::Contains("is zero"),
                        gonio::error);
   CHECK_THROWS_WITH_AS(static_cast<void>(surface.along({0, 0, 0}, {1, 0, 0}, -1.0)),
-                       doctest::Contains("must not be negative"), gonio::error);
+                       doctest::Contains("must be at least 0"), gonio::error);
   CHECK_THROWS_AS(static_cast<void>(surface.along({0, 0, 0}, {1, 0, 0}, nan)), gonio::error);
 }

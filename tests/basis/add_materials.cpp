@@ -89,11 +89,12 @@ TEST_CASE("spectra are added to spectra of the same wavelengths, and to no other
   const auto refuses = [&](const gonio::material_rows& rows, const char* what) {
     CHECK_THROWS_WITH_AS(gonio::add_materials(old, rows), doctest::Contains(what), gonio::error);
   };
-  refuses(gonio::rows_of(materials(20, 4)), "the prior's materials are at 4 wavelengths, those to add are in colours");
+  refuses(gonio::rows_of(materials(20, 4)),
+          "the prior's materials are at 4 wavelengths, the materials to add are in RGB");
   more.wavelengths = {400.0, 500.0, 600.0, 690.0};
   refuses(more, "wavelength 4 of the materials to add is 690");
   CHECK_THROWS_WITH_AS(gonio::add_materials(learn(materials(0, 20), 8), old_rows),
-                       doctest::Contains("the prior's materials are in colours, those to add are at 4 wavelengths"),
+                       doctest::Contains("the prior's materials are in RGB, the materials to add are at 4 wavelengths"),
                        gonio::error);
 }
 

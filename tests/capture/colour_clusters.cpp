@@ -172,7 +172,7 @@ TEST_CASE("images that have no colours to cluster by are refused") {
   CHECK_THROWS_WITH_AS((void)cluster_colours(colours, 0, 0), doctest::Contains("at least one"), gonio::error);
   CHECK_THROWS_WITH_AS((void)cluster_colours(colours, cluster_count_choice{.most = 0}, 0),
                        doctest::Contains("at least one cluster"), gonio::error);
-  CHECK_THROWS_WITH_AS((void)cluster_colours(point_matrix(50, 4), 1, 0), doctest::Contains("50 times 4"), gonio::error);
+  CHECK_THROWS_WITH_AS((void)cluster_colours(point_matrix(50, 4), 1, 0), doctest::Contains("50 x 4"), gonio::error);
   CHECK_THROWS_AS((void)cluster_colours(point_matrix(0, 3), 1, 0), gonio::error);
   CHECK_THROWS_WITH_AS((void)cluster_colours(-colours, 1, 0), doctest::Contains("black"), gonio::error);
   colours(4, 1) = std::nan("");

@@ -222,10 +222,10 @@ TEST_CASE("merged frames: bad input is refused") {
   refuses({}, "no frame");
   refuses({pixel_of(0.1, 7), {0.2, {1, 2, 4095, std::vector<std::uint16_t>(6)}}}, "2 x 1 pixels");
   refuses({pixel_of(0.0, 7)}, "positive and finite");
-  refuses({pixel_of(0.1, 7, 255)}, "a response of 4095 counts is not that of a camera with 255");
+  refuses({pixel_of(0.1, 7, 255)}, "a response of 4095 counts does not fit a camera with 255");
   refuses({pixel_of(0.1, 4095), pixel_of(0.2, 4095)}, "shorter exposures");
   refuses(good, "not negative", {}, {.noise = {.read = std::numeric_limits<double>::quiet_NaN()}});
-  refuses(good, "counts saturate at 5000", {}, {.saturation = 5000});
+  refuses(good, "the saturation count is 5000", {}, {.saturation = 5000});
   const std::vector dark_of_two{exposed_frame{0.1, {1, 2, 4095, std::vector<std::uint16_t>(6)}}};
   refuses(good, "dark frames have 2 pixels, photographs 1", gonio::capture::dark_signal(dark_of_two));
   const std::vector dark_of_one{pixel_of(0.1, 0)};

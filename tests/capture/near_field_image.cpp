@@ -265,8 +265,8 @@ TEST_CASE("what cannot be measured is refused") {
   };
   refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, -1.0}, {0.0, 0.0, 0.0}); }, "camera is not above");
   refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 0.0}, {0.0, 0.0, 0.0}); }, "camera is not above");
-  refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 1.0}, {0.0, 0.0, 3.0}); }, "sees nothing of the sample");
-  refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 1.0}, {9.0, 0.0, 0.0}); }, "sees nothing of the sample");
+  refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 1.0}, {0.0, 0.0, 3.0}); }, "does not show the sample");
+  refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 1.0}, {9.0, 0.0, 0.0}); }, "does not show the sample");
   refused([](auto& s) { light_of(s).towards = {0.0, 1.0, 0.0}; }, "light is at or below the sample's horizon");
   refused([](auto& s) { light_of(s).towards = {0.0, 0.0, 2.0}; }, "length 1");
   refused([](auto& s) { light_of(s).towards.x() = infinity; }, "length 1");

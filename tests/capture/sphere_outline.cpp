@@ -117,7 +117,7 @@ TEST_CASE("what shows no sphere is refused") {
   gonio::set_pixel(picture, 3, 5, gonio::rgb::Constant(std::numeric_limits<double>::quiet_NaN()));
   refuses_outline(picture, "pixel (row 3, column 5) is not a number");
   CHECK_THROWS_WITH_AS(gonio::capture::fit_sphere({}, outline_camera(), 1.0),
-                       "no sphere is found: 0 places of an edge are too few for an outline", gonio::error);
+                       "no sphere is found: 0 edge points are too few for an outline", gonio::error);
   CHECK_THROWS_AS(gonio::capture::fit_sphere({}, outline_camera(), -1.0), gonio::error);
 }
 

@@ -148,7 +148,7 @@ TEST_CASE("bad photographs are refused") {
   };
   refuses(gonio::uniform_image(96, 111), photograph_lamp, {},
           "the photograph has 111 x 96 pixels, its camera 112 x 96");
-  refuses(take(), gonio::capture::point_lamp{photographed_sphere.centre}, {}, "inside it");
+  refuses(take(), gonio::capture::point_lamp{photographed_sphere.centre}, {}, "behind or inside");
   refuses(take(), gonio::directional_light{gonio::direction(0.0, 0.0, -1.0)}, {}, "the light is behind");
   refuses(take(), photograph_lamp, {.saturation = 1e-9}, "is saturated");
   // A surface of which one pixel has neighbours all around.
@@ -161,8 +161,8 @@ TEST_CASE("bad photographs are refused") {
   const auto refuses_patch = [&](const gonio::capture::photograph_options& options, const std::string& why) {
     refused_with([&] { static_cast<void>(samples_of(take(), patch, camera, distant, {}, options)); }, why);
   };
-  refuses_patch({.saturation = 1e-9}, "all that the photograph shows of the surface is saturated");
-  refuses_patch({.smallest_cosine = 0.9}, "the photograph shows nothing of the surface that is lit");
+  refuses_patch({.saturation = 1e-9}, "every pixel of the surface is saturated");
+  refuses_patch({.smallest_cosine = 0.9}, "the photograph shows no lit part of the surface");
   gonio::image broken = take();
   gonio::set_pixel(broken, 48, 56, gonio::rgb::Constant(std::numeric_limits<double>::quiet_NaN()));
   refuses(broken, photograph_lamp, {}, "the photograph: pixel (row 48, column 56) is not a number");

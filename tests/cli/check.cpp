@@ -132,8 +132,8 @@ TEST_CASE("gonio check: tolerances of channels, of the highlight and of Delta E"
   check_says(red + reference + " --delta-e 10", 0, {"GO: ", "tolerance Delta E of 10"});
   check_says(red + reference + " --delta-e 0.5", 1, {"NO-GO"});
   check_says(red + reference + " --peak-tolerance 0.5", 1, {"NO-GO", "tolerance 50 % near the mirror direction"});
-  check_says(red + reference + " --delta-e 2 --tolerance 0.1", 2, {"Delta E stands alone"});
-  check_says(red + reference + " --tolerance 0.1 0.2", 2, {"one, or one for each of 3 channels, not 2"});
+  check_says(red + reference + " --delta-e 2 --tolerance 0.1", 2, {"a Delta E tolerance cannot be combined"});
+  check_says(red + reference + " --tolerance 0.1 0.2", 2, {"one tolerance, or one for each of 3 channels, not 2"});
 }
 
 TEST_CASE("gonio check: angles are signed in the plane of incidence") {

@@ -55,7 +55,7 @@ TEST_CASE("nested JSON and empty images end a replay with one line") {
   scratch::put(folder / "large.png", crafted::black_png(16384, 1, 0, 2049));
   const auto result = gonio_tool("lab replay " + manifest + " -o " + scan);
   CHECK(result.exit_code != 0);
-  CHECK(result.output.find("large.png: an image of 16384 x 16384 pixels is not believable") != std::string::npos);
+  CHECK(result.output.find("large.png: an image of 16384 x 16384 pixels cannot fit in") != std::string::npos);
 }
 
 TEST_CASE("the tool shows what a file says without obeying it") {
@@ -85,7 +85,7 @@ TEST_CASE("samples that cannot be completed are blamed, not the table that would
   const std::string path = (folder / "bright.csv").string(), output = (folder / "out.binary").string();
   scratch::put(path, std::string("theta_h,theta_d,phi_d,r,g,b\n10,20,30,1e39,1,1\n"));
   refuses("reconstruct " + path + " -o " + output + " --method pull-push",
-          "bright.csv, line 2: column r: 1e+39 sr^-1 is beyond the range of float");
+          "bright.csv, line 2: column r: 1e+39 sr^-1 is outside the range of float");
   scratch::put(path,
                std::string("theta_h,theta_d,phi_d,r,g,b\n10,20,30,1e38,1,1\n11,20,30,1e38,1,1\n20,30,40,1,1,1\n"));
   refuses("reconstruct " + path + " -o " + output + " --method pca",
@@ -98,5 +98,5 @@ TEST_CASE("a step of lights with a negative tolerance is refused") {
   const std::string path = (folder / "arc.txt").string();
   scratch::put(path, std::string("light_step 7.5 -1\n"));
   refuses("design --constraint " + path + " -n 2 -o " + (folder / "out.csv").string(),
-          "arc.txt, line 1: angles are met to a tolerance from 0 to 90 degrees");
+          "arc.txt, line 1: the tolerance of an angle must be from 0 to 90 degrees");
 }

@@ -121,7 +121,7 @@ TEST_CASE("gonio learn --spectra: a column for each wavelength, which the prior 
       at("four.prior"));
   CHECK(gonio::io::read_prior(at("four.prior")).coefficients().rows() == 16);
   const std::string add = "learn --rgl " + at("more") + " --add-to " + at("one.prior") + " -o " + at("x.prior");
-  refuses(add, {"at 4 wavelengths", "in colours"});
+  refuses(add, {"at 4 wavelengths", "in RGB"});
   refuses(add + " --spectra --wavelengths 400:50:700", {"at 4 wavelengths", "at 7 wavelengths"});
 }
 

@@ -67,13 +67,13 @@ TEST_CASE("the likely mistakes get the right sentences") {
        "--columns"});
   // No header line, or one behind #.
   file.refuses("# theta_i,phi_i,theta_o,phi_o,r,g,b\n10,0,20,0,1,1,1\n",
-               {"line 2: there is no header line above the numbers", "behind # is a comment"});
+               {"line 2: there is no header line above the numbers", "after # is a comment"});
   // Numbers of which nobody says what they are.
-  file.refuses(angles + "value\n10,0,20,0,0.3\n",
-               {"line 2", "does not say what the numbers of value are", "--quantity"});
+  file.refuses(angles + "value\n10,0,20,0,0.3\n", {"line 2", "does not state the quantity of value", "--quantity"});
   // Who says it twice, and differently.
   file.refuses("# quantity: percent\n" + angles + "value\n10,0,20,0,30\n",
-               {"line 1: the values are brdf by what is asked for (--quantity), but percent by the comment in line 1"},
+               {"line 1: the values are brdf according to the requested quantity (--quantity), but percent according "
+                "to the comment in line 1"},
                " --quantity brdf");
   // Decimal commas between commas.
   file.refuses(
@@ -93,7 +93,7 @@ TEST_CASE("the likely mistakes get the right sentences") {
   // A plane without sides.
   file.refuses("theta_i,theta_o,r,g,b\n45,20,1,1,1\n", {"line 2: on which sides of the normal", "phi_i and phi_o"});
   // A column that is not there, and a list that is none.
-  file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"there is no column 'Winkel' to be theta_o"},
+  file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"there is no column 'Winkel' for theta_o"},
                " --columns theta_o=Winkel");
   file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"--columns theta_o: 'theta_o' is no pair of names"},
                " --columns theta_o");
@@ -193,7 +193,7 @@ TEST_CASE("a highlight on the light's side is told of, and turned by an option i
   scratch::put(foreign, "{\"metadata\":{},\"data\":{" + variable("theta_i", "deg", "30,30") + "," +
                             variable("phi_i", "deg", "0,0") + "," + variable("theta_r", "deg", "30,30") + "," +
                             variable("phi_r", "deg", "0,180") + "," + variable("BRDF", "sr^-1", "8,1") + "}}");
-  CHECK(run("info " + foreign).find("it is 8.0 times as bright") != std::string::npos);
+  CHECK(run("info " + foreign).find("the sample is 8.0 times as bright") != std::string::npos);
   const std::string converted = (file.folder / "samples.csv").string();
   run("convert " + foreign + " --theta-o-sign mirror " + converted);
   CHECK(gonio::io::read_samples(converted)[0].angles().theta_h < 1e-6);

@@ -117,7 +117,8 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
 
   const auto refused = gonio_tool("near-field " + images + "--misplaced -1 -o " + shots.at("no.csv"));
   CHECK(refused.exit_code == 2);
-  CHECK(refused.output.find("may be off by 0 to 45 degrees, not by -1") != std::string::npos);
+  CHECK(refused.output.find("the deviation of light and camera must be from 0 to 45 degrees, not -1") !=
+        std::string::npos);
   CHECK_FALSE(shots.has("no.csv"));
 }
 
@@ -143,7 +144,7 @@ TEST_CASE("samples that may be off their directions count less where that matter
   for (const auto& [arguments, words] :
        {std::pair{" --misplaced 1 --eta gcv", "--noise or a number as its --eta"},
         std::pair{" --misplaced 1 --solver lasso", "--solver tikhonov"},
-        std::pair{" --misplaced -2", "0 to 45 degrees, not by -2"},
+        std::pair{" --misplaced -2", "0 to 45 degrees, not -2"},
         std::pair{" --misplaced 1 --method linear", "--misplaced needs --method pca"}}) {
     CAPTURE(arguments);
     const auto refused = run(arguments);
@@ -280,5 +281,5 @@ TEST_CASE("bad images and set-ups get exit code 2, one line, and no file") {
                "size 48 40\nfocal_length 95 100\nposition 0.7 0 0.6\ntarget 0 0 0\nlight 0 0 1\nregion 0.2\n");
   refused(shots.shot("first") + shots.at("second.hdr") + " " + shots.at("moved.txt") + " --clusters 2",
           {"moved.txt", "stands still"});
-  refused(with_setup(camera + "light 0 0 1\nregion 0.01 5 5\n"), {"first.hdr", "sees nothing of the sample"});
+  refused(with_setup(camera + "light 0 0 1\nregion 0.01 5 5\n"), {"first.hdr", "does not show the sample"});
 }

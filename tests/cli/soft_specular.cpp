@@ -74,7 +74,7 @@ TEST_CASE("two priors are learned, and the samples choose one") {
   refuses(either + " --prior " + split + " --eta -1", {"eta"});
   refuses(either + " --prior " + split + " --noise 0.02", {"--noise", "--method pca"});
   scratch::put(samples, "theta_h,theta_d,phi_d,r,g,b\n1,2,3,0.1,0.1,0.1\n");
-  refuses(either + " --prior " + split, {"do not tell soft from specular", "theta_h up to 5.0"});
+  refuses(either + " --prior " + split, {"cannot distinguish soft from specular", "theta_h up to 5.0"});
   CHECK_FALSE(std::filesystem::exists(folder / "none.binary"));
   std::filesystem::remove(folder / "tables/gold-metal.binary");
   std::filesystem::remove(folder / "tables/chrome-steel.binary");

@@ -72,7 +72,7 @@ TEST_CASE("svbrdf: an unfinished map is gone on with, unless it is of other imag
   auto changed = given.images[1];
   changed(20, 3, 1) = 9.0f;
   given.replace(1, changed);
-  refuses(given.command("next.gsv"), {"next.gsv.part", "other images"});
+  refuses(given.command("next.gsv"), {"next.gsv.part", "other image sizes"});
   given.replace(1, given.images[1]);
   // Another penalty.
   refuses(given.command("next.gsv", "images.json", "3"), {"next.gsv.part", "another job"});
@@ -176,7 +176,7 @@ TEST_CASE("svbrdf: on a full disk it says so, and the command given again goes o
   };
   check_refusal(limited(size / 2, given.command("full.gsv")), {"full.gsv.part: cannot be written: File too large"});
   check_refusal(limited(size - 4096, given.command("full.gsv")),
-                {"full.gsv.part", "File too large", "the first 1 of 2 bands stay"});
+                {"full.gsv.part", "File too large", "the first 1 of 2 bands are kept"});
   CHECK(!scratch::fs::exists(given.folder / "full.gsv"));
   CHECK(run(given.command("full.gsv")).find("went on behind band 1 of 2") != std::string::npos);
   CHECK(scratch::get(given.folder / "full.gsv") == scratch::get(given.folder / "map.gsv"));

@@ -366,18 +366,18 @@ TEST_CASE("impossible options and samples are refused") {
   refused({.part = {0.5}}, {"noise", "0 to 0.3"});
   refused({.part = {std::nan("")}}, {"noise"});
   refused({.part = {.relative = 0.1, .dark = -1.0}}, {"noise"});
-  refused({.reference = {0.1}}, {"noise of its measurement", "above 0"});
+  refused({.reference = {0.1}}, {"noise of the part's measurement", "above 0"});
   refused({.part = {.relative = 0.1, .degrees_of_freedom = 0.0}}, {"degrees of freedom above 0"});
   refused({.part = {0.1}, .tolerance = {-1.0}}, {"tolerance", "not negative"});
-  refused({.part = {0.1}, .tolerance = {0.1, 0.2}}, {"tolerances are one, or one for each of 3 channels, not 2"});
+  refused({.part = {0.1}, .tolerance = {0.1, 0.2}}, {"expected one tolerance, or one for each of 3 channels, not 2"});
   refused({.part = {0.1}, .peak_tolerance = -0.1}, {"tolerance", "not negative"});
-  refused({.part = {0.1}, .tolerance = {0.1}, .delta_e = 1.0}, {"Delta E stands alone"});
+  refused({.part = {0.1}, .tolerance = {0.1}, .delta_e = 1.0}, {"a Delta E tolerance cannot be combined"});
   refused({.part = {0.1}, .same_direction = 1.0}, {"radians"});
   gonio::located_samples grey = samples;
   grey.values.colwise() = samples.values.col(0).eval();
   scratch::check_refused(
       [&] { return gonio::check_conformity(conformity_estimator(), grey, grey, {.part = {0.1}, .delta_e = 1.0}); },
-      {"Delta E needs red, green and blue"});
+      {"a Delta E tolerance needs part and reference in RGB"});
   const auto many = noisy(checked_material(), std::vector<Eigen::Index>(2501, 77), 0.0, 0);
   scratch::check_refused([&] { return gonio::check_conformity(conformity_estimator(), many, samples, noise_of(0.1)); },
                          {"at most 2500", "2501"});
@@ -432,7 +432,7 @@ TEST_CASE("channels are data: one reading is one channel, and each of many wavel
         other.values = reference.values.leftCols(4).eval();
         return gonio::check_conformity(conformity_estimator(), part, other, noise_of(0.02));
       },
-      {"5 channels", "not of 4"});
+      {"5 channels", "the reference, 4"});
 }
 
 TEST_CASE("parts of one channel are refused as seldom as was promised") {

@@ -18,8 +18,8 @@ TEST_CASE("quantiles are those of the tables") {
 }
 
 TEST_CASE("shares that are none are refused") {
-  CHECK_THROWS_WITH_AS(gonio::chi_square_quantile(1.0, 3.0),
-                       "a share of a distribution must be above 0 and below 1, not 1.000000", gonio::error);
+  CHECK_THROWS_WITH_AS(gonio::chi_square_quantile(1.0, 3.0), "a probability must be above 0 and below 1, not 1.000000",
+                       gonio::error);
   CHECK_THROWS_AS(gonio::f_quantile(0.0, 3.0, 3.0), gonio::error);
 }
 

@@ -18,10 +18,10 @@ using crafted::reads;
 using crafted::refuses;
 
 TEST_CASE("a prior's counts are not believed before its bytes are there") {
-  refuses("prior", crafted::prior_of({.materials = 100'000'000 - 100}, 100'000'000), "not believable");
+  refuses("prior", crafted::prior_of({.materials = 100'000'000 - 100}, 100'000'000), "cannot fit in");
   refuses("prior",
           crafted::prior_of({.theta_h = 4096, .theta_d = 1024, .components = 1000, .materials = 340}, 24 << 20),
-          "not believable");
+          "cannot fit in");
   refuses("prior", crafted::prior_of({.materials = 2'000'000 - 100}, 2'000'000), "cannot hold");
   refuses("prior", crafted::prior_of({.theta_h = 1024, .theta_d = 1024, .components = 1000, .materials = 340}, 7 << 20),
           "cannot hold");
@@ -43,8 +43,8 @@ TEST_CASE("a gzip file of zeros does not become a table of gigabytes") {
   byte_vector bomb = crafted::gzipped(crafted::merl_header({4096, 4096, 4096}), 0);
   const byte_vector member = crafted::gzipped({}, std::uint64_t{64} << 20);
   for (int i = 0; i < 64; ++i) crafted::append(bomb, member);  // 4 GiB
-  refuses("merl", bomb, "not believable");
-  refuses("merl", crafted::gzipped(crafted::merl_header({1024, 64, 180}), 24ull * 1024 * 64 * 180), "not believable");
+  refuses("merl", bomb, "cannot fit in");
+  refuses("merl", crafted::gzipped(crafted::merl_header({1024, 64, 180}), 24ull * 1024 * 64 * 180), "cannot fit in");
   refuses("gzip", member, "more than the expected");
   reads("merl", crafted::gzipped(crafted::merl_header({90, 90, 180}), 24ull * 90 * 90 * 180));
 }
@@ -75,13 +75,13 @@ TEST_CASE("as many members of an object, or frames, as are read are read at once
 }
 
 TEST_CASE("a small file is no large image") {
-  refuses("png", crafted::black_png(16384, 1, 0, 2049), "not believable");
-  refuses("png", crafted::black_png(8192, 8, 2, 3 * 8192 + 1), "not believable");
+  refuses("png", crafted::black_png(16384, 1, 0, 2049), "cannot fit in");
+  refuses("png", crafted::black_png(8192, 8, 2, 3 * 8192 + 1), "cannot fit in");
   refuses("png", crafted::black_png(16385, 1, 0, 2049), "expected from 1 to 16384");
   reads("png", crafted::black_png(2000, 16, 6, 8 * 2000 + 1));
   reads("png", crafted::black_png(2000, 1, 0, 251));
-  refuses("hdr", crafted::flat_hdr(16384), "not believable");
-  refuses("hdr", crafted::flat_hdr(8192), "not believable");
+  refuses("hdr", crafted::flat_hdr(16384), "cannot fit in");
+  refuses("hdr", crafted::flat_hdr(8192), "cannot fit in");
   reads("hdr", crafted::flat_hdr(1024));
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("a message does not steer the terminal") {
   refuses("npy", npy("{'\x1b[2J': 1}"), "\\x1b[2J");
   refuses("networks", "a\x1b[2J\na\x1b[2J\n", "\\x1b[2J");
   refuses("recorded_frames", "{\"largest_count\":9,\"frames\":[\"\\u007f\\u009b\"]}", "\\x7f\\xc2\\x9b");
-  refuses("samples", "theta_h,\x1b[2J\n", "not known in it: '?[2J'");
+  refuses("samples", "theta_h,\x1b[2J\n", "unknown columns: '?[2J'");
 }
 
 TEST_CASE("a direction that grazes the surface is refused in every way of reading it") {

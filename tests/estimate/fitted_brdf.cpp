@@ -149,7 +149,7 @@ TEST_CASE("one value is fitted by materials whose channels differ as a grey, and
   gonio::sample_set colours;
   for (const gonio::sample& each : one) colours.push_back(each);
   CHECK(estimator.fit(one).weights() == estimator.fit(colours).weights());
-  CHECK_THROWS_WITH_AS(estimator.fit(measured_spectra()), doctest::Contains("7 wavelengths are no colours"),
+  CHECK_THROWS_WITH_AS(estimator.fit(measured_spectra()), doctest::Contains("7 wavelengths have no colours"),
                        gonio::error);
 }
 

@@ -108,7 +108,8 @@ TEST_CASE("switch: samples that do not tell soft from specular are refused, and 
   const soft_or_specular estimator{always{1.0}, always{2.0}, switch_reference(), 0.0};
   auto samples = samples_of_contrast(1.0);
   const gonio::sample_set in_peak{samples[0]}, off_peak{samples[1]};
-  CHECK_THROWS_WITH_AS((void)estimator.fit(in_peak), doctest::Contains("do not tell soft from specular"), gonio::error);
+  CHECK_THROWS_WITH_AS((void)estimator.fit(in_peak), doctest::Contains("cannot distinguish soft from specular"),
+                       gonio::error);
   CHECK_THROWS_WITH_AS((void)estimator.choose(off_peak), doctest::Contains("up to 5.0"), gonio::error);
   samples[1].weight = 0.0;
   CHECK_THROWS_AS((void)estimator.fit(samples), gonio::error);

@@ -165,8 +165,9 @@ TEST_CASE("an impossible rule is refused") {
     scratch::check_refused([&] { return gonio::judge_samples(process, rule); }, {expected});
   };
   refused({.expected_number = -1.0}, "number of wrong samples must be positive and finite, not -1.000000");
-  refused({.channel_error = 0.0}, "need positive and finite deviations, not 1.700000 and 0.000000");
-  refused({.largest_share = 1.0}, "the share of samples that are rejected must be below 1, not 1.000000");
+  refused({.channel_error = 0.0},
+          "the deviations of wrong samples must be positive and finite, not 1.700000 and 0.000000");
+  refused({.largest_share = 1.0}, "the share of rejected samples must be at least 0 and less than 1, not 1.000000");
 }
 
 TEST_CASE("another sample is judged as if it had been among those that were judged") {

@@ -180,8 +180,8 @@ TEST_CASE("a prior of one family, and impossible options, are refused") {
   auto materials = synthetic_materials(small_cells(), 4);
   for (std::string& name : materials.names) name = "maker_" + name;
   const auto one = learn(std::move(materials), 3);
-  CHECK_THROWS_WITH_AS(gonio::perceived_candidates(cells_of(one)), doctest::Contains("a prior of one family"),
-                       gonio::error);
+  CHECK_THROWS_WITH_AS(gonio::perceived_candidates(cells_of(one)),
+                       doctest::Contains("a prior of at least two families"), gonio::error);
   const auto prior = prior_of_families();
   for (const gonio::perceived_options& wrong :
        {options_of(-0.1), options_of(1.1), options_of(0.5, 0), gonio::perceived_options{.sphere_size = 1}})

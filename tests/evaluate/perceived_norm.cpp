@@ -71,5 +71,5 @@ TEST_CASE("the same bytes for any number of threads, and only over the same cell
   const gonio::render::sphere_operator other(gonio::valid_cells(gonio::grid({8, 7, 9})), gonio::render::two_lights(),
                                              4);
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::perceived_norm(few_materials(), other)),
-                       doctest::Contains("other cells"), gonio::error);
+                       doctest::Contains("over the same cells"), gonio::error);
 }

@@ -36,5 +36,6 @@ TEST_CASE("what is beyond white is not seen, and sizes must match") {
   const Eigen::MatrixXd bright = Eigen::MatrixXd::Constant(small_cells().size(), 3, 1e6);
   CHECK(perceived(bright, bright).slopes.topRows(3).cwiseAbs().maxCoeff() == 0.0);
   const Eigen::MatrixXd few = Eigen::MatrixXd::Constant(3, 3, 1.0);
-  CHECK_THROWS_WITH_AS(static_cast<void>(perceived(few, few)), doctest::Contains("needs as many rows"), gonio::error);
+  CHECK_THROWS_WITH_AS(static_cast<void>(perceived(few, few)),
+                       doctest::Contains("needs a row of three channels for each"), gonio::error);
 }

@@ -109,8 +109,8 @@ TEST_CASE("ALTA: what is no such file is refused") {
   check_alta_refused("#PARAM_OUT ENERGY\n", {"line 1", "'ENERGY'", "INV_STERADIAN or"});
   check_alta_refused("#FORMAT binary\n", {"line 1", "'binary'", "expected text"});
   check_alta_refused(header("4 1", "RUSIN_TH_TD_PD", "INV_STERADIAN") + "0 0 0 0 1\n",
-                     {"#DIM says 4 and 1 numbers, expected 3 of #PARAM_IN RUSIN_TH_TD_PD and 1"});
-  check_alta_refused(header("3 1", "RUSIN_TH_TD_PD", "RGB_COLOR") + "0 0 0 1\n", {"and 3 of #PARAM_OUT RGB_COLOR"});
+                     {"#DIM states 4 and 1 numbers, expected 3 for #PARAM_IN RUSIN_TH_TD_PD and 1"});
+  check_alta_refused(header("3 1", "RUSIN_TH_TD_PD", "RGB_COLOR") + "0 0 0 1\n", {"and 3 for #PARAM_OUT RGB_COLOR"});
   check_alta_refused(plain + "0.1 0.2 0.3\n", {"line 6", "3 numbers, expected 4"});
   check_alta_refused(plain + "0.1 0.2 0.3 1 2 3 4\n", {"line 6", "7 numbers, expected 4"});
   check_alta_refused(plain + "0.1 0.2 x 1\n", {"line 6", "number 3", "'x'"});

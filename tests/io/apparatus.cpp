@@ -34,25 +34,25 @@ TEST_CASE("what is no rule is refused with its file and line") {
   const auto refused = [](const char* text, const char* why) {
     CHECK_THROWS_WITH_AS(static_cast<void>(read_apparatus(text, "arc.txt")), doctest::Contains(why), gonio::error);
   };
-  refused("light 0 75\nlamp 3\n", "arc.txt, line 2: 'lamp' is no rule");
+  refused("light 0 75\nlamp 3\n", "arc.txt, line 2: 'lamp' is not a rule");
   refused("light 0\n", "'light' takes 2 or 3 numbers, not 1");
   refused("light 80 20\n", "the smaller one first");
   refused("viewer 0 120\n", "from 0 to 90");
   refused("separation wide\n", "'wide' is not a number");
   refused("separation nan\n", "not finite");
   refused("light_step 0\n", "must be positive");
-  refused("light_step 7.5 -1\n", "tolerance from 0 to 90 degrees");
-  refused("light_step 7.5 91\n", "tolerance from 0 to 90 degrees");
+  refused("light_step 7.5 -1\n", "tolerance of an angle must be from 0 to 90 degrees");
+  refused("light_step 7.5 91\n", "tolerance of an angle must be from 0 to 90 degrees");
   refused("light_step 1 2 3\n", "1 or 2 numbers, not 3");
   refused("forbid 0 90\n", "takes 4 numbers");
-  refused("light 0 90 -1\n", "tolerance from 0 to 90 degrees");
-  refused("in_plane 91\n", "tolerance from 0 to 90 degrees");
+  refused("light 0 90 -1\n", "tolerance of an angle must be from 0 to 90 degrees");
+  refused("in_plane 91\n", "tolerance of an angle must be from 0 to 90 degrees");
   refused("in_plane 1 2\n", "0 or 1 numbers, not 2");
   refused("pair 45 0 20\n", "takes 4 numbers");
-  refused("pair 45 0 90 0\n", "from 0 to less than 90");
-  refused("noise 1\n", "'noise' is from 0 to less than 1");
-  refused("dark_signal -1\n", "'dark_signal' is from 0 to less than 1");
-  refused("misplaced 45\n", "'misplaced' is from 0 to less than 45");
+  refused("pair 45 0 90 0\n", "at least 0 and less than 90");
+  refused("noise 1\n", "'noise' must be at least 0 and less than 1");
+  refused("dark_signal -1\n", "'dark_signal' must be at least 0 and less than 1");
+  refused("misplaced 45\n", "'misplaced' must be at least 0 and less than 45");
 }
 
 TEST_CASE("a single angle has a tolerance, a range has one if it is said") {

@@ -79,7 +79,7 @@ TEST_CASE("ASTM: what is no such file is refused") {
   check_astm_refused("KEY VALUE\n", {"ends before its line VARS"});
   check_astm_refused("NUM_POINTS many\n", {"line 1", "NUM_POINTS", "'many'"});
   check_astm_refused("VARS theta_i,phi_i,theta_s\n", {"line 1", "phi_s"});
-  check_astm_refused("VARS theta_i,phi_i,theta_s,phi_s\n", {"line 1", "no column of values"});
+  check_astm_refused("VARS theta_i,phi_i,theta_s,phi_s\n", {"line 1", "expected a column of values"});
   check_astm_refused(astm_start + "\n", {"line 4", "''"});
   check_astm_refused("VARS theta_i,phi_i,theta_s,phi_s,BRDF\n", {"no sample"});
   check_astm_refused(astm_start + "one,two\n", {"line 4", "'one'", "R,G,B"});

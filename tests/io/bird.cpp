@@ -93,7 +93,7 @@ TEST_CASE("BiRD: states of illumination must average to unpolarised light") {
   check_bird_refused(three_of(states("\"s\",\"p\",\"x\"")), {"'x'", "Stokes"});
   check_bird_refused(three_of(states("[1,0,0],[1,0,0,0],\"u\"")), {"4 numbers"});
   check_bird_refused(three_of(states("[1,0,0,0,0],[1,0,0,0],\"u\"")), {"4 numbers"});
-  check_bird_refused(three_of(states("[1,0,2,0],[1,0,0,0],\"u\"")), {"up to 1"});
+  check_bird_refused(three_of(states("[1,0,2,0],[1,0,0,0],\"u\"")), {"from -1 to 1"});
   check_bird_refused(three_of(states("[0.5,0,0,0],[1,0,0,0],\"u\"")), {"the first 1"});
   check_bird_refused(three_of(states("\"s\",\"p\"")), {"polarization_i has 2 values", "expected 3"});
   const std::string analysed = "\"polarization_r\":{\"notation\":\"sp\",\"values\":[\"u\",\"u\",\"p\"]}";

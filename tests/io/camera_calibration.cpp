@@ -57,9 +57,9 @@ TEST_CASE("OpenCV's calibrations are read, YAML and XML") {
 
 TEST_CASE("calibrations of fisheye lenses are refused, whose coefficients mean something else") {
   refuses_calibration("%YAML:1.0\n---\nfisheye_model: 1\n" + calibration_yaml.substr(14),
-                      "'fisheye_model' is a lens model");
+                      "'fisheye_model' is an unsupported lens model");
   refuses_calibration(calibration_yaml + "distortion_model: equidistant\n",
-                      "'distortion_model' 'equidistant' is a lens");
+                      "'distortion_model' 'equidistant' is an unsupported lens");
   for (const char* usual : {"fisheye_model: 0\n", "distortion_model: plumb_bob\n", "distortion_model: \"plumb_bob\"\n"})
     CHECK(read_camera_calibration(calibration_yaml + usual, "camera").distortion.k1 == -0.28);
 }
@@ -74,7 +74,7 @@ TEST_CASE("a set-up takes its camera from a calibration, or says it itself") {
 }
 
 TEST_CASE("bad calibrations are refused") {
-  refuses_calibration("nonsense", "is no calibration file of OpenCV");
+  refuses_calibration("nonsense", "is not a calibration file of OpenCV");
   refuses_calibration(changed(calibration_yaml, "image_width: 640\n", ""), "'image_width' is missing");
   refuses_calibration(changed(calibration_yaml, "image_width: 640", "image_width: -640"), "must be a whole number");
   refuses_calibration(changed(calibration_yaml, "5.3e+02, 0.,", "5.3e+02, 0.5,"), "must be fx 0 cx");

@@ -41,7 +41,7 @@ TEST_CASE("what is no such file is refused") {
   check_text_refused("-3\n", {"number of wavelengths"});
   check_text_refused("1e300\n", {"number of wavelengths"});
   check_text_refused("3 4\n", {"number of wavelengths"});
-  check_text_refused("3\n450 550\n", {"ends before its 3 wavelengths", "2"});
+  check_text_refused("3\n450 550\n", {"expected 3 wavelengths, the file ends after", "2"});
   check_text_refused("3\n450 550\n650 750\n", {"line 3", "more than the 3"});
   check_text_refused("3\n450 550 500\n", {"line 2", "wavelength 3"});
   check_text_refused("3\n450 550 nan\n", {"line 2", "field 3"});
@@ -94,6 +94,6 @@ TEST_CASE("Cornell's spectra as they are") {
   CHECK(spectra.channels() == gonio::channels({450, 550, 650}));
   CHECK(spectra.values(0)[1] == 0.2);
   CHECK(spectra.values(1)[1] == -1.0);
-  check_refused([] { return read_cornell("3\n450 550\n", "x"); }, {"ends before its 3"});
+  check_refused([] { return read_cornell("3\n450 550\n", "x"); }, {"expected 3 wavelengths, the file ends after"});
   check_refused([] { return read_cornell("/nowhere/paint.brdf"); }, {"/nowhere/paint.brdf"});
 }

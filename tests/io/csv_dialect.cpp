@@ -43,7 +43,7 @@ TEST_CASE("fields of a line, with quotes and without") {
   CHECK(fields("5\" lens,b", ',') == list{"5\" lens", "b"});  // a quote within is a letter
   CHECK(fields("\"a", ',')[1] == "a double quote is not closed on its line");
   CHECK(fields("a,\"b\"\"", ',')[1] == "a double quote is not closed on its line");
-  CHECK(fields("\"a\"b,c", ',')[1] == "a field goes on behind its closing double quote");
+  CHECK(fields("\"a\"b,c", ',')[1] == "a field continues after its closing double quote");
 }
 
 TEST_CASE("quoted fields come back as they were") {

@@ -62,6 +62,6 @@ TEST_CASE("exposure times: bad tables are refused") {
     refuses(std::string("file,seconds\na.png,") + seconds, "line 2: expected a file and a positive number");
   refuses("file,seconds\n,1\n", "expected a file");
   refuses("file,seconds\nb, c.png,1\n", "line 2: 3 fields, expected 2");
-  refuses("file,seconds\na.png,1\na.png,2\n", "line 3: the file 'a.png' is there twice");
+  refuses("file,seconds\na.png,1\na.png,2\n", "line 3: the file 'a.png' appears twice");
   scratch::check_refuses_non_files([](const auto& path) { return read_exposure_times(path); });
 }

@@ -127,20 +127,20 @@ TEST_CASE("HDR rows: files that say more than they have are refused") {
   std::string second(scratch::get(here / "valid.hdr"));
   refused(second.substr(0, second.size() - 1), {"a.hdr: the HDR file is truncated"});
   const std::string row("\x02\x02\x00\x08", 4);
-  refused(header("-Y 1 +X 8") + row + std::string(28, '\0'), {"a.hdr", "cannot be decoded (a run has no pixel"});
-  refused(header("-Y 1 +X 8") + row + std::string(28, '\x7F'), {"a.hdr", "leaves its row"});
+  refused(header("-Y 1 +X 8") + row + std::string(28, '\0'), {"a.hdr", "cannot be decoded (a run is empty"});
+  refused(header("-Y 1 +X 8") + row + std::string(28, '\x7F'), {"a.hdr", "longer than its row"});
   std::string runs = row;
   for (int channel = 0; channel < 4; ++channel) runs += std::string("\x88\x7F");
   refused(header("-Y 2 +X 8") + runs + std::string("\x02\x02\x00\x09", 4) + std::string(28, '\x7F'),
-          {"a.hdr", "begin as a row of runs"});
-  refused(header("-Y 2 +X 8") + runs + std::string(28, '\x7F'), {"a.hdr", "begin as a row of runs"});
+          {"a.hdr", "begin with a run-length header"});
+  refused(header("-Y 2 +X 8") + runs + std::string(28, '\x7F'), {"a.hdr", "begin with a run-length header"});
   const auto headed = [](const std::string& lines) {
     return "#?RADIANCE\n" + lines + "\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + colour;
   };
   refused(headed("EXPOSURE=bright"), {"a.hdr: the line 'EXPOSURE'", "must hold 1 number"});
   refused(headed("COLORCORR=1 2"), {"a.hdr: the line 'COLORCORR'", "must hold 3 numbers"});
   refused(headed("EXPOSURE=0"), {"a.hdr", "must be positive"});
-  refused(headed("PRIMARIES=.3 .3 .3 .3 .3 .3 .3 .3"), {"a.hdr", "PRIMARIES", "no three colours"});
+  refused(headed("PRIMARIES=.3 .3 .3 .3 .3 .3 .3 .3"), {"a.hdr", "PRIMARIES", "not three colours"});
   refused("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-X 1 +Y 1\n" + colour, {"a.hdr", "-Y or +Y"});
   scratch::check_refuses_non_files([](const auto& path) { return gonio::io::hdr_rows(path); });
 }

@@ -106,10 +106,10 @@ TEST_CASE("Klems: such a file is told by its root element") {
 TEST_CASE("Klems: what is no such file is refused") {
   const std::string good = klems("Columns", front);
   check_klems_refused("<WindowElement>\n", {"line 1", "no element <DataDefinition>"});
-  check_klems_refused("<WindowElement>\n<DataDefinition>", {"line 2", "<DataDefinition> does not end"});
+  check_klems_refused("<WindowElement>\n<DataDefinition>", {"line 2", "<DataDefinition> is not closed"});
   check_klems_refused("<WindowElement>\n<DataDefinition", {"no element <DataDefinition>"});
   check_klems_refused("<WindowElement>\n<DataDefinition a", {"line 2", "<DataDefinition> is not closed"});
-  check_klems_refused(klems("TensorTree3", front), {"line 3", "'TensorTree3' is not read", "Columns or Rows"});
+  check_klems_refused(klems("TensorTree3", front), {"line 3", "'TensorTree3' is not supported", "Columns or Rows"});
   check_klems_refused(with(good, "<ColumnAngleBasis>small", "<ColumnAngleBasis>large"),
                       {"line 9", "no <AngleBasis>", "'large'"});
   check_klems_refused(with(good, "<nPhis>4", "<nPhis>4.5"), {"line 6", "nPhis", "4.5", "whole numbers"});
@@ -121,7 +121,7 @@ TEST_CASE("Klems: what is no such file is refused") {
   check_klems_refused(with(good, "2.2,", "nan,"), {"'nan' is not finite"});
   check_klems_refused(with(good, "2.2,", "1e39,"), {"range of float"});
   check_klems_refused(with(good, "2.2,", ""), {"has 24 numbers, expected 25"});
-  check_klems_refused(with(good, "2.2,", "2.2,2.2,"), {"goes on behind 25 numbers"});
+  check_klems_refused(with(good, "2.2,", "2.2,2.2,"), {"has more than 25 numbers"});
   scratch::check_refuses_non_files([](const auto& path) { return read_klems_xml(path); });
 }
 

@@ -103,14 +103,14 @@ TEST_CASE("LightTools: what is no such file is refused") {
   check_lighttools_refused("Symmetry", {"ends before Symmetry"});
   check_lighttools_refused(with(good, "Symmetry ", "Symmetries "), {"line 2", "'Symmetries'", "above DataBegin"});
   check_lighttools_refused(with(good, "Monochrome", "RGB"), {"line 3", "'RGB'", "Monochrome or XYZ"});
-  check_lighttools_refused(with(good, "ScatterAzimuth 4", "ScatterAzimuth 4e9"), {"line 4", "is no count"});
+  check_lighttools_refused(with(good, "ScatterAzimuth 4", "ScatterAzimuth 4e9"), {"line 4", "is not a count"});
   check_lighttools_refused(with(good, "90 180", "90 720"), {"line 5", "ScatterAzimuth", "'720'"});
   check_lighttools_refused(with(good, "0 30 90", "0 30 190"), {"line 7", "ScatterRadial", "'190'"});
   check_lighttools_refused("DataBegin\n", {"line 1", "ScatterAzimuth is missing"});
   check_lighttools_refused("ScatterAzimuth 1\n0\nDataBegin\n", {"line 3", "ScatterRadial is missing"});
   check_lighttools_refused(with(good, "AOI 20", "AOI 91"), {"line 9", "AOI: '91'", "from 0 to 90"});
-  check_lighttools_refused(with(good, "POI 0", "POI 30"), {"line 10", "POI: 30", "only a plane of incidence of 0"});
-  check_lighttools_refused(with(good, "POI", "PIO"), {"line 10", "'PIO' is no keyword of a block"});
+  check_lighttools_refused(with(good, "POI 0", "POI 30"), {"line 10", "POI: 30", "expected a plane of incidence of 0"});
+  check_lighttools_refused(with(good, "POI", "PIO"), {"line 10", "'PIO' is not a keyword of a block"});
   check_lighttools_refused(with(good, "Front", "Up"), {"line 11", "'Up'", "Front or Back"});
   check_lighttools_refused(with(good, "BRDF", "BSDF"), {"line 13", "'BSDF'", "BRDF or BTDF"});
   check_lighttools_refused(with(good, "TIS 0.5", "TIS much"), {"line 14", "TIS", "'much'"});
@@ -118,7 +118,7 @@ TEST_CASE("LightTools: what is no such file is refused") {
   check_lighttools_refused(with(good, "8 9", "nan 9"), {"line 17", "not finite"});
   check_lighttools_refused(with(good, "8 9", "1e39 9"), {"line 17", "range of float"});
   check_lighttools_refused(with(good, "8 9", "8"), {"'DataEnd'"});
-  check_lighttools_refused(with(good, "8 9", "8 9 10"), {"'3' is no keyword"});
+  check_lighttools_refused(with(good, "8 9", "8 9 10"), {"'3' is not a keyword"});
   check_lighttools_refused(good.substr(0, good.find("1 8")), {"ends before a value"});
   check_lighttools_refused(good + "1\n", {"line 20", "'1' follows DataEnd"});
   check_lighttools_refused(header + block("AOI 20") + block("AOI 20"), {"line 16", "second block", "AOI 20"});

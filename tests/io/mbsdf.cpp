@@ -94,14 +94,14 @@ TEST_CASE("MBSDF: what is no such file is refused") {
   check_mbsdf_refused("file format error " + good, {"NVIDIA ARC MBSDF V1"});
   check_mbsdf_refused(magic, {"no line MBSDF_DATA_REFLECTION="});
   check_mbsdf_refused(magic + "name=\"x\"\n", {"no line MBSDF_DATA_REFLECTION="});
-  check_mbsdf_refused(magic + block("MBSDF_DATA_TRANSMISSION=", 0, 2, 3), {"transmission alone"});
+  check_mbsdf_refused(magic + block("MBSDF_DATA_TRANSMISSION=", 0, 2, 3), {"only transmission"});
   check_mbsdf_refused(magic + block("MBSDF_DATA=", 2, 1, 1), {"type 2"});
   check_mbsdf_refused(magic + block("MBSDF_DATA=", 0, 0, 3), {"no cells"});
   check_mbsdf_refused(good.substr(0, good.size() - 1), {"truncated"});
   check_mbsdf_refused(good.substr(0, magic.size() + 20), {"truncated"});
   check_mbsdf_refused(good + "x", {"expected"});
   check_mbsdf_refused(good + "x\n", {"expected MBSDF_DATA_TRANSMISSION="});
-  check_mbsdf_refused(good + block("MBSDF_DATA_TRANSMISSION=", 0, 1, 1) + "x", {"1 bytes behind"});
+  check_mbsdf_refused(good + block("MBSDF_DATA_TRANSMISSION=", 0, 1, 1) + "x", {"1 bytes after"});
   std::string counted = good;
   counted.replace(magic.size() + 16, 8, 8, '\xFF');
   check_mbsdf_refused(counted, {"4294967295 x 4294967295", "truncated"});

@@ -99,8 +99,8 @@ TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
   refused(with("focal_length 10", "focal_length -10"), {"focal lengths must be positive"});
   refused(with("position 0 1 1", "position 0 1 nan"), {"line 3", "not finite"});
   refused(with("position 0 1 1", "position 0 1 -1"), {"the camera is not above"});
-  refused(with("position 0 1 1", "position 0 0 0"), {"look at another place"});
-  refused(with("position 0 1 1", "position 0 0 1"), {"not along its own upward direction"});
+  refused(with("position 0 1 1", "position 0 0 0"), {"target must differ from its position"});
+  refused(with("position 0 1 1", "position 0 0 1"), {"its upward direction from its viewing direction"});
   refused(with("target 0 0 0", "rotation 1 0 0 0 1 0 0 0 2"), {"orthogonal"});
   refused(smallest + "rotation 1 0 0 0 1 0 0 0 1\n", {"line 7", "'rotation'", "'target'", "only one"});
   refused(with("target 0 0 0", "rotation 1 0 0 0 1 0 0 0 1\nup 0 0 1"), {"'rotation'", "'up'", "only one"});
@@ -115,12 +115,12 @@ TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
   refused(with("region 1", "window 0 0 9 6"), {"window", "8 x 6"});
   refused(with("region 1", "window -1 0 8 6"), {"line 6", "-1 is not a whole number from 0"});
   refused(with("light 0 0 2", "lamp 1 0 0"), {"the light is at or below"});
-  refused(smallest + "lamp 1 0 1\n", {"line 5", "'lamp' says already where the light is"});
+  refused(smallest + "lamp 1 0 1\n", {"line 5", "'lamp' already states the light's location"});
   refused(smallest + "lamp_radius 1\n", {"line 7", "'lamp_radius'", "light_half_angle"});
   refused(smallest + "light_half_angle 50\n", {"line 7", "'light_half_angle'", "0 to 45"});
   refused(with("light 0 0 2", "lamp 1 0 1\nlight_half_angle 1"), {"'light_half_angle'", "lamp_radius"});
   refused(with("light 0 0 2", "lamp 1 0 1\nlamp_radius -1"), {"'lamp_radius'", "must not be negative"});
-  refused(smallest + "intensity 2\n", {"line 7", "of a distant light give irradiance"});
+  refused(smallest + "intensity 2\n", {"line 7", "for a distant light give irradiance"});
   refused(smallest + "distortion -2000 0 0 0\n", {"folds within the image"});
   refused(smallest + "white_plane 0 0 0 0 0 1\n", {"needs 'white_reflectance'"});
   refused(smallest + "white_reflectance 0\n", {"line 7", "above 0 and up to 1"});
@@ -152,7 +152,7 @@ TEST_CASE("with a calibration a set-up says neither size nor lens") {
   CHECK(setup.camera.intrinsics().columns == 40);
   CHECK(setup.camera.distortion().k1 == -0.1);
   scratch::check_refused([&] { return read_near_field_setup(smallest, "first.txt", calibration); },
-                         {"line 1", "'size'", "the calibration says it already"});
+                         {"line 1", "'size'", "the calibration already states it"});
 }
 
 TEST_CASE("what is missing is named") {

@@ -118,11 +118,11 @@ TEST_CASE("bad npy files are refused") {
   scratch::check_refuses_non_files([](const auto& path) { return read_npy<float, 1>(path); });
   const std::string valid = npy(dictionary, six);
   for (std::size_t size = 0; size < valid.size(); ++size)
-    check_text_refused(valid.substr(0, size), {size < 6                   ? "no npy file"
+    check_text_refused(valid.substr(0, size), {size < 6                   ? "not an npy file"
                                                : size < valid.size() - 24 ? "truncated"
                                                                           : "bytes of elements, expected 24"});
   check_text_refused(valid + "x", {"has 25 bytes of elements", "expected 24"});
-  check_text_refused("\x93NUMPX\x01", {"no npy file"});
+  check_text_refused("\x93NUMPX\x01", {"not an npy file"});
   check_text_refused(npy(dictionary, six, 4), {"version 4.0", "expected 1.0, 2.0 or 3.0"});
   check_text_refused(npy(dictionary, six, 0), {"version 0.0"});
   const auto header_refused = [](const std::string& header, std::initializer_list<std::string> words) {

@@ -43,11 +43,11 @@ TEST_CASE("Netpbm: bad files are refused") {
   const auto refuses = [](const std::string& text, const std::string& words) {
     check_refused([&] { return parsed(text); }, {"some.ppm", words});
   };
-  refuses("P3 1 1 255\n1 2 3", "no PPM or PGM");
+  refuses("P3 1 1 255\n1 2 3", "not a binary PPM or PGM");
   refuses("P6 1", "truncated");
   refuses("P6 1 1 255", "truncated");
   refuses("P6 # no end", "truncated");
-  refuses("P6 one 1 255\n123", "no number");
+  refuses("P6 one 1 255\n123", "lacks a number");
   refuses("P6 123456 1 255\n", "five digits");
   refuses("P6 16385 1 255\n", "from 1 to 16384");
   refuses("P6 0 1 255\n", "from 1 to 16384");

@@ -69,8 +69,8 @@ TEST_CASE("reference reflectance: bad tables are refused") {
   refuses("theta_i;factor\n0;0,9\n80;0.8\n", "line 3: column factor: '0.8' has a decimal point");
   refuses("theta_i,factor\n0,nan\n", "line 2: column factor: 'nan' is not finite");
   refuses("theta_i,factor\n0,white\n", "line 2: column factor: 'white' is not a number");
-  refuses("theta_i,factor\n0,0.9\n0,0.9\n", "expected angles that ascend");
-  refuses("theta_i,factor\n30,0.9\n0,0.9\n", "expected angles that ascend");
+  refuses("theta_i,factor\n0,0.9\n0,0.9\n", "expected ascending angles");
+  refuses("theta_i,factor\n30,0.9\n0,0.9\n", "expected ascending angles");
   refuses("theta_i,factor\n-10,0.9\n", "expected 0 to 90");
   refuses("theta_i,factor\n0,-0.9\n", "factor of -0.900000");
   refuses("theta_i,factor\n0,99\n", "expected above 0 and up to 1.5");
@@ -78,6 +78,6 @@ TEST_CASE("reference reflectance: bad tables are refused") {
           "line 5: theta_i 30 and theta_o 50, expected 30 and 60");
   refuses("theta_i,theta_o,factor\n0,0,1\n0,60,1\n30,0,1\n40,0,1\n", "line 5: theta_i 40 and theta_o 0");
   refuses("theta_i,theta_o,factor\n0,0,1\n0,60,1\n30,0,1\n", "has 3 factors, expected 4");
-  refuses("theta_i,theta_o,factor\n0,60,1\n0,0,1\n", "expected angles that ascend");
+  refuses("theta_i,theta_o,factor\n0,60,1\n0,0,1\n", "expected ascending angles");
   scratch::check_refuses_non_files([](const auto& path) { return read_reference_reflectance(path); });
 }

@@ -70,7 +70,7 @@ TEST_CASE("wavelengths that differ between pairs of directions make colours, if 
   unseen.use_wavelengths(std::array{905.0, 1550.0});
   unseen.add({up, up}, two);
   check_refused([&] { return std::move(unseen).samples("ir.table"); },
-                {"ir.table", "other wavelengths", "the same in"});
+                {"ir.table", "different wavelengths", "the same wavelengths in"});
 }
 
 TEST_CASE("what no float holds is refused") {

@@ -80,7 +80,7 @@ TEST_CASE("a first line names the separator") {
   check_two_samples("\"sep=;\"\r\n" + german);
   check_two_samples("SEP=\t\ntheta_i\ttheta_o\tpercent\n30\t-45\t12,5\n0\t10\t1081,43\n");
   check_two_samples("\xEF\xBB\xBFsep=,\ntheta_i,theta_o,percent\n30,-45,12.5\n0,10,1081.43\n");
-  check_text_refused("sep=|\n" + german, {"line 1", "'|' is no separator", "expected sep=, or sep=;"});
+  check_text_refused("sep=|\n" + german, {"line 1", "'|' is not a separator", "expected sep=, or sep=;"});
   check_text_refused("sep=;\n", {"is empty"});
 }
 

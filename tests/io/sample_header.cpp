@@ -45,7 +45,7 @@ TEST_CASE("columns under names of their own") {
   const auto both = read_samples("theta_i;phi_i;Winkel;theta_o;phi_o;Y (D65)\n0;0;60;1;0;0,5\n", "x", named);
   CHECK(both[0].directions.pair().wo.z() == doctest::Approx(0.5));
   check_refused([&] { return read_samples("theta_i,phi_i,angle,phi_o,Y (D65)\n0,0,60,0,1\n", "x", named); },
-                {"no column 'winkel' to be theta_o", "looks comma-separated", "'angle'"});
+                {"no column 'winkel' for theta_o", "looks comma-separated", "'angle'"});
   const gonio::io::sample_reading wrong{.columns = {{"theta", "Winkel"}}, .quantity = {}, .note = {}};
   check_refused([&] { return read_samples("theta_h,theta_d,phi_d,r,g,b\n1,2,3,4,5,6\n", "x", wrong); },
                 {"samples have no column 'theta'", "'Winkel'"});

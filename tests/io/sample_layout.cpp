@@ -93,7 +93,7 @@ TEST_CASE("a matrix may stand below a preamble and above units, and be turned") 
 }
 
 TEST_CASE("what is no matrix, or has no sides, is refused") {
-  check_text_refused("theta_o;0;30\n45;1;2\n-45;1;2\n", {"line 2", "does not say what the numbers of value are"});
+  check_text_refused("theta_o;0;30\n45;1;2\n-45;1;2\n", {"line 2", "does not state the quantity of value"});
   check_text_refused(percent + "theta_o;0;30\n45;1;2\n40;1;2\n", {"line 3", "which sides of the normal"});
   check_text_refused(percent + "theta_o;0;95\n-45;1;2\n", {"line 2", "'theta_i' is missing", "'95'"});
   check_text_refused(percent + "theta_o [rad];0;30\n-0,5;1;2\n", {"line 2", "'theta_i' is missing"});
@@ -118,7 +118,7 @@ TEST_CASE("an angle that a line above the header line states counts for all samp
     REQUIRE(samples.size() == 2);
     CHECK(signed_angles(samples.in_three_channels()[0]) == angles{30.0, -45.0});
     CHECK(samples.values(1)[0] * std::numbers::pi == doctest::Approx(0.03));
-    CHECK(std::ranges::find(said, "arm.csv: theta_i is taken to be 30 degrees, as a line above the header line says") !=
+    CHECK(std::ranges::find(said, "arm.csv: theta_i is taken to be 30 degrees, as stated above the header line") !=
           said.end());
   }
   const auto hemisphere = read_samples(percent + "# theta_i: 30\n# phi_i: 90\ntheta_o;phi_o;value\n45;270;1\n", "x");
@@ -158,14 +158,14 @@ TEST_CASE("the scale of X, Y and Z is assumed and said where it is plain, else r
   CHECK(gonio::luminance(percents[1].value) * std::numbers::pi == doctest::Approx(0.1).epsilon(1e-3));
   REQUIRE(said.size() == 3);
   CHECK(said[0] ==
-        "arm.csv: a perfect diffuser is taken to have Y 100, as Y is up to 400, and 10 in the median (--quantity "
+        "arm.csv: a perfect diffuser is taken to have Y 100, as the largest Y is 400, the median 10 (--quantity "
         "reflectance-factor: Y 1)");
   said.clear();
   const auto factors = read("30;-30;0,9;1;1\n30;0;0,09;0,1;0,1\n", said);
   CHECK(gonio::luminance(factors[1].value) * std::numbers::pi == doctest::Approx(0.1).epsilon(1e-3));
-  CHECK(said[0].find("Y 1, as Y is up to 1, and 0.55 in the median (--quantity percent: Y 100)") != std::string::npos);
+  CHECK(said[0].find("Y 1, as the largest Y is 1, the median 0.55 (--quantity percent: Y 100)") != std::string::npos);
   check_refused([&] { return read("30;-30;9;4;1\n30;0;.1;.1;.1\n30;5;.1;.1;.1\n", said); },
-                {"Y is up to 4, and 0.1 in the median", "--quantity reflectance-factor or percent"});
+                {"the largest Y is 4, the median 0.1", "--quantity reflectance-factor or percent"});
 }
 
 TEST_CASE("X, Y and Z beside other values, in small letters or not all of them are ignored") {
@@ -174,7 +174,8 @@ TEST_CASE("X, Y and Z beside other values, in small letters or not all of them a
   const auto beside = read_samples("x,y,theta_i,theta_o,X [%],Y [%],Z [%]\n.3,.3,30,-30,95,100,109\n", "x");
   CHECK(gonio::luminance(beside[0].value) * std::numbers::pi == doctest::Approx(1.0).epsilon(1e-3));
   check_text_refused("theta_i,theta_o,Y,x,y\n30,-30,1,.3,.3\n", {"line 1", "column 'r' is missing"});
-  check_text_refused(percent + "theta_i,theta_o,X,Y,Z,wavelength\n30,-30,1,1,1,5\n", {"X,Y,Z have no wavelength"});
+  check_text_refused(percent + "theta_i,theta_o,X,Y,Z,wavelength\n30,-30,1,1,1,5\n",
+                     {"X,Y,Z cannot have a wavelength"});
   check_text_refused(percent + "theta_i,theta_o,X,Y,Z\n30,-30,1e41,1,1\n", {"line 3", "X", "range of float"});
   check_text_refused(percent + "theta_i,theta_o,X,Y,Z\n30,-30,1,bright,1\n", {"line 3", "column Y", "'bright'"});
 }

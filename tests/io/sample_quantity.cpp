@@ -85,16 +85,19 @@ TEST_CASE("every quantity becomes a BRDF, as option, comment, column, name, unit
 
 TEST_CASE("a file and its reader agree on what the numbers are, or are refused") {
   const std::string grey = "theta_h,theta_d,phi_d,value\n1,2,3,4\n";
-  check_text_refused(grey, {"line 2", "does not say what the numbers of value are", "# quantity: brdf", "--quantity"});
+  check_text_refused(grey, {"line 2", "does not state the quantity of value", "# quantity: brdf", "--quantity"});
   check_text_refused("# quantity: radiance\n" + grey, {"line 1", "'radiance' is unknown", "reflectance-factor"});
-  check_text_refused("# quantity: brdf\n# quantity: percent\n" + grey,
-                     {"line 2", "brdf by the comment in line 1", "percent by the comment in line 2"});
+  check_text_refused(
+      "# quantity: brdf\n# quantity: percent\n" + grey,
+      {"line 2", "brdf according to the comment in line 1", "percent according to the comment in line 2"});
   check_text_refused(half_header + "1,2,3,4,5,6\n# quantity: percent\n", {"line 3", "below a sample"});
   check_text_refused("theta_h,theta_d,phi_d,value,quantity\n1,2,3,4,brdf\n1,2,3,4,percent\n", {"line 3", "percent"});
   check_text_refused("theta_h,theta_d,phi_d,value,quantity\n1,2,3,4,light\n", {"line 2", "'light' is unknown"});
-  check_text_refused("# quantity: percent\ntheta_h,theta_d,phi_d,BRDF\n1,2,3,4\n",
-                     {"line 2", "percent by the comment in line 1", "brdf by the name of column 'BRDF'"});
-  check_text_refused("theta_h,theta_d,phi_d,brdf\n1,2,3,4%\n", {"line 2", "brdf by", "percent by their percent signs"});
+  check_text_refused(
+      "# quantity: percent\ntheta_h,theta_d,phi_d,BRDF\n1,2,3,4\n",
+      {"line 2", "percent according to the comment in line 1", "brdf according to the name of column 'BRDF'"});
+  check_text_refused("theta_h,theta_d,phi_d,brdf\n1,2,3,4%\n",
+                     {"line 2", "brdf according to", "percent according to their percent signs"});
   check_text_refused("theta_h,theta_d,phi_d,r,g,b\n1,2,3,4%,4%,4\n", {"line 2", "percent signs", "all or none"});
   check_text_refused("theta_h,theta_d,phi_d,r,g,b\n1,2,3,4,4,4\n1,2,3,4%,4%,4%\n", {"line 3", "percent signs"});
   check_text_refused("theta_h,theta_d,phi_d,r,g,b\n1%,2,3,4,4,4\n", {"line 2", "theta_h", "'1%' is not a number"});
@@ -103,6 +106,6 @@ TEST_CASE("a file and its reader agree on what the numbers are, or are refused")
         return read_samples("# quantity: percent\n" + grey, "x",
                             {.columns = {}, .quantity = sample_quantity::brdf, .note = {}});
       },
-      {"brdf by what is asked for (--quantity)", "percent by the comment in line 1"});
+      {"brdf according to the requested quantity (--quantity)", "percent according to the comment in line 1"});
   check_text_refused("theta_h,theta_d,phi_d,value,r,g,b\n1,2,3,4,4,4,4\n", {"line 1", "two ways", "r,g,b or value"});
 }

@@ -91,7 +91,7 @@ TEST_CASE("one wavelength, and what a file says of its measurements") {
   const std::string two = "theta_h,theta_d,phi_d,wavelength,brdf\n1,2,3,550,1\n1,2,3,";
   check_text_refused(two + "650,1\n", {"line 3", "650 nm, but 550 nm above", "more than one wavelength"});
   check_text_refused(two + "0,1\n", {"line 3", "wavelength: 0 nm", "more than 0"});
-  check_text_refused("theta_h,theta_d,phi_d,wavelength,r,g,b\n1,2,3,550,1,1,1\n", {"r,g,b have no wavelength"});
+  check_text_refused("theta_h,theta_d,phi_d,wavelength,r,g,b\n1,2,3,550,1,1,1\n", {"r,g,b cannot have a wavelength"});
 }
 
 TEST_CASE("a number sign in quotes begins a comment only above the header line") {
@@ -118,7 +118,7 @@ TEST_CASE("refusals say what the file looks like") {
   check_text_refused("theta_i,theta_in,phi_i,phi_o,theta_o,r,g,b\n", {"'theta_in', which is theta_i, appears twice"});
   check_text_refused("theta_h,theta_d,phi_d,R\n1,2,3,4\n", {"'g' is missing", "value for one channel"});
   check_text_refused("\"theta_h,theta_d,phi_d,r,g,b\n", {"line 1", "double quote is not closed"});
-  check_text_refused(half_header + "1,2,\"3\"0,4,5,6\n", {"line 2", "behind its closing double quote"});
+  check_text_refused(half_header + "1,2,\"3\"0,4,5,6\n", {"line 2", "after its closing double quote"});
   check_text_refused(std::string("PK\x03\x04\x14\x00", 6), {"workbook", "CSV"});
   check_text_refused(std::string("\xFF\xFEt\x00h\x00", 6), {"line 1", "no columns of directions", "'th'"});
 }
@@ -146,10 +146,10 @@ TEST_CASE("the sign of theta_o in a scan without azimuths is stated, or told by 
   CHECK(side_of_first("theta_i,theta_o,r,g,b\n30,31,1,1,1\n", as_mirror) == std::string("mirror"));
   check_text_refused("# theta-o-sign: left\n" + scan(1.0, 1.0), {"line 1", "'left'", "light or mirror"});
   check_refused([&] { return gonio::io::read_samples("# theta-o-sign: light\n" + scan(1.0, 1.0), "x", as_mirror); },
-                {"theta-o-sign light", "says the other"});
+                {"theta-o-sign light", "contradicts it"});
   check_refused(
       [&] { return gonio::io::read_samples("theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n", "paint.csv", as_light); },
-      {"paint.csv", "theta-o-sign says nothing"});
+      {"paint.csv", "to which theta-o-sign does not apply"});
 }
 
 TEST_CASE("azimuths are counted from the mirror direction where theta-o-sign says so") {

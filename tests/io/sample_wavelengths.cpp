@@ -79,13 +79,13 @@ TEST_CASE("one wavelength is one channel, as it is") {
 TEST_CASE("what are no spectra is refused") {
   const std::string brdf = "# quantity: brdf\n";
   check_text_refused(brdf + angles + "500nm,400nm\n" + at + "1,2\n", {"line 2", "'400nm'", "500 nm", "ascend"});
-  check_text_refused(brdf + angles + "400nm,400\n" + at + "1,2\n", {"line 2", "'400'", "none of them twice"});
+  check_text_refused(brdf + angles + "400nm,400\n" + at + "1,2\n", {"line 2", "'400'", "without repeats"});
   check_text_refused(brdf + angles + "400nm,500nm\n" + at + "1\n", {"line 3", "5 fields, expected 6"});
   check_text_refused(brdf + angles + "400nm,500nm\n" + at + "1,2\n" + at + "1,2,3\n", {"line 4", "7 fields"});
   check_text_refused(brdf + angles + "400nm,500nm\n" + at + "1,nan\n", {"line 3", "column 500nm", "'nan'"});
   check_text_refused(brdf + angles + "400nm,500nm\n" + at + "1,1e39\n", {"line 3", "column 500nm", "range of float"});
   check_text_refused(brdf + angles + "400nm,500nm\n" + at + "1,\n", {"line 3", "column 500nm"});
-  check_text_refused(angles + "400nm,500nm\n" + at + "1,2\n", {"numbers of 400nm", "# quantity: brdf"});
+  check_text_refused(angles + "400nm,500nm\n" + at + "1,2\n", {"the quantity of 400nm", "# quantity: brdf"});
   check_text_refused(brdf + angles + "r,g,b,400nm\n" + at + "1,2,3,4\n", {"two ways", "400nm"});
   check_text_refused(brdf + angles + "value,400nm\n" + at + "1,2\n", {"two ways", "400nm"});
   check_text_refused(brdf + angles + "400nm,wavelength\n" + at + "1,400\n", {"wavelength", "400nm"});

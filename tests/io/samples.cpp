@@ -157,7 +157,7 @@ TEST_CASE("bad headers are refused") {
   check_text_refused("\n# only a comment\n\n", {"is empty", "expected a header line"});
   check_text_refused(header, {"no samples", "at least one"});
   check_text_refused("# c\ntheta_h,theta_d,phi_d,r,g,azure\n",
-                     {"line 2", "'b' is missing", "looks comma-separated", "not known in it: 'azure'"});
+                     {"line 2", "'b' is missing", "looks comma-separated", "unknown columns: 'azure'"});
   check_text_refused("theta_h,theta_d,phi_d,r,g,b,g\n", {"line 1", "'g' appears twice"});
   check_text_refused("theta_h,phi_d,r,g,b\n", {"line 1", "'theta_d' is missing"});
   check_text_refused("theta_i,phi_i,theta_o,r,g,b\n", {"line 1", "'phi_o' is missing"});
@@ -183,7 +183,7 @@ TEST_CASE("bad lines are refused by line, column and value") {
   line_refused("1,2,3,4,+-5,6", {"column g", "'+-5' is not a number"});
   line_refused("1,2,3,4,+,6", {"column g", "'+' is not a number"});
   line_refused("1,2,3,4,5,1e999", {"column b", "'1e999' is out of range"});
-  line_refused("1,2,3,4,5,1e39", {"column b", "1e+39 sr^-1 is beyond the range of float"});
+  line_refused("1,2,3,4,5,1e39", {"column b", "1e+39 sr^-1 is outside the range of float"});
   line_refused("1,2,3,-1e300,5,6", {"column r", "-1e+300 sr^-1"});
   check_text_refused(header + "nan,2,3,4,5,6\n", {"line 2: column theta_h: 'nan' is not finite", "1 of 1 row"});
   line_refused("90,2,3,4,5,6", {"column theta_h", "90 degrees", "horizon"});

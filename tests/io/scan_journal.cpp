@@ -119,7 +119,8 @@ TEST_CASE("scan journal: what is damaged, or another scan's, is refused and left
     scan_journal journal(path, oak, poses(3), 4095);
     journal.add(0, random_reading(1, 1, 1));
     journal.add(1, random_reading(1, 1, 2));
-    CHECK_THROWS_WITH_AS(journal.add(1, random_reading(1, 1, 3)), Contains("pose 1 is read already"), gonio::error);
+    CHECK_THROWS_WITH_AS(journal.add(1, random_reading(1, 1, 3)), Contains("pose 1 already has a reading"),
+                         gonio::error);
     CHECK_THROWS_WITH_AS(scan_journal(path, oak, poses(3), 4095), Contains("another process"), gonio::error);
   }
   const std::string whole = text_of(path);
@@ -134,15 +135,15 @@ TEST_CASE("scan journal: what is damaged, or another scan's, is refused and left
   damaged[first + 12] = damaged[first + 12] == '1' ? '2' : '1';
   refuses(damaged, "line 11: the checksum is wrong");
   const std::string second = whole.substr(whole.find("reading 1"));
-  refuses(whole + second, "pose 1 is read a second time");
-  refuses(whole + "pose 1 0 0 0 0 1\n", "a pose after the first reading");
+  refuses(whole + second, "pose 1 has a second reading");
+  refuses(whole + "pose 1 0 0 0 0 1\n", "a pose follows the first reading");
   refuses(whole + "temperature 3\n", "'temperature' is unknown");
   CHECK_THROWS_WITH_AS((void)io::read_scan("", "a"), Contains("largest_count is missing"), gonio::error);
   refuses("largest_count 70000\n", "is 70000");
   refuses("largest_count 255\n", "there is no pose");
   refuses("largest_count 255\npose 0 0 2 0 0 1\n", "two unit vectors");
   refuses("largest_count 255\npose 0 0 1 0 0 1\n" + io::detail::with_checksum("reading 1 1 0.1 1 3 3 3") + "# end\n",
-          "pose 1 of 1");
+          "there is no pose 1, expected less than 1");
   refuses("largest_count 255\npose 0 0 1 0 0 1\n" + io::detail::with_checksum("reading 0 1 0.1 1 3 3") + "# end\n",
           "has 2 counts, expected 3");
   refuses("largest_count 255\npose 0 0 1 0 0 1\n" + io::detail::with_checksum("reading 0 1 0.1 1 3 3 256") + "# end\n",
@@ -154,7 +155,7 @@ TEST_CASE("scan journal: what is damaged, or another scan's, is refused and left
   CHECK_THROWS_WITH_AS(scan_journal(path, oak, poses(2), 4095), Contains("3 other poses, expected the 2"),
                        gonio::error);
   CHECK_THROWS_WITH_AS(scan_journal(path, oak, poses(3), 255), Contains("4095 counts, not 255"), gonio::error);
-  CHECK_THROWS_WITH_AS(scan_journal(path, oak, {}, 4095), Contains("needs a pose"), gonio::error);
+  CHECK_THROWS_WITH_AS(scan_journal(path, oak, {}, 4095), Contains("needs at least one pose"), gonio::error);
   CHECK_THROWS_WITH_AS(scan_journal(scratch.path() / "no folder" / "a.scan", oak, poses(1), 4095),
                        Contains("cannot be written"), gonio::error);
   CHECK_THROWS_WITH_AS(scan_journal(scratch.path(), oak, poses(1), 4095), Contains("cannot be written"), gonio::error);
@@ -201,14 +202,14 @@ TEST_CASE("scan journal: a head that is damaged, or not whole, is refused") {
     CHECK_THROWS_WITH_AS((void)io::read_scan(path), Contains(message), gonio::error);
   };
   refuses("gantry", "gabtry", "line 4: the checksum of 'setup' is wrong");
-  refuses("plan 2", "plan 3", "the poses are not the 3");
-  refuses(" 0 0.955", " -0 0.955", "the poses are not the 2");
-  refuses("seed 3\n", "", "some are missing");
-  refuses("seed 3", "seed three", "'seed' takes a whole number first");
+  refuses("plan 2", "plan 3", "the poses differ from the 3");
+  refuses(" 0 0.955", " -0 0.955", "the poses differ from the 2");
+  refuses("seed 3\n", "", "some of the lines");
+  refuses("seed 3", "seed three", "'seed' needs a whole number first");
   refuses("seed 3", "seed 3 4", "'seed' takes no text");
   refuses("sample 7 oak board", "sample 7", "'sample' needs a text");
-  refuses("sample 7 oak board", "sample 7 \x1b[2J", "characters that are no text");
-  refuses("seed 3", "seed 3\nseed 3", "'seed' is told a second time");
+  refuses("sample 7 oak board", "sample 7 \x1b[2J", "control characters");
+  refuses("seed 3", "seed 3\nseed 3", "'seed' appears twice");
 }
 
 TEST_CASE("scan journal: a scan killed anywhere in its head is told so, and begun again by the same scan") {
@@ -218,7 +219,7 @@ TEST_CASE("scan journal: a scan killed anywhere in its head is told so, and begu
   const std::string head = text_of(path);
   for (std::size_t size = 0; size < head.size(); ++size) {
     write(path, head.substr(0, size));
-    CHECK_THROWS_WITH_AS((void)io::read_scan(path), Contains("the same command begins it again"), gonio::error);
+    CHECK_THROWS_WITH_AS((void)io::read_scan(path), Contains("the same command restarts it"), gonio::error);
     { scan_journal(path, oak, poses(2), 4095); }
     CHECK(text_of(path) == head);
   }
@@ -263,7 +264,7 @@ TEST_CASE("scan journal: poses that were added while it was measured come back, 
   std::string late = text_of(path);
   late += "pose 0 0 1 0 0 1\n";
   write(path, late);
-  CHECK_THROWS_WITH_AS(io::read_scan(path), Contains("a pose after the first reading"), gonio::error);
+  CHECK_THROWS_WITH_AS(io::read_scan(path), Contains("a pose follows the first reading"), gonio::error);
   std::string damaged = with_pose + with_pose.substr(before.size());
   damaged[before.size() + 12] = damaged[before.size() + 12] == '1' ? '2' : '1';
   write(path, damaged);
@@ -280,8 +281,7 @@ TEST_CASE("scan journal: a scan of an earlier version is read, but not gone on w
   write(path, text);
   CHECK(io::read_scan(path).measured() == 1u);
   CHECK_FALSE(io::read_scan(path).subject.has_value());
-  CHECK_THROWS_WITH_AS(scan_journal(path, oak, poses(2), 4095), Contains("does not say what it measures"),
-                       gonio::error);
+  CHECK_THROWS_WITH_AS(scan_journal(path, oak, poses(2), 4095), Contains("does not name its sample"), gonio::error);
   CHECK(text_of(path) == text);
 }
 

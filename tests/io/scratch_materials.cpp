@@ -63,12 +63,12 @@ TEST_CASE("tables that cannot be held are refused") {
   CHECK_THROWS_AS(none.rows(), gonio::error);
   none.append("one", gonio::brdf_table(small_cells()));
   CHECK_THROWS_WITH_AS(none.append("other", gonio::brdf_table(gonio::valid_cells(gonio::grid({5, 5, 5})))),
-                       doctest::Contains("'other' is over other cells"), gonio::error);
+                       doctest::Contains("'other' has other cells"), gonio::error);
   const gonio::cell_matrix two = gonio::cell_matrix::Ones(small_cells().size(), 2);
   CHECK_THROWS_WITH_AS(none.append("two channels", small_cells(), {}, two), doctest::Contains("two channels"),
                        gonio::error);
   CHECK_THROWS_WITH_AS(none.append("spectra", gonio::spectral_table(small_cells(), {500.0, 600.0, 700.0})),
-                       doctest::Contains("'spectra' is at other wavelengths"), gonio::error);
+                       doctest::Contains("'spectra' has other wavelengths"), gonio::error);
   gonio::io::scratch_materials nowhere("/no/such/folder", 0);
   nowhere.append("one", gonio::brdf_table(small_cells()));
   CHECK_THROWS_WITH_AS(nowhere.append("other", gonio::brdf_table(small_cells())), doctest::Contains("/no/such/folder"),

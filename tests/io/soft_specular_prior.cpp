@@ -95,13 +95,13 @@ TEST_CASE("a right checksum over impossible contents is no prior") {
   const auto soft = payload_of(prior.soft()), specular = payload_of(prior.specular());
   CHECK(refusal(file_of(0.5, soft, specular)).empty());
   CHECK(refusal(file_of(std::numeric_limits<double>::quiet_NaN(), soft, specular)) ==
-        "x.prior: the contrast between soft and specular materials must be finite");
+        "x.prior: the contrast threshold between soft and specular materials must be finite");
   CHECK(refusal(file_of(0.5, soft, specular, 0, 3)) == "x.prior: 3 bytes follow the specular prior");
   CHECK(refusal(file_of(0.5, soft, specular, 1)).starts_with("x.prior: "));
   CHECK(refusal(file_of(0.5, soft, specular, ~std::uint64_t{0} - soft.size())).find("truncated") != std::string::npos);
   CHECK(refusal(file_of(0.5, {}, specular)).find("truncated") != std::string::npos);
   const auto other = payload_of(small_split(8).specular());
-  CHECK(refusal(file_of(0.5, soft, other)).find("x.prior: the priors of soft and of specular materials must be") !=
+  CHECK(refusal(file_of(0.5, soft, other)).find("x.prior: the soft and the specular prior must be") !=
         std::string::npos);
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("files of one and of two priors are told apart") {
   CHECK_FALSE(io::is_soft_specular_prior(one));
   CHECK(io::read_soft_specular_prior(two).materials() == 7);
   CHECK_THROWS_WITH_AS((void)io::read_prior(two),
-                       doctest::Contains("two.prior: a soft and a specular prior, where one"), gonio::error);
+                       doctest::Contains("two.prior: has a soft and a specular prior, expected one"), gonio::error);
   CHECK_THROWS_WITH_AS((void)io::read_soft_specular_prior(one),
                        doctest::Contains("it does not start with 'gonio-split'"), gonio::error);
   CHECK_THROWS_WITH_AS((void)io::read_soft_specular_prior(folder / "none.prior"), doctest::Contains("none.prior"),

@@ -132,16 +132,15 @@ TEST_CASE("Speos: what is no anisotropic file is refused") {
   check_speos_refused(with(anisotropic, "0\t1\t0", "0\tup\t0"), {"line 6", "the anisotropy vector", "'up'"});
   check_speos_refused(with(anisotropic, "\n1\t0\n1\n", "\n1\t1\n1\n"), {"line 7", "transmission"});
   check_speos_refused(with(anisotropic, "\n2\n0\t30\n", "\n2e9\n0\t30\n"), {"line 9", "anisotropy angles", "'2e9'"});
-  check_speos_refused(with(anisotropic, "\n0\t30\n", "\n0\t0\n"),
-                      {"line 10", "an anisotropy angle: 0 stands behind 0"});
+  check_speos_refused(with(anisotropic, "\n0\t30\n", "\n0\t0\n"), {"line 10", "an anisotropy angle: 0 follows 0"});
   check_speos_refused(with(anisotropic, "\n10\t30\n", "\n10\t95\n"), {"line 12", "an angle of incidence: '95'"});
-  check_speos_refused(with(anisotropic, "\n15\t0\n", "\n20\t10\n"), {"line 15", "angle 10 is none of those"});
+  check_speos_refused(with(anisotropic, "\n15\t0\n", "\n20\t10\n"), {"line 15", "angle 10 is not among the angles"});
   check_speos_refused(with(anisotropic, "\n15\t0\n", "\n120\t0\n"),
                       {"line 15", "spectrum's angle of incidence: '120'"});
   check_speos_refused(with(anisotropic, "\n700\t84\n", "\n400\t84\n"), {"line 19", "a wavelength: '400'"});
   check_speos_refused(with(anisotropic, "\n700\t84\n", "\n700\t184\n"), {"line 19", "the reflectance", "184"});
   check_speos_refused(with(anisotropic, "\t7\t7", "\t7\tx"), {"line 22", "a value", "'x'"});
-  check_speos_refused(anisotropic + "1\n", {"goes on behind its last table"});
+  check_speos_refused(anisotropic + "1\n", {"continues after its last table"});
   check_speos_refused(anisotropic.substr(0, anisotropic.size() - 5), {"ends before a value"});
   check_speos_refused(with(anisotropic, "\n2\n400", "\n20000\n400"), {"line 17", "the number of wavelengths: '20000'"});
   // Few bytes of many wavelengths, and of many values, would be too many numbers.
@@ -166,16 +165,16 @@ TEST_CASE("Speos: what is no such file is refused") {
   check_speos_refused(with(small, "1\t0", "1\t1"), {"line 7", "transmission", "'1 0'"});
   check_speos_refused(with(small, "1\t0", "0\t1"), {"line 7", "transmission"});
   check_speos_refused(with(small, "1\n1 1\n", "2\n1 1\n"), {"line 8", "'2'", "0 or 1"});
-  check_speos_refused(with(small, "1\n1 1\n", "1\n1.5 1\n"), {"line 9", "angles of incidence", "no count"});
+  check_speos_refused(with(small, "1\n1 1\n", "1\n1.5 1\n"), {"line 9", "angles of incidence", "not a whole number"});
   check_speos_refused(with(small, "1\n1 1\n", "1\n1e9 1\n"), {"line 9", "'1e9'", "from 1 to 10000"});
   check_speos_refused(with(small, "\n30\n", "\n91\n"), {"line 10", "angle of incidence", "91"});
   check_speos_refused(with(small, "\n50\n", "\n101\n"), {"line 12", "reflectance", "101", "from 0 to 100"});
-  check_speos_refused(with(small, "0 90 180 270", "0 90 80 270"), {"line 14", "phi", "80 stands behind 90"});
+  check_speos_refused(with(small, "0 90 180 270", "0 90 80 270"), {"line 14", "phi", "80 follows 90"});
   check_speos_refused(with(small, "\n20\t", "\n5\t"), {"line 17", "theta", "5", "from 10 to 90"});
   check_speos_refused(with(small, "\t7", "\tx"), {"line 15", "a value", "'x'"});
   check_speos_refused(with(small, "\t7", "\tnan"), {"not finite"});
   check_speos_refused(small.substr(0, small.size() - 3), {"ends before a value"});
-  check_speos_refused(small + "1\n", {"line 25", "goes on behind its last table"});
+  check_speos_refused(small + "1\n", {"line 25", "continues after its last table"});
   const std::string start = rows + "1\n1 1\n30\n550\n50\n";
   check_speos_refused(start + flat("0", "0 180 360", 3), {"reflects no light"});
   check_speos_refused(start + flat("1", "0 90", 2), {"phi covers 90 degrees"});

@@ -49,8 +49,8 @@ TEST_CASE("bad set-ups of a sphere are refused") {
   CHECK_NOTHROW(read_sphere_setup(good, "setup.txt"));
   refuses_setup(sphere_lens + sphere_pose, "'light' or 'light_angles' or 'lamp' is missing");
   refuses_setup("size 64 48\n" + sphere_pose + "lamp 1 2 3\n", "'focal_length' or 'field_of_view' is missing");
-  refuses_setup(good + "light 0 0 1\n", "where the light is");
-  refuses_setup(good + "irradiance 2\n", "of a lamp give intensity");
+  refuses_setup(good + "light 0 0 1\n", "the light's location");
+  refuses_setup(good + "irradiance 2\n", "for a lamp give intensity");
   refuses_setup(good + "sphere -1\n", "the radius must be positive");
   refuses_setup(good + "outline 3 4 5\n", "needs 'sphere'");
   refuses_setup(good + "sphere 1 0 0 0\noutline 3 4 5\n", "give only one of them");

@@ -131,7 +131,7 @@ TEST_CASE("SSDD: what is no such file is refused") {
   check_ssdd_refused(with("PARAM2_LIST 0 30", "PARAM2_LIST 0 130"), {"PARAM2_LIST", "130", "at most 90"});
   check_ssdd_refused(with("0 40 90", "0 40 100"), {"PARAM0_LIST", "100", "at most 90"});
   check_ssdd_refused(with("0 40 90", "0 forty 90"), {"line 8", "PARAM0_LIST", "'forty'"});
-  check_ssdd_refused(with("DATA ascii", "PARAM4_LIST 1 2 3\nDATA ascii"), {"PARAM4_LIST", "not read"});
+  check_ssdd_refused(with("DATA ascii", "PARAM4_LIST 1 2 3\nDATA ascii"), {"PARAM4_LIST", "not supported"});
   check_ssdd_refused(with("ascii", "text"), {"'text'", "ascii or binary"});
   check_ssdd_refused(with("7 8 9", "7 eight 9"), {"'eight'", "a colour"});
   check_ssdd_refused(with("16 17 18", "16 17"), {"ends before a colour"});

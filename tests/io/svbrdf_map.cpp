@@ -134,7 +134,7 @@ TEST_CASE("map of a spatially varying BRDF: another job's file, a second writer 
   const std::string begun = scratch::get(here / "map.gsv.part");
   auto other = header;
   other.eta = 3.0;
-  scratch::check_refused([&] { svbrdf_writer(path, other); }, {"map.gsv.part", "of another job"});
+  scratch::check_refused([&] { svbrdf_writer(path, other); }, {"map.gsv.part", "to another job"});
   CHECK(scratch::get(here / "map.gsv.part") == begun);
   svbrdf_writer writer(path, header);
   CHECK(writer.finished() == 1);
@@ -170,7 +170,7 @@ TEST_CASE("map of a spatially varying BRDF: what is written before the disk is f
   REQUIRE(::setrlimit(RLIMIT_FSIZE, &tight) == 0);
   scratch::check_refused(
       [&] { write_bands(path, header, header.bands()); },
-      {"map.gsv.part", "cannot be written", "the first 3 of 16 bands stay, and the same job goes on"});
+      {"map.gsv.part", "cannot be written", "the first 3 of 16 bands are kept, and the same job continues"});
   REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
   std::signal(SIGXFSZ, handler);
   CHECK(svbrdf_writer(path, header).finished() == 3);
@@ -214,7 +214,7 @@ TEST_CASE("map of a spatially varying BRDF: damaged files and impossible headers
   CHECK(!scratch::fs::exists(here / "new.gsv.part"));
   auto large = estimates(8, 4, 1);
   large.weights(2, 5) = 7e4f;
-  CHECK_THROWS_WITH_AS((void)io::as_halves(large), doctest::Contains("beyond the range of half floats"), gonio::error);
+  CHECK_THROWS_WITH_AS((void)io::as_halves(large), doctest::Contains("outside the range of half floats"), gonio::error);
 }
 
 TEST_CASE("map of a spatially varying BRDF: a prior is told by its numbers") {

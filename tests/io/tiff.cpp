@@ -47,7 +47,8 @@ TEST_CASE("TIFF: the exposure time is that of the EXIF data, if there is any") {
     check_refused([&] { return read_tiff_exposure_time(tiff_bytes::of(picture), "a.tif"); },
                   {"a.tif: an exposure time of", "expected from 1e-07 s to a day"});
   }
-  check_refused([] { return read_tiff_exposure_time(scratch::bytes_of("no image"), "a.tif"); }, {"a.tif", "no TIFF"});
+  check_refused([] { return read_tiff_exposure_time(scratch::bytes_of("no image"), "a.tif"); },
+                {"a.tif", "not a TIFF"});
 }
 
 TEST_CASE("TIFF: what is not supported is refused by its name") {
@@ -62,12 +63,12 @@ TEST_CASE("TIFF: what is not supported is refused by its name") {
   };
   refused([](auto& p) { p.bits = 1; }, {"has 1 bits a sample, expected 8 or 16"});
   refused([](auto& p) { p.bits = 32; }, {"has 32 bits a sample"});
-  refused([](auto& p) { p.more = {{339, 3, 1, 3}}; }, {"no unsigned whole numbers"});
-  refused([](auto& p) { p.more = {{284, 3, 1, 2}}; }, {"channels in planes"});
+  refused([](auto& p) { p.more = {{339, 3, 1, 3}}; }, {"not unsigned integers"});
+  refused([](auto& p) { p.more = {{284, 3, 1, 2}}; }, {"planar channels"});
   refused([](auto& p) { p.meaning = 5; }, {"neither RGB nor grey", "is 5"});
   refused([](auto& p) { p.compression = 34712; }, {"compression", "34712"});
   refused([](auto& p) { p.columns = 40000; }, {"40000 x 1 pixels, expected from 1 to 16384 each way"});
-  refused([](auto& p) { p.columns = p.rows = 16000; }, {"16000 x 16000 pixels is not believable of"});
+  refused([](auto& p) { p.columns = p.rows = 16000; }, {"16000 x 16000 pixels cannot fit in"});
   refused([](auto& p) { p.rows = 0; }, {"a.tif"});
   refused([](auto& p) { p.samples.resize(5); }, {"is damaged", "StripByteCounts"});
   // Tiles of 16 x 16: TileWidth, TileLength.

@@ -56,10 +56,10 @@ TEST_CASE("words: numbers out of range and counts that are none are refused") {
   };
   refuses("", {"ends before angles"});
   refuses("two", {"line 1", "angles", "'two'"});
-  refuses("0", {"angles: 0 is no count"});
-  refuses("-1", {"-1 is no count"});
-  refuses("1.5", {"1.5 is no count"});
-  refuses("1e7 1", {"no count from 1 to 1000000"});
+  refuses("0", {"angles: 0 is not a count"});
+  refuses("-1", {"-1 is not a count"});
+  refuses("1.5", {"1.5 is not a count"});
+  refuses("1e7 1", {"not a count from 1 to 1000000"});
   refuses("3 1\n2", {"ends before angles"});
   refuses("2 1\n10", {"line 2", "'10'", "from 0 to 9"});
   refuses("1 nan", {"'nan'", "not finite"});

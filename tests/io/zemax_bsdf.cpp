@@ -107,8 +107,8 @@ TEST_CASE("Zemax: what is no such file is refused") {
   check_zemax_refused(replaced(small_file, "ScatterRadial 3\r\n0 30\r\n60", ""), {"ScatterRadial is missing"});
   check_zemax_refused(replaced(small_file, "AngleOfIncidence 2", "AngleOfIncidence 3"),
                       {"line 10", "AngleOfIncidence", "'ScatterAzimuth'"});
-  check_zemax_refused(replaced(small_file, "AngleOfIncidence 2", "AngleOfIncidence 1e300"), {"line 8", "no count"});
-  check_zemax_refused(replaced(small_file, "AngleOfIncidence 2", "AngleOfIncidence 0.5"), {"line 8", "no count"});
+  check_zemax_refused(replaced(small_file, "AngleOfIncidence 2", "AngleOfIncidence 1e300"), {"line 8", "not a count"});
+  check_zemax_refused(replaced(small_file, "AngleOfIncidence 2", "AngleOfIncidence 0.5"), {"line 8", "not a count"});
   check_zemax_refused(replaced(small_file, "0 40", "0 nan"), {"line 9", "AngleOfIncidence", "not finite"});
   check_zemax_refused(replaced(small_file, "0 40", "0 95"), {"line 9", "'95'", "from 0 to 90"});
   check_zemax_refused(replaced(small_file, "TIS 0.5", "0.5"), {"line 18", "'0.5'", "expected TIS"});

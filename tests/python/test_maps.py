@@ -62,7 +62,7 @@ class MapTest(unittest.TestCase):
     def test_a_texel_beside_the_sample(self):
         self.assertEqual(self.map.uncertainty[BESIDE], 0)
         self.assertEqual((self.map.uncertainty > 0).sum(), ROWS * COLUMNS - 1)
-        with self.assertRaisesRegex(gonio.Error, "row 1, column 2 is not of the sample"):
+        with self.assertRaisesRegex(gonio.Error, "row 1, column 2 is outside the sample"):
             self.map.brdf(*BESIDE)
 
     def test_refusals(self):

@@ -126,7 +126,7 @@ class SamplesTest(unittest.TestCase):
             (None, "rows is of type object" + of_type),
             ({1, 2}, "rows is of type object" + of_type),
             ([[1, 2]], "rows has shape (1, 2): expected (n,)"),
-            ([[1, 2], [3]], "rows is no array of numbers"),
+            ([[1, 2], [3]], "rows is not an array of numbers"),
         ]:
             for choose in (samples.subset, samples.__getitem__):
                 with self.subTest(rows=rows, choose=choose.__name__), self.assertRaises(gonio.Error) as raised:

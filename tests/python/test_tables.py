@@ -156,7 +156,7 @@ class EvaluationTest(unittest.TestCase):
             ([[0, 0, 1], [0, np.inf, 1]], "wi[1, 1] is inf: expected finite numbers"),
             ([0, 1], "wi has shape (2,): expected (..., 3), unit vectors"),
             (1.0, "wi has shape (): expected (..., 3), unit vectors"),
-            ("up", "wi is no array of numbers"),
+            ("up", "wi is not an array of numbers"),
             ([[0, 0, 1]] * 3, "wi has 3 vectors and wo has 2: expected arrays of the same shape, "
                               "or a single vector beside an array"),
         ]:
@@ -178,7 +178,7 @@ class RefusalTest(unittest.TestCase):
     def test_tables_of_other_shapes(self):
         self.refused("values has shape (9, 9, 18): expected (theta_h, theta_d, phi_d, 3)", gonio.Table,
                      np.zeros((9, 9, 18)))
-        self.refused("values is no array of numbers", gonio.Table, "table")
+        self.refused("values is not an array of numbers", gonio.Table, "table")
 
     def test_a_hole_above_the_horizon(self):
         values = np.zeros((9, 9, 18, 3))

@@ -95,7 +95,7 @@ TEST_CASE("component brdf: bad input") {
   }
   CHECK_THROWS_WITH_AS(shared_components<float>(some_components(), 7), "cannot take 7 of 6 components", gonio::error);
   CHECK_THROWS_WITH_AS(component_brdf(components, Eigen::MatrixXd::Zero(5, 3)),
-                       "a BRDF of 6 components needs as many finite weights for each of 3 channels, not 5 x 3",
+                       "a BRDF of 6 components needs one finite weight per component for each of 3 channels, not 5 x 3",
                        gonio::error);
   weights(0, 0) = nan;
   CHECK_THROWS_AS(component_brdf(components, weights), gonio::error);

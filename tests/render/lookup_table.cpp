@@ -181,7 +181,7 @@ TEST_CASE("lookup table: of a formula, and of the planes of a MERL file") {
         doctest::Approx(1.0 + 1e-12).epsilon(1e-15));
   planes.pop_back();
   CHECK_THROWS_WITH_AS(lookup_table<float>::from_merl(planes, coarse),
-                       "three planes of 81000 values were expected of a MERL table, not 242999 values", gonio::error);
+                       "a MERL table needs three planes of 81000 values, not 242999 values", gonio::error);
 }
 
 TEST_CASE("lookup table: what is no pair above the horizon is black") {

@@ -79,5 +79,5 @@ TEST_CASE("merl view: is sampled by importance as any BRDF") {
 TEST_CASE("merl view: planes of another size are refused") {
   const std::vector<double> planes(3 * small_grid.size() - 1);
   CHECK_THROWS_WITH_AS((merl_view<>(planes, small_grid)),
-                       "three planes of 3240 values were expected of a MERL table, not 9719 values", gonio::error);
+                       "a MERL table needs three planes of 3240 values, not 9719 values", gonio::error);
 }

@@ -73,6 +73,6 @@ TEST_CASE("what is no number is refused by name") {
     Eigen::MatrixXd a = random_matrix(4, 3, 1);
     a(2, 1) = odd;
     CHECK_THROWS_WITH_AS((void)gonio::singular_values(a, "the plan"),
-                         "the singular values of the plan are not defined: it is not finite", gonio::error);
+                         "the singular values of the plan are undefined: a value is not finite", gonio::error);
   }
 }

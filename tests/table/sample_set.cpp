@@ -38,7 +38,7 @@ TEST_CASE("what no estimator can use is refused with the sample's number") {
   refused({{nan, 0.2, 0.3}, rgb::Ones(), 1.0}, "angle is not finite");
   refused({{0.1, 0.2, inf}, rgb::Ones(), 1.0}, "angle is not finite");
   refused({{0.1, 0.2, 0.3}, rgb(1, nan, 1), 1.0}, "reflectance is not finite");
-  refused({{0.1, 0.2, 0.3}, rgb(1, 1, -1e39), 1.0}, "beyond the range of float");
+  refused({{0.1, 0.2, 0.3}, rgb(1, 1, -1e39), 1.0}, "outside the range of float");
   refused({{0.1, 0.2, 0.3}, rgb::Ones(), -1.0}, "weight");
   refused({{0.1, 0.2, 0.3}, rgb::Ones(), inf}, "weight");
   refused({{1.0, 1.2, 0.0}, rgb::Ones(), 1.0}, "horizon");
@@ -83,7 +83,7 @@ TEST_CASE("samples at wavelengths are no colours, and make some") {
   gonio::require_usable(samples);
   REQUIRE(samples.size() == 2);
   CHECK(samples.values(1)[2] == 2.0);
-  CHECK_THROWS_WITH_AS(static_cast<void>(samples[0]), doctest::Contains("4 wavelengths are no colours"), gonio::error);
+  CHECK_THROWS_WITH_AS(static_cast<void>(samples[0]), doctest::Contains("4 wavelengths have no colours"), gonio::error);
   CHECK_THROWS_AS(static_cast<void>(samples.begin()), gonio::error);
   CHECK_THROWS_AS(two_spectra().push_back({{0.1, 0.2, 0.3}, rgb::Ones()}), gonio::error);
   for (const auto light : {gonio::illuminant::d65, gonio::illuminant::a}) {

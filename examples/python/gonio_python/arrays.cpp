@@ -74,7 +74,7 @@ std::string shape_of(const py::array& array) { return py::str(array.attr("shape"
 
 doubles finite_numbers(const py::object& given, const std::string& name) {
   const doubles array = doubles::ensure(given);
-  if (!array) gonio::refuse(name + " is no array of numbers");
+  if (!array) gonio::refuse(name + " is not an array of numbers");
   const std::span<const double> numbers(array.data(), static_cast<std::size_t>(array.size()));
   if (gonio::all_finite(numbers)) return array;
   const auto wrong = std::ranges::find_if_not(numbers, [](double x) { return std::isfinite(x); });
@@ -144,7 +144,7 @@ std::vector<gonio::sample_directions> sample_directions_of(const py::object& giv
 std::vector<py::ssize_t> rows_of(const py::object& given, py::ssize_t count) {
   if (py::isinstance<py::slice>(given)) return rows_of_slice(given.cast<py::slice>(), count);
   const auto array = py::array::ensure(given);
-  if (!array) gonio::refuse("rows is no array of numbers");
+  if (!array) gonio::refuse("rows is not an array of numbers");
   const char kind = array.dtype().kind();
   if (kind == 'b') return rows_of_mask(array, count);
   if (kind == 'i' || kind == 'u') return rows_of_numbers(array, count);

@@ -109,7 +109,7 @@ void add_cells(py::module_& m) {
       "Returns the same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
   type.def("numbers", &numbers_of,
            "Returns for each cell of the grid the number of the cell that a look-up reads there, int32 of the\n"
-           "grid's shape: below the horizon, that of the cell above. `prior.mean[prior.cells.numbers()]` is the\n"
+           "grid's shape: below the horizon, the cell above. `prior.mean[prior.cells.numbers()]` is the\n"
            "mean over the whole grid.");
   add_copies(
       type, [](const gonio::valid_cells& cells) { return state_of(cells); },

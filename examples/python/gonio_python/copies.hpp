@@ -50,7 +50,7 @@ template <class Matrix>
 [[nodiscard]] Matrix matrix_of(const py::handle& given) {
   using number = typename Matrix::Scalar;
   const auto array = given.cast<py::array_t<number, py::array::c_style | py::array::forcecast>>();
-  if (array.ndim() != 2) gonio::refuse("a pickle holds no matrix where one is expected");
+  if (array.ndim() != 2) gonio::refuse("a pickle lacks a matrix");
   Matrix matrix(array.shape(0), array.shape(1));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) matrix(i, j) = array.at(i, j);

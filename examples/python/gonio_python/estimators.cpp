@@ -203,7 +203,7 @@ void add_fit_copies(py::class_<fitted_pca>& fit) {
 fitted_pca brdf_of_weights(const gonio::log_relative_pca& prior, const py::object& given) {
   const doubles weights = finite_rows(given, "weights", {3});
   if (weights.shape(0) > prior.size())
-    gonio::refuse({"weights have the shape ", shape_of(weights), ", and the prior has ", prior.size(), " components"});
+    gonio::refuse({"weights have the shape ", shape_of(weights), ", but the prior has ", prior.size(), " components"});
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(prior.size(), 3);
   all.topRows(weights.shape(0)) = matrix_of<Eigen::MatrixXd>(weights);
   return {prior, std::move(all)};
@@ -295,7 +295,7 @@ direction_pairs pairs_above_horizon(const py::object& wi, const py::object& wo) 
   direction_pairs pairs(wi, wo);
   for (Eigen::Index i = 0; i < pairs.size(); ++i)
     if (!(pairs.wi(i).z() > 0.0 && pairs.wo(i).z() > 0.0))
-      gonio::refuse({"pair ", i, " of wi and wo is not above the horizon, where nothing is known"});
+      gonio::refuse({"pair ", i, " of wi and wo is not above the horizon"});
   return pairs;
 }
 

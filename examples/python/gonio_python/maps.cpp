@@ -64,7 +64,7 @@ gonio::fitted_brdf<gonio::log_relative_pca> brdf_of(const texel_map& map, py::ss
   const Eigen::Index functions = map.header.functions.cols(), texel = row * columns + column;
   const auto* bits = static_cast<const std::uint16_t*>(map.weights.data()) + 3 * functions * texel;
   if (static_cast<const std::uint16_t*>(map.uncertainty.data())[texel] == 0)
-    gonio::refuse({"the texel of row ", row, ", column ", column, " is not of the sample"});
+    gonio::refuse({"the texel of row ", row, ", column ", column, " is outside the sample"});
   Eigen::MatrixXd weights(functions, 3);
   for (Eigen::Index i = 0; i < weights.size(); ++i) weights.data()[i] = double{gonio::from_half(bits[i])};
   return {map.prior, map.header.functions.cast<double>() * weights};

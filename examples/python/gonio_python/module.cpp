@@ -29,7 +29,7 @@ gonio::progress interruption() {
 void add_error(py::module_& m) {
   static const py::handle type = py::exception<gonio::error>(m, "Error", PyExc_ValueError).release();
   type.attr("__module__") = "gonio";
-  type.attr("__doc__") = "Bad input. The message is one sentence: the fault, its place, and the expected input.";
+  type.attr("__doc__") = "Bad input. The message is one sentence: the fault, its location, and the expected input.";
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -174,7 +174,7 @@ void add_reconstruct(py::module_& m) {
         "Completes a BRDF from samples as `gonio reconstruct` does. method: pca, soft-specular, linear, correction, "
         "rbf,\n"
         "pull-push or scattered. The other arguments are the tool's options (docs/reference/tool.md); None is its\n"
-        "default, which of prior is the one that ships with the package. prior: a Prior, or the path of one. A method\n"
+        "default; for prior, the one that ships with the package. prior: a Prior, or the path of one. A method\n"
         "refuses what it would ignore.");
 }
 

@@ -24,7 +24,7 @@ namespace {
 /// Ignores cells below the horizon or not above `minimum_cosine`.
 gonio::brdf_table table_from_dense(const py::object& given, const std::string& anchor, double minimum_cosine) {
   const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(given);
-  if (!array) gonio::refuse("values is no array of numbers");
+  if (!array) gonio::refuse("values is not an array of numbers");
   if (array.ndim() != 4 || array.shape(3) != 3)
     gonio::refuse({"values has shape ", shape_of(array), ": expected (theta_h, theta_d, phi_d, 3)"});
   const auto extent = [&](int axis) { return static_cast<int>(std::min<py::ssize_t>(array.shape(axis), 1 << 30)); };
@@ -64,7 +64,8 @@ py::array_t<float> dense_array(const gonio::brdf_table& table) { return array_of
 
 /// The array that numpy asks for.
 py::object as_array(const gonio::brdf_table& table, const py::object& dtype, const py::object& copy) {
-  if (!copy.is_none() && !copy.cast<bool>()) gonio::refuse("a table as an array is a copy: copy=False cannot be had");
+  if (!copy.is_none() && !copy.cast<bool>())
+    gonio::refuse("a table as an array is always a copy: copy=False is not supported");
   const py::array_t<float> array = dense_array(table);
   return dtype.is_none() ? py::object(array) : array.attr("astype")(dtype);
 }

@@ -20,7 +20,7 @@ class joined {
 
   /// Throws gonio::error if the two are over different cells.
   joined(First first, Second second) : first_(std::move(first)), second_(std::move(second)) {
-    if (!(first_.cells() == second_.cells())) refuse("bases that are joined must be over the same cells");
+    if (!(first_.cells() == second_.cells())) refuse("joined bases must be over the same cells");
   }
 
   [[nodiscard]] const First& first() const noexcept { return first_; }

@@ -13,7 +13,7 @@ namespace gonio {
 /// unless the table is over the basis' cells. Components below 1e-5 of the first get no weight. O(cells x k).
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd project(const pca<Metric>& basis, const brdf_table& table, thread_count threads = {}) {
-  if (!(table.cells() == basis.cells())) refuse("only a table over the basis' own cells can be projected on it");
+  if (!(table.cells() == basis.cells())) refuse("a table projected on a basis must be over the cells of the basis");
   const Eigen::Index k = basis.size();
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(k, 3);
   Eigen::MatrixXd products = sum_over_blocks(

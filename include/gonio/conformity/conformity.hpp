@@ -195,8 +195,7 @@ template <error_metric Metric>
 
   // Join the two. The weights of samples divide the variances of their noise.
   const located_samples both = detail::both_of(part, reference);
-  if (options.delta_e > 0.0 && both.values.cols() != 3)
-    refuse("a tolerance of Delta E needs red, green and blue, which part and reference have not");
+  if (options.delta_e > 0.0 && both.values.cols() != 3) refuse("a Delta E tolerance needs part and reference in RGB");
   discrepancy_model model = estimator.model();
   model.noise = 0.0;
   model.grazing_variance = 0.0;  // a single variance for all errors, as in the calibration of p-values
@@ -244,7 +243,7 @@ template <error_metric Metric>
                                                  const conformity_options& options = {}) {
   constexpr Eigen::Index most_samples = 5000;
   if (samples.size() > most_samples)
-    refuse({"noise is told by repeats of at most ", most_samples, " samples, not of ", samples.size()});
+    refuse({"noise is estimated from repeats of at most ", most_samples, " samples, not ", samples.size()});
   const Eigen::Index channels = detail::distinct_channels(samples.values);
   double squares = 0.0, freedom = 0.0;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {

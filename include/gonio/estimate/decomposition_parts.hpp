@@ -36,7 +36,7 @@ struct decomposition_parts {
   static_assert(
       requires(const metric& map) { map.inverse(1.0, Eigen::Index{}); },
       "decomposition: the metric of the basis has no inverse(y, cell)");
-  static_assert(error_metric<metric>, "decomposition: the metric of the basis is no gonio::error_metric");
+  static_assert(error_metric<metric>, "decomposition: the metric of the basis is not a gonio::error_metric");
 
   static_assert(
       requires(const Basis& functions) { functions.size(); }, "decomposition: the basis has no size()");
@@ -49,12 +49,13 @@ struct decomposition_parts {
       channelwise || requires(const Basis& functions) { functions.row(Eigen::Index{}); } ||
           requires(const Basis& functions, const location& at, function_row out) { functions.read_row(at, out); },
       "decomposition: the basis has neither row(cell) nor read_row(location, out)");
-  static_assert(colour_basis<Basis>, "decomposition: the basis is no gonio::basis and no gonio::channelwise_basis");
+  static_assert(colour_basis<Basis>,
+                "decomposition: the basis is neither a gonio::basis nor a gonio::channelwise_basis");
 
   static_assert(
       requires(const Solver& any, const least_squares_problem& problem) { any.solve(problem); },
       "decomposition: the solver has no solve(problem)");
-  static_assert(solver<Solver>, "decomposition: the solver is no gonio::solver");
+  static_assert(solver<Solver>, "decomposition: the solver is not a gonio::solver");
 };
 
 }  // namespace gonio::detail

@@ -41,7 +41,7 @@ class errors_in_variables_decomposition {
   errors_in_variables_decomposition(pca<Metric> prior, double eta, double angle, thread_count threads = {})
       : prior_(std::move(prior)), solver_(eta), angle_(angle), threads_(threads) {
     if (!(angle >= 0.0 && angle <= std::numbers::pi / 4.0))
-      refuse("samples may be misplaced by 0 to 45 degrees, not by " + std::to_string(degrees(angle)));
+      refuse("the angular error of samples must be from 0 to 45 degrees, not " + std::to_string(degrees(angle)));
   }
 
   /// Fits samples. O(16 n k) for n samples, plus the solver's cost. Throws gonio::error for unusable samples.

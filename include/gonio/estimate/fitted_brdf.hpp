@@ -234,11 +234,12 @@ requires std::same_as<domain_of<Basis>, valid_cells> fitted_brdf<Basis>::fitted_
       report_(std::move(report)),
       kinds_(std::move(kinds)) {
   if (const Eigen::Index size = basis_.size(); weights_.rows() != size || weights_.cols() != kinds_.size())
-    refuse({"a fit by ", size, " functions needs as many weights for each of ", kinds_.size(), " channels"});
-  if (!gonio::basis<Basis> && !kinds_.are_colours()) refuse("channels that have a basis each are red, green and blue");
+    refuse({"a fit of ", size, " functions needs one weight per function for each of ", kinds_.size(), " channels"});
+  if (!gonio::basis<Basis> && !kinds_.are_colours())
+    refuse("a channelwise basis needs the channels red, green and blue");
   if (computed && weights_.rows() > most_computed_functions)
-    refuse({"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
-            basis_.size()});
+    refuse(
+        {"a fit of computed functions can have at most ", most_computed_functions, " functions, not ", basis_.size()});
   float_weights_ = to_float(three_columns(0));
 }
 

@@ -227,7 +227,8 @@ class reconstructed {
   /// Throws gonio::error for more than `discrepancy_model::most_centres` samples.
   [[nodiscard]] std::vector<sample_residual> residuals() const {
     if (!all_)
-      refuse({"residuals need at most ", known_.expected().model.most_centres, " samples, not ", samples_->size()});
+      refuse({"residuals can be computed for at most ", known_.expected().model.most_centres, " samples, not ",
+              samples_->size()});
     const sample_predictions others = all_->predicted_without();
     const Eigen::VectorXd disagreement = others.disagreement();
     std::vector<sample_residual> told;

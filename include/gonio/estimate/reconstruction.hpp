@@ -132,7 +132,7 @@ reconstruction<Metric>::reconstruction(pca<Metric> prior, const discrepancy_mode
     : prior_(std::move(prior)), expected_{static_cast<double>(prior_.coefficients().rows()), model}, threads_(threads) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   if (!positive(model.error_variance))
-    refuse({"the error variance beside a discrepancy must be positive and finite, not ", model.error_variance});
+    refuse({"the error variance of a discrepancy must be positive and finite, not ", model.error_variance});
   if (!positive(model.variance))
     refuse({"the variance of a discrepancy must be positive and finite, not ", model.variance});
   if (model.most_centres < 1 || model.most_samples < 1)

@@ -74,10 +74,10 @@ class soft_or_specular {
         reference_(std::move(reference)),
         threshold_(threshold),
         regions_(regions) {
-    if (!std::isfinite(threshold)) refuse("the contrast between soft and specular materials must be finite");
+    if (!std::isfinite(threshold)) refuse("the contrast threshold between soft and specular materials must be finite");
     if (!(regions.in_peak >= 0.0 && regions.in_peak < regions.off_peak))
       refuse("the highlight (theta_h up to " + in_degrees(regions.in_peak) +
-             ") must end before what is out of it begins (" + in_degrees(regions.off_peak) + ")");
+             ") must end before the region outside it begins (" + in_degrees(regions.off_peak) + ")");
   }
 
   [[nodiscard]] const Soft& soft() const noexcept { return soft_; }
@@ -89,8 +89,8 @@ class soft_or_specular {
   template <sample_range Samples>
   [[nodiscard]] double contrast(const Samples& samples) const {
     if (const auto found = highlight_contrast(reference_, samples, regions_)) return *found;
-    refuse("the samples do not tell soft from specular: one with theta_h up to " + in_degrees(regions_.in_peak) +
-           " and one from " + in_degrees(regions_.off_peak) + " on are needed");
+    refuse("the samples cannot distinguish soft from specular: one with theta_h up to " + in_degrees(regions_.in_peak) +
+           " and one with at least " + in_degrees(regions_.off_peak) + " are needed");
   }
 
   /// Returns the kind of the material. Throws gonio::error as `contrast` does.

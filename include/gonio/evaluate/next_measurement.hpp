@@ -56,8 +56,7 @@ class measurement_chooser {
     std::vector<bool> free = free_candidates(samples);
     for (Eigen::Index i = 0; is_reachable && i < std::ssize(free); ++i)
       free[i] = free[i] && is_reachable(design_.geometry().centre(i));
-    if (std::ranges::count(free, true) < count)
-      refuse({"there are fewer than ", count, " candidates that were not measured"});
+    if (std::ranges::count(free, true) < count) refuse({"there are fewer than ", count, " unmeasured candidates"});
     std::optional<sample_process> process;
     if (!samples.empty()) process = design_.estimator().process_of_inliers(locate(samples));
     design::candidate_posterior known = process ? design_.posterior_of(*process) : design_.prior();

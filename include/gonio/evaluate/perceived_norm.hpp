@@ -66,7 +66,7 @@ template <error_metric Metric>
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, const render::sphere_operator& sphere,
                                              thread_count threads = {}) {
-  if (!(basis.cells() == sphere.cells())) refuse("a basis and a sphere over other cells cannot be combined");
+  if (!(basis.cells() == sphere.cells())) refuse("a basis and a sphere must be over the same cells");
   constexpr Eigen::Index points_of_a_sum = 8;
   const Eigen::Index points = sphere.points().size();
   const Eigen::Index k = basis.size();

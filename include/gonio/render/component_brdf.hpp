@@ -168,7 +168,7 @@ class component_brdf {
       : components_(&components), weights_(weights.size(), 0.0f) {
     if (weights.rows() != components.size() || weights.cols() != 3 || !weights.allFinite())
       refuse("a BRDF of " + std::to_string(components.size()) +
-             " components needs as many finite weights for each of " + "3 channels, not " +
+             " components needs one finite weight per component for each of " + "3 channels, not " +
              std::to_string(weights.rows()) + " x " + std::to_string(weights.cols()));
     // Store the three weights of a component adjacently.
     for (Eigen::Index k = 0; k < weights.rows(); ++k)

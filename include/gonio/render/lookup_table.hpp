@@ -77,7 +77,7 @@ class lookup_table {
   [[nodiscard]] static lookup_table from_merl(std::span<const double> planes, const gonio::grid& cells) {
     const Eigen::Index plane = cells.size();
     if (std::ssize(planes) != 3 * plane)
-      refuse("three planes of " + std::to_string(plane) + " values were expected of a MERL table, not " +
+      refuse("a MERL table needs three planes of " + std::to_string(plane) + " values, not " +
              std::to_string(planes.size()) + " values");
     return lookup_table(cells, [&](const cell_index& cell) {
       const Eigen::Index at = cells.linear(cell);

@@ -39,7 +39,7 @@ class merl_view {
   /// Likewise, on a grid with a known anchor.
   merl_view(std::span<const double> planes, const gonio::grid& cells) : planes_(planes), index_(cells), finder_(cells) {
     if (std::ssize(planes) != 3 * cells.size())
-      refuse("three planes of " + std::to_string(cells.size()) + " values were expected of a MERL table, not " +
+      refuse("a MERL table needs three planes of " + std::to_string(cells.size()) + " values, not " +
              std::to_string(planes.size()) + " values");
   }
   /// Temporary planes cannot be viewed.

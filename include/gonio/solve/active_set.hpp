@@ -152,7 +152,7 @@ class active_set {
   /// until no sign changes. If the optimum is `refined`, leaving columns are barred, because they entered by rounding.
   void settle(bool refined = false) {
     for (int round = 0; !passive_.empty(); ++round) {
-      if (round > step_limit(x_.size())) refuse("an active set does not settle: the normal equations overflow");
+      if (round > step_limit(x_.size())) refuse("an active set does not converge: the normal equations overflow");
       Eigen::VectorXd z = optimum_of_passive();
       if (refined) refine(z);
       double length = 1.0;

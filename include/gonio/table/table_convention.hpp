@@ -84,8 +84,7 @@ template <std::predicate<std::size_t> Marked>
 [[nodiscard]] inline table_convention infer_convention(std::span<const double> planes, const grid_extents& extents) {
   const Eigen::Index plane = grid(extents).size();
   if (std::ssize(planes) != 3 * plane)
-    refuse(message_of(
-        {"three planes of ", plane, " values were expected of a MERL table, not ", planes.size(), " values"}));
+    refuse(message_of({"a MERL table needs three planes of ", plane, " values, not ", planes.size(), " values"}));
   return infer_convention(extents, [&](std::size_t linear) {
     return planes[linear] == detail::merl_empty && planes[plane + linear] == detail::merl_empty &&
            planes[2 * plane + linear] == detail::merl_empty;

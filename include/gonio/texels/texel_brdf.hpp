@@ -38,8 +38,8 @@ class texel_brdf {
     if (components.size() > most_components)
       refuse({"texels of ", components.size(), " components, expected at most ", most_components});
     if (std::ssize(weights) % (3 * components.size()) != 0)
-      refuse({"texels of ", components.size(), " components have 3 times as many weights each: ", std::ssize(weights),
-              " are not of whole texels"});
+      refuse({"texels of ", components.size(), " components need 3 weights for each component: ", std::ssize(weights),
+              " weights are not a whole number of texels"});
   }
 
   [[nodiscard]] Eigen::Index texels() const noexcept { return std::ssize(weights_) / (3 * components_->size()); }

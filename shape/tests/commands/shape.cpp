@@ -144,7 +144,7 @@ TEST_CASE("shape recover: from a pose that was written down, which may be held")
 
   const std::string never = " -o " + made.at("never.ply");
   scratch::put(made.at("scaled.txt"), std::string("1.1 0 0 0\n0 1.1 0 0\n0 0 1.1 0\n0 0 0 1\n"));
-  refuses_shape(files + " --pose " + made.at("scaled.txt") + never, "scaled.txt: is no rigid motion");
+  refuses_shape(files + " --pose " + made.at("scaled.txt") + never, "scaled.txt: is not a rigid motion");
   scratch::put(made.at("far.txt"), std::string("1 0 0 900\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"));
   refuses_shape(files + " --pose " + made.at("far.txt") + never, "is its pose right?");
   refuses_shape(files + " --hold-pose" + never, "--pose");
@@ -248,7 +248,7 @@ TEST_CASE("shape learn: shapes that do not correspond, or do not differ, are ref
   turned.triangles.row(0).swap(turned.triangles.row(1));
   io::write_mesh(made.at("turned.ply"), turned);
   refuses_to_learn(shape + " " + made.at("turned.ply"), "turned.ply: does not have the vertices and triangles of");
-  refuses_to_learn(shape, "a shape model needs at least two shapes that differ, not 1 that do not");
+  refuses_to_learn(shape, "a shape model needs at least two different shapes, not 1 equal ones");
   refuses_to_learn(made.at("missing.ply"), "missing.ply: cannot be read");
 }
 

@@ -249,7 +249,7 @@ TEST_CASE("bad PLY headers are refused") {
   const std::string start = "ply\nformat ascii 1.0\n", vertex = "element vertex 3\n", end = "end_header\n";
   const std::string face = "element face 1\n" + corner_list, rows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   CHECK_NOTHROW(mesh_in(here, "a.ply", start + vertex + xyz + face + end + rows));
-  refused("PLY\n" + start, {"is no PLY file"});
+  refused("PLY\n" + start, {"is not a PLY file"});
   refused("ply", {"line 1", "truncated"});
   refused("plyx\n" + start, {"line 1", "'plyx'"});
   refused(start + vertex, {"line 4", "truncated", "end_header"});
@@ -266,7 +266,7 @@ TEST_CASE("bad PLY headers are refused") {
   refused(start + vertex + xyz + vertex, {"line 7", "'vertex' is given twice"});
   refused(start + xyz, {"line 3", "before the first element"});
   refused(start + vertex + "property half x\n", {"line 4", "'half'"});
-  refused(start + vertex + "property list uchar\n", {"line 4", "no type"});
+  refused(start + vertex + "property list uchar\n", {"line 4", "not a PLY type"});
   refused(start + vertex + xyz + "property int x\n", {"line 7", "'x' is given twice"});
   refused(start + vertex + xyz + "element face 1\nproperty list float int vertex_index\n", {"line 8", "integers"});
   refused(start + vertex + xyz + "element face 1\nproperty list uchar float vertex_index\n", {"line 8", "integers"});
@@ -293,11 +293,13 @@ TEST_CASE("bad rows of an ascii PLY are refused") {
   refused(ascii_ply("3", "2", points + "3 0 1 2\n"), {"truncated or its counts are wrong"});
   refused(ascii_ply("3", "18446744073709551615", points + "3 0 1 2\n"), {"truncated or its counts are wrong"});
   refused(ascii_ply("2147483647", "1", points), {"truncated or its counts are wrong"});
-  refused(ascii_ply("3", "1", points + "3 0 1 2\n3 2 1 0\n"), {"line 14", "'3 2 1 0' follows what the header counts"});
+  refused(ascii_ply("3", "1", points + "3 0 1 2\n3 2 1 0\n"),
+          {"line 14", "'3 2 1 0' follows the data that the header counts"});
   refused(ascii_ply("3", "0", points), {"3 vertices has no triangles"});
   refused(ascii_ply("0", "0", ""), {"0 vertices has no triangles"});
   refused("ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "end_header\n1 2 3\n", {"1 vertices has no triangles"});
-  refused("ply\nformat ascii 1.0\nelement face 1\n" + corner_list + "end_header\n3 0 0 0\n", {"of a mesh of 0"});
+  refused("ply\nformat ascii 1.0\nelement face 1\n" + corner_list + "end_header\n3 0 0 0\n",
+          {"expected at least 0 and less than 0"});
   refused("ply\nformat ascii 1.0\nend_header\n", {"no triangles"});
   refused(ascii_ply("3", "1", "0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), {"line 10", "the line ends"});
   refused(ascii_ply("3", "1", "0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), {"line 10", "'0' follows"});
@@ -306,7 +308,7 @@ TEST_CASE("bad rows of an ascii PLY are refused") {
   refused(ascii_ply("3", "1", "0 0 0\n1 0 -inf\n0 1 0\n3 0 1 2\n"), {"line 11", "'-inf' is not finite"});
   refused(ascii_ply("3", "1", "0 0 0\n1 0 1e999\n0 1 0\n3 0 1 2\n"), {"line 11", "'1e999' is out of range"});
   for (const char* corner : {"3", "-1", "1.5", "4294967296", "1e300"})
-    refused(ascii_ply("3", "1", points + "3 0 1 " + corner + "\n"), {"line 13", "a face names vertex", "mesh of 3"});
+    refused(ascii_ply("3", "1", points + "3 0 1 " + corner + "\n"), {"line 13", "a face names vertex", "less than 3"});
   refused(ascii_ply("3", "1", points + "3 0 1\n"), {"line 13", "the line ends"});
   refused(ascii_ply("3", "1", points + "2 0 1\n"), {"line 13", "a face has 2 vertices, expected at least 3"});
   refused(ascii_ply("3", "1", points + "-3 0 1 2\n"), {"line 13", "'vertex_indices' has -3 values"});
@@ -324,11 +326,11 @@ TEST_CASE("binary PLY that is cut off anywhere, or goes on, is refused") {
     for (std::size_t size = 0; size < valid.size(); ++size)
       check_refused([&] { return mesh_in(here, "a.ply", valid.substr(0, size)); },
                     {"a.ply", size == 0     ? "is empty"
-                              : size < 3    ? "is no PLY"
+                              : size < 3    ? "is not a PLY"
                               : size < body ? "header"
                                             : "truncated"});
     check_refused([&] { return mesh_in(here, "a.ply", valid + "\n"); },
-                  {"a.ply: 1 bytes follow what its header counts"});
+                  {"a.ply: 1 bytes follow the data that its header counts"});
   }
   write_mesh(here / "b.ply", single_triangle());
   const std::string written = scratch::get(here / "b.ply");
@@ -371,10 +373,12 @@ TEST_CASE("bad bytes of a binary PLY are refused") {
   refused(changed(48, bytes_of_number(infinite, false)), {"vertex 2 is not finite"});
   refused(changed(72, "\2"), {"a face has 2 vertices"});
   refused(changed(72, "\xFF"), {"truncated or its counts are wrong"});
-  refused(changed(73, bytes_of_number(std::int32_t{3}, false)), {"a face names vertex 3 of a mesh of 3"});
-  refused(changed(73, bytes_of_number(std::int32_t{-1}, false)), {"a face names vertex -1 of a mesh of 3"});
+  refused(changed(73, bytes_of_number(std::int32_t{3}, false)),
+          {"a face names vertex 3, expected at least 0 and less than 3"});
+  refused(changed(73, bytes_of_number(std::int32_t{-1}, false)),
+          {"a face names vertex -1, expected at least 0 and less than 3"});
   refused(recounted("list uchar int", "list uchar char").substr(0, body + 1 + 72) + "\3\1\2\xFF",
-          {"names vertex -1 of"});
+          {"names vertex -1, expected"});
   refused(recounted("vertex 3", "vertex 2147483647"), {"truncated or its counts are wrong"});
   refused(recounted("face 1", "face 18446744073709551615"), {"truncated or its counts are wrong"});
   refused(recounted("face 1", "face 0"), {"13 bytes follow"});
@@ -408,10 +412,10 @@ TEST_CASE("bad OBJ files are refused") {
   refused("v 1 2 3,5\n" + points, {"line 1", "'3,5' is not a number"});
   refused("v 1 2 nan\n" + points, {"line 1", "'nan' is not finite"});
   refused("v 1 2 1e999\n" + points, {"line 1", "'1e999' is out of range"});
-  refused("w 1 2 3\n" + points, {"line 1", "'w' is not known"});
-  refused("curv 0 1 1 2\n" + points, {"line 1", "'curv' is not known"});
+  refused("w 1 2 3\n" + points, {"line 1", "'w' is not supported"});
+  refused("curv 0 1 1 2\n" + points, {"line 1", "'curv' is not supported"});
   write_mesh(here / "b.ply", single_triangle());
-  refused(scratch::get(here / "b.ply"), {"line 1", "'ply' is not known"});
+  refused(scratch::get(here / "b.ply"), {"line 1", "'ply' is not supported"});
 }
 
 TEST_CASE("damaged mesh files are read or refused") {
@@ -444,9 +448,9 @@ TEST_CASE("what cannot be written leaves the old file") {
     refused(name, mesh, {"vertex 2 is not finite"});
     mesh = single_triangle();
     mesh.triangles(1, 0) = 3;
-    refused(name, mesh, {"triangle 0 names vertex 3 of a mesh of 3"});
+    refused(name, mesh, {"triangle 0 names vertex 3, expected at least 0 and less than 3"});
     mesh.triangles(1, 0) = -1;
-    refused(name, mesh, {"triangle 0 names vertex -1 of a mesh of 3"});
+    refused(name, mesh, {"triangle 0 names vertex -1, expected at least 0 and less than 3"});
     mesh.triangles.resize(3, 0);
     refused(name, mesh, {"no triangles"});
   }

@@ -52,16 +52,16 @@ TEST_CASE("pose: what is no rigid motion, or no pose at all, is refused") {
   refuses("", "has 0 lines of numbers, expected 4");
   refuses("1 0 0 0\n0 1 0 0\n0 0 1 0\n", "has 3 lines of numbers, expected 4");
   refuses("1 0 0\n0 1 0\n0 0 1\n", "line 1: 'matrix' takes 4 numbers, not 3");
-  refuses("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 2\n", "line 4: the last line of a pose's matrix is 0 0 0 1");
+  refuses("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 2\n", "line 4: the last line of a pose's matrix must be 0 0 0 1");
   refuses("1 0 0 0\n0 1 0 nan\n0 0 1 0\n" + last, "line 2");
   refuses("1 0 0 0\n0 1 0 x\n0 0 1 0\n" + last, "line 2");
-  refuses("1.01 0 0 0\n0 1.01 0 0\n0 0 1.01 0\n" + last, "is no rigid motion");  // scaled
-  refuses("1 0 0 0\n0 1 0 0\n0 0 -1 0\n" + last, "is no rigid motion");          // mirrored
-  refuses("1 0.1 0 0\n0 1 0 0\n0 0 1 0\n" + last, "is no rigid motion");         // sheared
+  refuses("1.01 0 0 0\n0 1.01 0 0\n0 0 1.01 0\n" + last, "is not a rigid motion");  // scaled
+  refuses("1 0 0 0\n0 1 0 0\n0 0 -1 0\n" + last, "is not a rigid motion");          // mirrored
+  refuses("1 0.1 0 0\n0 1 0 0\n0 0 1 0\n" + last, "is not a rigid motion");         // sheared
   refuses("rotation 1 0 0 0 1 0 0 0 1\n", "'translation' is missing");
   refuses("translation 1 2 3\n", "'rotation' is missing");
   refuses("rotation 1 0 0 0\ntranslation 1 2 3\n", "line 1: 'rotation' takes 9 numbers, not 4");
   refuses("rotate 1 0 0 0 1 0 0 0 1\n", "line 1: 'rotate' is unknown, expected one of rotation, translation");
-  refuses("rotation 2 0 0 0 2 0 0 0 2\ntranslation 1 2 3\n", "is no rigid motion");
+  refuses("rotation 2 0 0 0 2 0 0 0 2\ntranslation 1 2 3\n", "is not a rigid motion");
   scratch::check_refuses_non_files([](const auto& path) { return read_pose(path); });
 }

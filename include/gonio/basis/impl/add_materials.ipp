@@ -72,22 +72,21 @@ struct appended_columns {
 
   void require_same_channels() const {
     const auto described = [](const std::vector<double>& wavelengths) {
-      return wavelengths.empty() ? std::string("in colours") : message_of({"at ", wavelengths.size(), " wavelengths"});
+      return wavelengths.empty() ? std::string("in RGB") : message_of({"at ", wavelengths.size(), " wavelengths"});
     };
     const std::vector<double>&known = prior.wavelengths(), &given = added.materials().wavelengths;
     if (known.size() != given.size())
-      refuse({"the prior's materials are ", described(known), ", those to add are ", described(given)});
+      refuse({"the prior's materials are ", described(known), ", the materials to add are ", described(given)});
     for (std::size_t i = 0; i < known.size(); ++i)
       if (known[i] != given[i])
-        refuse(
-            {"wavelength ", i + 1, " of the materials to add is ", given[i], " nm, that of the prior's is ", known[i]});
+        refuse({"wavelength ", i + 1, " of the materials to add is ", given[i], " nm, the prior's is ", known[i]});
   }
 
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> all = prior.names();
     for (const std::string& name : added.materials().names) {
       if (std::ranges::find(prior.names(), name) != prior.names().end())
-        refuse({"the prior was learned from a material named '", name, "' already"});
+        refuse({"the prior contains a material named '", name, "' already"});
       all.push_back(name);
     }
     return all;

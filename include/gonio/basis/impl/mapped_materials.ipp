@@ -71,7 +71,7 @@ GONIO_INLINE mapped_materials::mapped_materials(material_rows materials, cosine_
 
 GONIO_INLINE mapped_materials::mapped_materials(material_rows materials, const log_relative& metric) {
   if (materials.names.empty()) refuse("there is no material to learn from");
-  if (!(metric.cells() == materials.cells)) refuse("the materials are not over the cells of their reference");
+  if (!(metric.cells() == materials.cells)) refuse("the materials and their reference must be over the same cells");
   const auto cells = static_cast<std::size_t>(materials.cells.size());
   state_ = std::make_shared<state>(state{std::move(materials),
                                          metric,

@@ -16,11 +16,11 @@ namespace gonio {
 GONIO_INLINE soft_specular_prior::soft_specular_prior(log_relative_pca soft, log_relative_pca specular,
                                                       double threshold)
     : soft_(std::move(soft)), specular_(std::move(specular)), threshold_(threshold) {
-  if (!std::isfinite(threshold)) refuse("the contrast between soft and specular materials must be finite");
+  if (!std::isfinite(threshold)) refuse("the contrast threshold between soft and specular materials must be finite");
   const log_relative &first = soft_.metric(), &second = specular_.metric();
   if (soft_.cells() != specular_.cells() || first.weighting() != second.weighting() ||
       !std::ranges::equal(first.reference(), second.reference()))
-    refuse("the priors of soft and of specular materials must be over the same cells and relative to the same BRDF");
+    refuse("the soft and the specular prior must be over the same cells and relative to the same BRDF");
 }
 
 GONIO_INLINE soft_specular_prior soft_specular_prior::on(const valid_cells& cells) const {

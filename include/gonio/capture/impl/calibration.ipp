@@ -51,10 +51,10 @@ namespace gonio::capture {
 GONIO_INLINE std::array<camera_response, 3> estimate_responses(std::span<const reading> readings,
                                                                std::uint16_t largest_count,
                                                                const response_options& options) {
-  if (readings.empty()) refuse("a camera's response needs readings, and there is none");
+  if (readings.empty()) refuse("a camera's response needs at least one reading");
   const std::vector<double> times = detail::times_in_common(readings);
   if (times.size() < 2)
-    refuse("a camera's response needs readings with two exposure times or more in common, not " +
+    refuse("a camera's response needs readings with at least two common exposure times, not " +
            std::to_string(times.size()));
   const auto response_of = [&](Eigen::Index channel) {
     return estimate_response(detail::mean_counts(readings, times, channel, largest_count), times, largest_count,
@@ -105,7 +105,7 @@ GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, c
 
 GONIO_INLINE reference_readings::reference_readings(std::vector<direction_pair> poses, std::vector<reading> readings)
     : poses_(std::move(poses)), readings_(std::move(readings)) {
-  if (readings_.empty()) refuse("a reference needs a reading, and there is none");
+  if (readings_.empty()) refuse("a reference needs at least one reading");
   if (readings_.size() != poses_.size())
     refuse({"a reference has ", readings_.size(), " readings at ", poses_.size(), " poses, expected one at each"});
 }
@@ -131,10 +131,10 @@ GONIO_INLINE void require_bright_reference(std::span<const measured_reflectance>
   }
   if (2 * darker > std::ssize(usable))
     refuse({"the reference is darker than the material in ", darker, " of ", usable.size(),
-            " samples: are the two exchanged?"});
+            " samples: are the two swapped?"});
   if (2 * darker_matte > matte)
     refuse({"the reference is darker than the material in ", darker_matte, " of the ", matte,
-            " samples that are no highlight: are the two exchanged?"});
+            " samples outside the highlight: are the two swapped?"});
 }
 
 }  // namespace gonio::capture

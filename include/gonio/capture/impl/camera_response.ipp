@@ -26,14 +26,14 @@ GONIO_INLINE camera_response::camera_response(std::uint16_t largest_count, Eigen
     : largest_(largest_count), smallest_known_(smallest_known_count), values_(std::move(log_exposures)) {
   if (values_.size() < 2) refuse("a camera's response needs at least two values");
   if (values_.size() > largest_)
-    refuse("a camera of " + std::to_string(largest_) + " counts has no response of " + std::to_string(values_.size()) +
-           " values");
+    refuse("a camera of " + std::to_string(largest_) + " counts cannot have a response of " +
+           std::to_string(values_.size()) + " values");
   if (!values_.allFinite()) refuse("a camera's response must be finite");
   for (Eigen::Index k = 1; k < values_.size(); ++k)
     if (values_[k] < values_[k - 1])
       refuse("a camera's response falls from value " + std::to_string(k) +
              " to the next: more light cannot "
-             "give less counts");
+             "give fewer counts");
   values_.array() -= log_exposure(largest_ / 2.0);
   smallest_known_ = std::max(smallest_known_, spacing());
 }
@@ -165,11 +165,12 @@ namespace gonio::capture {
 GONIO_INLINE camera_response estimate_response(const exposure_counts& counts, std::span<const double> times,
                                                std::uint16_t largest_count, const response_options& options) {
   if (counts.cols() != std::ssize(times) || times.size() < 2)
-    refuse("a camera's response needs two exposure times or more, and counts for each: not " +
+    refuse("a camera's response needs at least two exposure times, and counts for each, not " +
            std::to_string(times.size()) + " and " + std::to_string(counts.cols()));
   for (const double time : times)
     if (!(time > 0.0 && std::isfinite(time))) refuse("an exposure time must be positive, not " + std::to_string(time));
-  if (largest_count < 3) refuse("a camera of " + std::to_string(largest_count) + " counts has no response");
+  if (largest_count < 3)
+    refuse("a camera of " + std::to_string(largest_count) + " counts has no response, expected at least 3 counts");
   for (Eigen::Index i = 0; i < counts.size(); ++i)
     if (const double count = counts.data()[i]; !(count >= 0.0 && count <= largest_count))
       refuse("a pixel's count is " + std::to_string(count) + ", expected from 0 to " + std::to_string(largest_count));
@@ -181,7 +182,7 @@ GONIO_INLINE camera_response estimate_response(const exposure_counts& counts, st
   for (const double time : times) log_times.push_back(std::log(time));
   for (Eigen::Index pixel = 0; pixel < counts.rows(); ++pixel) equations.add(counts, pixel, log_times);
   const double total = equations.weight();
-  if (!(total > 0.0)) refuse("no pixel is neither dark nor saturated in two exposures: a camera's response needs such");
+  if (!(total > 0.0)) refuse("a camera's response needs pixels that are neither dark nor saturated in two exposures");
 
   const detail::response_basis basis(knots);
   const Eigen::MatrixXd to_slopes = basis.values.transpose() / total;

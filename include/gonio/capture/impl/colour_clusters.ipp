@@ -40,8 +40,8 @@ inline constexpr Eigen::Index clustered_sample = 2000;
 
 GONIO_INLINE void require_colours(const point_matrix_view& colours) {
   if (colours.rows() == 0 || colours.cols() != 3)
-    refuse("clusters need the colours of at least one pixel, three numbers each, not " +
-           std::to_string(colours.rows()) + " times " + std::to_string(colours.cols()));
+    refuse("clusters need at least one pixel of three numbers, not " + std::to_string(colours.rows()) + " x " +
+           std::to_string(colours.cols()));
   for (Eigen::Index i = 0; i < colours.rows(); ++i)
     if (!colours.row(i).allFinite()) refuse("the colour of pixel " + std::to_string(i + 1) + " is not finite");
 }

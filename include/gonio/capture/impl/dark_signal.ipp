@@ -16,7 +16,7 @@
 namespace gonio::capture::detail {
 
 GONIO_INLINE void require_alike(std::span<const exposed_frame> frames, const char* what) {
-  if (frames.empty()) refuse({"there is no frame: ", what, " at least is needed"});
+  if (frames.empty()) refuse({"there is no frame: ", what, " is needed"});
   const stored_codes& first = frames.front().codes;
   for (const auto& [seconds, codes] : frames) {
     if (!(seconds > 0.0 && std::isfinite(seconds)))
@@ -28,7 +28,7 @@ GONIO_INLINE void require_alike(std::span<const exposed_frame> frames, const cha
       refuse({what, " counts up to ", int{codes.largest}, ", the first one up to ", int{first.largest}});
     if (codes.values.size() != 3 * codes.rows * codes.columns || codes.values.empty())
       refuse({what, " has ", codes.values.size(), " counts, expected ", 3 * codes.rows * codes.columns,
-              ", and one pixel at least"});
+              ", and at least one pixel"});
   }
 }
 
@@ -90,7 +90,7 @@ GONIO_INLINE double dark_signal::relative_variance(double seconds) const noexcep
 GONIO_INLINE void dark_signal::require_known(double seconds) const {
   constexpr double tolerance = 0.01;
   if (pedestals_.empty() || scatter_ > 0.0 || std::abs(seconds - mean_time_) <= tolerance * mean_time_) return;
-  refuse({"all dark frames are exposed for ", mean_time_, " s, which says nothing of ", seconds,
+  refuse({"all dark frames are exposed for ", mean_time_, " s, the photograph for ", seconds,
           " s: dark frames of two exposure times are needed"});
 }
 

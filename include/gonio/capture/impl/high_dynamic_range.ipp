@@ -64,7 +64,7 @@ GONIO_INLINE measured_radiance mean_radiance(std::vector<exposed> all, const cam
 
 GONIO_INLINE void require_times(Eigen::Index images, std::span<const double> times, const std::string& what) {
   if (images != std::ssize(times) || times.empty())
-    refuse(what + " needs as many exposure times, not " + std::to_string(times.size()) + ", and at least one");
+    refuse(what + " has " + std::to_string(times.size()) + " exposure times, expected one for each and at least one");
   for (const double time : times)
     if (!(time > 0.0 && std::isfinite(time))) refuse("an exposure time must be positive, not " + std::to_string(time));
 }

@@ -149,7 +149,7 @@ GONIO_INLINE point_clusters refine_clusters(const point_matrix_view& points, poi
                                             int most_steps) {
   const Eigen::Index n = points.rows(), k = centres.rows();
   if (k < 1 || n < k || points.cols() != centres.cols())
-    refuse(std::to_string(n) + " points of " + std::to_string(points.cols()) + " numbers cannot be parted around " +
+    refuse(std::to_string(n) + " points of " + std::to_string(points.cols()) + " numbers cannot be clustered around " +
            std::to_string(k) + " centres of " + std::to_string(centres.cols()));
   detail::require_finite_points(points);
   detail::require_finite_points(centres);
@@ -168,7 +168,7 @@ GONIO_INLINE point_clusters refine_clusters(const point_matrix_view& points, poi
 GONIO_INLINE point_clusters k_means(const point_matrix_view& points, Eigen::Index k, std::uint64_t seed,
                                     thread_count threads) {
   constexpr int restarts = 10;
-  if (k < 1) refuse("points are parted into at least one cluster, not " + std::to_string(k));
+  if (k < 1) refuse("points need at least one cluster, not " + std::to_string(k));
   detail::require_finite_points(points);
   if (const Eigen::Index different = detail::different_points(points, k); different < k)
     refuse("only " + std::to_string(different) + " of " + std::to_string(points.rows()) +
@@ -186,8 +186,8 @@ GONIO_INLINE point_clusters k_means(const point_matrix_view& points, Eigen::Inde
 GONIO_INLINE nearest_centres find_nearest(const point_matrix_view& points, const point_matrix& centres,
                                           thread_count threads) {
   if (centres.rows() < 1 || points.cols() != centres.cols())
-    refuse(
-        {"points of ", points.cols(), " numbers have no nearest of ", centres.rows(), " centres of ", centres.cols()});
+    refuse({"points of ", points.cols(), " numbers cannot be compared with ", centres.rows(), " centres of ",
+            centres.cols()});
   nearest_centres found{Eigen::VectorXi::Zero(points.rows()), Eigen::VectorXd(points.rows())};
   static_cast<void>(detail::assign(points, centres, found.labels, found.squared_distances, threads));
   return found;
@@ -196,7 +196,7 @@ GONIO_INLINE nearest_centres find_nearest(const point_matrix_view& points, const
 GONIO_INLINE double mean_silhouette(const point_matrix_view& points, const Eigen::VectorXi& labels,
                                     thread_count threads) {
   if (labels.size() != points.rows() || points.rows() == 0 || labels.minCoeff() < 0)
-    refuse("a silhouette needs a point at least, and a label from 0 on for each");
+    refuse("a silhouette needs at least one point, and for each a label of at least 0");
   const std::vector<Eigen::Index> sizes = detail::cluster_sizes(labels, labels.maxCoeff() + 1);
   const auto own_size = [&](Eigen::Index i) { return sizes[labels[i]]; };
   const auto width_of = [&](Eigen::Index i) {

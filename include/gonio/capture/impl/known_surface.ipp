@@ -96,7 +96,7 @@ GONIO_INLINE surface_image surface_of_maps(const vector_map& normals, const std:
     seen.normals.col(pixel).normalize();
     sees_any = true;
   }
-  if (!sees_any) refuse({normals_name, ": all normals are zero, nothing is seen of the surface"});
+  if (!sees_any) refuse({normals_name, ": all normals are zero, no pixel sees the surface"});
   return seen;
 }
 

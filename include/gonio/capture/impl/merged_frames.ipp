@@ -220,12 +220,12 @@ GONIO_INLINE void require_mergeable(std::span<const exposed_frame> frames,
   const std::uint16_t above = counts_above(first.largest, dark);
   for (const camera_response& each : responses)
     if (each.largest_count() != above)
-      refuse({"a response of ", int{each.largest_count()}, " counts is not that of a camera with ", int{above},
-              " above its dark level"});
+      refuse({"a response of ", int{each.largest_count()}, " counts does not fit a camera with ", int{above},
+              " counts above its dark level"});
   const int limit = options.saturation > 0 ? options.saturation : first.largest;
   if (limit > first.largest || limit <= first.largest - above)
-    refuse({"counts saturate at ", limit, ", which is not between the dark level, ", int{first.largest} - above,
-            ", and the largest count, ", int{first.largest}});
+    refuse({"the saturation count is ", limit, ", expected more than the dark level, ", int{first.largest} - above,
+            ", and at most the largest count, ", int{first.largest}});
 }
 
 /// Groups values of similar radiance, whose mean counts have little noise. A response fitted to noisy counts is biased:

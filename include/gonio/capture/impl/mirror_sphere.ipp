@@ -85,9 +85,9 @@ GONIO_INLINE void require_unwrappable(const image& probe, const unwrap_options& 
                    [](float value) { return std::isfinite(value) && value >= 0.0f; }))
     refuse("an image of a mirror sphere must be finite and not negative");
   if (options.rows == 0 || options.samples < 0)
-    refuse("an unwrapped map needs rows, and no negative number of directions across each pixel");
+    refuse("an unwrapped map needs at least one row, and its directions across each pixel must not be negative");
   if (!(options.reflectance > 0.0 && options.reflectance <= 1.0))
-    refuse("a mirror's reflectance lies above 0 and up to 1, not " + std::to_string(options.reflectance));
+    refuse("a mirror's reflectance must be above 0 and up to 1, not " + std::to_string(options.reflectance));
 }
 
 GONIO_INLINE rgb read_probe(const image& probe, const Eigen::Vector2d& place) noexcept {

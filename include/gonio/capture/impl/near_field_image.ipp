@@ -44,13 +44,13 @@ GONIO_INLINE void require_usable(const near_field_setup& setup) {
     const camera_intrinsics& whole = setup.camera.intrinsics();
     refuse_unless(
         inside(window->column, window->columns, whole.columns) && inside(window->row, window->rows, whole.rows),
-        "the window must have pixels, all of them in the image of " + std::to_string(whole.columns) + " x " +
+        "the window must have pixels, all inside the image of " + std::to_string(whole.columns) + " x " +
             std::to_string(whole.rows));
   }
   // Check the mask, the saturation and the block size.
   refuse_unless(
       setup.mask.empty() || setup.mask.size() == setup.camera.intrinsics().rows * setup.camera.intrinsics().columns,
-      "the mask has " + std::to_string(setup.mask.size()) + " pixels, which are not those of the image");
+      "the mask has " + std::to_string(setup.mask.size()) + " pixels, expected as many as the image");
   if (setup.saturation) refuse_unless(*setup.saturation > 0.0, "the saturation must be positive");
   refuse_unless(setup.block > 0, "a block needs at least one pixel a side");
 }
@@ -186,8 +186,8 @@ GONIO_INLINE sample_set near_field_samples(const image& picture, const near_fiel
            detail::block_aperture(setup, static_cast<double>(row) + half, static_cast<double>(column) + half)});
     }
   if (samples.empty())
-    gonio::refuse(any_saturated ? "all that the image sees of the sample is saturated"
-                                : "the image sees nothing of the sample: no pixel's ray meets the region of interest");
+    gonio::refuse(any_saturated ? "every pixel of the sample is saturated"
+                                : "the image does not show the sample: no pixel's ray meets the region of interest");
   return samples;
 }
 

@@ -25,7 +25,7 @@ GONIO_INLINE void require_ascending(const std::vector<double>& angles, const cha
   for (std::size_t i = 1; i < angles.size(); ++i)
     if (!(angles[i - 1] < angles[i]))
       refuse({"the reference's ", name, " of ", degrees(angles[i]), " degrees follows ", degrees(angles[i - 1]),
-              ", expected angles that ascend"});
+              ", expected ascending angles"});
 }
 
 /// The two angles around an angle, and the fraction of the way from the first to the second.
@@ -53,7 +53,7 @@ namespace gonio::capture {
 
 GONIO_INLINE reference_reflectance::reference_reflectance(double everywhere) : factors_{rgb::Constant(everywhere)} {
   if (!(everywhere > 0.0 && everywhere <= 1.0))
-    refuse({"a reference's reflectance lies above 0 and up to 1, not ", everywhere});
+    refuse({"a reference's reflectance must be above 0 and up to 1, not ", everywhere});
 }
 
 GONIO_INLINE reference_reflectance::reference_reflectance(std::vector<double> theta_i, std::vector<double> theta_o,

@@ -31,7 +31,8 @@ GONIO_INLINE reference_light::reference_light(const uncertain& exposure, double 
           exposure.value);
   require(exposure.deviation >= 0.0 && std::isfinite(exposure.deviation),
           "the deviation of the reference's exposure must be finite and not negative", exposure.deviation);
-  require(reflectance > 0.0 && reflectance <= 1.0, "a reference's reflectance lies above 0 and up to 1", reflectance);
+  require(reflectance > 0.0 && reflectance <= 1.0, "a reference's reflectance must be above 0 and up to 1",
+          reflectance);
   require_usable(at);
   per_exposure_ = reflectance * at.cosine / (std::numbers::pi * exposure.value * at.distance * at.distance);
 }
@@ -45,7 +46,7 @@ GONIO_INLINE uncertain reference_light::brdf(const uncertain& exposure, const il
 
 GONIO_INLINE void reference_light::require_usable(const illumination& at) {
   if (!(at.cosine > 0.0 && at.cosine <= 1.0))
-    refuse("the cosine of the angle of incidence lies above 0 and up to 1, not " + std::to_string(at.cosine));
+    refuse("the cosine of the angle of incidence must be above 0 and up to 1, not " + std::to_string(at.cosine));
   if (!(at.distance > 0.0 && std::isfinite(at.distance)))
     refuse("the distance to the lamp must be positive, not " + std::to_string(at.distance));
 }

@@ -228,7 +228,7 @@ GONIO_INLINE fitted_outline fit_sphere(const std::vector<Eigen::Vector2d>& outli
                                        double radius, const outline_options& options) {
   if (!(radius > 0.0 && std::isfinite(radius))) refuse("the sphere's radius must be positive");
   const Eigen::Index count = std::ssize(outline);
-  if (count < 12) refuse({"no sphere is found: ", count, " places of an edge are too few for an outline"});
+  if (count < 12) refuse({"no sphere is found: ", count, " edge points are too few for an outline"});
   Eigen::Matrix3Xd rays(3, count);
   for (Eigen::Index i = 0; i < count; ++i) rays.col(i) = camera.ray_through(outline[i].x(), outline[i].y()).towards;
   const double pixel_angle = camera.pixel_angle(), tolerance = options.inlier_distance * pixel_angle;
@@ -240,14 +240,15 @@ GONIO_INLINE fitted_outline fit_sphere(const std::vector<Eigen::Vector2d>& outli
     inliers = detail::within(detail::beyond_cone(rays, *plane), tolerance);
     if (3 * std::ssize(inliers) < count || detail::covered_share(rays, inliers, *plane) < 0.25)
       refuse({"no sphere is found: ", inliers.size(), " of ", count,
-              " places of the image's edges lie on one outline, or along less than a quarter of it"});
+              " edge points lie on one outline, expected a third along at least a quarter of it"});
     if (options.light) {
       auto lit =
           detail::well_lit(rays, inliers, detail::sphere_of(*plane, camera, radius), camera.position(), *options.light);
       if (lit.size() >= 12) inliers = std::move(lit);
     }
     plane = detail::plane_of(rays, inliers);
-    if (!detail::is_cone(*plane, pixel_angle)) refuse("no sphere is found: the edges of the image are no outline");
+    if (!detail::is_cone(*plane, pixel_angle))
+      refuse("no sphere is found: the edges of the image do not form an outline");
   }
   const Eigen::VectorXd beyond = detail::beyond_cone(rays, *plane);
   double squares = 0.0;
@@ -278,7 +279,7 @@ GONIO_INLINE fitted_outline fullest_outline(Eigen::Index photographs,
 GONIO_INLINE fitted_outline sphere_within(const outline_circle& circle, const lens_camera& camera, double radius) {
   if (!(circle.radius > 0.0 && std::isfinite(circle.radius) && std::isfinite(circle.column) &&
         std::isfinite(circle.row)))
-    refuse("an outline needs a finite middle and a positive radius");
+    refuse("an outline needs a finite centre and a positive radius");
   std::vector<Eigen::Vector2d> places;
   for (int i = 0; i < 72; ++i) {
     const double turn = 2.0 * std::numbers::pi * i / 72.0;

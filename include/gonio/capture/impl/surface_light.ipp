@@ -72,7 +72,7 @@ GONIO_INLINE void require_usable(const white_reference& white, const camera_intr
   if (white.surface)
     detail::require_size(white.surface->columns, white.surface->rows, size, "the white reference's surface");
   if (!(white.reflectance > 0.0 && white.reflectance <= 1.0))
-    refuse({"a white reference's reflectance lies above 0 and up to 1, not ", white.reflectance});
+    refuse({"a white reference's reflectance must be above 0 and up to 1, not ", white.reflectance});
 }
 
 GONIO_INLINE std::optional<illumination> white_illumination(const white_reference& white, const surface_light& light,

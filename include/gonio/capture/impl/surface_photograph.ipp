@@ -31,7 +31,7 @@ GONIO_INLINE void require_positions(const surface_image& surface, const surface_
   if (std::holds_alternative<directional_light>(light)) return;
   for (Eigen::Index pixel = 0; pixel < surface.normals.cols(); ++pixel)
     if (surface.sees(pixel) && !surface.positions.col(pixel).isZero(0.0)) return;
-  gonio::refuse("a lamp at a finite distance needs the positions of the surface, not its normals alone");
+  gonio::refuse("a lamp at a finite distance needs the positions of the surface, not only its normals");
 }
 
 /// Returns whether the light reaches any visible point. A lamp inside a closed surface is behind all of them.
@@ -218,7 +218,7 @@ GONIO_INLINE photograph_samples samples_of(const image& photograph, const surfac
   detail::require_size(surface.columns, surface.rows, size, "the surface");
   detail::require_positions(surface, light);
   if (white) require_usable(*white, size);
-  if (!detail::lights_any(surface, light)) refuse("the light is behind all that is seen of the surface, or inside it");
+  if (!detail::lights_any(surface, light)) refuse("the light is behind or inside the visible surface");
 
   // Read all pixels into their cells.
   detail::pixel_reader reader(photograph, surface, camera, light, white, options);
@@ -238,8 +238,8 @@ GONIO_INLINE photograph_samples samples_of(const image& photograph, const surfac
   found.pixel_deviation = detail::median_scatter(cells);
   found.samples = detail::samples_of_cells(cells, found.pixel_deviation);
   if (found.samples.empty())
-    refuse(found.saturated > 0 ? "all that the photograph shows of the surface is saturated"
-                               : "the photograph shows nothing of the surface that is lit");
+    refuse(found.saturated > 0 ? "every pixel of the surface is saturated"
+                               : "the photograph shows no lit part of the surface");
   return found;
 }
 

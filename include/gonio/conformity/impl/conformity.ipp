@@ -21,14 +21,14 @@ namespace gonio::detail {
 GONIO_INLINE void require_possible(const conformity_options& options, Eigen::Index channels) {
   for (const measurement_noise& noise : {options.part, options.reference})
     if (!(noise.relative >= 0.0 && noise.relative <= 0.3) || !(noise.dark >= 0.0 && std::isfinite(noise.dark)))
-      refuse({"noise must be from 0 to 0.3 relative to a value, and finite and not negative beside it, not ",
-              noise.relative, " and ", noise.dark});
+      refuse({"relative noise must be from 0 to 0.3, and dark noise finite and not negative, not ", noise.relative,
+              " and ", noise.dark});
   if (options.part.relative == 0.0 && options.part.dark == 0.0)
-    refuse("a part is compared by the noise of its measurement, which must be above 0");
+    refuse("the noise of the part's measurement must be above 0");
   if (!(options.part.degrees_of_freedom > 0.0) || !(options.reference.degrees_of_freedom > 0.0))
-    refuse("noise that is estimated needs degrees of freedom above 0");
+    refuse("estimated noise needs degrees of freedom above 0");
   if (options.tolerance.size() != 1 && std::ssize(options.tolerance) != channels)
-    refuse({"tolerances are one, or one for each of ", channels, " channels, not ", options.tolerance.size()});
+    refuse({"expected one tolerance, or one for each of ", channels, " channels, not ", options.tolerance.size()});
   std::vector<double> tolerances = options.tolerance;
   tolerances.push_back(options.peak_tolerance.value_or(0.0));
   tolerances.push_back(options.delta_e);
@@ -36,9 +36,9 @@ GONIO_INLINE void require_possible(const conformity_options& options, Eigen::Ind
     if (!(tolerance >= 0.0 && std::isfinite(tolerance)))
       refuse({"a tolerance must be finite and not negative, not ", tolerance});
   if (options.delta_e > 0.0 && (options.peak_tolerance || std::ranges::max(options.tolerance) > 0.0))
-    refuse("a tolerance of Delta E stands alone, without one relative to values");
+    refuse("a Delta E tolerance cannot be combined with a relative tolerance");
   if (!(options.same_direction >= 0.0 && options.same_direction <= 0.1))
-    refuse({"directions are the same within 0 to 0.1 radians, not ", options.same_direction});
+    refuse({"the tolerance of equal directions must be from 0 to 0.1 radians, not ", options.same_direction});
 }
 
 GONIO_INLINE double tolerance_of(const conformity_options& options, Eigen::Index channel, const location& at) {
@@ -61,20 +61,20 @@ GONIO_INLINE Eigen::Index distinct_channels(const Eigen::MatrixXd& values) {
 GONIO_INLINE located_samples both_of(const located_samples& part, const located_samples& reference) {
   constexpr Eigen::Index most_of_part = 2500, most = 6000, most_values = 7500;
   const Eigen::Index n = part.size(), all = n + reference.size();
-  if (n == 0 || n == all) refuse("a part and a reference have at least one sample each");
-  if (n > most_of_part) refuse({"a part is compared in at most ", most_of_part, " directions, not ", n});
-  if (all > most) refuse({"part and reference have at most ", most, " samples together, not ", all});
+  if (n == 0 || n == all) refuse("a part and a reference need at least one sample each");
+  if (n > most_of_part) refuse({"a part can have at most ", most_of_part, " directions, not ", n});
+  if (all > most) refuse({"part and reference can have at most ", most, " samples together, not ", all});
   if (part.values.cols() != reference.values.cols())
-    refuse(
-        {"a part of ", part.values.cols(), " channels needs a reference of as many, not of ", reference.values.cols()});
+    refuse({"the part has ", part.values.cols(), " channels, expected as many as the reference, ",
+            reference.values.cols()});
   located_samples both{part.locations, Eigen::MatrixXd(all, part.values.cols()), Eigen::MatrixXd::Ones(all, 1)};
   both.locations.insert(both.locations.end(), reference.locations.begin(), reference.locations.end());
   both.values.topRows(n) = part.values;
   both.values.bottomRows(all - n) = reference.values;
   both.values.conservativeResize(Eigen::NoChange, distinct_channels(both.values));
   if (n * both.values.cols() > most_values)
-    refuse(
-        {"a part has at most ", most_values, " values, not ", n, " directions of ", both.values.cols(), " channels"});
+    refuse({"a part can have at most ", most_values, " values, not ", n, " directions of ", both.values.cols(),
+            " channels"});
   return both;
 }
 

@@ -45,7 +45,7 @@ GONIO_INLINE double lens_distortion::radius_derivative(double r) const noexcept 
 GONIO_INLINE lens_camera::lens_camera(const pinhole_camera& pinhole, const lens_distortion& distortion)
     : pinhole_(pinhole), distortion_(distortion) {
   for (const double each : {distortion.k1, distortion.k2, distortion.p1, distortion.p2, distortion.k3})
-    if (!std::isfinite(each)) refuse("the coefficients of a lens' distortion must be finite");
+    if (!std::isfinite(each)) refuse("the coefficients of a lens distortion must be finite");
   largest_radius_ = farthest_corner();
   if (distortion_.is_none()) return;
   require_monotone_radius();
@@ -74,8 +74,9 @@ GONIO_INLINE void lens_camera::require_monotone_radius() {
        step *= r > 2.0 * corner ? 1.01 : 1.0) {
     r += step;
     if (distortion_.radius_derivative(r) > 0.0 && r < 1000.0 * corner) continue;
-    refuse({"the lens' distortion folds within the image: at a radius of ", r, " focal lengths it turns back at ",
-            distortion_.distorted_radius(r), ", and the farthest corner is at ", corner});
+    refuse({"the lens distortion folds within the image: at a radius of ", r,
+            " focal lengths the distorted radius turns back at ", distortion_.distorted_radius(r),
+            ", but the farthest corner is at ", corner});
   }
   largest_radius_ = r;
 }
@@ -89,8 +90,8 @@ GONIO_INLINE void lens_camera::require_one_ray_each() const {
                                              static_cast<double>(intrinsics().rows) * i / steps);
       const auto ideal = undistorted(shown);
       if (ideal && distortion_.jacobian(*ideal).determinant() > 0.0) continue;
-      refuse({"the lens' distortion folds within the image, at a radius of ", shown.norm(),
-              " focal lengths: see its tangential coefficients"});
+      refuse({"the lens distortion folds within the image, at a radius of ", shown.norm(),
+              " focal lengths: check its tangential coefficients"});
     }
 }
 

@@ -29,7 +29,7 @@ GONIO_INLINE pinhole_camera::pinhole_camera(const camera_intrinsics& intrinsics,
   if (intrinsics.rows == 0 || intrinsics.columns == 0) refuse("a camera needs pixels");
   const Eigen::Vector4d numbers(intrinsics.focal_length_x, intrinsics.focal_length_y, intrinsics.principal_x,
                                 intrinsics.principal_y);
-  if (!numbers.allFinite() || !position.allFinite()) refuse("a camera's numbers must be finite");
+  if (!numbers.allFinite() || !position.allFinite()) refuse("a camera's intrinsics and position must be finite");
   if (!(intrinsics.focal_length_x > 0.0 && intrinsics.focal_length_y > 0.0))
     refuse({"a camera's focal lengths must be positive, not ", intrinsics.focal_length_x, " and ",
             intrinsics.focal_length_y});
@@ -41,7 +41,7 @@ GONIO_INLINE pinhole_camera pinhole_camera::look_at(const camera_intrinsics& int
                                                     const Eigen::Vector3d& up) {
   const Eigen::Vector3d forward = target - position, right = forward.cross(up);
   if (!(right.norm() > 1e-9 * forward.norm() * up.norm()))
-    refuse("a camera must look at another place than its own, and not along its own upward direction");
+    refuse("a camera's target must differ from its position, and its upward direction from its viewing direction");
   Eigen::Matrix3d rotation;
   rotation.row(0) = right.normalized();
   rotation.row(2) = forward.normalized();

@@ -15,7 +15,7 @@ namespace gonio::detail {
 /// Returns the positive number at which an increasing function reaches a share, to a relative error of 1e-12.
 template <class Distribution>
 [[nodiscard]] double positive_quantile(double share, Distribution&& cumulative) {
-  if (!(share > 0.0 && share < 1.0)) refuse({"a share of a distribution must be above 0 and below 1, not ", share});
+  if (!(share > 0.0 && share < 1.0)) refuse({"a probability must be above 0 and below 1, not ", share});
   double low = 0.0, high = 1.0;
   while (cumulative(high) < share && high < 1e12) high *= 2.0;
   for (int halvings = 0; halvings < 100 && high - low > 1e-12 * high; ++halvings) {

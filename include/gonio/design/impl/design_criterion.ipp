@@ -54,7 +54,7 @@ GONIO_INLINE a_optimality::a_optimality(Eigen::VectorXd energies, double eta)
   detail::require_positive_eta(eta);
   const auto possible = [](double energy) { return energy >= 0.0 && std::isfinite(energy); };
   if (!std::all_of(energies_.data(), energies_.data() + energies_.size(), possible) || !(energies_.sum() > 0.0))
-    refuse("the components' energies must be finite, not negative, and not all zero");
+    refuse("the components' squared norms must be finite, not negative, and not all zero");
 }
 
 GONIO_INLINE double a_optimality::operator()(const Eigen::MatrixXd& components) const {

@@ -27,10 +27,10 @@ GONIO_INLINE expected_error::expected_error(const Eigen::MatrixXf& coefficients,
     if (!(value >= 0.0 && std::isfinite(value)))
       refuse({"the ", name, " must be finite and not negative, not ", value});
   if (options.leave_out && coefficients.rows() < 2 * channels)
-    refuse("one material alone cannot be left out of what was learned from it");
+    refuse("leaving out a material needs at least two materials");
   const Eigen::Index k = coefficients.cols();
   if (norm.rows() != k || norm.cols() != k)
-    refuse("a norm of " + std::to_string(k) + " weights must be a square matrix of as many rows");
+    refuse("a norm of " + std::to_string(k) + " weights must be a square matrix with one row for each");
   weighted_ = product(coefficients_, norm);
   energies_ = Eigen::VectorXd::Zero(coefficients_.rows());
   for (Eigen::Index j = 0; j < k; ++j) energies_ += coefficients_.col(j).cwiseProduct(weighted_.col(j));

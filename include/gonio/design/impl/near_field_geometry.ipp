@@ -27,7 +27,7 @@ GONIO_INLINE near_field_geometry::near_field_geometry(const near_field_options& 
   const auto refuse = [](const std::string& what) { gonio::refuse("near-field images: " + what); };
   if (!(options.field_of_view > 0.0 && options.field_of_view < std::numbers::pi / 2.0))
     refuse("the field of view must be from 0 to 90 degrees, not " + std::to_string(degrees(options.field_of_view)));
-  if (options.pixels == 0) refuse("there must be pixels");
+  if (options.pixels == 0) refuse("the number of pixels must be above 0");
   if (!(options.step > 0.0)) refuse("the step between candidates must be positive");
   if (!(options.largest_polar_angle > 0.0 && options.largest_polar_angle < std::numbers::pi / 2.0))
     refuse("the largest polar angle must be between 0 and 90 degrees, not " +

@@ -37,7 +37,7 @@ GONIO_INLINE Eigen::ArrayXd* contrast_sums::region_of(const half_difference& ang
 GONIO_INLINE Eigen::ArrayXd contrast_sums::contrasts() const { return in_peak / in_weight - off_peak / off_weight; }
 
 GONIO_INLINE Eigen::ArrayXd contrast_sums::contrasts_of_cells() const {
-  if (!complete()) refuse("the grid has no cell in the peak or none out of it: it is too coarse");
+  if (!complete()) refuse("the grid is too coarse: it needs cells inside and outside the peak");
   return contrasts();
 }
 
@@ -73,7 +73,7 @@ GONIO_INLINE parted_by_contrast part_by_contrast(const std::vector<std::string>&
     (contrasts[m] < parted.threshold ? parted.soft : parted.specular).push_back(m);
   if (parted.soft.empty() || parted.specular.empty())
     refuse({"all ", names.size(), " materials are ", (parted.soft.empty() ? "specular" : "soft"), " at a threshold of ",
-            parted.threshold, ": a prior needs some on either side"});
+            parted.threshold, ": a prior needs some of both kinds"});
   return parted;
 }
 

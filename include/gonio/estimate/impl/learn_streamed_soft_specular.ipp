@@ -70,7 +70,7 @@ GONIO_INLINE streamed_soft_specular learn_streamed_soft_specular(const material_
                                                                  std::optional<double> threshold,
                                                                  const progress& listener) {
   if (materials.names.empty()) refuse("there is no material to learn from");
-  if (!materials.wavelengths.empty()) refuse("materials are parted by their colours' highlights, not by spectra");
+  if (!materials.wavelengths.empty()) refuse("splitting materials into soft and specular needs RGB, not spectra");
   auto [reference, contrasts] = detail::contrasts_of(materials, options, listener);
   const log_relative metric(materials.cells, std::move(reference), options.weighting);
   const parted_by_contrast halves = part_by_contrast(materials.names, contrasts, threshold);

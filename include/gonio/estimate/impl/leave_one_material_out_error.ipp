@@ -128,9 +128,9 @@ GONIO_INLINE void leave_one_material_out_error::sums::add(Eigen::MatrixXd column
 GONIO_INLINE void leave_one_material_out_error::require_sensible(Eigen::Index locations, const Eigen::VectorXd& weights,
                                                                  Eigen::Index materials) {
   if (weights.size() != locations || locations == 0)
-    refuse(std::to_string(locations) + " locations need as many weights, not " + std::to_string(weights.size()) +
-           ", and at least one");
-  if (materials < 2) refuse("one material alone cannot be left out of what was learned from it: eta must be stated");
+    refuse(std::to_string(locations) + " locations have " + std::to_string(weights.size()) +
+           " weights, expected one for each and at least one");
+  if (materials < 2) refuse("leaving out a material needs at least two materials: eta must be stated");
 }
 
 GONIO_INLINE void leave_one_material_out_error::initialise(const sums& all, const Eigen::VectorXd& singular_values,
@@ -147,7 +147,7 @@ GONIO_INLINE void leave_one_material_out_error::decompose(const Eigen::VectorXd&
   const double largest = eigen.values[eigen.values.size() - 1];
   const Eigen::Index rank = std::count_if(eigen.values.data(), eigen.values.data() + eigen.values.size(),
                                           [&](double value) { return value > 1e-12 * largest; });
-  if (rank == 0 || !(largest > 0.0)) refuse("eta cannot be chosen: the basis does not vary where was measured");
+  if (rank == 0 || !(largest > 0.0)) refuse("eta cannot be chosen: the basis does not vary at the measured locations");
   values_ = eigen.values.tail(rank);
   vectors_ = eigen.vectors.rightCols(rank);
   const Eigen::MatrixXd transposed = vectors_.transpose();

@@ -37,7 +37,7 @@ GONIO_INLINE channel_values located_samples::channels() const {
 GONIO_INLINE located_samples in_colours(located_samples samples) {
   if (samples.kinds.are_colours()) return samples;
   if (samples.values.cols() != 1)
-    refuse({"samples at ", samples.values.cols(), " wavelengths are no colours, which this estimator needs"});
+    refuse({"samples at ", samples.values.cols(), " wavelengths have no colours, which this estimator needs"});
   const Eigen::MatrixXd grey = samples.values;
   samples.values.resize(grey.rows(), 3);
   for (Eigen::Index c = 0; c < 3; ++c) std::copy_n(grey.data(), grey.rows(), &samples.values(0, c));

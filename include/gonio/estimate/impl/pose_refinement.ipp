@@ -51,8 +51,9 @@ GONIO_INLINE void pose_iteration::require_sensible() const {
   if (!(options_.eta > 0.0 && std::isfinite(options_.eta)))
     refuse("eta must be positive and finite, not " + std::to_string(options_.eta));
   if (!(options_.deviation > 0.0 && options_.deviation < std::numbers::pi / 4.0))
-    refuse("light and camera may be off by 0 to 45 degrees, not by " + std::to_string(degrees(options_.deviation)));
-  if (materials_.empty() || materials_.front().empty()) refuse("there is no image");
+    refuse("the deviation of light and camera must be from 0 to 45 degrees, not " +
+           std::to_string(degrees(options_.deviation)));
+  if (materials_.empty() || materials_.front().empty()) refuse("at least one image is needed");
   const Eigen::Index count = materials_.front().size();
   for (Eigen::Index m = 0; m < std::ssize(materials_); ++m)
     if (std::ssize(materials_[m]) != count)

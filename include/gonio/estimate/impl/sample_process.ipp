@@ -142,7 +142,8 @@ GONIO_INLINE const Eigen::MatrixXd& sample_process::inverse() const {
 }
 
 GONIO_INLINE sample_process sample_process::with_values(Eigen::MatrixXd values) const {
-  if (values.rows() != size()) refuse({"a process of ", size(), " samples has as many values, not ", values.rows()});
+  if (values.rows() != size())
+    refuse({"a process of ", size(), " samples needs a value for each, not ", values.rows()});
   return {shared_, std::move(values)};
 }
 
@@ -220,7 +221,7 @@ GONIO_INLINE solution sample_process::fit() const {
       found.report.kkt_residual[first + c] = worst / (largest > 0.0 ? largest : 1.0);
     }
   }
-  return detail::require_certified(std::move(found), "the process of the samples");
+  return detail::require_certified(std::move(found), "the sample process");
 }
 
 GONIO_INLINE sample_predictions sample_process::predicted_without() const {

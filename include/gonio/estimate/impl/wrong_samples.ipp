@@ -265,12 +265,12 @@ GONIO_INLINE void improve(wrong_sample_set& wrong, Eigen::Index most) {
 
 GONIO_INLINE void require_possible(const rejection_rule& rule) {
   if (!(rule.largest_share >= 0.0 && rule.largest_share < 1.0))
-    refuse({"the share of samples that are rejected must be below 1, not ", rule.largest_share});
+    refuse({"the share of rejected samples must be at least 0 and less than 1, not ", rule.largest_share});
   if (!(rule.expected_number > 0.0 && std::isfinite(rule.expected_number)))
     refuse({"the expected number of wrong samples must be positive and finite, not ", rule.expected_number});
   if (!(rule.common_error > 0.0 && std::isfinite(rule.common_error)) ||
       !(rule.channel_error > 0.0 && std::isfinite(rule.channel_error)))
-    refuse({"the errors of wrong samples need positive and finite deviations, not ", rule.common_error, " and ",
+    refuse({"the deviations of wrong samples must be positive and finite, not ", rule.common_error, " and ",
             rule.channel_error});
 }
 

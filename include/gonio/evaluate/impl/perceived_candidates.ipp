@@ -34,10 +34,10 @@ GONIO_INLINE perceived_candidates::perceived_candidates(design::point_geometry g
       threads_(threads),
       discrepancy_(expected.model.variance * discrepancy_covariance(rows_.angles, expected.model.lengths)) {
   if (!(options.variance_share >= 0.0 && options.variance_share <= 1.0))
-    refuse({"the share of the variance is from 0 to 1, not ", options.variance_share});
+    refuse({"the share of the variance must be from 0 to 1, not ", options.variance_share});
   if (options.most_materials < 1 || options.sphere_size < 2)
-    refuse("what is seen of a design needs at least one material and spheres of two points across");
-  if (!(options.power >= 1.0)) refuse({"the power of the mean over materials is at least 1, not ", options.power});
+    refuse("the perceived error of a design needs at least one material and spheres of two points across");
+  if (!(options.power >= 1.0)) refuse({"the power of the mean over materials must be at least 1, not ", options.power});
   for (Eigen::Index i = 0; i < geometry_.size(); ++i) allowed_.push_back(geometry_.allows(i));
 }
 
@@ -50,7 +50,7 @@ GONIO_INLINE std::vector<perceived_candidates::family> perceived_candidates::fam
     of.members.push_back(i);
     if (i * taken / count != (i + 1) * taken / count) of.judged.push_back(i);
   }
-  if (by_name.size() < 2) refuse("a prior of one family has nothing left when it is left out");
+  if (by_name.size() < 2) refuse("leaving out a family needs a prior of at least two families");
   std::vector<family> judged;
   for (auto& [name, of] : by_name)
     if (!of.judged.empty()) judged.push_back(std::move(of));

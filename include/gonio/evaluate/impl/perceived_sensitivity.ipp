@@ -49,7 +49,7 @@ GONIO_INLINE design::sensitivity perceived_sensitivity::operator()(const Eigen::
                                                                    const Eigen::MatrixXd& derivative) const {
   const Eigen::Index points = weights_.size(), cells = cells_.size();
   if (reflectance.rows() != cells || derivative.rows() != cells || reflectance.cols() != 3 || derivative.cols() != 3)
-    refuse({"a sensitivity over ", cells, " cells needs as many rows of three channels, not ", reflectance.rows(),
+    refuse({"a sensitivity over ", cells, " cells needs a row of three channels for each, not ", reflectance.rows(),
             " x ", reflectance.cols()});
   Eigen::MatrixXd colours(points, 3);
   for (Eigen::Index c = 0; c < 3; ++c) colours.col(c).noalias() = light_[c] * reflectance.col(c);

@@ -136,7 +136,7 @@ GONIO_INLINE scattered_brdf scattered_interpolation::fit(const sample_set& sampl
     const std::vector<detail::sample_place> places = detail::sorted_places(samples, channel, options_.embedding);
     if (places.empty())
       refuse(channels == 1 ? "all samples have weight zero: nothing is known"
-                           : "all samples have weight zero in one of the channels: nothing is known of it");
+                           : "all samples have weight zero in one of the channels: nothing is known about it");
     fitted.channels_.push_back(
         std::make_shared<const scattered_brdf::embedded_samples>(samples, places, channel, options_.domain));
   }

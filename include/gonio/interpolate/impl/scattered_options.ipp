@@ -21,8 +21,8 @@ GONIO_INLINE std::array<double, 4> pair_embedding::operator()(const half_differe
 
 GONIO_INLINE void require_usable(const scattered_options& options) {
   if (options.neighbours < 1 || options.neighbours > scattered_options::most_neighbours)
-    refuse({"scattered samples are interpolated between 1 to ", scattered_options::most_neighbours, " neighbours, not ",
-            options.neighbours});
+    refuse({"scattered samples are interpolated between 1 and ", scattered_options::most_neighbours,
+            " neighbours, not ", options.neighbours});
   const auto require_positive = [](const char* what, double value) {
     if (!(value > 0.0 && value <= 100.0))
       refuse({"the ", what, " of scattered samples must be above 0 and at most 100, not ", value});

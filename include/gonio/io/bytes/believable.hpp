@@ -53,7 +53,7 @@ inline void check_image_size(std::size_t rows, std::size_t columns, const std::s
 inline void check_believable_pixels(const pixel_claims& claims, std::size_t rows, std::size_t columns,
                                     std::size_t bytes, const std::string& name) {
   if (!claims.are_believable(rows * columns, bytes))
-    gonio::refuse({name, ": an image of ", columns, " x ", rows, " pixels is not believable of ", bytes, " bytes"});
+    gonio::refuse({name, ": an image of ", columns, " x ", rows, " pixels cannot fit in ", bytes, " bytes"});
 }
 
 }  // namespace gonio::io::detail

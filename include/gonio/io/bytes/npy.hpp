@@ -168,7 +168,7 @@ void write_npy_halves(const std::filesystem::path& path, const xt::xtensor<float
     halves[i] = to_half(value);
     if (std::isfinite(value) && !std::isfinite(from_half(halves[i])))
       gonio::refuse({path.string(), ": element ", i, " is ", double{value},
-                     ", beyond the range of half floats, 65504: write float32"});
+                     ", outside the range of half floats, 65504: write float32"});
   }
   const std::string header = npy_header("<f2", npy_shape_text(array.shape()));
   write_atomically(path, [&](file_writer& file) {

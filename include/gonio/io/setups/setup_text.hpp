@@ -84,7 +84,8 @@ class setup_text {
 
   /// Throws gonio::error if the file has both entries, since both define `subject`.
   void require_one_of(std::string_view one, std::string_view other, const std::string& subject) const {
-    if (has(one) && has(other)) refuse(one, in_quotes(other) + " says already " + subject + ", give only one of them");
+    if (has(one) && has(other))
+      refuse(one, in_quotes(other) + " already states " + subject + ", give only one of them");
   }
 
   /// Calls `act` and adds the file's name to its errors.

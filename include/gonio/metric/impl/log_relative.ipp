@@ -33,7 +33,7 @@ GONIO_INLINE log_relative::log_relative(valid_cells cells, std::vector<float> re
 
 GONIO_INLINE log_relative log_relative::to_median_of(const valid_cells& cells, const cell_matrix& values,
                                                      thread_count threads) {
-  if (values.cols() == 0) refuse("the median of no material is not defined");
+  if (values.cols() == 0) refuse("a median needs at least one material");
   std::vector<float> reference(cells.size());
   for_each_block(
       reference.size(), 1024,

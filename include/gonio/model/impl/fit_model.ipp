@@ -109,7 +109,7 @@ GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
   if (!(options.largest_albedo > 0.0)) refuse({"the largest albedo must be positive, not ", options.largest_albedo});
   if (std::ranges::all_of(
           observations, [](const fit_observation& seen) { return (seen.value * seen.weight.of_each() == 0.0).all(); }))
-    refuse("all measurements are zero, or count for nothing");
+    refuse("all measurements are zero or have weight zero");
 
   const model_loss loss(kinds, observations, std::move(metric), options);
   auto [best, end] = fit_from(loss, loss.coded(typical_shapes(kinds)), options);

@@ -185,7 +185,7 @@ GONIO_INLINE tail_rise largest_tail_rise(const brdf_table& table) {
 GONIO_INLINE sample_symmetries compare_equal_samples(const sample_set& samples, double tolerance) {
   require_usable(samples);
   if (!(tolerance > 0.0 && tolerance <= 0.1))
-    refuse({"directions agree to a tolerance above 0 and at most 0.1 radians, not ", tolerance});
+    refuse({"the tolerance of equal directions must be above 0 and at most 0.1 radians, not ", tolerance});
   constexpr int most_partners = 100;
   constexpr double least_turn = 10.0;
   const bool has_azimuths = !detail::lacks_azimuths(samples);

@@ -107,7 +107,7 @@ namespace gonio::model {
 
 GONIO_INLINE std::vector<Eigen::Index> sufficient_wavelengths(const spectral_table& table, double tolerance,
                                                               thread_count threads) {
-  if (!(tolerance >= 0.0)) refuse("the tolerance of wavelengths is below 0, or no number");
+  if (!(tolerance >= 0.0)) refuse("the tolerance of wavelengths must be at least 0");
   std::vector<Eigen::Index> chosen{0};
   if (tolerance == 0.0) {
     chosen.resize(table.wavelengths().size());

@@ -80,7 +80,7 @@ GONIO_INLINE std::vector<double> stratified_draws(std::size_t count, std::uint64
 namespace gonio::render {
 
 GONIO_INLINE directional_lighting important_lights(const environment_map& map, std::size_t count, std::uint64_t seed) {
-  if (count == 0) refuse("cannot stand for an environment map with 0 lights: at least one is needed");
+  if (count == 0) refuse("cannot represent an environment map by 0 lights: at least one is needed");
   double total = 0.0;
   detail::for_each_along_hilbert_curve(map.rows(), map.columns(), [&](std::size_t row, std::size_t column) {
     total += luminance(map.irradiance(row, column));

@@ -155,8 +155,8 @@ GONIO_INLINE Eigen::Index last_least(const Eigen::VectorXd& scores) {
 
 GONIO_INLINE void require_etas(const eta_range& range) {
   if (!(range.lowest >= 0.0 && range.lowest <= range.highest && range.highest > 0.0 && std::isfinite(range.lowest)))
-    refuse({"a range of eta goes from a number that is not negative to a larger one, not from ", range.lowest, " to ",
-            range.highest});
+    refuse(
+        {"a range of eta must go from at least 0 to a larger number, not from ", range.lowest, " to ", range.highest});
 }
 
 }  // namespace gonio::detail
@@ -175,7 +175,7 @@ GONIO_INLINE Eigen::VectorXd cross_validate(const least_squares_problem& problem
   if (etas.size() == 0) refuse("cross-validation needs at least one eta");
   for (const double eta : etas)
     if (!(eta > 0.0 && std::isfinite(eta)))
-      refuse({"cross-validation needs values of eta that are positive and finite, not ", eta});
+      refuse({"cross-validation needs positive and finite values of eta, not ", eta});
   return detail::eta_scores(problem, criterion)(etas);
 }
 
@@ -187,7 +187,7 @@ GONIO_INLINE double choose_eta(const least_squares_problem& problem, eta_criteri
 GONIO_INLINE double choose_eta(std::span<const least_squares_problem> problems, eta_criterion criterion,
                                const eta_range& plausible) {
   detail::require_etas(plausible);
-  if (problems.empty()) refuse("choosing eta needs a problem");
+  if (problems.empty()) refuse("choosing eta needs at least one problem");
   const auto is_telling = [](const least_squares_problem& problem) { return problem.observations() >= 2; };
   const bool any_tells = std::ranges::any_of(problems, is_telling);
   if (!any_tells && std::isfinite(plausible.highest)) return plausible.highest;

@@ -67,7 +67,7 @@ GONIO_INLINE subspace_eigenpairs iterate_leading(Eigen::Index size, Eigen::Index
                                                  const matrix_times& times) {
   if (count < 1 || options.oversampling < 0 || options.products < 1)
     refuse({"cannot find ", count, " eigenvalues by ", options.products, " products with ", options.oversampling,
-            " vectors more"});
+            " additional vectors"});
   const Eigen::Index width = std::min(size, count + options.oversampling);
   // Multiply random vectors by the matrix several times (Alg. 4.4).
   Eigen::MatrixXd subspace = detail::orthonormalised(detail::random_vectors(size, width, options.seed));

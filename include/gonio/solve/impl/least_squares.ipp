@@ -131,8 +131,8 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
     const double residual = found.report.residual[column];
     if (!(found.report.objective[column] <= 1e-9 * (0.5 * residual * residual - found.report.objective[column])))
       refuse(
-          "least squares explain less than weights of zero would: the columns are too ill-conditioned for double "
-          "precision, and a larger rank threshold drops those that depend on each other");
+          "least-squares weights fit worse than zero weights: the columns are too ill-conditioned for double "
+          "precision; a larger rank threshold drops dependent columns");
   }
   return found;
 }

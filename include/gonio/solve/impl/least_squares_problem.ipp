@@ -204,7 +204,7 @@ GONIO_INLINE void least_squares_problem::require_no_underflow(const normal_equat
   // Above this, underflow takes less from a sum of squares than rounding does.
   const double least = std::numeric_limits<double>::min() * static_cast<double>(equations());
   const auto refuse_tiny = [](const std::string& what) {
-    gonio::refuse({what, " of a least-squares problem is too small: its squares are not numbers of double precision. ",
+    gonio::refuse({what, " of a least-squares problem is too small: its squares underflow double precision. ",
                    "Scale it by a power of ten"});
   };
   for (Eigen::Index column = 0; column < right_hand_side().cols(); ++column)

@@ -41,8 +41,8 @@ GONIO_INLINE Eigen::VectorXd normal_equations::residual(const Eigen::MatrixXd& x
 
 GONIO_INLINE normal_equations operator+(const normal_equations& a, const normal_equations& b) {
   if (a.unknowns() != b.unknowns() || a.right_hand_sides() != b.right_hand_sides())
-    refuse({"normal equations of ", a.unknowns(), " unknowns and ", a.right_hand_sides(), " right-hand sides and of ",
-            b.unknowns(), " and ", b.right_hand_sides(), " cannot be added"});
+    refuse({"normal equations of ", a.unknowns(), " unknowns and ", a.right_hand_sides(),
+            " right-hand sides and others of ", b.unknowns(), " and ", b.right_hand_sides(), " cannot be added"});
   Eigen::MatrixXd gram = a.gram_, rhs = a.rhs_;
   Eigen::VectorXd rhs_squared_norm = a.rhs_squared_norm_;
   add_scaled(1.0, b.gram_.data(), gram.data(), gram.size());

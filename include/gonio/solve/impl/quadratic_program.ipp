@@ -124,7 +124,7 @@ GONIO_INLINE bool program_solver::falls_for_ever(const vector& movement, const v
 GONIO_INLINE std::string program_solver::falling(const vector& movement) {
   Eigen::Index column = 0;
   movement.cwiseAbs().maxCoeff(&column);
-  return "the quadratic program is unbounded: its objective falls for ever in a direction that moves weight " +
+  return "the quadratic program is unbounded: its objective falls without limit in a direction that changes weight " +
          std::to_string(column);
 }
 
@@ -167,7 +167,7 @@ GONIO_INLINE solution certified_program(const least_squares_problem& problem, co
     if (std::abs(0.5 * (residual * residual - rhs_squared_norm) - found.report.objective[column]) >
         kkt_residual_limit * (residual * residual + rhs_squared_norm))
       refuse({"the quadratic program is too ill-conditioned for its normal equations: its residual is ", residual,
-              " by the rows and ", by_normal[column], " by them"});
+              " from the rows and ", by_normal[column], " from the normal equations"});
   }
   return found;
 }

@@ -92,7 +92,7 @@ GONIO_INLINE Eigen::MatrixXd sum_over_groups(block groups, thread_count threads,
   const Eigen::Index count = groups.size();
   if (groups.begin < 0 || groups.end > row_groups || count < 1 || !std::has_single_bit(std::uint64_t(count)) ||
       groups.begin % count != 0)
-    refuse({"groups ", groups.begin, " to ", groups.end, " are no subtree of ", row_groups});
+    refuse({"groups ", groups.begin, " to ", groups.end, " are not a subtree of ", row_groups});
   detail::waiting_sums sums(groups);
   for_each_index(
       count, 1,

@@ -66,8 +66,9 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
   if (!(epsilon * reach_of(normal, found.weights, column) <= rounding_tolerance * std::sqrt(rhs_squared_norm)))
     return "the weights are so large that rounding them moves A x by 1e-5 |b|";
   const double allowed = objective_tolerance * half + rounding;
-  if (!(found.report.objective[column] <= allowed)) return "the best weights found explain less than none would";
-  if (!(found.report.objective[column] >= -half - allowed)) return "the best weights found explain more than there is";
+  if (!(found.report.objective[column] <= allowed)) return "the best weights found fit worse than zero weights";
+  if (!(found.report.objective[column] >= -half - allowed))
+    return "the best weights found have a negative squared residual";
   return "";
 }
 

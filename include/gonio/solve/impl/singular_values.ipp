@@ -68,7 +68,7 @@ GONIO_INLINE Eigen::VectorXd singular_values(const matrix_view& a, const char* w
   double largest = 0.0;
   for (Eigen::Index j = 0; j < a.cols(); ++j)
     for (Eigen::Index i = 0; i < a.rows(); ++i) {
-      if (!std::isfinite(a(i, j))) refuse({"the singular values of ", what, " are not defined: it is not finite"});
+      if (!std::isfinite(a(i, j))) refuse({"the singular values of ", what, " are undefined: a value is not finite"});
       largest = std::max(largest, std::abs(a(i, j)));
     }
   if (largest == 0.0) return Eigen::VectorXd::Zero(k);

@@ -31,7 +31,7 @@ GONIO_INLINE material_rows subset(const material_rows& materials, const std::vec
                      materials.wavelengths};
   for (const Eigen::Index material : chosen) {
     if (material < 0 || material >= std::ssize(materials.names))
-      refuse({"there is no material of number ", material, " among ", materials.names.size()});
+      refuse({"there is no material number ", material, " among ", materials.names.size()});
     some.names.push_back(materials.names[static_cast<std::size_t>(material)]);
   }
   return some;

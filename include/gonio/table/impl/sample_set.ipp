@@ -25,7 +25,7 @@ GONIO_INLINE void require_usable_sample(const sample& s, Eigen::Index number) {
     if (!std::isfinite(s.value[channel])) refuse("a reflectance is not finite");
   for (Eigen::Index channel = 0; channel < 3; ++channel)
     if (std::abs(s.value[channel]) > double{std::numeric_limits<float>::max()})
-      refuse("a reflectance is beyond the range of float");
+      refuse("a reflectance is outside the range of float");
   for (Eigen::Index channel = 0; channel < 3; ++channel)
     if (!std::isfinite(s.weight[channel]) || s.weight[channel] < 0.0)
       refuse("the weight must be finite and not negative");
@@ -45,7 +45,7 @@ GONIO_INLINE void require_usable_sample(const sample& s, Eigen::Index number) {
 namespace gonio {
 
 GONIO_INLINE void sample_set::refuse_wavelengths() const {
-  refuse({"samples at ", channels_.size(), " wavelengths are no colours: sample_set::colours makes some"});
+  refuse({"samples at ", channels_.size(), " wavelengths have no colours: sample_set::colours makes them"});
 }
 
 GONIO_INLINE void sample_set::add(const sample_directions& directions, std::span<const double> values,
@@ -53,7 +53,7 @@ GONIO_INLINE void sample_set::add(const sample_directions& directions, std::span
   if (std::ssize(values) != channels_.size())
     refuse({"a sample of ", values.size(), " values, expected one for each of ", channels_.size(), " channels"});
   if (channels_.are_wavelengths()) {
-    if (!weight.is_uniform()) refuse("wavelengths have one weight, not one for each channel");
+    if (!weight.is_uniform()) refuse("samples at wavelengths have one weight, not one for each channel");
     spectra_.insert(spectra_.end(), values.begin(), values.end());
     rows_.push_back({directions, rgb::Zero(), weight, aperture});
   } else {
@@ -112,7 +112,7 @@ GONIO_INLINE void require_usable(const sample_set& samples) {
     for (Eigen::Index c = 0; !has_colour && c < samples.channels().size(); ++c)
       if (!std::isfinite(static_cast<float>(samples.values(i)[c])))
         refuse({"sample ", i + 1, ": the reflectance at wavelength ", c + 1,
-                " is not finite or beyond the range of float"});
+                " is not finite or outside the range of float"});
   }
 }
 

@@ -36,7 +36,7 @@ inline constexpr Eigen::Index texels_at_once = 512;
 GONIO_INLINE texel_decomposition::texel_decomposition(const log_relative_pca& prior,
                                                       const std::vector<location>& locations, const tikhonov& penalty)
     : scale_(std::ssize(locations)), offset_(std::ssize(locations)) {
-  if (locations.empty()) refuse("a decomposition of texels needs an image, and there is none");
+  if (locations.empty()) refuse("a decomposition of texels needs at least one image");
   const Eigen::Index n = images(), k = prior.size();
   const log_relative& metric = prior.metric();
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -119,7 +119,7 @@ GONIO_INLINE texel_estimates texel_decomposition::solve(const float_matrix_view&
                                                         thread_count threads) const {
   if (reflectance.cols() != images() || reflectance.rows() % 3 != 0)
     refuse({"there are ", reflectance.cols(), " images of ", reflectance.rows(), " numbers, expected ", images(),
-            " of three for each texel"});
+            " images of three for each texel"});
   const Eigen::Index texels = reflectance.rows() / 3;
   texel_estimates found{Eigen::MatrixXf(functions_.cols(), 3 * texels), Eigen::ArrayXf(texels), Eigen::ArrayXf(texels)};
   for_each_block(

@@ -95,8 +95,7 @@ namespace gonio::io {
   const auto size = file.read<std::uint64_t>();
   const auto expected = file.read<std::uint32_t>();
   if (size > detail::payload_size_limit || !detail::is_believable(size, detail::freely_claimed_payload, file.left()))
-    gonio::refuse(
-        {name, ": a ", kind.noun, " of ", size, " bytes is not believable of ", file.left(), " compressed ones"});
+    gonio::refuse({name, ": a ", kind.noun, " of ", size, " bytes cannot fit in ", file.left(), " compressed bytes"});
   std::vector<std::byte> payload = decompress_bytes(file.read_bytes(file.left()), static_cast<std::size_t>(size), name);
   if (checksum(payload) != expected) gonio::refuse({name, ": the checksum does not match, the file is damaged"});
   return payload;

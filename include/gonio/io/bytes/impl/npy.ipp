@@ -112,7 +112,7 @@ GONIO_INLINE std::size_t npy_header_reader::count() {
   skip_blanks();
   std::size_t value = 0;
   const auto [end, failed] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
-  if (failed != std::errc()) refuse("an extent of the shape is not a number from 0 on");
+  if (failed != std::errc()) refuse("an extent of the shape is not a number of at least 0");
   text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
   return value;
 }
@@ -135,7 +135,7 @@ namespace gonio::io {
 GONIO_INLINE npy_layout read_npy_header(std::span<const std::byte>& bytes, const std::string& name) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (!text.starts_with(detail::npy_magic))
-    gonio::refuse({name, ": is no npy file, expected it to start with \\x93NUMPY"});
+    gonio::refuse({name, ": is not an npy file, expected it to start with \\x93NUMPY"});
   const std::size_t version_at = detail::npy_magic.size();
   const auto byte_at = [&](std::size_t i) { return std::to_integer<std::size_t>(bytes[i]); };
   if (bytes.size() < version_at + 2) gonio::refuse({name, ": npy header: truncated"});

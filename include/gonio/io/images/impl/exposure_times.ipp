@@ -63,7 +63,7 @@ GONIO_INLINE std::optional<double> exposure_time_of_name(std::string_view name) 
   if (above.empty()) return seconds;
   if (above == "1") return 1.0 / *seconds;
   gonio::refuse({"the name ", in_quotes(whole), " ends in two numbers, ", in_quotes(above), " and ", in_quotes(number),
-                 ": of fractions the first must be 1"});
+                 ": the first of a fraction must be 1"});
 }
 
 GONIO_INLINE void require_believable_exposure(double seconds, const std::string& name) {
@@ -85,7 +85,7 @@ GONIO_INLINE exposure_times read_exposure_times(const std::filesystem::path& pat
       table.place().refuse({"expected a file and a positive number of seconds, not ", in_quotes(fields[0]), " and ",
                             in_quotes(fields[1])});
     if (!times.emplace(fields[0], *time).second)
-      table.place().refuse({"the file ", in_quotes(fields[0]), " is there twice"});
+      table.place().refuse({"the file ", in_quotes(fields[0]), " appears twice"});
   }
   if (times.empty()) gonio::refuse({path.string(), ": has no exposure time"});
   return times;

@@ -112,7 +112,7 @@ inline constexpr std::array<const char*, 3> exr_channels{"R", "G", "B"};
         {name, ": an image of ", columns, " x ", rows, " pixels, expected from 1 to ", exr_limit, " each way"});
   const auto pixels = static_cast<std::size_t>(rows * columns);
   if (!hdr_claims.are_believable(pixels, bytes))
-    gonio::refuse({name, ": an image of ", columns, " x ", rows, " pixels is not believable of ", bytes, " bytes"});
+    gonio::refuse({name, ": an image of ", columns, " x ", rows, " pixels cannot fit in ", bytes, " bytes"});
   return {static_cast<std::size_t>(rows), static_cast<std::size_t>(columns)};
 }
 
@@ -167,8 +167,7 @@ class exr_outline {
     constexpr std::uint32_t most_rows = 512;
     if (is_tiled_ && tile_rows_ > most_rows)
       gonio::refuse({input_.name, ": its tiles have ", std::int64_t{tile_rows_},
-                     " rows, and are read whole: write scan lines, or tiles of ", std::int64_t{most_rows},
-                     " rows at most"});
+                     " rows, expected scan lines or tiles of at most ", std::int64_t{most_rows}, " rows"});
     exr_chunk_info_t block{};
     if (is_tiled_) {
       int across = 0, down = 0;
@@ -242,7 +241,7 @@ class exr_decoder {
       gonio::refuse({input_.name, ": has neither channels R, G and B nor Y"});
     for (const char* kind : kinds())
       if (channels[kind].xSampling != 1 || channels[kind].ySampling != 1)
-        gonio::refuse({input_.name, ": channel ", kind, " has not a value in each pixel"});
+        gonio::refuse({input_.name, ": channel ", kind, " does not have a value in each pixel"});
   }
 
   [[nodiscard]] std::span<const char* const> kinds() const noexcept {

@@ -62,7 +62,7 @@ struct hdr_header {
   for (Eigen::Index i = 0; i < 3; ++i) found.col(i) = from_xyz((amounts[i] * primaries.col(i)).array()).matrix();
   const Eigen::Vector3d of_white = found.rowwise().sum();
   for (Eigen::Index row = 0; row < 3; ++row) found.row(row) /= of_white[row];
-  if (!found.allFinite()) gonio::refuse({name, ": the PRIMARIES of the HDR file are no three colours and a white"});
+  if (!found.allFinite()) gonio::refuse({name, ": the PRIMARIES of the HDR file are not three colours and a white"});
   return found;
 }
 
@@ -186,7 +186,7 @@ class hdr_rows::row_reader {
     std::array<std::uint8_t, 4> start{};
     read(start);
     if (start[0] != 2 || start[1] != 2 || start[2] * 256 + start[3] != file_.columns_)
-      fail("a row does not begin as a row of runs");
+      fail("a row does not begin with a run-length header");
     const auto columns = static_cast<std::size_t>(file_.columns_);
     for (std::size_t channel = 0; channel < 4; ++channel)
       read_channel(std::span(codes_).subspan(channel * columns, columns));
@@ -200,7 +200,7 @@ class hdr_rows::row_reader {
       read(count);
       const bool is_run = count[0] > 128;
       const std::size_t length = is_run ? count[0] - 128u : count[0];
-      if (length == 0 || length > out.size()) fail("a run has no pixel, or leaves its row");
+      if (length == 0 || length > out.size()) fail("a run is empty or longer than its row");
       if (is_run) {
         std::array<std::uint8_t, 1> value{};
         read(value);

@@ -29,7 +29,7 @@ namespace gonio::io::detail {
     if (digits == 5) gonio::refuse({name, ": a number of the Netpbm header has more than five digits"});
     number = 10 * number + static_cast<std::size_t>(text[digits] - '0');
   }
-  if (digits == 0) gonio::refuse({name, ": the Netpbm header is truncated, or has no number where one must stand"});
+  if (digits == 0) gonio::refuse({name, ": the Netpbm header is truncated or lacks a number"});
   text.remove_prefix(digits);
   return number;
 }
@@ -57,7 +57,7 @@ namespace gonio::io {
 GONIO_INLINE stored_codes read_pnm(std::span<const std::byte> bytes, const std::string& name) {
   std::string_view text = as_text(bytes);
   if (!text.starts_with("P6") && !text.starts_with("P5"))
-    gonio::refuse({name, ": is no PPM or PGM file of bytes (P6 or P5)"});
+    gonio::refuse({name, ": is not a binary PPM or PGM file (P6 or P5)"});
   const std::size_t channels = text[1] == '6' ? 3 : 1;
   text.remove_prefix(2);
   stored_codes codes;
@@ -87,8 +87,8 @@ GONIO_INLINE stored_codes read_pnm(const std::filesystem::path& path) {
 
 GONIO_INLINE void write_pnm(const std::filesystem::path& path, const stored_codes& codes) {
   if (codes.values.size() != 3 * codes.rows * codes.columns)
-    gonio::refuse({path.string(), ": ", codes.values.size(), " counts are not three of each of ", codes.columns, " x ",
-                   codes.rows, " pixels"});
+    gonio::refuse({path.string(), ": ", codes.values.size(), " counts, expected three for each of ", codes.columns,
+                   " x ", codes.rows, " pixels"});
   const std::string header = message_of({"P6\n", codes.columns, " ", codes.rows, "\n", int{codes.largest}, "\n"});
   std::vector<std::byte> bytes;
   bytes.reserve(header.size() + 2 * codes.values.size());

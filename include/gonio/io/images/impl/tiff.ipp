@@ -86,7 +86,7 @@ using tiff_file = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
       TIFFClientOpenExt(name.c_str(), "rm", &source, &tiff_source::read, &tiff_source::write, &tiff_source::seek,
                         &tiff_source::close, &tiff_source::size, nullptr, nullptr, options.get()),
       &TIFFClose);
-  if (!file) gonio::refuse({name, ": is no TIFF file (", source.failure(), ")"});
+  if (!file) gonio::refuse({name, ": is not a TIFF file (", source.failure(), ")"});
   return file;
 }
 
@@ -108,20 +108,20 @@ struct tiff_layout {
   };
   std::uint32_t columns = 0, rows = 0;
   require(TIFFGetField(file, TIFFTAG_IMAGEWIDTH, &columns) == 1 && TIFFGetField(file, TIFFTAG_IMAGELENGTH, &rows) == 1,
-          {"the TIFF image does not say its size"});
+          {"the TIFF image does not state its size"});
   constexpr std::uint32_t most = 16384;
   require(rows >= 1 && columns >= 1 && rows <= most && columns <= most,
           {"an image of ", columns, " x ", rows, " pixels, expected from 1 to ", most, " each way"});
   const std::size_t pixels = std::size_t{rows} * columns;
   require(png_claims.are_believable(pixels, bytes),
-          {"an image of ", columns, " x ", rows, " pixels is not believable of ", bytes, " bytes"});
+          {"an image of ", columns, " x ", rows, " pixels cannot fit in ", bytes, " bytes"});
   require(TIFFIsTiled(file) == 0, {"the TIFF image is tiled, expected strips"});
   const unsigned bits = short_tag(file, TIFFTAG_BITSPERSAMPLE), channels = short_tag(file, TIFFTAG_SAMPLESPERPIXEL);
   require(bits == 8 || bits == 16, {"the TIFF image has ", bits, " bits a sample, expected 8 or 16"});
   require(short_tag(file, TIFFTAG_SAMPLEFORMAT) == SAMPLEFORMAT_UINT,
-          {"the TIFF image has samples that are no unsigned whole numbers"});
+          {"the TIFF image's samples are not unsigned integers"});
   require(channels == 1 || short_tag(file, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_CONTIG,
-          {"the TIFF image has its channels in planes, expected them together"});
+          {"the TIFF image has planar channels, expected interleaved ones"});
   const unsigned meaning = short_tag(file, TIFFTAG_PHOTOMETRIC);
   const bool is_grey = meaning == PHOTOMETRIC_MINISBLACK && channels >= 1;
   require(is_grey || (meaning == PHOTOMETRIC_RGB && channels >= 3),
@@ -129,7 +129,7 @@ struct tiff_layout {
            channels == 1 ? " channel" : " channels"});
   const unsigned compression = short_tag(file, TIFFTAG_COMPRESSION);
   require(TIFFIsCODECConfigured(static_cast<std::uint16_t>(compression)) == 1,
-          {"the TIFF image has a compression that this libtiff has not, number ", compression});
+          {"the TIFF image has a compression that this libtiff does not support, number ", compression});
   return {rows, columns, bits, channels};
 }
 

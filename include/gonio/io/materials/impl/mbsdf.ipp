@@ -56,13 +56,13 @@ class mbsdf_reader {
     mbsdf_metadata metadata;
     std::string_view line = next_line();
     for (; !begins_block(line); line = next_line()) read_entry(line, metadata);
-    if (line == mbsdf_transmission) refuse({name_, ": has transmission alone, expected reflection"});
+    if (line == mbsdf_transmission) refuse({name_, ": has only transmission, expected reflection"});
     model::polar_grid_brdf reflection = read_block();
     const bool more = !bytes_.empty();
     if (more && next_line() != mbsdf_transmission)
       refuse({name_, ": after the reflection expected MBSDF_DATA_TRANSMISSION= or the end of the file"});
     if (more) static_cast<void>(read_block());
-    if (!bytes_.empty()) refuse({name_, ": has ", bytes_.size(), " bytes behind its last value"});
+    if (!bytes_.empty()) refuse({name_, ": has ", bytes_.size(), " bytes after its last value"});
     return {std::move(reflection), std::move(metadata), more};
   }
 
@@ -97,7 +97,7 @@ class mbsdf_reader {
     const std::uint64_t most = reader.left() / sizeof(float) / (type == 0 ? 1 : 3);
     if (polar > most / polar || azimuth > most / (polar * polar))
       refuse({name_, ": the file is truncated or its counts are wrong: ", polar, " x ", polar, " x ", azimuth,
-              " cells are announced"});
+              " cells are declared"});
     const std::uint64_t count = polar * polar * azimuth * (type == 0 ? 1 : 3);
     std::vector<float> values = reader.read_all<float>(count);
     bytes_ = bytes_.last(reader.left());

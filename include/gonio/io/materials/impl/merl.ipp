@@ -35,7 +35,8 @@ GONIO_INLINE grid_extents merl_extents(std::span<const std::byte> bytes, const s
   const grid_extents extents{header[0], header[1], header[2]};
   for (const std::int32_t extent : header)
     if (extent < 1 || extent > 4096)
-      gonio::refuse({name, ": is no MERL table, its extents are ", to_text(extents), ", expected each from 1 to 4096"});
+      gonio::refuse(
+          {name, ": is not a MERL table, its extents are ", to_text(extents), ", expected each from 1 to 4096"});
   return extents;
 }
 

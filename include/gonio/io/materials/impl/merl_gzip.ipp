@@ -18,7 +18,7 @@ GONIO_INLINE brdf_table read_merl_any(std::span<const std::byte> bytes, const st
   const grid_extents extents = detail::merl_extents(header, name);
   const std::uint64_t size = detail::merl_file_size(extents);
   if (!detail::is_believable(size, detail::freely_claimed_table, bytes.size()))
-    gonio::refuse({name, ": a MERL table of ", detail::to_text(extents), " cells is not believable of ", bytes.size(),
+    gonio::refuse({name, ": a MERL table of ", detail::to_text(extents), " cells cannot fit in ", bytes.size(),
                    " compressed bytes"});
   return read_merl(gunzip(bytes, static_cast<std::size_t>(size), name), name, options);
 }

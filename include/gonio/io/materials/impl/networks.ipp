@@ -46,7 +46,7 @@ GONIO_INLINE model::named_networks read_networks(const std::filesystem::path& pa
   model::named_networks materials{read_names(names_path), {}};
   if (materials.names.size() != rows.shape(0))
     gonio::refuse({names_path.string(), ": has ", materials.names.size(), " names, expected ", rows.shape(0),
-                   " as there are networks in ", path.string()});
+                   ", one for each network in ", path.string()});
 
   materials.networks.reserve(rows.shape(0));
   for (std::size_t i = 0; i < rows.shape(0); ++i) {

@@ -34,7 +34,7 @@ namespace gonio::io {
 
 [[gnu::cold]] GONIO_INLINE log_relative_pca read_prior(std::span<const std::byte> bytes, const std::string& name) {
   if (as_text(bytes).starts_with(detail::soft_specular_kind.magic))
-    gonio::refuse({name, ": a soft and a specular prior, where one prior of all materials is expected"});
+    gonio::refuse({name, ": has a soft and a specular prior, expected one prior of all materials"});
   const auto payload = read_checked(detail::prior_kind, bytes, name);
   byte_reader in(payload, name);
   return read_prior(in, name);

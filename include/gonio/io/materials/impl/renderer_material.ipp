@@ -95,14 +95,14 @@ GONIO_INLINE rough_surface as_rough_surface(const model::analytic_brdf& model) {
     }
     found.beckmann = lobe.kind() == model::lobe_kind::of<model::torrance_sparrow_shape>();
     if (!found.beckmann && !(lobe.kind() == model::lobe_kind::of<model::ggx_shape>()))
-      gonio::refuse({"renderers know the lobes ggx and torrance-sparrow beside a diffuse one, not ",
-                     std::string(lobe.kind().name())});
+      gonio::refuse(
+          {"renderers support a diffuse lobe and ggx or torrance-sparrow, not ", std::string(lobe.kind().name())});
     found.specular = lobe.colour();
     found.alpha = lobe.parameters()[0];
     found.f0 = lobe.parameters()[1];
     ++rough;
   }
-  if (rough != 1) gonio::refuse({"a renderer's material has one rough lobe, not ", rough});
+  if (rough != 1) gonio::refuse({"a renderer's material needs one rough lobe, not ", rough});
   return found;
 }
 
@@ -200,7 +200,7 @@ GONIO_INLINE std::string materialx_material(const model::analytic_brdf& model, c
   const detail::rough_surface surface = detail::bounded(detail::as_ggx_surface(model, "OpenPBR"));
   constexpr const char* known = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
   if (name.empty() || name.find_first_not_of(known) != std::string::npos)
-    gonio::refuse({"the name of a MaterialX material is letters, digits and underscores, not ", in_quotes(name)});
+    gonio::refuse({"the name of a MaterialX material needs letters, digits and underscores, not ", in_quotes(name)});
   const auto input = [](const char* of, const char* type, const std::string& value) {
     return "    <input name=\"" + std::string(of) + "\" type=\"" + type + "\" value=\"" + value + "\"/>\n";
   };

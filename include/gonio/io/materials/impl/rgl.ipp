@@ -314,7 +314,7 @@ GONIO_INLINE rgl_material read_rgl(std::span<const std::byte> bytes, const std::
   if (arrays.has("description")) description = arrays.text("description");
   // Without `jacobian` the file holds plain values, which are not to be multiplied by the distribution of normals.
   if (arrays.has("jacobian") && arrays.text("jacobian") != std::string("\1"))
-    gonio::refuse({name, ": the array 'jacobian' is not 1, expected values that are relative to the normals"});
+    gonio::refuse({name, ": the array 'jacobian' is not 1, expected values relative to the normals"});
   try {
     // pi/2 as a float may be larger than as a double.
     std::vector<double> angles(theta_i.begin(), theta_i.end());

@@ -52,7 +52,7 @@ void for_each_shared_table(Eigen::Index angles, Eigen::Index bands, Eigen::Index
 }
 
 GONIO_INLINE void require_in_spectra(const rgl_material& material) {
-  if (!material.spectra) gonio::refuse("the material is in RGB, expected one in spectra");
+  if (!material.spectra) gonio::refuse("the material is in RGB, expected spectra");
 }
 
 /// Returns the last of ascending numbers that is at most `value`, and the fraction of the way from it to the next.
@@ -109,7 +109,7 @@ GONIO_INLINE rgl_spectra at_wavelengths(const rgl_spectra& spectra, std::vector<
   const model::unit_square_tables& all = spectra.values;
   if (wavelengths.front() < known.front() || wavelengths.back() > known.back())
     refuse({"a material at wavelengths from ", shortest(known.front()), " to ", shortest(known.back()),
-            " nm is not known from ", shortest(wavelengths.front()), " to ", shortest(wavelengths.back()), " nm"});
+            " nm has no values from ", shortest(wavelengths.front()), " to ", shortest(wavelengths.back()), " nm"});
   const Eigen::Index size = all.rows * all.columns, bands = std::ssize(wavelengths), others = std::ssize(known),
                      angles = all.tables / others;
   rgl_spectra found{std::move(wavelengths),

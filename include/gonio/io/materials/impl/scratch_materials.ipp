@@ -68,8 +68,8 @@ struct scratch_materials::state {
     if (table.rows() != over.size() || table.cols() != channels_at<valid_cells>(at))
       refuse({"material '", name, "' has ", table.rows(), " x ", table.cols(), " values, expected ", over.size(), " x ",
               channels_at<valid_cells>(at)});
-    if (cells && !(*cells == over)) refuse({"material '", name, "' is over other cells than the first one"});
-    if (cells && at != wavelengths) refuse({"material '", name, "' is at other wavelengths than the first one"});
+    if (cells && !(*cells == over)) refuse({"material '", name, "' has other cells than the first material"});
+    if (cells && at != wavelengths) refuse({"material '", name, "' has other wavelengths than the first material"});
     const std::uint64_t bytes = sizeof(float) * static_cast<std::uint64_t>(table.size());
     if (!held.empty() && bytes * (held.size() + 1) > memory) write_held();
     cells = over;
@@ -132,7 +132,7 @@ GONIO_INLINE void scratch_materials::append(const std::string& name, const valid
 }
 
 GONIO_INLINE material_rows scratch_materials::rows() {
-  if (state_->names.empty()) refuse("there is no material");
+  if (state_->names.empty()) refuse("at least one material is needed");
   if (state_->file.is_open() && !state_->held.empty()) state_->write_held();
   return {*state_->cells, state_->names, [held = state_](block range, cell_rows out) { held->read(range, out); },
           state_->wavelengths};

@@ -149,7 +149,7 @@ void to_halves(const Numbers& numbers, std::vector<std::uint16_t>& halves, threa
         for (Eigen::Index i = range.begin; i < range.end; ++i) {
           const float value = numbers.data()[i];
           if (!(std::abs(value) < 65504.0f))
-            gonio::refuse({"a number of the map is ", double{value}, ", beyond the range of half floats, 65504"});
+            gonio::refuse({"a number of the map is ", double{value}, ", outside the range of half floats, 65504"});
           halves[static_cast<std::size_t>(i)] = to_half(value);
         }
       },
@@ -256,8 +256,8 @@ GONIO_INLINE void svbrdf_writer::resume(std::span<const std::byte> head) {
   const auto begun = detail::bytes_at(file_, 0, head.size(), part_);
   if (!std::ranges::equal(begun, head.first(begun.size())))
     gonio::refuse({part_.string(),
-                   ": is of another job (of other images' sizes, directions, prior or eta): remove it, "
-                   "or name another file to write"});
+                   ": belongs to another job (other image sizes, directions, prior or eta): remove it, "
+                   "or write to another file"});
   std::uint64_t end = head.size();
   if (begun.size() < head.size()) {
     if (::lseek(file_.get(), static_cast<off_t>(begun.size()), SEEK_SET) < 0) fail();
@@ -293,7 +293,7 @@ GONIO_INLINE void svbrdf_writer::append(std::span<const std::byte> bytes) {
   require_unfinished();
   const std::uint64_t expected = detail::bytes_of_band(header_, finished_);
   if (bytes.size() != expected || !detail::is_whole_band(bytes))
-    gonio::refuse({path_.string(), ": band ", finished_, " is damaged, or has not ", expected, " bytes"});
+    gonio::refuse({path_.string(), ": band ", finished_, " is damaged or does not have ", expected, " bytes"});
   write(bytes);
   ++finished_;
 }
@@ -304,7 +304,7 @@ GONIO_INLINE void svbrdf_writer::write(std::span<const std::byte> bytes) {
 
 GONIO_INLINE void svbrdf_writer::commit() {
   if (finished_ != header_.bands())
-    gonio::refuse({path_.string(), ": has ", finished_, " of ", header_.bands(), " bands, and is not finished"});
+    gonio::refuse({path_.string(), ": has ", finished_, " of ", header_.bands(), " bands, it is not finished"});
   if (::fsync(file_.get()) != 0 && errno != EINVAL) fail();
   if (::rename(part_.c_str(), target_.c_str()) != 0) fail();
 }
@@ -313,7 +313,7 @@ GONIO_INLINE void svbrdf_writer::commit() {
   const std::string reason = system_reason(errno);
   if (finished_ == 0) refuse_file(part_, {"cannot be written: ", reason});
   refuse_file(part_, {"cannot be written: ", reason, "; the first ", finished_, " of ", header_.bands(),
-                      " bands stay, and the same job goes on behind them"});
+                      " bands are kept, and the same job continues after them"});
 }
 
 // ---- reading -----------------------------------------------------------------------------------
@@ -325,7 +325,7 @@ GONIO_INLINE svbrdf_map::svbrdf_map(const std::filesystem::path& path) : path_(p
   byte_reader in(start, name);
   detail::read_kind(detail::svbrdf_kind, in, name);
   head_size_ = detail::svbrdf_start + in.read<std::uint32_t>();
-  if (head_size_ > size) gonio::refuse({name, ": truncated in its header"});
+  if (head_size_ > size) gonio::refuse({name, ": its header is truncated"});
   const auto head = detail::bytes_at(file_, 0, static_cast<std::size_t>(head_size_), path);
   if (!detail::is_whole_band(head))
     gonio::refuse({name, ": the header's checksum does not match, the file is damaged"});
@@ -339,7 +339,7 @@ GONIO_INLINE svbrdf_map::svbrdf_map(const std::filesystem::path& path) : path_(p
 GONIO_INLINE svbrdf_band svbrdf_map::read_band(Eigen::Index band) const {
   const std::string name = path_.string();
   if (band < 0 || band >= header_.bands())
-    gonio::refuse({name, ": has no band ", band, ", but ", header_.bands(), " of them"});
+    gonio::refuse({name, ": has no band ", band, ", it has ", header_.bands(), " bands"});
   const auto size = static_cast<std::size_t>(detail::bytes_of_band(header_, band));
   const auto bytes = detail::bytes_at(file_, head_size_ + detail::bytes_before_band(header_, band), size, path_);
   if (bytes.size() != size || !detail::is_whole_band(bytes))

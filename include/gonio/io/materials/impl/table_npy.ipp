@@ -46,7 +46,7 @@ GONIO_INLINE brdf_table read_table_npy(std::span<const std::byte> bytes, const s
   const auto fits = [](std::size_t extent) { return extent >= 1 && extent <= 4096; };
   if (!fits(shape[0]) || !fits(shape[1]) || !fits(shape[2]) || shape[3] != 3)
     refuse({name, ": has shape ", npy_shape_text(shape),
-            ", expected (theta_h, theta_d, phi_d, 3) of at most 4096 cells along each axis"});
+            ", expected (theta_h, theta_d, phi_d, 3) with at most 4096 cells along each axis"});
   const auto extent = [&](std::size_t axis) { return static_cast<int>(shape[axis]); };
   brdf_table table(valid_cells(grid({extent(0), extent(1), extent(2)})));
   const valid_cells& cells = table.cells();

@@ -96,7 +96,8 @@ GONIO_INLINE void alta_reader::read_entry(std::string_view line) {
   if (key == "DIM") read_dimensions(value);
   if (key == "PARAM_IN") read_input(value);
   if (key == "PARAM_OUT") read_output(value);
-  if (key == "FORMAT" && value != "text") place_.refuse({"#FORMAT ", in_quotes(value), " is not read, expected text"});
+  if (key == "FORMAT" && value != "text")
+    place_.refuse({"#FORMAT ", in_quotes(value), " is not supported, expected text"});
 }
 
 GONIO_INLINE void alta_reader::read_dimensions(std::string_view value) {
@@ -119,7 +120,7 @@ GONIO_INLINE void alta_reader::read_input(std::string_view name) {
   if (found == alta_inputs.end()) {
     std::vector<std::string_view> names;
     for (const alta_parametrisation& each : alta_inputs) names.push_back(each.name);
-    place_.refuse({"#PARAM_IN ", in_quotes(name), " does not say both directions, or is unknown, expected ",
+    place_.refuse({"#PARAM_IN ", in_quotes(name), " is unknown or does not give both directions, expected ",
                    listed(names, " or ")});
   }
   input_ = found;
@@ -129,8 +130,8 @@ GONIO_INLINE void alta_reader::read_output(std::string_view name) {
   constexpr std::array<std::string_view, 4> known{"INV_STERADIAN", "INV_STERADIAN_COSINE_FACTOR", "RGB_COLOR",
                                                   "XYZ_COLOR"};
   if (std::ranges::find(known, name) == known.end())
-    place_.refuse(
-        {"#PARAM_OUT ", in_quotes(name), " does not say what the values are, expected ", listed(known, " or ")});
+    place_.refuse({"#PARAM_OUT ", in_quotes(name), " does not name the quantity of the values, expected ",
+                   listed(known, " or ")});
   output_ = name;
 }
 
@@ -139,12 +140,12 @@ GONIO_INLINE void alta_reader::begin_rows() {
   if (input_ == nullptr) place_.refuse("there is no line #PARAM_IN above the numbers");
   if (output_.empty())
     place_.refuse(
-        "there is no line #PARAM_OUT above the numbers, which says what they are, expected one like "
+        "there is no line #PARAM_OUT above the numbers, expected one such as "
         "'#PARAM_OUT INV_STERADIAN' (a BRDF, sr^-1)");
   const bool is_colour = output_.ends_with("COLOR");
   if (inputs_ != input_->numbers || outputs_ != (is_colour ? 3U : 1U))
-    place_.refuse({"#DIM says ", inputs_, " and ", outputs_, " numbers, expected ", input_->numbers, " of #PARAM_IN ",
-                   input_->name, " and ", is_colour ? 3 : 1, " of #PARAM_OUT ", output_});
+    place_.refuse({"#DIM states ", inputs_, " and ", outputs_, " numbers, expected ", input_->numbers,
+                   " for #PARAM_IN ", input_->name, " and ", is_colour ? 3 : 1, " for #PARAM_OUT ", output_});
   if (output_ == "RGB_COLOR")
     collector_.emplace(channels());
   else
@@ -209,7 +210,7 @@ GONIO_INLINE void alta_reader::read_row(std::string_view line) {
     numbers_.push_back(read_number(word, place_, [&] { return message_of({"number ", numbers_.size() + 1}); }));
   const std::size_t needed = inputs_ + outputs_, most = needed + 2 * outputs_;  // with confidence intervals
   if (numbers_.size() < needed || numbers_.size() > most)
-    place_.refuse({numbers_.size(), " numbers, expected ", needed, " as #DIM says"});
+    place_.refuse({numbers_.size(), " numbers, expected ", needed, " as in #DIM"});
   const direction_pair pair = directions();
   if (!is_above_horizon(pair.wi) || !is_above_horizon(pair.wo)) return;
   const double factor = output_ == "INV_STERADIAN_COSINE_FACTOR" ? 1.0 / pair.wo.z() : 1.0;

@@ -90,7 +90,7 @@ GONIO_INLINE void astm_reader::read_variables(std::string_view names) {
     values_.push_back(column);
     of_values.push_back(all[column]);
   }
-  if (values_.empty()) place_.refuse("VARS: there is no column of values beside the angles");
+  if (values_.empty()) place_.refuse("VARS: expected a column of values besides the angles");
   collector_ = collector_of(of_values);
 }
 

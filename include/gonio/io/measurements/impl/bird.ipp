@@ -76,7 +76,8 @@ GONIO_INLINE const bird_variable& bird_samples::require(std::string_view variabl
 GONIO_INLINE void bird_samples::require_count(std::string_view variable, std::size_t count) const {
   const std::size_t expected = require("BRDF").values.size();
   if (count != expected)
-    gonio::refuse({place_.name, ": data.", variable, " has ", count, " values, expected ", expected, " as data.BRDF"});
+    gonio::refuse(
+        {place_.name, ": data.", variable, " has ", count, " values, expected ", expected, " as in data.BRDF"});
 }
 
 GONIO_INLINE double bird_samples::to_radians(std::string_view variable) const {
@@ -105,7 +106,7 @@ GONIO_INLINE void bird_samples::check_units() {
   wavelengths_ = of_light != nullptr ? of_light : seen;
   if (wavelengths_ == nullptr) return;
   if (of_light != nullptr && seen != nullptr && (of_light->unit != seen->unit || of_light->values != seen->values))
-    gonio::refuse({place_.name, ": data.wavelength_r differs from data.wavelength_i: fluorescence is no BRDF"});
+    gonio::refuse({place_.name, ": data.wavelength_r differs from data.wavelength_i: fluorescence is not a BRDF"});
   const std::string& unit = wavelengths_->unit;
   if (unit != "nm" && unit != "\xCE\xBCm" && unit != "\xC2\xB5m")
     gonio::refuse(
@@ -143,7 +144,7 @@ GONIO_INLINE std::vector<bird_group> bird_samples::grouped() const {
   for (std::size_t k = 0; k < brdf.values.size(); ++k) {
     if (std::abs(brdf.values[k]) > double{std::numeric_limits<float>::max()})
       gonio::refuse({place_.name, ": measurement ", k + 1, ": ", shortest(brdf.values[k]),
-                     " sr^-1 is beyond the range of float"});
+                     " sr^-1 is outside the range of float"});
     const auto value_of = [&](std::string_view variable) { return require(variable).values[k]; };
     const std::array<double, 4> angles{value_of("theta_i"), value_of("phi_i"), value_of("theta_r"), value_of("phi_r")};
     const auto [at, is_new] = known.try_emplace(angles, groups.size());

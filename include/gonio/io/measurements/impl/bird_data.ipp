@@ -150,7 +150,7 @@ GONIO_INLINE void bird_reader::read_entry(const std::string& key) {
     json_.open_object(key);
     while (const auto variable = json_.next_key()) require_constant(*variable);
   } else if (key == "variables") {
-    json_.refuse({"data.variables is of a draft of the format, expected data.theta_i and so on (schema 1.0)"});
+    json_.refuse({"data.variables is from a draft of the format, expected data.theta_i and so on (schema 1.0)"});
   } else {
     json_.skip();
   }
@@ -214,7 +214,8 @@ GONIO_INLINE std::array<double, 3> bird_reader::read_state(const std::string& ke
   json_.open_array(key);
   while (json_.next_element()) {
     const double number = json_.read_number(key);
-    if (count == 4 || !(std::abs(number) <= 1.0)) json_.refuse({key, ": expected Stokes vectors of 4 numbers up to 1"});
+    if (count == 4 || !(std::abs(number) <= 1.0))
+      json_.refuse({key, ": expected Stokes vectors of 4 numbers from -1 to 1"});
     stokes[count++] = number;
   }
   if (count != 4 || stokes[0] != 1.0) json_.refuse({key, ": expected Stokes vectors of 4 numbers, the first 1"});
@@ -235,7 +236,7 @@ GONIO_INLINE void bird_reader::require_constant(const std::string& key) {
       if (!first) first = value;
       if (*first != value)
         json_.refuse(
-            {"adhoc_variables: ", in_quotes(std::string_view(key)), " changes; expected a file for each value"});
+            {"adhoc_variables: ", in_quotes(std::string_view(key)), " varies, expected one file for each value"});
     }
   }
 }

@@ -29,8 +29,7 @@ GONIO_INLINE void cornell_reader::read(std::string_view line) {
 
 GONIO_INLINE sample_collector cornell_reader::samples() && {
   if (!collector_)
-    gonio::refuse(
-        {place_.name, ": ends before its ", count_, " wavelengths, of which there are ", wavelengths_.size()});
+    gonio::refuse({place_.name, ": expected ", count_, " wavelengths, the file ends after ", wavelengths_.size()});
   return *std::move(collector_);
 }
 
@@ -43,7 +42,7 @@ GONIO_INLINE void cornell_reader::read_count() {
 
 GONIO_INLINE void cornell_reader::read_wavelengths() {
   if (wavelengths_.size() + fields_.size() > count_)
-    place_.refuse("more than the " + std::to_string(count_) + " wavelengths that the file announces");
+    place_.refuse("more than the " + std::to_string(count_) + " wavelengths that the file declares");
   for (std::size_t i = 0; i < fields_.size(); ++i) wavelengths_.push_back(number(i));
   if (wavelengths_.size() < count_) return;
   try {
@@ -62,7 +61,7 @@ GONIO_INLINE void cornell_reader::read_sample() {
     reflectances_.push_back(number(i));
     if (std::abs(reflectances_.back()) > double{std::numeric_limits<float>::max()})
       place_.refuse("field " + std::to_string(i + 1) + ": " + shortest(reflectances_.back()) +
-                    " sr^-1 is beyond the range of float");
+                    " sr^-1 is outside the range of float");
   }
   const direction wi = read_direction(0), wo = read_direction(2);
   collector_->add({wi, wo}, reflectances_);

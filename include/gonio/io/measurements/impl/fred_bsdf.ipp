@@ -28,7 +28,7 @@ GONIO_INLINE void check_fred_format(std::string_view line, const text_place& pla
   std::vector<std::string_view> words;
   split_at_blanks(line, words);
   const std::vector<std::string_view> expected{"format", "angles=deg", "bsdf=value", "scale=1"};
-  if (words != expected) place.refuse({in_quotes(line), " is not read, expected '", listed(expected, " "), "'"});
+  if (words != expected) place.refuse({in_quotes(line), " is not supported, expected '", listed(expected, " "), "'"});
 }
 
 /// Reads a direction from polar angle and azimuth in degrees; `turn` is added to the azimuth.
@@ -61,7 +61,7 @@ GONIO_INLINE void check_fred_format(std::string_view line, const text_place& pla
       collector.add({*wi, fred_direction(words[0], words[1], 0.0, place)}, {&value, 1});
     } else {
       place.refuse({words.size(), words.size() == 1 ? " number" : " numbers",
-                    ", expected two angles of the light, or two of the viewer and a value below them"});
+                    ", expected two angles of the light, or below them two angles of the viewer and a value"});
     }
   });
   if (lines < 2) gonio::refuse({place.name, ": ends before its lines 'type bsdf_data' and 'format'"});

@@ -87,7 +87,8 @@ GONIO_INLINE double scattering_value(const xml_element& data, std::string_view w
     const std::string_view word = rest.substr(0, rest.find_first_of(between));
     const double number = scattering_value(data, word);
     if (numbers.size() == count)
-      data.place(word).refuse({"<ScatteringData> goes on behind ", count, " numbers, which the patches ask for"});
+      data.place(word).refuse(
+          {"<ScatteringData> has more than ", count, " numbers, expected one for each pair of patches"});
     numbers.push_back(number);
     rest.remove_prefix(word.size());
   }
@@ -112,7 +113,7 @@ GONIO_INLINE xml_element reflection_of(const xml_element& file, const std::strin
           found += message_of({found.empty() ? "" : ", ", in_quotes(of_block), " of ", in_quotes(wavelength)});
       }
     }
-  gonio::refuse({name, ": has no '", listed(directions, "' or '"), "' of ", in_quotes(wanted.wavelength), ", but ",
+  gonio::refuse({name, ": has no '", listed(directions, "' or '"), "' of ", in_quotes(wanted.wavelength), ", it has ",
                  found.empty() ? "no matrix" : found});
 }
 
@@ -134,7 +135,7 @@ GONIO_INLINE sample_set read_klems_xml(std::string_view text, const std::string&
   const std::string_view structure = definition.text("IncidentDataStructure");
   if (structure != "Columns" && structure != "Rows")
     definition.place(definition.content())
-        .refuse({"<IncidentDataStructure> ", in_quotes(structure), " is not read, expected Columns or Rows"});
+        .refuse({"<IncidentDataStructure> ", in_quotes(structure), " is not supported, expected Columns or Rows"});
   const detail::xml_element block = detail::reflection_of(file, name, wanted), data = block.first("ScatteringData");
   const text_place place = block.place(block.content());
   const auto columns = detail::basis_named(definition, block.text("ColumnAngleBasis"), place);

@@ -81,7 +81,7 @@ GONIO_INLINE void lighttools_reader::read_header() {
     else if (key == "ScatterRadial")
       polar_angles_ = words_.read_list("ScatterRadial", 0.0, 180.0);
     else
-      words_.place().refuse({in_quotes(key), " is no keyword of a LightTools BSDF file above DataBegin"});
+      words_.place().refuse({in_quotes(key), " is not a keyword of a LightTools BSDF file above DataBegin"});
   }
   if (azimuths_.empty()) words_.place().refuse("ScatterAzimuth is missing above DataBegin");
   if (polar_angles_.empty()) words_.place().refuse("ScatterRadial is missing above DataBegin");
@@ -124,13 +124,13 @@ GONIO_INLINE void lighttools_reader::read_keyword(std::string_view keyword, ligh
   else if (keyword == "TristimulusValue")
     block.tristimulus = static_cast<int>(words_.read_one_of({"TrisX", "TrisY", "TrisZ"}));
   else
-    words_.place().refuse({in_quotes(keyword), " is no keyword of a block, expected AOI, POI, Side, Wavelength, ",
+    words_.place().refuse({in_quotes(keyword), " is not a keyword of a block, expected AOI, POI, Side, Wavelength, ",
                            "ScatterType, TristimulusValue, TIS or DataEnd"});
 }
 
 GONIO_INLINE void lighttools_reader::require_plane_of_incidence(double degrees) const {
   if (degrees != 0.0)
-    words_.place().refuse({"POI: ", shortest(degrees), ", and only a plane of incidence of 0 degrees is read"});
+    words_.place().refuse({"POI: ", shortest(degrees), ", expected a plane of incidence of 0 degrees"});
 }
 
 GONIO_INLINE void lighttools_reader::read_values(lighttools_block& block) {
@@ -175,7 +175,7 @@ GONIO_INLINE sample_collector lighttools_reader::collector_of(const channel_bloc
   for (const auto& [wavelength, block] : blocks) wavelengths.push_back(wavelength);
   if (wavelengths.front() > 0.0) return sample_collector(channels(wavelengths));
   if (wavelengths.size() > 1)
-    refuse(*blocks.begin()->second, {"the block has no Wavelength, and others have one, expected all or none"});
+    refuse(*blocks.begin()->second, {"the block has no Wavelength but others have, expected all or none"});
   return sample_collector();
 }
 

@@ -32,8 +32,8 @@ namespace gonio::io::detail {
 // ---- writing
 
 inline constexpr std::string_view openmaterial_meaning =
-    "Values are the BRDF in 1/sr, without the cosine of any angle. Azimuth 0 is the side of the light, pi that of the "
-    "mirror direction. Spectra are smooth ones of linear Rec. 709 colours under D65.";
+    "Values are the BRDF in 1/sr, without the cosine of any angle. Azimuth 0 is the side of the light, pi the "
+    "mirror direction. Spectra are smooth and match linear Rec. 709 colours under D65.";
 
 /// Returns the angle of a node, rounded down to the six decimals of the schema's limits.
 [[nodiscard]] inline double openmaterial_angle(Eigen::Index node, Eigen::Index steps, double full) {
@@ -54,7 +54,7 @@ void for_each_openmaterial_row(const openmaterial_steps& steps, Use&& use) {
 
 GONIO_INLINE std::vector<direction_pair> openmaterial_directions(const openmaterial_steps& steps) {
   if (steps.polar < 1 || steps.polar > 60 || steps.azimuth < 1 || steps.azimuth > 120)
-    refuse({"a table of OpenMATERIAL needs 1 to 60 steps of the zenith and 1 to 120 of the azimuth, not ", steps.polar,
+    refuse({"an OpenMATERIAL table needs 1 to 60 steps of the zenith and 1 to 120 of the azimuth, not ", steps.polar,
             " and ", steps.azimuth});
   std::vector<direction_pair> pairs;
   for_each_openmaterial_row(steps, [&](double theta_i, double theta_o, double phi) {
@@ -124,7 +124,7 @@ GONIO_INLINE std::string openmaterial_text(const std::vector<rgb>& colours, cons
   const Eigen::Index rows = std::ssize(colours), bands = std::ssize(nanometres);
   std::vector<float> values(rows * bands);
   for (Eigen::Index row = 0; row < rows; ++row) {
-    if (!colours[row].allFinite()) refuse({"row ", row, " of a table of OpenMATERIAL is not finite"});
+    if (!colours[row].allFinite()) refuse({"row ", row, " of an OpenMATERIAL table is not finite"});
     const Eigen::ArrayXd spectrum = spectra(colours[row]).max(0.0);
     for (Eigen::Index band = 0; band < bands; ++band) values[band * rows + row] = static_cast<float>(spectrum[band]);
   }
@@ -237,7 +237,7 @@ class openmaterial_reader {
     require("zenith angle of the viewer in rad", theta_o, 0.0, 1.5708);
     require("azimuth in rad", phi, 0.0, 6.2832);
     if (std::abs(value) > double{std::numeric_limits<float>::max()})
-      json_.refuse({shortest(value), " sr^-1 is beyond the range of float"});
+      json_.refuse({shortest(value), " sr^-1 is outside the range of float"});
     // Equal directions must have equal azimuths.
     const bool is_none = theta_i == 0.0 || theta_o == 0.0 || phi >= 6.28318;
     return {theta_i, theta_o, is_none ? 0.0 : phi, 1e9 * wavelength, value};
@@ -286,7 +286,7 @@ namespace gonio::io {
 
 GONIO_INLINE void write_openmaterial(const std::filesystem::path& path, const std::string& text) {
   if (!path.filename().string().ends_with("_brdf.xompt"))
-    gonio::refuse({path.string(), ": tables of reflectance of OpenMATERIAL need a name that ends in _brdf.xompt"});
+    gonio::refuse({path.string(), ": an OpenMATERIAL table needs a name that ends in _brdf.xompt"});
   write_atomically(path, std::as_bytes(std::span(text)));
 }
 

@@ -109,7 +109,7 @@ GONIO_INLINE void reflectance_table::add_angles(double theta_i, double theta_o, 
   if (theta_i != theta_i_.back() || theta_o != theta_o_[column])
     place.refuse({"theta_i ", shortest(theta_i), " and theta_o ", shortest(theta_o), ", expected ",
                   shortest(theta_i_.back()), " and ", shortest(theta_o_[column]),
-                  ": every theta_i has the same theta_o"});
+                  ": every theta_i needs the same theta_o"});
 }
 
 GONIO_INLINE capture::reference_reflectance reflectance_table::table() const {

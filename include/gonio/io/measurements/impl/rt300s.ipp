@@ -163,7 +163,7 @@ GONIO_INLINE void rt300s_reader::read_row() {
   if (readings.empty()) gonio::refuse({name, ": has no row RT"});
   const text_place& place = sheet.place();
   if (azimuths.empty() || incidences.empty() || receivers.empty())
-    place.refuse("RT stands above the rows Azimuth, Incidence and Receive, expected them above");
+    place.refuse("the row RT precedes the rows Azimuth, Incidence and Receive, expected it after them");
   sample_collector collector;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (!readings[i]) continue;

@@ -23,7 +23,7 @@ namespace gonio::io::detail {
 
 GONIO_INLINE void require_float_range(double reflectance, const text_place& place) {
   if (std::abs(reflectance) > double{std::numeric_limits<float>::max()})
-    place.refuse({shortest(reflectance), " sr^-1 is beyond the range of float"});
+    place.refuse({shortest(reflectance), " sr^-1 is outside the range of float"});
 }
 
 GONIO_INLINE double require_between(double number, std::string_view name, double lowest, double highest,
@@ -86,8 +86,8 @@ GONIO_INLINE sample_set sample_collector::samples(const std::string& name) && {
   if (samples_.empty()) gonio::refuse({name, ": has no sample above the horizon, expected at least one"});
   if (!have_colours_)
     gonio::refuse({name,
-                   ": has other wavelengths in one pair of directions than in another, and not all make a colour, "
-                   "expected the same in all"});
+                   ": pairs of directions have different wavelengths, and not all have a colour, "
+                   "expected the same wavelengths in all"});
   return aperture_.is_point() ? std::move(samples_) : samples_.through(aperture_);
 }
 

@@ -104,13 +104,13 @@ inline constexpr std::size_t longest_name = 40;
   csv_dialect of_numbers = dialect_;
   if (of_numbers.read_number(file.fields().front(), number) == nullptr)
     place.refuse(
-        {"there is no header line above the numbers, expected one like theta_i,phi_i,theta_o,phi_o,r,g,b (what stands "
-         "behind # is a comment); the line looks ",
+        {"there is no header line above the numbers, expected one like theta_i,phi_i,theta_o,phi_o,r,g,b (text "
+         "after # is a comment); the line looks ",
          description(dialect_)});
   for (const column_name& each : reading.columns)
     if (column_named(each.column) == ignored)
-      place.refuse({"samples have no column ", in_quotes(each.column), " that ", in_quotes(each.in_file),
-                    " could be, expected theta_i, value or another one of theirs"});
+      place.refuse({"samples have no column ", in_quotes(each.column), " for ", in_quotes(each.in_file),
+                    " of the file, expected theta_i, value or another known column"});
   std::vector<written_column> names;
   for (const std::string_view field : file.fields()) names.push_back(written(field));
   matrix_ = matrix_of(file.fields(), [&](std::string_view name) { return find_column(name, reading); });
@@ -201,8 +201,8 @@ inline constexpr std::size_t longest_name = 40;
   const double nanometres = wavelength_named(written);
   if (nanometres == 0.0) return false;
   if (!wavelengths_.empty() && !(nanometres > wavelengths_.back()))
-    place.refuse({"column ", in_quotes(written.text), " stands behind that of ", shortest(wavelengths_.back()),
-                  " nm, expected wavelengths that ascend, none of them twice"});
+    place.refuse({"column ", in_quotes(written.text), " follows the column of ", shortest(wavelengths_.back()),
+                  " nm, expected wavelengths that ascend without repeats"});
   wavelengths_.push_back(nanometres);
   columns_.push_back(ignored + wavelengths_.size());
   return true;
@@ -218,7 +218,7 @@ inline constexpr std::size_t longest_name = 40;
                                                              const text_place& place) const {
   for (const column_name& each : reading.columns)
     if (!has(column_named(each.column)))
-      place.refuse({"there is no column ", in_quotes(each.in_file), " to be ", each.column, "; ", as_it_looks()});
+      place.refuse({"there is no column ", in_quotes(each.in_file), " for ", each.column, "; ", as_it_looks()});
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_header::find_directions(const text_place& place) {
@@ -265,9 +265,9 @@ inline constexpr std::size_t longest_name = 40;
   }
   has_wavelength_ = has(wavelength_column);
   if (has_wavelength_ && values_.count == 3 && !is_spectral)
-    place.refuse({is_tristimulus ? "X,Y,Z" : "r,g,b", " have no wavelength, expected value"});
+    place.refuse({is_tristimulus ? "X,Y,Z" : "r,g,b", " cannot have a wavelength, expected value"});
   if (has_wavelength_ && is_spectral)
-    place.refuse({"the column wavelength stands beside ", name_of(ignored + 1), ", expected one of them"});
+    place.refuse({"the file has a column wavelength and ", name_of(ignored + 1), ", expected one of them"});
 }
 
 /// X, Y and Z are tristimulus values only if all three are present and there are no other values.
@@ -289,7 +289,7 @@ inline constexpr std::size_t longest_name = 40;
   if (quantity_.quantity() != sample_quantity::percent)
     place.refuse(
         {"column 'g' is missing, expected r,g,b, or value for one channel, or wavelengths, as 400nm; if the "
-         "column R is the one value, --columns value=R says so; the header line looks ",
+         "column R is the only value, give --columns value=R; the header line looks ",
          description(dialect_)});
   *r = grey_group.first;
 }
@@ -298,7 +298,8 @@ inline constexpr std::size_t longest_name = 40;
   if (!has_any(channel_weight_group)) return;
   if (has_any(weight_group))
     place.refuse("weights are given in two ways, expected weight or weight_r,weight_g,weight_b");
-  if (!wavelengths_.empty()) place.refuse("wavelengths have one weight, expected weight, not one for each channel");
+  if (!wavelengths_.empty())
+    place.refuse("samples at wavelengths have one weight, expected weight, not one for each channel");
   require(channel_weight_group, place);
   weights_ = channel_weight_group;
 }
@@ -347,8 +348,8 @@ inline constexpr std::size_t most_listed = 6;
   for (std::size_t i = 0; i < std::min(most_listed, extra_.size()); ++i)
     unknown += message_of({i == 0 ? "" : ", ", in_quotes(extra_[i].text)});
   return message_of({"the header line looks ", description(dialect_),
-                     extra_.empty() ? "" : ", and not known in it: ", unknown, how_many_more(extra_.size()),
-                     extra_.empty() ? "" : " (--columns NAME=THEIRS says what they are)"});
+                     extra_.empty() ? "" : ", unknown columns: ", unknown, how_many_more(extra_.size()),
+                     extra_.empty() ? "" : " (--columns NAME=THEIRS names them)"});
 }
 
 [[gnu::cold]] GONIO_INLINE std::string sample_header::note_of_ignored() const {

@@ -49,8 +49,8 @@ namespace gonio::io::detail {
                                                        const text_place& place) {
   if (has_percent_signs_ && quantity == sample_quantity::reflectance_factor) return;
   if (quantity_ && *quantity_ != quantity)
-    place.refuse({"the values are ", name_of(*quantity_), " by ", by_, ", but ", name_of(quantity), " by ", by,
-                  ", expected one quantity"});
+    place.refuse({"the values are ", name_of(*quantity_), " according to ", by_, ", but ", name_of(quantity),
+                  " according to ", by, ", expected one quantity"});
   if (!quantity_) by_ = by;
   quantity_ = quantity;
 }

@@ -29,7 +29,7 @@ namespace gonio::io::detail {
                                                     const sample_reading& reading)
     : csv_(text, name), needs_value_(needs_value), reading_(reading), sign_(reading.sign) {
   numbers_[weight_group.first] = 1.0;
-  if (reading.quantity) quantity_.state(*reading.quantity, "what is asked for (--quantity)", csv_.place());
+  if (reading.quantity) quantity_.state(*reading.quantity, "the requested quantity (--quantity)", csv_.place());
 }
 
 GONIO_INLINE bool sample_rows::next() {
@@ -68,7 +68,7 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
   if (entry.key == "receiver-half-angle") return read_half_angle(half_angle_group.first + 1, entry);
   if (entry.key != "quantity") return;
   const text_place& place = csv_.place();
-  if (rows_ > 0) place.refuse("the comment on the quantity stands below a sample, expected above the first");
+  if (rows_ > 0) place.refuse("the comment with the quantity is below a sample, expected above the first");
   const auto quantity = quantity_named(entry.value);
   if (!quantity)
     place.refuse({"the quantity ", in_quotes(entry.value),
@@ -81,7 +81,7 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
     csv_.place().refuse({"theta-o-sign ", in_quotes(value), " is unknown, expected light or mirror"});
   const theta_o_sign stated = value == "light" ? theta_o_sign::light : theta_o_sign::mirror;
   if (sign_.value_or(stated) != stated)
-    csv_.place().refuse({"the file says theta-o-sign ", value, ", but --theta-o-sign says the other"});
+    csv_.place().refuse({"the file says theta-o-sign ", value, ", but --theta-o-sign contradicts it"});
   sign_ = stated;
 }
 
@@ -225,8 +225,8 @@ GONIO_INLINE void sample_rows::read_number_of(std::size_t column, std::string_vi
   if (*wavelength_ != given)
     csv_.place().refuse(
         {"column wavelength: ", shortest(given), " nm, but ", shortest(*wavelength_),
-         " nm above: more than one wavelength in such a column is not read, expected a file for each, or "
-         "columns called by their wavelengths, as 400nm"});
+         " nm above: more than one wavelength in this column is not supported, expected a file for each, or "
+         "columns named by their wavelengths, such as 400nm"});
 }
 
 GONIO_INLINE void sample_rows::check_weights() const {
@@ -252,11 +252,11 @@ GONIO_INLINE void sample_rows::check_weights() const {
   require_values();
   if (rows_ == 0) gonio::refuse({csv_.place().name, ": has a header line but no samples, expected at least one"});
   if (sign_ && header_.directions().first == half_difference_group.first)
-    gonio::refuse({csv_.place().name, ": has half vectors, so that theta-o-sign says nothing of it"});
+    gonio::refuse({csv_.place().name, ": has half vectors, to which theta-o-sign does not apply"});
   if (line_of_unknown_side_ > 0 && !has_signed_angle_)
     text_place{csv_.place().name, line_of_unknown_side_}.refuse(
         "on which sides of the normal are light and viewer? There are no columns phi_i and phi_o, and no angle of the "
-        "file is negative; expected these columns, or signs: those of one side are equal, or --theta-o-sign");
+        "file is negative; expected these columns, signed angles (same sign: same side) or --theta-o-sign");
   if (reading_.note) note_assumptions();
 }
 
@@ -287,7 +287,7 @@ GONIO_INLINE void sample_rows::check_weights() const {
     reading_.note(message_of({name, ": is read as a matrix, ", description(*matrix)}));
   for (const stated_angle& stated : header_.stated())
     reading_.note(message_of({name, ": ", sample_columns[stated.column], " is taken to be ", shortest(stated.degrees),
-                              " degrees, as a line above the header line says"}));
+                              " degrees, as stated above the header line"}));
   if (header_.values().first == tristimulus_group.first)
     reading_.note(message_of({name, ": X, Y and Z are read as CIE tristimulus values under D65"}));
 }

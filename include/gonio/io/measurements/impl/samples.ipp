@@ -121,14 +121,14 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
 /// Throws gonio::error if the quantity is unknown; r,g,b are always a BRDF.
 GONIO_INLINE void require_quantity(const parsed_row& row) {
   if (row.quantity || row.values.first == colour_group.first) return;
-  row.place.refuse({"the file does not say what the numbers of ", row.header.name_of(row.values.first),
-                    " are, expected a comment line '# quantity: brdf' above, or brdf-cosine, reflectance-factor or "
-                    "percent (--quantity says it of files that do not)"});
+  row.place.refuse({"the file does not state the quantity of ", row.header.name_of(row.values.first),
+                    ", expected a comment line '# quantity: brdf' above, or brdf-cosine, reflectance-factor or "
+                    "percent (or the option --quantity)"});
 }
 
 GONIO_INLINE void refuse_beyond_float(const parsed_row& row, std::size_t column, double value) {
   row.place.refuse(
-      {"column ", row.header.name_of(column), ": ", shortest(value), " sr^-1 is beyond the range of float"});
+      {"column ", row.header.name_of(column), ": ", shortest(value), " sr^-1 is outside the range of float"});
 }
 
 /// Converts the values of a row to a BRDF, sr^-1.
@@ -159,7 +159,7 @@ GONIO_INLINE void require_plausible_sides(const sample_set& samples, const std::
   const double ratio = brightness_towards_light(samples);
   if (ratio > implausible_brightness_towards_light)
     gonio::refuse(
-        {name, ": at theta_o = theta_i it is ", shortest(std::round(10.0 * ratio) / 10.0),
+        {name, ": at theta_o = theta_i the sample is ", shortest(std::round(10.0 * ratio) / 10.0),
          " times as bright as on the other side of the normal: is theta_o positive towards the mirror direction? Then "
          "give --theta-o-sign mirror; a material that reflects the light back needs --theta-o-sign light"});
 }
@@ -191,14 +191,13 @@ GONIO_INLINE void note_left_out(const sample_rows& rows, std::size_t at_horizon,
   const double largest = *std::ranges::max_element(all), middle = median(all);
   const bool are_percent = middle > 1.5;
   if (!are_percent && largest > 1.0)
-    gonio::refuse({name, ": Y is up to ", shortest(largest), ", and ", shortest(middle),
-                   " in the median: is a perfect diffuser's Y 1 or 100? Expected --quantity reflectance-factor or "
+    gonio::refuse({name, ": the largest Y is ", shortest(largest), ", the median ", shortest(middle),
+                   ": is a perfect diffuser's Y 1 or 100? Expected --quantity reflectance-factor or "
                    "percent, or a comment line '# quantity: percent'"});
   if (reading.note)
-    reading.note(
-        message_of({name, ": a perfect diffuser is taken to have Y ", are_percent ? "100" : "1", ", as Y is up to ",
-                    shortest(largest), ", and ", shortest(middle), " in the median (--quantity ",
-                    are_percent ? "reflectance-factor: Y 1" : "percent: Y 100", ")"}));
+    reading.note(message_of({name, ": a perfect diffuser is taken to have Y ", are_percent ? "100" : "1",
+                             ", as the largest Y is ", shortest(largest), ", the median ", shortest(middle),
+                             " (--quantity ", are_percent ? "reflectance-factor: Y 1" : "percent: Y 100", ")"}));
   with_scale.note = reading.note;
   with_scale.quantity = are_percent ? sample_quantity::percent : sample_quantity::reflectance_factor;
   return with_scale;
@@ -237,7 +236,7 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
       return read_sample_file(text, name, detail::with_assumed_scale(text, name, reading));
     if (file.samples.empty()) file.samples = sample_set(detail::channels_of(rows));
     if (row.weights.count > 1 && file.samples.channels().are_wavelengths())
-      row.place.refuse("wavelengths have one weight, expected weight, not one for each channel");
+      row.place.refuse("samples at wavelengths have one weight, expected weight, not one for each channel");
     const sample_directions at = detail::row_directions(row);
     detail::read_row_values(row, at, values);
     file.samples.add(at, values, detail::row_weight(row), detail::row_aperture(row));

@@ -56,10 +56,10 @@ GONIO_INLINE std::string write_scan_header(const scan_subject& subject, std::spa
                                            std::uint16_t largest_count) {
   for (const std::string& text : {subject.sample, subject.setup})
     if (text.empty() || trimmed(text) != text || has_control_characters(text))
-      gonio::refuse({"what a scan measures is told in one line of text, not in ", in_quotes(text)});
+      gonio::refuse({"the sample and the set-up of a scan need one line of text each, not ", in_quotes(text)});
   std::string pose_lines;
   for (const direction_pair& pose : poses) pose_lines += write_pose(pose);
-  return "# gonio scan: what lies in the machine, how it is measured, with which seed; the poses' number and "
+  return "# gonio scan: the sample, the set-up and the seed; the number of poses and their "
          "checksum;\n"
          "# wi and wo of each pose; number, frames, times, pixels, counts and checksum of each reading\n"
          "sample " +
@@ -99,7 +99,7 @@ GONIO_INLINE capture::reading read_reading(number_reader& numbers, std::uint16_t
     if (!(taken.times.back() > 0.0)) place.refuse("an exposure time must be positive");
   }
   const std::size_t pixels = numbers.next_whole(1e6, "the number of pixels");
-  if (frames == 0 || pixels == 0) place.refuse("a reading needs a frame, and a frame a pixel");
+  if (frames == 0 || pixels == 0) place.refuse("a reading needs at least one frame of at least one pixel");
   if (numbers.left() != frames * pixels * 3 + 1)  // the last one is the checksum
     place.refuse("has " + std::to_string(numbers.left() - std::min<std::size_t>(numbers.left(), 1)) +
                  " counts, expected " + std::to_string(frames * pixels * 3));
@@ -121,7 +121,7 @@ GONIO_INLINE bool is_pose(const direction_pair& pose) {
 GONIO_INLINE direction_pair read_pose(const text_rule& rule, std::size_t numbers, const text_place& place) {
   require_numbers(rule, {numbers}, place);
   const direction_pair pose{direction::Map(rule.numbers.data()), direction::Map(rule.numbers.data() + 3)};
-  if (!is_pose(pose)) place.refuse("a pose is two unit vectors above the horizon");
+  if (!is_pose(pose)) place.refuse("a pose needs two unit vectors above the horizon");
   return pose;
 }
 
@@ -133,12 +133,12 @@ GONIO_INLINE bool apply_subject_line(std::string_view line, const text_place& pl
   std::uint64_t number = 0;
   const auto [end, failed] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   const std::string_view text = trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
-  if (failed != std::errc()) place.refuse({in_quotes(name), " takes a whole number first"});
+  if (failed != std::errc()) place.refuse({in_quotes(name), " needs a whole number first"});
   if (text.empty() != (name == "seed"))
     place.refuse({in_quotes(name), name == "seed" ? " takes no text" : " needs a text"});
-  if (has_control_characters(text)) place.refuse({in_quotes(name), " has characters that are no text"});
+  if (has_control_characters(text)) place.refuse({in_quotes(name), " has control characters"});
   bool& has = name == "sample" ? before.has_sample : name == "setup" ? before.has_setup : before.has_seed;
-  if (has) place.refuse({in_quotes(name), " is told a second time"});
+  if (has) place.refuse({in_quotes(name), " appears twice"});
   has = true;
   if (name == "seed") {
     before.subject.seed = number;
@@ -165,8 +165,8 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
     const std::size_t poses = numbers.next_whole(1e9, "the number of poses");
     before.plan.emplace(poses, static_cast<std::uint32_t>(numbers.next_whole(4294967295.0, "the poses' checksum")));
   } else if (rule.name == "pose") {
-    if (before.has_reading) place.refuse("a pose after the first reading");
-    if (scan.poses.size() > scan.planned) place.refuse("a pose of the plan after one that was added");
+    if (before.has_reading) place.refuse("a pose follows the first reading");
+    if (scan.poses.size() > scan.planned) place.refuse("a planned pose follows an added one");
     scan.poses.push_back(read_pose(rule, 6, place));
     scan.readings.emplace_back();
     ++scan.planned;
@@ -179,8 +179,9 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
     if (!has_checksum(line)) place.refuse("the checksum is wrong, the line is damaged");
     const std::size_t pose = numbers.next_whole(1e9, "the pose");
     if (pose >= scan.poses.size())
-      place.refuse("pose " + std::to_string(pose) + " of " + std::to_string(scan.poses.size()));
-    if (scan.readings[pose]) place.refuse("pose " + std::to_string(pose) + " is read a second time");
+      place.refuse("there is no pose " + std::to_string(pose) + ", expected less than " +
+                   std::to_string(scan.poses.size()));
+    if (scan.readings[pose]) place.refuse("pose " + std::to_string(pose) + " has a second reading");
     scan.readings[pose] = read_reading(numbers, scan.largest_count, place);
     before.has_reading = true;
   } else {
@@ -192,14 +193,14 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
 GONIO_INLINE void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name) {
   // Readings come last: if there is none, the process may have been killed while it wrote the head.
   const std::string_view again =
-      all.has_reading ? "" : "; if the scan was stopped before its first reading, the same command begins it again";
+      all.has_reading ? "" : "; if the scan was stopped before its first reading, the same command restarts it";
   if (scan.largest_count == 0) gonio::refuse({name, ": the line largest_count is missing", again});
   if (scan.planned == 0) gonio::refuse({name, ": there is no pose", again});
   if (all.plan && (all.plan->first != scan.planned || all.plan->second != checksum(all.pose_lines)))
     gonio::refuse(
-        {name, ": the poses are not the ", all.plan->first, " that the line 'plan' tells, the file is damaged", again});
+        {name, ": the poses differ from the ", all.plan->first, " of the line 'plan', the file is damaged", again});
   if (all.has_sample != all.has_setup || all.has_sample != all.has_seed || all.has_sample != all.plan.has_value())
-    gonio::refuse({name, ": of the lines sample, setup, seed and plan some are missing"});
+    gonio::refuse({name, ": some of the lines sample, setup, seed and plan are missing"});
   if (all.has_sample) scan.subject = all.subject;
 }
 
@@ -239,7 +240,7 @@ GONIO_INLINE recorded_scan read_scan(const std::filesystem::path& path) {
 GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const scan_subject& subject,
                                         std::span<const direction_pair> poses, std::uint16_t largest_count)
     : path_(path) {
-  if (poses.empty()) gonio::refuse({path.string(), ": a scan needs a pose, and there is none"});
+  if (poses.empty()) gonio::refuse({path.string(), ": a scan needs at least one pose"});
   const std::string header = detail::write_scan_header(subject, poses, largest_count);
   open();
   auto bytes = read_bytes(path);
@@ -256,13 +257,13 @@ GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const
 }
 
 GONIO_INLINE void scan_journal::add(std::size_t pose, const capture::reading& taken) {
-  if (has(pose)) gonio::refuse({path_.string(), ": pose ", pose, " is read already"});
+  if (has(pose)) gonio::refuse({path_.string(), ": pose ", pose, " already has a reading"});
   write(detail::write_reading(pose, taken));
   scan_.readings[pose] = taken;
 }
 
 GONIO_INLINE void scan_journal::add_pose(const direction_pair& pose) {
-  if (!detail::is_pose(pose)) gonio::refuse({path_.string(), ": a pose is two unit vectors above the horizon"});
+  if (!detail::is_pose(pose)) gonio::refuse({path_.string(), ": a pose needs two unit vectors above the horizon"});
   write(detail::write_added_pose(pose));
   scan_.poses.push_back(pose);
   scan_.readings.emplace_back();
@@ -297,9 +298,8 @@ GONIO_INLINE void scan_journal::require_same(const scan_subject& subject, std::s
     gonio::refuse(
         {name, ": is a scan of ", scan_.planned, " other poses, expected the ", poses.size(), " of this plan"});
   if (!scan_.subject)
-    gonio::refuse({name,
-                   ": does not say what it measures, as scans of earlier versions: it can be calibrated, but not be ",
-                   "gone on with"});
+    gonio::refuse({name, ": does not name its sample, like scans of earlier versions: it can be calibrated, but not ",
+                   "continued"});
   const scan_subject& known = *scan_.subject;
   if (known.sample != subject.sample)
     gonio::refuse({name, ": is a scan of '", known.sample, "', not of '", subject.sample, "'"});

@@ -57,7 +57,7 @@ GONIO_INLINE void read_speos_rows(std::string_view& text, text_place& place) {
   static_cast<void>(line());  // a comment
   const double size = read_number(line(), place, [] { return "the size of the description"; });
   if (!(size >= 0.0 && size <= static_cast<double>(text.size())))
-    place.refuse({"the description has ", shortest(size), " characters, and the file ", text.size(), " more"});
+    place.refuse({"the description has ", shortest(size), " characters, but the file only ", text.size(), " more"});
   const std::string_view description = text.substr(0, static_cast<std::size_t>(size));
   text.remove_prefix(description.size());
   place.line += static_cast<std::size_t>(std::ranges::count(description, '\n'));
@@ -113,7 +113,7 @@ class speos_reader {
 
 GONIO_INLINE double speos_reader::count(std::string_view what, double most) {
   const double number = words_.read_number(what, 1.0, most);
-  if (number != std::floor(number)) words_.place().refuse({what, ": ", shortest(number), " is no count"});
+  if (number != std::floor(number)) words_.place().refuse({what, ": ", shortest(number), " is not a whole number"});
   return number;
 }
 
@@ -123,8 +123,8 @@ GONIO_INLINE std::vector<double> speos_reader::ascending(double count, std::stri
   while (static_cast<double>(numbers.size()) < count) {
     const double number = words_.read_number(what, lowest, highest);
     if (!numbers.empty() && !(number > numbers.back()))
-      words_.place().refuse({what, ": ", shortest(number), " stands behind ", shortest(numbers.back()),
-                             ", expected numbers that ascend"});
+      words_.place().refuse(
+          {what, ": ", shortest(number), " follows ", shortest(numbers.back()), ", expected ascending numbers"});
     numbers.push_back(number);
   }
   return numbers;
@@ -174,7 +174,7 @@ GONIO_INLINE double speos_reader::integral(const speos_table& table) const {
   for (std::size_t i = 0; i < table.theta.size(); ++i)
     for (std::size_t k = 0; k < table.phi.size(); ++k)
       sum += of_theta[i] * of_phi[k] * table.values[i * table.phi.size() + k];
-  if (!(sum > 0.0)) words_.place().refuse("the table above reflects no light, so that nothing can be scaled by it");
+  if (!(sum > 0.0)) words_.place().refuse("the table above reflects no light and cannot be scaled");
   return sum;
 }
 
@@ -210,13 +210,13 @@ void speos_reader::add(sample_collector& to, double incidence, double turn, cons
 GONIO_INLINE void speos_reader::read_kind() {
   const bool reflects = words_.read_one_of({"0", "1"}) == 1, transmits = words_.read_one_of({"0", "1"}) == 1;
   if (!reflects || transmits)
-    words_.place().refuse("the file has transmission, expected reflection alone, '1 0': save that part in Speos");
+    words_.place().refuse("the file has transmission, expected only reflection, '1 0': save that part in Speos");
   has_cosine_ = words_.read_one_of({"0", "1"}) == 0;
 }
 
 GONIO_INLINE void speos_reader::finish() {
   if (words_.peek() == "End") static_cast<void>(words_.read_rest_of_line());  // "End of file"
-  if (!words_.peek().empty()) words_.place().refuse("the file goes on behind its last table");
+  if (!words_.peek().empty()) words_.place().refuse("the file continues after its last table");
 }
 
 GONIO_INLINE sample_collector speos_reader::read() {
@@ -233,7 +233,7 @@ GONIO_INLINE sample_collector speos_reader::read() {
       spectrum.push_back(read_table());
       scale(spectrum.back(), 0.01 * reflectance / integral(spectrum.back()));
       if (spectrum.back().theta != spectrum.front().theta || spectrum.back().phi != spectrum.front().phi)
-        words_.place().refuse("the table above has other directions than the one of the first wavelength");
+        words_.place().refuse("the table above has other directions than the table of the first wavelength");
     }
     add(collector, incidence, 0.0, spectrum.front(), [&](std::size_t i, std::vector<double>& values) {
       for (const speos_table& each : spectrum) values.push_back(each.values[i]);
@@ -295,7 +295,8 @@ GONIO_INLINE sample_collector speos_reader::read_anisotropic() {
                azimuth = words_.read_number("the spectrum's anisotropy angle", 0.0, 360.0);
   const auto of_spectrum = std::ranges::find(turns, azimuth, &speos_turn::azimuth);
   if (of_spectrum == turns.end())
-    words_.place().refuse({"the spectrum's anisotropy angle ", shortest(azimuth), " is none of those of the tables"});
+    words_.place().refuse(
+        {"the spectrum's anisotropy angle ", shortest(azimuth), " is not among the angles of the tables"});
   skip_title();
   std::vector<double> wavelengths, reflectances;
   for (double left = count("the number of wavelengths", 10'000.0); left > 0.0; --left) {

@@ -72,9 +72,9 @@ GONIO_INLINE void ssdd_reader::read_entry(block_header& block, std::string_view 
                             "half_difference_coordinate_system", "distorted_spherical_coordinate_system"}));
   } else if (key == "PARAM4_LIST") {
     for (const double offset : words_.read_line(key, -90.0, 90.0))
-      if (offset != 0.0) words_.place().refuse("PARAM4_LIST: offsets from the specular direction are not read");
+      if (offset != 0.0) words_.place().refuse("PARAM4_LIST: offsets from the specular direction are not supported");
   } else {
-    words_.place().refuse({in_quotes(key), " is no entry of an SSDD file"});
+    words_.place().refuse({in_quotes(key), " is not an entry of an SSDD file"});
   }
 }
 
@@ -89,7 +89,7 @@ GONIO_INLINE std::size_t ssdd_reader::channel_count(const block_header& block) c
 GONIO_INLINE void ssdd_reader::check_block(const block_header& block) const {
   if (!block.parameters) words_.place().refuse("PARAM_TYPE is missing before DATA");
   if (block.parameters == coordinates::distorted_spherical)
-    words_.place().refuse("distorted spherical coordinates are not read, expected another PARAM_TYPE");
+    words_.place().refuse("distorted spherical coordinates are not supported, expected another PARAM_TYPE");
   const bool is_half_difference = block.parameters == coordinates::half_difference;
   const double largest_second = is_half_difference || block.parameters == coordinates::spherical ? 90.0 : 180.0;
   for (const std::size_t list : {0, 2, 3})
@@ -124,7 +124,7 @@ GONIO_INLINE void ssdd_reader::read_block() {
   std::size_t count = channel_count(block);
   for (const std::vector<double>& list : block.angles) {
     constexpr std::size_t most = 1'000'000'000;
-    if (list.size() > most / count) words_.place().refuse("the lists make more than 1000000000 numbers");
+    if (list.size() > most / count) words_.place().refuse("the lists need more than 1000000000 numbers");
     count *= std::max<std::size_t>(list.size(), 1);
   }
   static_cast<void>(words_.read_one_of({"DATA"}));

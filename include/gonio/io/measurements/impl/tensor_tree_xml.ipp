@@ -121,7 +121,7 @@ GONIO_INLINE void tensor_tree_reader::read_grid(const tree_cell& cell) {
   while (count() < values.size()) along_axis *= 2;
   if (count() != values.size())
     refuse({"a node has ", values.size(), values.size() == 1 ? " value" : " values", ", expected 1, ", children_, ", ",
-            children_ * children_, " or as many as powers of two have along ", rank_, " axes"});
+            children_ * children_, " or a power of two along each of ", rank_, " axes"});
   add_cells(cell, values, along_axis);
 }
 
@@ -176,11 +176,12 @@ GONIO_INLINE sample_set read_tensor_tree_xml(std::string_view text, const std::s
   const std::string_view structure = definition.text("IncidentDataStructure");
   if (structure != "TensorTree3" && structure != "TensorTree4")
     definition.place(definition.content())
-        .refuse({"<IncidentDataStructure> ", in_quotes(structure), " is no tree, expected TensorTree3 or TensorTree4"});
+        .refuse(
+            {"<IncidentDataStructure> ", in_quotes(structure), " is not a tree, expected TensorTree3 or TensorTree4"});
   const detail::xml_element block = detail::reflection_of(file, name, wanted), data = block.first("ScatteringData");
   if (const std::string_view basis = block.text("AngleBasis"); basis != "LBNL/Shirley-Chiu")
     block.place(block.content())
-        .refuse({"<AngleBasis> ", in_quotes(basis), " is not read, expected LBNL/Shirley-Chiu"});
+        .refuse({"<AngleBasis> ", in_quotes(basis), " is not supported, expected LBNL/Shirley-Chiu"});
   return detail::tensor_tree_reader(data, structure == "TensorTree3" ? 3 : 4).read().samples(name);
 }
 

@@ -69,7 +69,7 @@ GONIO_INLINE void zemax_bsdf_reader::read_header() {
     else if (key == "ScatterRadial")
       radials_ = words_.read_list("ScatterRadial", 0.0, 180.0);
     else
-      words_.place().refuse({in_quotes(key), " is no keyword of a Zemax BSDF file"});
+      words_.place().refuse({in_quotes(key), " is not a keyword of a Zemax BSDF file"});
   }
   require_lists();
 }

@@ -15,7 +15,7 @@ namespace gonio::io::detail {
 GONIO_INLINE design::polar_range read_polar_range(const text_rule& rule, std::size_t first, const text_place& place) {
   const double smallest = rule.numbers[first], largest = rule.numbers[first + 1];
   if (!(smallest >= 0.0 && smallest <= largest && largest <= 90.0))
-    place.refuse("a range of polar angles is two numbers from 0 to 90, the smaller one first");
+    place.refuse("a range of polar angles needs two numbers from 0 to 90, the smaller one first");
   return {radians(smallest), radians(largest)};
 }
 
@@ -23,7 +23,7 @@ GONIO_INLINE design::polar_range read_polar_range(const text_rule& rule, std::si
 inline constexpr double default_tolerance = radians(0.5);
 
 [[nodiscard]] GONIO_INLINE double read_tolerance(double angle, const text_place& place) {
-  if (!(angle >= 0.0 && angle <= 90.0)) place.refuse("angles are met to a tolerance from 0 to 90 degrees");
+  if (!(angle >= 0.0 && angle <= 90.0)) place.refuse("the tolerance of an angle must be from 0 to 90 degrees");
   return radians(angle);
 }
 
@@ -31,7 +31,7 @@ inline constexpr double default_tolerance = radians(0.5);
   require_numbers(rule, {4}, place);
   const std::vector<double>& angles = rule.numbers;
   if (!(angles[0] >= 0.0 && angles[0] < 90.0 && angles[2] >= 0.0 && angles[2] < 90.0))
-    place.refuse("the polar angles of a pair are from 0 to less than 90 degrees");
+    place.refuse("the polar angles of a pair must be at least 0 and less than 90 degrees");
   return {spherical_direction(radians(angles[0]), radians(angles[1])),
           spherical_direction(radians(angles[2]), radians(angles[3]))};
 }
@@ -40,7 +40,7 @@ inline constexpr double default_tolerance = radians(0.5);
 [[nodiscard]] GONIO_INLINE double only_number_of(const text_rule& rule, double limit, const text_place& place) {
   require_numbers(rule, {1}, place);
   if (!(rule.numbers[0] >= 0.0 && rule.numbers[0] < limit))
-    place.refuse(in_quotes(rule.name) + " is from 0 to less than " + shortest(limit));
+    place.refuse(in_quotes(rule.name) + " must be at least 0 and less than " + shortest(limit));
   return rule.numbers[0];
 }
 
@@ -57,7 +57,8 @@ GONIO_INLINE void apply_rule(const text_rule& rule, design::apparatus& described
     (rule.name == "light" ? constraint.light : constraint.viewer) = range;
   } else if (rule.name == "separation") {
     require_numbers(rule, {1}, place);
-    if (!(rule.numbers[0] >= 0.0 && rule.numbers[0] <= 180.0)) place.refuse("a separation is from 0 to 180 degrees");
+    if (!(rule.numbers[0] >= 0.0 && rule.numbers[0] <= 180.0))
+      place.refuse("a separation must be from 0 to 180 degrees");
     constraint.smallest_separation = radians(rule.numbers[0]);
   } else if (rule.name == "light_step") {
     require_numbers(rule, {1, 2}, place);
@@ -80,7 +81,7 @@ GONIO_INLINE void apply_rule(const text_rule& rule, design::apparatus& described
     described.angular_error = radians(only_number_of(rule, 45.0, place));
   } else {
     place.refuse(in_quotes(rule.name) +
-                 " is no rule: expected light, viewer, separation, light_step, forbid, in_plane, pair, noise, "
+                 " is not a rule, expected light, viewer, separation, light_step, forbid, in_plane, pair, noise, "
                  "dark_signal or misplaced");
   }
 }

@@ -26,7 +26,7 @@ class storage_text {
   storage_text(std::string_view text, const std::string& name)
       : text_(without_byte_order_mark(text)), name_(name), is_xml_(text_.find("<opencv_storage>") != text_.npos) {
     if (!is_xml_ && text_.find(':') == text_.npos)
-      gonio::refuse({name_, ": is no calibration file of OpenCV, neither YAML nor XML"});
+      gonio::refuse({name_, ": is not a calibration file of OpenCV, neither YAML nor XML"});
   }
 
   struct matrix {
@@ -138,8 +138,8 @@ class storage_text {
       rest.remove_prefix(end);
     }
     if (read.rows > 100 || read.columns > 100 || read.values.size() != read.rows * read.columns)
-      refuse(entry, "is said to be " + std::to_string(read.rows) + " x " + std::to_string(read.columns) +
-                        " and holds " + std::to_string(read.values.size()) + " numbers");
+      refuse(entry, "is declared as " + std::to_string(read.rows) + " x " + std::to_string(read.columns) +
+                        " but holds " + std::to_string(read.values.size()) + " numbers");
     return read;
   }
 
@@ -166,12 +166,12 @@ GONIO_INLINE camera_intrinsics calibrated_intrinsics(const storage_text& text) {
 
 /// Refuses lens models whose coefficients have another meaning.
 GONIO_INLINE void require_radial_and_tangential(const storage_text& text) {
-  constexpr std::string_view way_out = ": undistort the images before, by cv::fisheye::undistortImage for instance";
+  constexpr std::string_view way_out = ": undistort the images first, for instance by cv::fisheye::undistortImage";
   if (const auto fisheye = text.find_word("fisheye_model"); fisheye && *fisheye != "0")
-    text.refuse("fisheye_model", "is a lens model that is not read" + std::string(way_out));
+    text.refuse("fisheye_model", "is an unsupported lens model" + std::string(way_out));
   const auto model = text.find_word("distortion_model");
   if (model && *model != "plumb_bob" && *model != "radtan" && *model != "rational_polynomial")
-    text.refuse("distortion_model", in_quotes(*model) + " is a lens model that is not read" + std::string(way_out));
+    text.refuse("distortion_model", in_quotes(*model) + " is an unsupported lens model" + std::string(way_out));
 }
 
 GONIO_INLINE lens_distortion calibrated_distortion(const storage_text& text) {
@@ -184,8 +184,7 @@ GONIO_INLINE lens_distortion calibrated_distortion(const storage_text& text) {
     text.refuse("distortion_coefficients", "must be four or five numbers, k1 k2 p1 p2 k3");
   if (std::any_of(all.begin() + std::min<std::ptrdiff_t>(5, std::ssize(all)), all.end(),
                   [](double each) { return each != 0.0; }))
-    text.refuse("distortion_coefficients",
-                "has coefficients beyond k3 that are not 0, of a lens model that is not read");
+    text.refuse("distortion_coefficients", "has coefficients after k3 that are not 0, of an unsupported lens model");
   return {.k1 = all[0], .k2 = all[1], .p1 = all[2], .p2 = all[3], .k3 = all.size() > 4 ? all[4] : 0.0};
 }
 

@@ -87,7 +87,7 @@ GONIO_INLINE camera_intrinsics setup_intrinsics(const setup_text& text) {
   intrinsics.rows = text.count("size", 1, 1);
   const auto columns = static_cast<double>(intrinsics.columns), rows = static_cast<double>(intrinsics.rows);
   text.require({"focal_length", "field_of_view"});
-  text.require_one_of("field_of_view", "focal_length", "how wide the lens is");
+  text.require_one_of("field_of_view", "focal_length", "the field of view");
   if (text.has("focal_length")) {
     intrinsics.focal_length_x = text.numbers("focal_length").front();
     intrinsics.focal_length_y = text.numbers("focal_length").back();
@@ -103,7 +103,8 @@ GONIO_INLINE camera_intrinsics setup_intrinsics(const setup_text& text) {
 GONIO_INLINE pinhole_camera placed_camera(const setup_text& text, const camera_intrinsics& intrinsics) {
   const Eigen::Vector3d position = text.vector("position");
   text.require({"target", "rotation"});
-  for (const std::string_view other : {"target", "up"}) text.require_one_of("rotation", other, "how the camera stands");
+  for (const std::string_view other : {"target", "up"})
+    text.require_one_of("rotation", other, "the camera's orientation");
   if (text.has("rotation")) {
     using row_major = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
     const Eigen::Matrix3d rotation = row_major::Map(text.numbers("rotation").data());
@@ -123,7 +124,7 @@ GONIO_INLINE lens_distortion setup_distortion(const setup_text& text) {
 GONIO_INLINE lens_camera setup_camera(const setup_text& text, const std::optional<camera_calibration>& calibration) {
   if (calibration)
     for (const std::string_view entry : {"size", "focal_length", "field_of_view", "principal_point", "distortion"})
-      if (text.has(entry)) text.refuse(entry, "the calibration says it already, give only one of them");
+      if (text.has(entry)) text.refuse(entry, "the calibration already states it, give only one of them");
   const pinhole_camera pinhole = placed_camera(text, calibration ? calibration->intrinsics : setup_intrinsics(text));
   const lens_distortion distortion = calibration ? calibration->distortion : setup_distortion(text);
   return text.naming_file([&] { return lens_camera(pinhole, distortion); });
@@ -162,16 +163,16 @@ GONIO_INLINE directional_light distant_light(const setup_text& text) {
 GONIO_INLINE capture::surface_light setup_light(const setup_text& text) {
   text.require({"light", "light_angles", "lamp"});
   for (const auto& [one, other] : {std::pair{"light", "light_angles"}, {"light", "lamp"}, {"light_angles", "lamp"}})
-    text.require_one_of(one, other, "where the light is");
+    text.require_one_of(one, other, "the light's location");
   if (!text.has("lamp")) {
-    if (text.has("intensity")) text.refuse("intensity", "is that of a lamp, of a distant light give irradiance");
+    if (text.has("intensity")) text.refuse("intensity", "belongs to a lamp, for a distant light give irradiance");
     if (text.has("lamp_radius"))
-      text.refuse("lamp_radius", "is that of a lamp, of a distant light give light_half_angle");
+      text.refuse("lamp_radius", "belongs to a lamp, for a distant light give light_half_angle");
     return distant_light(text);
   }
-  if (text.has("irradiance")) text.refuse("irradiance", "is that of a distant light, of a lamp give intensity");
+  if (text.has("irradiance")) text.refuse("irradiance", "belongs to a distant light, for a lamp give intensity");
   if (text.has("light_half_angle"))
-    text.refuse("light_half_angle", "is that of a distant light, of a lamp give lamp_radius");
+    text.refuse("light_half_angle", "belongs to a distant light, for a lamp give lamp_radius");
   const double radius = text.has("lamp_radius") ? text.numbers("lamp_radius")[0] : 0.0;
   if (!(radius >= 0.0)) text.refuse("lamp_radius", "must not be negative");
   return capture::point_lamp{text.vector("lamp"), setup_colour(text, "intensity"), radius};

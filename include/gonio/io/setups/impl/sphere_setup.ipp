@@ -28,7 +28,7 @@ GONIO_INLINE void read_sphere(const setup_text& text, sphere_setup& setup) {
   setup.radius = sphere[0];
   if (sphere.size() == 4) setup.centre = Eigen::Vector3d(sphere[1], sphere[2], sphere[3]);
   if (!text.has("outline")) return;
-  if (setup.centre) text.refuse("outline", "'sphere' says already where the centre is, give only one of them");
+  if (setup.centre) text.refuse("outline", "'sphere' already states the centre, give only one of them");
   const auto& circle = text.numbers("outline");
   if (!(circle[2] > 0.0)) text.refuse("outline", "the radius must be positive, not " + shortest(circle[2]));
   setup.outline = {circle[0], circle[1], circle[2]};

@@ -71,7 +71,7 @@ namespace gonio::io::detail {
     const bool has_quotes = line.starts_with('"');
     if (has_quotes && !read_quoted(line, field)) return "a double quote is not closed on its line";
     const std::string_view rest = line.substr(0, line.find_first_of(ends));
-    if (has_quotes && !trimmed(rest).empty()) return "a field goes on behind its closing double quote";
+    if (has_quotes && !trimmed(rest).empty()) return "a field continues after its closing double quote";
     fields.push_back(has_quotes ? field : trimmed(rest));
     if (rest.size() == line.size()) return nullptr;
     line.remove_prefix(rest.size() + 1);

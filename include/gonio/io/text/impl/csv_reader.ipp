@@ -37,7 +37,7 @@ GONIO_INLINE csv_reader::csv_reader(std::string_view text, const std::string& na
   line.remove_prefix(4);
   separator_ = line.empty() ? '\t' : line.front();  // a tab was trimmed
   if (line.size() > 1 || (separator_ != ',' && separator_ != ';' && separator_ != '\t'))
-    place.refuse({in_quotes(line), " is no separator, expected sep=, or sep=; or sep= and a tab"});
+    place.refuse({in_quotes(line), " is not a separator, expected sep=, or sep=; or sep= and a tab"});
   left_ = text;
   place_ = place;
 }

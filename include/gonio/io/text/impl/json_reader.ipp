@@ -32,7 +32,7 @@ GONIO_INLINE char json_reader::peek() {
 }
 
 GONIO_INLINE void json_reader::expect(char c) {
-  if (peek() != c) refuse({in_quotes(text_.substr(at_, 1)), " where JSON has ", in_quotes(std::string_view(&c, 1))});
+  if (peek() != c) refuse({in_quotes(text_.substr(at_, 1)), ", expected ", in_quotes(std::string_view(&c, 1))});
   ++at_;
 }
 
@@ -142,7 +142,8 @@ GONIO_INLINE std::string_view json_reader::skip(std::size_t depth) {
     static_cast<void>(read_string("a value"));
   } else if (first == 't' || first == 'f' || first == 'n') {
     const std::string_view literal = read_literal();
-    if (literal != "true" && literal != "false" && literal != "null") refuse({in_quotes(literal), " is no JSON value"});
+    if (literal != "true" && literal != "false" && literal != "null")
+      refuse({in_quotes(literal), " is not a JSON value"});
   } else {
     static_cast<void>(read_number("a value"));
   }

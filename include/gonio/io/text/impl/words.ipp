@@ -58,7 +58,7 @@ GONIO_INLINE double word_reader::read_number(std::string_view what, double lowes
 GONIO_INLINE std::vector<double> word_reader::read_list(std::string_view what, double lowest, double highest) {
   const double count = read_number(what);
   if (!(count >= 1.0 && count <= 1e6 && count == static_cast<double>(static_cast<std::size_t>(count))))
-    place_.refuse({what, ": ", shortest(count), " is no count from 1 to 1000000"});
+    place_.refuse({what, ": ", shortest(count), " is not a count from 1 to 1000000"});
   std::vector<double> numbers;
   while (static_cast<double>(numbers.size()) < count) numbers.push_back(read_number(what, lowest, highest));
   return numbers;

@@ -33,7 +33,7 @@ GONIO_INLINE std::string_view xml_element::next(std::string_view& rest, std::str
     if (rest[tag - 1] == '/') return rest.substr(tag, 0);
     const std::string_view content = rest.substr(tag + 1);
     const std::size_t end = content.find(close);
-    if (end == std::string_view::npos) place(rest).refuse({"the element <", name, "> does not end, expected ", close});
+    if (end == std::string_view::npos) place(rest).refuse({"the element <", name, "> is not closed, expected ", close});
     rest = content.substr(end);
     return content.substr(0, end);
   }

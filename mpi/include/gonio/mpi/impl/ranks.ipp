@@ -89,7 +89,7 @@ struct ranks::state {
     }
     const std::string sentence =
         message_of({"rank ", tag_of_other == detail::outcome_tag ? other : rank,
-                    " failed alone: ", why.empty() ? "its work is not that of the others" : why.substr(1), "\n"});
+                    " failed alone: ", why.empty() ? "its work differs from the others'" : why.substr(1), "\n"});
     std::fputs(sentence.c_str(), stderr);
     MPI_Abort(all, 1);
     std::abort();  // not reached, MPI_Abort has ended the process
@@ -256,7 +256,7 @@ GONIO_INLINE void ranks::agree_on(std::uint32_t checksum, std::string_view what)
   const auto told = broadcast(bytes_of(other == all.end() ? std::ptrdiff_t{0} : other - all.begin()));
   const auto odd = number_of<std::ptrdiff_t>(told);
   if (odd == 0) return;
-  together([&] { refuse({"the ranks read different inputs: rank ", odd, "'s ", what, " is not rank 0's"}); });
+  together([&] { refuse({"the ranks read different inputs: rank ", odd, "'s ", what, " differs from rank 0's"}); });
 }
 
 }  // namespace gonio::mpi

@@ -97,7 +97,7 @@ GONIO_INLINE block groups_of(int rank, int ranks, Eigen::Index groups) {
 
 GONIO_INLINE Eigen::MatrixXd sum_of_groups(const ranks& ranks, Eigen::Index groups,
                                            const std::function<Eigen::MatrixXd(Eigen::Index)>& partial) {
-  if (groups < 1) refuse("a sum of no groups");
+  if (groups < 1) refuse("a sum needs at least one group");
   detail::tree_of_sums tree(ranks, groups, partial);
   const Eigen::MatrixXd total = tree.sum({0, groups});
   ranks.together([&] {

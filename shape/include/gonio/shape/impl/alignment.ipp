@@ -66,7 +66,7 @@ GONIO_INLINE centred_points::centred_points(const point_columns& points, const E
 /// Returns weights that sum to 1: 1/n each if none are given.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd weight_shares(const Eigen::VectorXd& weights, Eigen::Index points) {
   Eigen::VectorXd shares = weights.size() > 0 ? weights : Eigen::VectorXd::Ones(points);
-  if (shares.size() != points) refuse({"an alignment of ", points, " points is given ", shares.size(), " weights"});
+  if (shares.size() != points) refuse({"an alignment of ", points, " points has ", shares.size(), " weights"});
   if (std::ranges::any_of(shares, [](double weight) { return !(weight >= 0.0 && std::isfinite(weight)); }))
     refuse("the weights of an alignment must be finite and not negative");
   const auto positive = std::ranges::count_if(shares, [](double weight) { return weight > 0.0; });
@@ -106,7 +106,8 @@ GONIO_INLINE similarity_transform align(const point_columns& from, const point_c
   const detail::centred_points source(from, shares), target(onto, shares);
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(detail::sum_of_outer_products(target.scaled, source.scaled),
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (svd.info() != Eigen::Success) refuse("the points of an alignment are too far apart to be squared");
+  if (svd.info() != Eigen::Success)
+    refuse("the points of an alignment are so far apart that their squared distances overflow");
   Eigen::Vector3d singular = svd.singularValues();
   Eigen::Matrix3d left = svd.matrixU();
   if (left.determinant() * svd.matrixV().determinant() < 0.0) {  // never a mirror image

@@ -34,7 +34,7 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
     refuse({"from ", least_trials, " to ", shapes, " shapes can be left out, not ", options.trials});
   if (options.parts < 2 || shapes < options.parts || shapes - (shapes + options.parts - 1) / options.parts < 2)
     refuse({shapes, " shapes cannot be left out in ", options.parts,
-            " parts: expected at least 2, of which each leaves at least 2 shapes"});
+            " parts: expected at least 2 parts that each leave at least 2 shapes"});
 }
 
 /// Returns the median noise of a scan, mm.
@@ -122,7 +122,7 @@ GONIO_INLINE cross_validated_uncertainty::cross_validated_uncertainty(const shap
   const std::vector<point_columns> errors = detail::errors_of_trials(
       model, detail::noise_of(scan), marks_of(recovered.known, model.vertices()), options, threads);
   if (errors.size() < detail::least_trials)
-    refuse({"of ", options.trials, " shapes that were left out ", errors.size(), " were recovered, expected at least ",
+    refuse({"of ", options.trials, " left-out shapes, ", errors.size(), " were recovered, expected at least ",
             detail::least_trials, ": the scan shows too little"});
   trials_ = errors.size();
   covariances_.reserve(model.vertices());

@@ -68,7 +68,7 @@ GONIO_INLINE void require_known(const vertex_coordinates& coordinates, const ver
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index vertex = known.vertices[i];
     if (vertex < 0 || vertex >= coordinates.vertices)
-      refuse({"vertex ", vertex, " is known of shapes of ", coordinates.vertices, " vertices"});
+      refuse({"vertex ", vertex, " is known, but the shapes have ", coordinates.vertices, " vertices"});
     if (!known.positions.col(i).allFinite()) refuse({"the position of known vertex ", vertex, " is not finite"});
     if (known.normals.cols() != 0 && !(std::abs(known.normals.col(i).norm() - 1.0) < 1e-6))
       refuse({"the normal at known vertex ", vertex, " does not have length 1"});
@@ -103,7 +103,7 @@ GONIO_INLINE located_samples locate_vertices(const vertex_coordinates& coordinat
 GONIO_INLINE fitted_shape::fitted_shape(shape_basis basis, solution found)
     : basis_(std::move(basis)), report_(std::move(found.report)) {
   if (found.weights.rows() != basis_.size() || found.weights.cols() != 1)
-    refuse({"a shape of ", basis_.size(), " functions needs as many weights"});
+    refuse({"a shape of ", basis_.size(), " functions needs one weight for each"});
   weights_ = found.weights.col(0);
 }
 

@@ -19,10 +19,10 @@ namespace gonio::shape::detail {
 GONIO_INLINE void walk_edges(const triangle_mesh& mesh, const mesh_topology& topology, Eigen::Index source,
                              const std::function<bool(Eigen::Index vertex, double distance)>& arrive) {
   if (mesh.vertices.cols() != topology.vertices())
-    refuse({"a mesh of ", mesh.vertices.cols(), " vertices has a topology of ", topology.vertices()});
+    refuse({"a mesh of ", mesh.vertices.cols(), " vertices cannot have a topology of ", topology.vertices()});
   if (source < 0 || source >= topology.vertices())
-    refuse({"vertex ", source, " to walk from is none of a mesh of ", topology.vertices()});
-  if (!mesh.vertices.allFinite()) refuse("a mesh to walk on has a vertex that is not finite");
+    refuse({"vertex ", source, " to start from does not exist, expected less than ", topology.vertices()});
+  if (!mesh.vertices.allFinite()) refuse("a vertex of the mesh is not finite");
   using step = std::pair<double, Eigen::Index>;
   std::priority_queue<step, std::vector<step>, std::greater<>> pending;
   Eigen::VectorXd distances = Eigen::VectorXd::Constant(topology.vertices(), std::numeric_limits<double>::infinity());

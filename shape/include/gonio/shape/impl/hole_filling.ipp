@@ -126,7 +126,7 @@ GONIO_INLINE point_columns fill_smoothly(const mesh_topology& topology, point_co
   const Eigen::Index vertices = topology.vertices();
   if (points.cols() != vertices || std::ssize(known) != vertices)
     refuse({"a mesh of ", vertices, " vertices has ", points.cols(), " points and ", known.size(),
-            " marks of known ones"});
+            " marks of known vertices"});
   detail::require_reached(topology, known);
   std::vector<Eigen::Index> missing;
   for (Eigen::Index v = 0; v < vertices; ++v) {
@@ -142,7 +142,7 @@ GONIO_INLINE point_columns fill_smoothly(const mesh_topology& topology, point_co
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
   const bool determined =
       factors.info() == Eigen::Success && factors.vectorD().minCoeff() > 1e-12 * factors.vectorD().maxCoeff();
-  if (!determined) refuse("the known vertices do not determine where the missing ones are");
+  if (!determined) refuse("the known vertices do not determine the missing ones");
   const Eigen::MatrixXd filled = factors.solve(rhs);
   for (Eigen::Index i = 0; i < std::ssize(missing); ++i)
     for (Eigen::Index axis = 0; axis < 3; ++axis) points(axis, missing[i]) = filled(i, axis);

@@ -84,10 +84,10 @@ namespace gonio::shape {
 
 GONIO_INLINE image image_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view) {
   if (std::ssize(colours) != mesh.vertices.cols())
-    refuse({"an image of ", mesh.vertices.cols(), " vertices is given ", colours.size(), " colours"});
+    refuse({"an image of ", mesh.vertices.cols(), " vertices has ", colours.size(), " colours"});
   const Eigen::Vector3d right = view.towards.cross(view.up);
   if (!(view.radius > 0.0 && view.pixels > 0 && right.norm() > 0.0))
-    refuse("an image of a mesh needs pixels, a radius and a direction that is not that of up");
+    refuse("an image of a mesh needs pixels, a radius and a direction other than up");
   const Eigen::Vector3d across = right / right.norm(), away = view.towards / view.towards.norm(),
                         down = away.cross(across);
   const double pixels = static_cast<double>(view.pixels), scale = 0.5 * pixels / view.radius;

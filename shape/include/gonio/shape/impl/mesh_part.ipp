@@ -57,7 +57,7 @@ GONIO_INLINE triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<
   std::vector<Eigen::Index> kept;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     if (std::ranges::all_of(mesh.triangles.col(t), [&](int v) { return bool{marked[v]}; })) kept.push_back(t);
-  if (kept.empty()) refuse("no triangle has three marked corners: nothing of the surface is left");
+  if (kept.empty()) refuse("no triangle has three marked corners: no surface is left");
   triangle_columns triangles(3, std::ssize(kept));
   for (Eigen::Index i = 0; i < std::ssize(kept); ++i) triangles.col(i) = mesh.triangles.col(kept[i]);
   const detail::joined_corners corners(triangles);

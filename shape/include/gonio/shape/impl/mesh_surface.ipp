@@ -108,7 +108,7 @@ GONIO_INLINE mesh_hit triangle_tree::nearest(const ray& line) const {
 GONIO_INLINE void require_visible(const triangle_mesh& mesh) {
   if (mesh.triangles.cols() == 0) refuse("a mesh without triangles cannot be seen");
   if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertices.cols())
-    refuse({"a triangle of the mesh has a vertex that is not there: there are ", mesh.vertices.cols()});
+    refuse({"a triangle of the mesh names a vertex that does not exist, expected less than ", mesh.vertices.cols()});
   if (!mesh.vertices.allFinite()) refuse("a vertex of the mesh is not finite");
 }
 

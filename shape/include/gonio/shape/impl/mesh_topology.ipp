@@ -36,7 +36,7 @@ GONIO_INLINE void mesh_topology::require_triangles(const triangle_columns& trian
     const Eigen::Vector3i corners = triangles.col(t);
     if (corners.minCoeff() < 0 || corners.maxCoeff() >= vertices)
       refuse({"triangle ", t, " names vertex ", corners.minCoeff() < 0 ? corners.minCoeff() : corners.maxCoeff(),
-              " of a mesh of ", vertices});
+              ", expected at least 0 and less than ", vertices});
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
       refuse({"triangle ", t, " of a mesh has one vertex twice"});
   }

@@ -26,7 +26,7 @@ GONIO_INLINE void require_of_family(const fit_to_scan_result& fit, const shape_m
   const Eigen::Index weights = fit.weights().size();
   const double limit = chi_square_quantile(confidence, static_cast<double>(weights));
   if (fit.squared_distance() <= limit) return;
-  refuse({"the scan is not of the model's family: its Mahalanobis distance from the mean shape is ",
+  refuse({"the scan does not fit the model: its Mahalanobis distance from the mean shape is ",
           std::sqrt(fit.squared_distance()), ", expected at most ", std::sqrt(limit), " with ", weights,
           " components of ", model.shapes(), " shapes"});
 }

@@ -73,8 +73,8 @@ namespace gonio::shape::detail {
     return "a fifth of its triangles have an angle below " + std::to_string(found.angle) +
            " degrees, expected at least " + std::to_string(options.least_angle);
   if (found.normal_agreement < options.least_normal_agreement)
-    return "its normals agree with those of the fit to " + std::to_string(found.normal_agreement) +
-           " in the mean, expected at least " + std::to_string(options.least_normal_agreement);
+    return "its normals agree with the fit's normals to " + std::to_string(found.normal_agreement) +
+           " on average, expected at least " + std::to_string(options.least_normal_agreement);
   return {};
 }
 

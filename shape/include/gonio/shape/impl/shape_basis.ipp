@@ -19,7 +19,7 @@ namespace gonio::shape {
 
 GONIO_INLINE shape_set shape_set::of(const std::vector<point_columns>& shapes, std::vector<std::string> names) {
   if (shapes.empty() || shapes.size() != names.size() || shapes[0].cols() == 0)
-    refuse({"a set of shapes needs at least one, of at least one vertex, and a name for each: not ", shapes.size(),
+    refuse({"a set of shapes needs at least one shape of at least one vertex, and a name for each, not ", shapes.size(),
             " shapes and ", names.size(), " names"});
   const Eigen::Index vertices = shapes[0].cols();
   shape_set set{{vertices}, std::move(names), cell_matrix(3 * vertices, std::ssize(shapes))};

@@ -44,7 +44,8 @@ GONIO_INLINE void require_finite_mesh(const triangle_mesh& mesh) {
   if (!mesh.vertices.allFinite()) refuse("the vertices of a mesh to describe must be finite");
   if (mesh.triangles.cols() == 0) refuse("a mesh to describe has no triangles");
   if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertices.cols())
-    refuse({"a triangle of a mesh to describe names a vertex that is not among its ", mesh.vertices.cols()});
+    refuse({"a triangle of a mesh to describe names a vertex that does not exist, expected less than ",
+            mesh.vertices.cols()});
 }
 
 /// Returns a third of the area of the triangles around each vertex.
@@ -140,7 +141,7 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
   detail::require_finite_mesh(mesh);
   for (const Eigen::Index vertex : chosen)
     if (vertex < 0 || vertex >= mesh.vertices.cols())
-      refuse({"vertex ", vertex, " of a mesh of ", mesh.vertices.cols(), " cannot be described"});
+      refuse({"vertex ", vertex, " of a mesh of ", mesh.vertices.cols(), " vertices does not exist"});
   // Prepare the normals, the area of each vertex and the search tree.
   const point_columns normals = vertex_normals(mesh);
   const Eigen::VectorXd areas = detail::vertex_areas(mesh);

@@ -95,7 +95,7 @@ struct described_points {
 GONIO_INLINE void require_points(const shape_descriptors& descriptors, const char* what) {
   if (descriptors.vertex.size() < 3)
     refuse({"a ", what, " to be aligned by shape contexts has ", descriptors.vertex.size(),
-            " points that can be described, not three: are all normals along the vertical axis?"});
+            " points that can be described, expected at least three: are all normals along the vertical axis?"});
 }
 
 }  // namespace gonio::shape::detail

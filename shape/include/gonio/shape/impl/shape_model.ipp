@@ -26,7 +26,7 @@ GONIO_INLINE shape_model learn_shape_model(const std::vector<point_columns>& sha
                                            triangle_columns triangles, thread_count threads) {
   (void)shape_set::of(shapes, names);  // refuses inconsistent shapes, and names them
   if (std::ranges::all_of(shapes, [&](const point_columns& shape) { return shape == shapes.front(); }))
-    refuse({"a shape model needs at least two shapes that differ, not ", shapes.size(), " that do not"});
+    refuse({"a shape model needs at least two different shapes, not ", shapes.size(), " equal ones"});
   const aligned_shapes aligned = procrustes_mean(shapes);
   const Eigen::Index components = shapes.size();
   return {learn_pca(shape_set::of(aligned.shapes, std::move(names)), lin{}, components, threads), std::move(triangles)};

@@ -17,7 +17,7 @@ GONIO_INLINE shape_with_motion::shape_with_motion(shape_basis shape, const point
     : shape_(std::move(shape)), centroid_(Eigen::Vector3d::Zero()), freedom_(freedom) {
   const cell_matrix& components = shape_.components();
   if (moved.size() != components.rows())
-    refuse({"a shape of ", moved.cols(), " vertices is to move with a basis of ", components.rows() / 3});
+    refuse({"a shape of ", moved.cols(), " vertices does not match a basis of ", components.rows() / 3});
   centroid_ = centroid_of(moved);
   const Eigen::Index k = shape_.size();
   functions_.resize(components.rows(), k + motions);

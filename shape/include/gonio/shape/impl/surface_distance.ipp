@@ -27,7 +27,7 @@ GONIO_INLINE Eigen::VectorXd signed_distances(const surface_index& surface, cons
 }
 
 GONIO_INLINE surface_distance surface_distance::of(const Eigen::VectorXd& signed_distances) {
-  if (signed_distances.size() == 0) refuse("the distance of no points to a surface has no mean");
+  if (signed_distances.size() == 0) refuse("the mean distance to a surface needs at least one point");
   surface_distance found;
   for (const double distance : signed_distances) {
     if (!std::isfinite(distance)) refuse("a distance to a surface is not finite");

@@ -294,7 +294,7 @@ GONIO_INLINE const triangle_mesh& surface_index::mesh() const noexcept { return 
 GONIO_INLINE const mesh_topology& surface_index::topology() const noexcept { return surface_->topology; }
 
 GONIO_INLINE surface_point surface_index::closest(const Eigen::Vector3d& point) const {
-  detail::require_finite_vector(point, "a point to find the closest point of a surface to");
+  detail::require_finite_vector(point, "the point to find the closest point for");
   surface_point best;
   double least = std::numeric_limits<double>::infinity();
   const auto bound = [&](const detail::centred_box& box) { return box.squared_distance(point); };
@@ -312,7 +312,7 @@ GONIO_INLINE surface_point surface_index::closest(const Eigen::Vector3d& point) 
     return least;
   });
   if (!(least < std::numeric_limits<double>::infinity()))
-    refuse("a point is so far from a surface that the square of the distance is no number");
+    refuse("a point is so far from a surface that the squared distance overflows");
   best.on_border = surface_->is_on_border(best);
   best.distance = std::sqrt(least);
   return best;
@@ -322,8 +322,8 @@ GONIO_INLINE std::optional<surface_point> surface_index::along(const Eigen::Vect
                                                                const Eigen::Vector3d& line, double reach) const {
   detail::require_finite_vector(origin, "the origin of a line");
   detail::require_finite_vector(line, "the direction of a line");
-  if (!(line.cwiseAbs().maxCoeff() > 0.0)) refuse("the direction of a line that is to meet a surface is zero");
-  if (!(reach >= 0.0)) refuse({"the reach of a line that is to meet a surface must not be negative, and is ", reach});
+  if (!(line.cwiseAbs().maxCoeff() > 0.0)) refuse("the direction of a line is zero");
+  if (!(reach >= 0.0)) refuse({"the reach of a line must be at least 0, not ", reach});
   const Eigen::Vector3d unit = unit_vector(line);
   std::optional<surface_point> best;
   // Boxes that the line misses have infinite distance, so the limit must be finite.

@@ -46,7 +46,7 @@ GONIO_INLINE void check_mesh(const shape::triangle_mesh& mesh, const std::filesy
     for (const int vertex : {mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)})
       if (vertex < 0 || vertex >= vertices)
         refuse_file(path, "triangle " + std::to_string(t) + " names vertex " + std::to_string(vertex) +
-                              " of a mesh of " + std::to_string(vertices));
+                              ", expected at least 0 and less than " + std::to_string(vertices));
 }
 
 [[nodiscard]] GONIO_INLINE std::array<std::uint8_t, 3> srgb_codes(const rgb& linear) noexcept {

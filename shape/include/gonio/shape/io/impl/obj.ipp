@@ -61,7 +61,7 @@ GONIO_INLINE void obj_reader::add(std::string_view line) {
   if (keyword == "v") return add_vertex(line);
   if (keyword == "f") return add_face(line);
   if (std::ranges::find(ignored, keyword) == ignored.end())
-    place_.refuse(in_quotes(keyword) + " is not known of an OBJ file of polygons");
+    place_.refuse(in_quotes(keyword) + " is not supported in an OBJ file of polygons");
 }
 
 GONIO_INLINE void obj_reader::add_vertex(std::string_view line) {
@@ -94,7 +94,7 @@ GONIO_INLINE int obj_reader::vertex_of(std::string_view corner) {
 
 GONIO_INLINE void obj_reader::refuse_vertex(std::string_view number) const {
   place_.refuse("a face names vertex " + std::string(number) + " of " + std::to_string(parts_.vertices()) +
-                ", which are counted from 1");
+                " vertices, counted from 1");
 }
 
 GONIO_INLINE mesh_parts read_obj(std::string_view text, const std::string& name) {

@@ -126,7 +126,7 @@ class ply_binary_rows {
   void skip(const ply_type& type, std::size_t count) { static_cast<void>(bytes_.read_bytes(count * type.size)); }
   void end_row() const noexcept {}
   void end() const {
-    if (bytes_.left() > 0) refuse(std::to_string(bytes_.left()) + " bytes follow what its header counts");
+    if (bytes_.left() > 0) refuse(std::to_string(bytes_.left()) + " bytes follow the data that its header counts");
   }
   [[noreturn]] void refuse(const std::string& what) const;
 
@@ -152,7 +152,7 @@ class ply_text_rows {
   }
   void end_row() const;
   void end() {
-    if (next_line()) refuse(in_quotes(row_) + " follows what the header counts");
+    if (next_line()) refuse(in_quotes(row_) + " follows the data that the header counts");
   }
   [[noreturn]] void refuse(const std::string& what) const { place_.refuse(what); }
 
@@ -180,7 +180,8 @@ void read_ply_face(const ply_type& type, std::size_t size, std::size_t vertices,
   while (fan.size() < size) {
     const double vertex = rows.read(type);
     if (!(vertex >= 0.0 && vertex < static_cast<double>(vertices) && vertex == std::floor(vertex)))
-      rows.refuse("a face names vertex " + shortest(vertex) + " of a mesh of " + std::to_string(vertices));
+      rows.refuse("a face names vertex " + shortest(vertex) + ", expected at least 0 and less than " +
+                  std::to_string(vertices));
     fan.add(static_cast<int>(vertex));
   }
 }
@@ -212,7 +213,7 @@ template <class Rows>
 }
 
 GONIO_INLINE ply_header ply_header_reader::read() {
-  if (!text_.starts_with("ply")) gonio::refuse(place_.name + ": is no PLY file, expected it to begin with 'ply'");
+  if (!text_.starts_with("ply")) gonio::refuse(place_.name + ": is not a PLY file, expected it to begin with 'ply'");
   for (std::string_view line = next_line(); line != "end_header"; line = next_line()) add(line);
   if (!header_.encoding) place_.refuse("the header ends without a format");
   for (const ply_element& element : header_.elements) check(element);
@@ -275,7 +276,7 @@ GONIO_INLINE void ply_header_reader::add_property(std::string_view line) {
   property.role = role_of(element, property);
   const bool must_be_whole = property.role == ply_role::corners;
   if ((count && !count->whole) || (must_be_whole && !property.value.whole))
-    place_.refuse("property " + in_quotes(property.name) + ": a count or vertex number must have a type of integers");
+    place_.refuse("property " + in_quotes(property.name) + ": a count or vertex number must have an integer type");
   if (property.role != ply_role::ignored && element.has(property.role))
     place_.refuse("property " + in_quotes(property.name) + " is given twice");
   element.properties.push_back(property);
@@ -284,7 +285,7 @@ GONIO_INLINE void ply_header_reader::add_property(std::string_view line) {
 GONIO_INLINE ply_type ply_header_reader::type_named(std::string_view name) const {
   const auto type = std::ranges::find_if(
       ply_types, [&](const ply_type& known) { return known.name == name || known.newer_name == name; });
-  if (type == ply_types.end()) place_.refuse(in_quotes(name) + " is no type that PLY has");
+  if (type == ply_types.end()) place_.refuse(in_quotes(name) + " is not a PLY type");
   return *type;
 }
 

@@ -39,7 +39,7 @@ using pose_matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
   if (numbers.size() != 16) gonio::refuse({name, ": has ", numbers.size() / 4, " lines of numbers, expected 4"});
   const pose_matrix matrix = pose_matrix::Map(numbers.data());
   if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
-    place.refuse("the last line of a pose's matrix is 0 0 0 1");
+    place.refuse("the last line of a pose's matrix must be 0 0 0 1");
   return matrix;
 }
 
@@ -74,7 +74,7 @@ GONIO_INLINE shape::similarity_transform read_pose(const std::filesystem::path& 
       detail::has_names(text) ? detail::read_parts(text, name) : detail::read_matrix(text, name);
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   if (!is_rotation(rotation))
-    gonio::refuse({name, ": is no rigid motion: its rotation scales, shears or mirrors by more than 0.001"});
+    gonio::refuse({name, ": is not a rigid motion: its rotation scales, shears or mirrors by more than 0.001"});
   return {1.0, Eigen::Quaterniond(rotation).normalized().toRotationMatrix(), matrix.topRightCorner<3, 1>()};
 }
 
