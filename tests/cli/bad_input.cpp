@@ -18,7 +18,6 @@ TEST_CASE("help is no error") {
 }
 
 TEST_CASE("wrong command lines") {
-  refuses("", {"subcommand"});
   refuses("reconstruckt x", {"'reconstruckt' is no subcommand of gonio: did you mean reconstruct?"});
   refuses("frobnicate x", {"'frobnicate' is no subcommand of gonio (gonio --help lists them)"});
   refuses("lab paln x", {"'paln' is no subcommand of gonio lab: did you mean plan?"});

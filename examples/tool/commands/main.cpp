@@ -46,8 +46,6 @@ int main(int argc, char** argv) {
   cli::program app("gonio", "gonio completes a BRDF from a few reflectance measurements.", GONIO_VERSION);
   const cli::team alone;
   const std::vector<std::string> words(argv, argv + argc);
-  cli::add_learn(app, alone);
-  cli::add_expand(app);
   cli::add_design(app, words, alone);
   cli::add_plan(app);
   cli::add_sample(app);
@@ -65,6 +63,8 @@ int main(int argc, char** argv) {
   cli::add_info(app);
   cli::add_properties(app);
   cli::add_lab(app);
+  cli::add_learn(app, alone);
+  cli::add_expand(app);
   cli::add_shape(app);
   list(app);
   app.greet_with(
