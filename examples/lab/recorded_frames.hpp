@@ -34,7 +34,7 @@ class recorded_frames {
     if (largest_count_ == 0) gonio::refuse(name_ + ": 'largest_count' must be positive");
     if (text.contains("window")) window_ = read_window(text["window"]);
     if (!text.contains("frames") || !text["frames"].is_array() || text["frames"].empty())
-      gonio::refuse(name_ + ": 'frames' must be a list with a frame at least");
+      gonio::refuse(name_ + ": 'frames' must be a list of at least one frame");
     for (const auto& each : text["frames"].elements()) add(each);
   }
 
@@ -73,7 +73,7 @@ class recorded_frames {
 
   [[nodiscard]] double number(const cli::json& object, const std::string& key) const {
     if (!object.contains(key) || !object[key].is_number())
-      gonio::refuse(name_ + ": '" + key + "' is missing or no number in " + shown(object));
+      gonio::refuse(name_ + ": '" + key + "' is missing or not a number in " + shown(object));
     return object[key].number();
   }
   [[nodiscard]] std::size_t whole(const cli::json& object, const std::string& key, double most) const {
@@ -91,7 +91,7 @@ class recorded_frames {
     if (!given.is_object()) gonio::refuse(name_ + ": 'window' must have column, row, columns and rows");
     const window parsed{whole(given, "column", 1e6), whole(given, "row", 1e6), whole(given, "columns", 1e6),
                         whole(given, "rows", 1e6)};
-    if (parsed.columns == 0 || parsed.rows == 0) gonio::refuse(name_ + ": 'window' has no pixel");
+    if (parsed.columns == 0 || parsed.rows == 0) gonio::refuse(name_ + ": 'window' has no pixels");
     return parsed;
   }
 
@@ -109,7 +109,7 @@ class recorded_frames {
     const double seconds = number(frame, "seconds");
     if (!(seconds > 0.0)) gonio::refuse(name_ + ": 'seconds' must be positive in " + shown(frame));
     if (!frame.contains("file") || !frame["file"].is_string())
-      gonio::refuse(name_ + ": 'file' is missing or no text in " + shown(frame));
+      gonio::refuse(name_ + ": 'file' is missing or not a string in " + shown(frame));
     recorded_pose* known = find(at);
     if (known == nullptr) {
       by_key_.emplace(key_of(at), recorded_.size());

@@ -55,8 +55,8 @@ extern "C" void end_with_the_job(int signal) {
 
 void end_with_a_sentence_on_signals(const std::string& program) {
   last_words = program +
-               ": the job ended before its work was done: the same command, with any number of ranks, "
-               "continues from the written files\n";
+               ": the job ended before its work was done: run the same command again, with any number of ranks, "
+               "to resume\n";
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction ours {};
     ours.sa_handler = end_with_the_job;
@@ -98,7 +98,7 @@ int run(const job& what, const gonio::mpi::ranks& ranks, std::span<char*> given,
   app.extend_subcommands(
       [&](command& added) {
         added.add_flag("--traffic", prints_traffic,
-                       "Print what each rank sent to others, messages and bytes, and its processor time");
+                       "Print the messages and bytes that each rank sent, and its processor time");
       },
       [&](const std::function<void()>& work) {
         has_begun = true;

@@ -144,7 +144,7 @@ TEST_CASE("gonio-mpi svbrdf: the bytes of gonio svbrdf with 1, 2 and 3 ranks") {
   }
   // Ranks continue an interrupted gonio.
   scratch::put(given.folder / "ranks.gsv.part", whole.substr(0, whole.size() / 2));
-  CHECK(run_in(2, given.command("ranks.gsv")).find("went on behind band 28 of 57") != std::string::npos);
+  CHECK(run_in(2, given.command("ranks.gsv")).find("resumed after band 28 of 57") != std::string::npos);
   CHECK(scratch::get(given.folder / "ranks.gsv") == whole);
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("gonio-mpi svbrdf: a rank that is killed ends the job, and the next go
       CHECK(killed.output.find("signal 9") != std::string::npos);
       if (rank == 1) CHECK(killed.output.find("the same command") != std::string::npos);
       CHECK(scratch::fs::exists(part));
-      CHECK(run_in(3 - rank, given.command("again.gsv")).find("went on behind band") != std::string::npos);
+      CHECK(run_in(3 - rank, given.command("again.gsv")).find("resumed after band") != std::string::npos);
     }
     CHECK(scratch::get(given.folder / "again.gsv") == scratch::get(given.folder / "map.gsv"));
     scratch::fs::remove(given.folder / "again.gsv");
@@ -244,7 +244,7 @@ TEST_CASE("gonio-mpi design: the directions of gonio design") {
     CAPTURE(size);
     scratch::put(part, whole.substr(0, size));
     const std::string again = run_in(2, design(exchanged, "ranks.csv"));
-    CHECK(again.starts_with("went on behind sweep ") == (size > 3));
+    CHECK(again.starts_with("resumed after sweep ") == (size > 3));
     CHECK(again.ends_with(said));
     CHECK(scratch::get(given.folder / "ranks.csv") == scratch::get(given.folder / "alone.csv"));
     CHECK(!scratch::fs::exists(part));
@@ -286,7 +286,7 @@ TEST_CASE("gonio-mpi learn: spectra, too, whose wavelengths must be alike in all
   CHECK(run_in(2, learn + file("more") + " -o " + file("ranks.prior")) == said);
   CHECK(scratch::get(folder / "ranks.prior") == scratch::get(folder / "alone.prior"));
   check_refused_by_all(in_ranks(2, learn + file("others") + " -o " + file("none.prior")),
-                       {"paint-4.bsdf", "other wavelengths"});
+                       {"paint-4.bsdf", "wavelengths differ"});
   CHECK(!scratch::fs::exists(folder / "none.prior"));
 }
 

@@ -107,7 +107,7 @@ TEST_CASE("samples that are likely to disappoint are accepted with a warning") {
       CHECK(result.output.find(std::string("gonio: warning: ") + word) != std::string::npos);
   };
   const std::string around = "20,0,40,90,.3,.3,.3\n30,0,10,60,.2,.2,.2\n50,0,20,130,.1,.1,.1\n";
-  warns(around, " --noise 0.6", {"noise of 60 % leaves little of the values: is it 0.60 %, that is --noise 0.0060?"});
+  warns(around, " --noise 0.6", {"noise of 60 % is very large: do you mean 0.60 %, --noise 0.0060?"});
   warns("30,0,30,180,.2,.2,.2\n" + around + "30,0,30,180,.8,.8,.8\n", "",
         {"samples 1 and 5 have the same directions, but the values 0.200 and 0.800"});
   warns("30,0,30,180,.0001,.0002,.1\n" + around + "30,0,30,180,.0001,.0009,.1\n", "",
@@ -121,7 +121,7 @@ TEST_CASE("samples that are likely to disappoint are accepted with a warning") {
   for (const std::string theta : {"8", "9", "10", "11"}) flat += "10,0," + theta + ",180,.4,.4,.4\n";
   warns(flat + around, "", {"4 samples have exactly the largest value, 0.4000: was the detector saturated?"});
   warns(around + "20,0,20,90,-.1,-.1,-.1\n20,0,30,90,-.1,-.1,-.1\n20,0,50,90,-.2,-.2,-.2\n20,0,60,90,-.2,-.2,-.2\n", "",
-        {"4 of 7 samples are negative: was too much subtracted"});
+        {"4 of 7 samples are negative: was the subtracted dark signal too large?"});
   scratch::put(folder / "dark.csv", "theta_i,phi_i,theta_o,phi_o,r,g,b\n20,0,20,90,-.1,-.1,-.1\n20,0,30,90,0,0,0\n");
   refuses("reconstruct " + (folder / "dark.csv").string(),
           {"dark.csv", "none of 2 samples reflects light", "dark signal"});
@@ -173,7 +173,7 @@ TEST_CASE("bad requests of the correction method") {
   refuses(correction + "--truth " + path.string() + " --iteration-figure " + story.string(), {"one.csv", "MERL"});
   refuses(correction + "--exclude no-such-stone --iteration-figure " + story.string(), {"no-such-stone"});
   refuses(correction + "--iteration-figure " + (path / "below-a-file").string(),
-          {"below-a-file", "cannot make the folder"});
+          {"below-a-file", "cannot create the folder"});
   CHECK(folder.entries() == 1);  // neither a table nor a folder for the story
 }
 

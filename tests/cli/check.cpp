@@ -87,12 +87,13 @@ TEST_CASE("gonio check: repeats tell the noise, and other directions are predict
              {"no difference found", "estimated from repeats with 36 degrees of freedom"});
   check_says(files.write("red.csv", 3, {1.2, 1.0, 1.0}, 3) + " --reference " + good, 1, {"NO-GO"});
   const std::string turned = files.write("turned.csv", 4, gonio::rgb::Ones(), 1, 0.02);
-  check_says(turned + " --noise 0.02 --reference " + good, 0,
-             {"6 of 6 directions are not in the reference, which predicts them", ", which the reference predicts"});
+  check_says(
+      turned + " --noise 0.02 --reference " + good, 0,
+      {"6 of 6 directions are not measured in the reference and are predicted", ", predicted from the reference"});
   const std::string nudged = files.write("nudged.csv", 5, gonio::rgb::Ones(), 1, 0.0005);
-  check_says(nudged + " --noise 0.02 --reference " + good, 0, {", which the reference predicts"});
+  check_says(nudged + " --noise 0.02 --reference " + good, 0, {", predicted from the reference"});
   const auto within = gonio_tool("check " + nudged + " --noise 0.02 --same-within 0.1 --reference " + good);
-  CHECK(within.output.find("predicts") == std::string::npos);
+  CHECK(within.output.find("predicted") == std::string::npos);
 }
 
 TEST_CASE("gonio check: a verdict has at most five lines, and many parts are a table") {

@@ -111,7 +111,7 @@ TEST_CASE("convert: a file for renderers has no negative value unless that is as
   for (const std::string kind : {".bsdf", ".mbsdf"}) {
     CAPTURE(kind);
     const std::string said = run("convert " + files.path("silk.binary") + " " + files.path("clipped" + kind));
-    CHECK(said.find("cells have a negative value, which is written as 0. That adds") != std::string::npos);
+    CHECK(said.find("cells have a negative value, written as 0. That adds") != std::string::npos);
     CHECK(said.find("--keep-negative") != std::string::npos);
     CHECK(read("clipped" + kind)[0] == doctest::Approx(0.0).epsilon(1e-4));
     CHECK(read("clipped" + kind)[1] == doctest::Approx(table(wi, wo)[1]).epsilon(0.05));
@@ -154,7 +154,8 @@ TEST_CASE("convert: a table becomes one of OpenMATERIAL, which is read as sample
   CHECK(gonio::io::read_samples(files.path("s.csv")).size() == 1 + 3 + 3 + 3 * 3 * 8);
   CHECK(run("info " + files.path("t_brdf.xompt")).find("format: OpenMATERIAL") != std::string::npos);
   refuses("convert " + files.path("t.binary") + " " + files.path("t.xompt"), {"t.xompt", "_brdf.xompt"});
-  refuses("convert " + files.path("s.csv") + " " + files.path("s_brdf.xompt"), {"'gonio reconstruct' completes them"});
+  refuses("convert " + files.path("s.csv") + " " + files.path("s_brdf.xompt"),
+          {"complete them with 'gonio reconstruct'"});
 }
 
 TEST_CASE("convert: spectral samples become samples in RGB") {
@@ -174,18 +175,17 @@ TEST_CASE("convert: what cannot be is refused in one sentence, and nothing is wr
   };
   scratch::put(files.here / "notes.doc", std::string("root:x:0:0"));
   scratch::put(files.here / "s.csv", std::string("theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n"));
-  refused("notes.doc", "new.bsdf",
-          {"notes.doc: is of no kind that is known", "RGL material (.bsdf)", "samples (.csv)"});
-  refused("t.binary", "new.txt", {"new.txt: is of no kind that is written", "MERL table (.binary)"});
-  refused("t.binary", "new.brdf", {"new.brdf: is of no kind that is written"});
-  refused("s.csv", "new.bsdf", {"new.bsdf", "'gonio reconstruct' completes them"});
+  refused("notes.doc", "new.bsdf", {"notes.doc: unknown kind of file", "RGL material (.bsdf)", "samples (.csv)"});
+  refused("t.binary", "new.txt", {"new.txt: unknown kind of output", "MERL table (.binary)"});
+  refused("t.binary", "new.brdf", {"new.brdf: unknown kind of output"});
+  refused("s.csv", "new.bsdf", {"new.bsdf", "complete them with 'gonio reconstruct'"});
   refused("t.binary", "new.csv", {"new.csv", "'gonio sample'"});
   refused("absent.binary", "new.bsdf", {"absent.binary", "No such file"});
   refuses("convert --spectra " + files.path("t.binary") + " " + files.path("new.npy"), {"--spectra needs", ".bsdf"});
   refuses("convert --polar-steps 9 " + files.path("t.binary") + " " + files.path("new.npy"),
           {"--polar-steps needs", ".mbsdf"});
   refuses("convert --polar-steps 0 " + files.path("t.binary") + " " + files.path("new.mbsdf"), {"--polar-steps"});
-  refuses("convert " + files.path("t.binary") + " " + files.path("t.binary"), {"would overwrite what is read"});
+  refuses("convert " + files.path("t.binary") + " " + files.path("t.binary"), {"would overwrite the input"});
 }
 
 TEST_CASE("what completes samples writes materials for renderers, too") {

@@ -251,7 +251,7 @@ TEST_CASE("the literature's sets are written as they are printed") {
   board.refuses("--published 1 --geometry near-field", {"--published needs --geometry point or sphere"});
   board.refuses("--industry --geometry sphere", {"--industry needs --geometry point"});
   board.refuses("--industry --published 5", {"choose one"});
-  board.refuses("--published 5 --criterion condition", {"--published searches for nothing", "--criterion"});
+  board.refuses("--published 5 --criterion condition", {"--published needs no search", "--criterion"});
 }
 
 TEST_CASE("the literature's sets that ship are what the tool writes, and can be read as they are") {

@@ -54,7 +54,7 @@ struct given_files {
 TEST_CASE("no command writes over what it reads") {
   const given_files given;
   const auto refuses = [&](const std::string& arguments, const char* option) {
-    given.refuses(arguments, {"would overwrite what is read as ", option});
+    given.refuses(arguments, {"would overwrite the input ", option});
   };
   refuses("design --start s.csv -o s.csv", "--start");
   refuses("sample t.binary --directions d.csv -o d.csv", "--directions");
@@ -93,18 +93,18 @@ TEST_CASE("no command writes over what it reads") {
 TEST_CASE("a file is the same by whatever way it is named") {
   const given_files given;
   for (const char* name : {"link.csv", "hard.csv", "./s.csv", "tables/../s.csv"})
-    given.refuses(std::string("lab plan s.csv -o ") + name, {"would overwrite what is read as directions", name});
-  given.refuses("lab plan link.csv -o \"$PWD/s.csv\"", {"would overwrite what is read as directions"});
+    given.refuses(std::string("lab plan s.csv -o ") + name, {"would overwrite the input directions", name});
+  given.refuses("lab plan link.csv -o \"$PWD/s.csv\"", {"would overwrite the input directions"});
 }
 
 TEST_CASE("no command writes two things into one file, be it there or not") {
   const given_files given;
   given.refuses("lab calibrate a.scan --reference m.json --response new.csv -o ./new.csv",
-                {"--output ./new.csv", "is what --response writes, too"});
+                {"--output ./new.csv", "is also written by --response"});
   given.refuses("fit s.csv -o new.npy --image new.png --pbrt b.pbrt --mitsuba tables/../new.png",
                 {"--mitsuba", "expected a name that ends in .xml"});
   given.refuses("reconstruct s.csv --method correction --iteration-figure tables --history tables/history.csv",
-                {"is what ", "writes, too"});
+                {"is also written by "});
 }
 
 TEST_CASE("a name that its format does not have is refused") {

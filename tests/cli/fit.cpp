@@ -54,7 +54,7 @@ TEST_CASE("a fit reflects at most what falls in, or what is asked for, and says 
   CHECK(albedo(" --largest-albedo 0.8") == doctest::Approx(0.8).epsilon(0.003));
   CHECK(albedo(" --largest-albedo 100") > 1.5);
   const auto told = gonio_tool("fit " + bright + " --largest-albedo 100");
-  CHECK(told.output.find("of light at 88 degrees: more than falls in") != std::string::npos);
+  CHECK(told.output.find("of light at 88 degrees: more light than comes in") != std::string::npos);
   CHECK(gonio_tool("fit " + bright + " --largest-albedo 0").exit_code == 2);
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("what cannot be fitted is refused in one line, and nothing is written"
   };
   refuses(samples + " --model plastic", "no lobe named 'plastic'");
   refuses(samples + " --model sum:lambert+", "no lobe named ''");
-  refuses(samples + " --model ward --fresnel", "ward takes no --fresnel");
+  refuses(samples + " --model ward --fresnel", "ward: --fresnel needs phong");
   refuses(samples + " --loss l3", "--loss");
   refuses(samples + " --cosine-weighted --no-cosine-weight", "--no-cosine-weight");
   refuses(samples + " --model phong --pbrt " + (folder / "x.pbrt").string(), "not phong");

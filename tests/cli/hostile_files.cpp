@@ -89,7 +89,7 @@ TEST_CASE("samples that cannot be completed are blamed, not the table that would
   scratch::put(path,
                std::string("theta_h,theta_d,phi_d,r,g,b\n10,20,30,1e38,1,1\n11,20,30,1e38,1,1\n20,30,40,1,1,1\n"));
   refuses("reconstruct " + path + " -o " + output + " --method pca",
-          "bright.csv: these samples, of up to 1e+38 sr^-1, complete to a table that is not finite");
+          "bright.csv: these samples, up to 1e+38 sr^-1, lead to a table that is not finite");
   CHECK_FALSE(std::filesystem::exists(output));
 }
 

@@ -133,7 +133,7 @@ TEST_CASE("gonio learn --spectra refuses what are no spectra, or spectra of othe
   const std::string learn = "learn --rgl " + at("paints") + " -o " + at("x.prior");
   refuses(learn + " --wavelengths 400:100:700", {"--wavelengths", "--spectra"});
   refuses(learn + " --spectra --split", {"--split"});
-  refuses(learn + " --spectra --rgl " + at("others"), {"paint-1.bsdf", "other wavelengths", "--wavelengths"});
+  refuses(learn + " --spectra --rgl " + at("others"), {"paint-1.bsdf", "wavelengths differ", "--wavelengths"});
   refuses(learn + " --spectra --wavelengths 400:100:800", {"paint-0.bsdf", "from 400 to 800 nm"});
   for (const char* range :
        {"400", "400:100", "400:0:700", "700:10:400", "400:x:700", "400:10:700:1", "nan:1:2", "400:inf:700"})

@@ -95,7 +95,7 @@ TEST_CASE("the likely mistakes get the right sentences") {
   // A column that is not there, and a list that is none.
   file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"there is no column 'Winkel' for theta_o"},
                " --columns theta_o=Winkel");
-  file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"--columns theta_o: 'theta_o' is no pair of names"},
+  file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"--columns theta_o: 'theta_o' is not a pair of names"},
                " --columns theta_o");
   file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"--quantity", "luminance"}, " --quantity luminance");
 }
@@ -183,7 +183,9 @@ TEST_CASE("a highlight on the light's side is told of, and turned by an option i
     for (const auto& [phi, value] : {std::pair("0", "9"), std::pair("180", "1")})
       rows += std::string(theta) + ",0," + theta + "," + phi + "," + value + "," + value + "," + value + "\n";
   const std::string scan = angles + "r,g,b\n" + rows;
-  file.warns(scan, "where light and viewer meet, it is 9.0 times as bright as in the mirror direction");
+  file.warns(
+      scan,
+      "where light and viewer have the same direction, the sample is 9.0 times as bright as in the mirror direction");
   for (const char* sign : {"light", "mirror"}) file.is_silent_on(scan, std::string(" --theta-o-sign ") + sign);
   file.is_silent_on("# theta-o-sign: light\n" + scan);
   const std::string foreign = (file.folder / "scan.json").string();
@@ -197,28 +199,28 @@ TEST_CASE("a highlight on the light's side is told of, and turned by an option i
   const std::string converted = (file.folder / "samples.csv").string();
   run("convert " + foreign + " --theta-o-sign mirror " + converted);
   CHECK(gonio::io::read_samples(converted)[0].angles().theta_h < 1e-6);
-  refuses("info " + foreign + " --columns value=x", {"is no .csv file", "but "});
+  refuses("info " + foreign + " --columns value=x", {"--columns needs a .csv file, not "});
 }
 
 TEST_CASE("numbers that look like something else are accepted with a warning") {
   const one_file file;
   file.warns(angles + "r,g,b\n0.5,0,0.7,3.1,1,1,1\n0.6,0,0.9,3.1,1,1,1\n0.1,0,1.4,3.1,1,1,1\n",
-             "light and viewer of all samples are within 3.2 degrees of the normal: are the angles radians?");
+             "light and viewer of all samples are within 3.2 degrees of the normal: are the angles in radians?");
   file.is_silent_on(
       "theta_i [rad],phi_i [rad],theta_o [rad],phi_o [rad],brdf\n"
       "0.5,0,0.7,3.1,1\n0.6,0,0.9,3.1,1\n0.1,0,1.4,3.1,1\n");
   const auto white = [](double theta_o) { return 0.3 + 0.01 * std::cos(5.0 * theta_o); };  // of 0.318 at most
   file.is_silent_on(dull_scan("brdf", white));
   file.warns(dull_scan("brdf", [&](double angle) { return std::numbers::pi * white(angle); }),
-             "away from highlights half of the samples reflect more than");
+             "away from highlights, half of the samples reflect more than");
   file.warns(dull_scan("brdf", [&](double angle) { return 100.0 * std::numbers::pi * white(angle); }),
-             "away from highlights half of the samples reflect more than");
+             "away from highlights, half of the samples reflect more than");
   file.warns(dull_scan("value", [&](double angle) { return 100.0 * std::numbers::pi * white(angle); }),
-             "away from highlights half of the samples reflect more than", " --quantity reflectance-factor");
+             "away from highlights, half of the samples reflect more than", " --quantity reflectance-factor");
   file.is_silent_on(dull_scan("value", [&](double angle) { return 100.0 * std::numbers::pi * white(angle); }),
                     " --quantity percent");
   const auto with_cosine = [&](double angle) { return white(angle) * std::cos(angle); };
-  file.warns(dull_scan("brdf", with_cosine), "away from highlights the values fall like the cosine");
+  file.warns(dull_scan("brdf", with_cosine), "away from highlights, the values fall like the cosine");
   file.is_silent_on(dull_scan("value", with_cosine), " --quantity brdf-cosine");
 }
 
@@ -254,7 +256,7 @@ TEST_CASE("rotations of an anisotropic sample are not averaged") {
   CHECK(scan.info(brushed(1.0), " --rotation 90").find("samples: 16") != std::string::npos);
   const std::string output = " -o " + (scan.folder / "out.binary").string();
   scan.put(brushed(0.2));
-  CHECK(run("reconstruct " + scan.path + output).find("taken for isotropic") != std::string::npos);
+  CHECK(run("reconstruct " + scan.path + output).find("treated as isotropic") != std::string::npos);
   scan.put(brushed(0.05));
   CHECK(run("reconstruct " + scan.path + output).find("isotropic") == std::string::npos);
   scan.put(brushed(1.0));
@@ -280,6 +282,6 @@ TEST_CASE("half angles of readings are given once, and to whom uses them") {
   scan.refuses(file, {"--receiver-half-angle", "45"}, " --receiver-half-angle 46");
   scan.refuses(file, {"--source-half-angle needs --method pca"}, " --source-half-angle 1 --method scattered");
   scan.put(stated);
-  CHECK(run("reconstruct " + scan.path + " --method scattered" + output).find("taken for those of single directions") !=
+  CHECK(run("reconstruct " + scan.path + " --method scattered" + output).find("half angles are ignored") !=
         std::string::npos);
 }

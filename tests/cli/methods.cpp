@@ -40,7 +40,7 @@ bool contains(const std::string& text, const char* words) { return text.find(wor
 TEST_CASE("few samples are not corrected: what pca does is done, with a warning") {
   const sampled_paint forty(40);
   CHECK(contains(forty.reconstruct("--method correction"),
-                 "warning: --method correction needs at least 2000 samples, not 40: --method pca was taken"));
+                 "warning: --method correction needs at least 2000 samples, not 40: used --method pca instead"));
   CHECK_FALSE(contains(forty.reconstruct("--method pca", "pca.binary"), "warning"));
   CHECK(scratch::get(forty.at("out.binary")) == scratch::get(forty.at("pca.binary")));
 
@@ -48,7 +48,7 @@ TEST_CASE("few samples are not corrected: what pca does is done, with a warning"
   const std::string asked = forty.reconstruct("--method correction --iterations 1");
   CHECK(contains(asked, "1 round"));
   CHECK(
-      contains(asked, "warning: --method correction from 40 samples is usually 2.0 times as far off as --method pca"));
+      contains(asked, "warning: --method correction with 40 samples usually has 2.0 times the error of --method pca"));
 }
 
 TEST_CASE("correction as the paper prints it") {
@@ -72,8 +72,9 @@ TEST_CASE("methods that lose on measured materials say so on standard error") {
   const sampled_paint forty(40);
   for (const char* method : {"rbf", "pull-push"})
     CHECK(contains(forty.reconstruct(std::string("--json --method ") + method),
-                   "times as far off as --method pca, more than twice for"));
-  CHECK(contains(sampled_paint(1).reconstruct("--method pca"), "further off than the median material for 3 of 20"));
+                   "times the error of --method pca, more than twice for"));
+  CHECK(contains(sampled_paint(1).reconstruct("--method pca"),
+                 "has a larger error than the median material for 3 of 20"));
 }
 
 TEST_CASE("the nearest samples need no prior, and take none") {
@@ -87,8 +88,9 @@ TEST_CASE("the nearest samples need no prior, and take none") {
   }
   CHECK(read_json(first.output.substr(first.output.find('{')))["neighbours"] == 16);
   const auto mean = scratch::get(forty.at("out.binary"));
-  CHECK(contains(forty.reconstruct("--method scattered"), "is usually 2.1 times as far off as --method pca"));
-  CHECK(contains(forty.reconstruct("--method scattered --neighbours 1"), "40 samples, the nearest counts"));
+  CHECK(contains(forty.reconstruct("--method scattered"), "usually has 2.1 times the error of --method pca"));
+  CHECK(
+      contains(forty.reconstruct("--method scattered --neighbours 1"), "40 samples, nearest sample in each direction"));
   CHECK(scratch::get(forty.at("out.binary")) != mean);
   // What was sampled comes back.
   REQUIRE(

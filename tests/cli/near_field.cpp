@@ -84,8 +84,8 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
   REQUIRE_MESSAGE(plain.exit_code == 0, plain.output);
   const auto found = gonio_tool("near-field " + images + "--misplaced 1 -o " + shots.at("found.csv"));
   REQUIRE_MESSAGE(found.exit_code == 0, found.output);
-  CHECK(found.output.find("light off by ") != std::string::npos);
-  CHECK(found.output.find("second.hdr: light off by ") != std::string::npos);
+  CHECK(found.output.find("light corrected by ") != std::string::npos);
+  CHECK(found.output.find("second.hdr: light corrected by ") != std::string::npos);
 
   // How well the samples are explained by the paint, whose logarithm is steep where images were taken.
   const auto misfit = [&](const char* file) {
@@ -113,7 +113,7 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
   CHECK_FALSE(same_values("found.csv"));
   const auto useless = gonio_tool("near-field " + images + "--reference-in-place -o " + shots.at("no.csv"));
   CHECK(useless.exit_code == 2);
-  CHECK(useless.output.find("--reference-in-place requires --misplaced") != std::string::npos);
+  CHECK(useless.output.find("--reference-in-place needs --misplaced") != std::string::npos);
 
   const auto refused = gonio_tool("near-field " + images + "--misplaced -1 -o " + shots.at("no.csv"));
   CHECK(refused.exit_code == 2);
@@ -142,7 +142,7 @@ TEST_CASE("samples that may be off their directions count less where that matter
   CHECK_MESSAGE(everything.exit_code == 0, everything.output);
   for (const char* written : {"r.csv", "u.binary", "r.html", "o.binary"}) CHECK(shots.has(written));
   for (const auto& [arguments, words] :
-       {std::pair{" --misplaced 1 --eta gcv", "--noise or a number as its --eta"},
+       {std::pair{" --misplaced 1 --eta gcv", "--noise or a number for --eta"},
         std::pair{" --misplaced 1 --solver lasso", "--solver tikhonov"},
         std::pair{" --misplaced -2", "0 to 45 degrees, not -2"},
         std::pair{" --misplaced 1 --method linear", "--misplaced needs --method pca"}}) {
@@ -209,8 +209,8 @@ TEST_CASE("two materials in one image were under one light: one pose for both") 
     return count;
   };
   CAPTURE(result.output);
-  CHECK(occurrences("first.hdr: light off by ") == 1);
-  CHECK(occurrences("second.hdr: light off by ") == 1);
+  CHECK(occurrences("first.hdr: light corrected by ") == 1);
+  CHECK(occurrences("second.hdr: light corrected by ") == 1);
   CHECK(occurrences("m-1.csv, ") == 1);
   CHECK(occurrences("m-2.csv, ") == 1);
   CHECK(occurrences(" samples\n") == 4);
@@ -242,7 +242,7 @@ TEST_CASE("a white image and a calibration make samples of images by an uneven l
   }
   const auto bare = gonio_tool(given);
   CHECK(bare.exit_code == 2);
-  CHECK(bare.output.find("'white_reflectance' needs a white image: give --white") != std::string::npos);
+  CHECK(bare.output.find("'white_reflectance' needs --white") != std::string::npos);
   const auto twice = gonio_tool(given + " --white " + shots.at("white.npy") + " " + shots.at("white.npy"));
   CHECK(twice.exit_code == 2);
   CHECK(twice.output.find("--white needs an image for each photograph, 1, not 2") != std::string::npos);
@@ -269,7 +269,7 @@ TEST_CASE("bad images and set-ups get exit code 2, one line, and no file") {
   refused(shots.at("first.hdr") + " /no/such.txt", {"/no/such.txt"});
   refused("/no/such.hdr " + shots.at("first.txt"), {"/no/such.hdr"});
   refused(shots.at("first.txt") + " " + shots.at("first.txt"),
-          {"first.txt", "no image of linear light", ".hdr, .npy or .exr"});
+          {"first.txt", "not an image of linear radiance", ".hdr, .npy or .exr"});
   refused(with_setup(first + "lamps 3\n"), {"bad.txt, line 9", "lamps"});
   refused(with_setup(camera + "light 0 0 1\n"), {"bad.txt", "'region' or 'window' is missing"});
   refused(with_setup("size 40 48" + first.substr(10)), {"first.hdr", "bad.txt", "48 x 40", "40 x 48"});

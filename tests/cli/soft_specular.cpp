@@ -66,11 +66,11 @@ TEST_CASE("two priors are learned, and the samples choose one") {
   const std::string samples = at("s.csv"), out = " -o " + at("none.binary");
   const std::string shipped = std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior";
   const std::string either = "reconstruct --method soft-specular " + samples + out;
-  refuses(either, {"--method soft-specular needs a --prior that gonio learn --split wrote", "materials.prior"});
+  refuses(either, {"--method soft-specular needs a --prior written by gonio learn --split", "materials.prior"});
   refuses(either + " --prior " + samples, {"s.csv: not a gonio soft and specular prior"});
   refuses("reconstruct " + samples + out + " --prior " + split, {"split.prior: a soft and a specular prior"});
   refuses("design -n 2 -o " + at("none.csv") + " --prior " + split, {"split.prior: a soft and a specular prior"});
-  refuses(either + " --prior " + split + " --eta gcv", {"needs a number as its --eta", "gcv"});
+  refuses(either + " --prior " + split + " --eta gcv", {"needs a number for --eta", "gcv"});
   refuses(either + " --prior " + split + " --eta -1", {"eta"});
   refuses(either + " --prior " + split + " --noise 0.02", {"--noise", "--method pca"});
   scratch::put(samples, "theta_h,theta_d,phi_d,r,g,b\n1,2,3,0.1,0.1,0.1\n");

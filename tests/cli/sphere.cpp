@@ -55,7 +55,7 @@ TEST_CASE("a photograph of a sphere becomes samples of the paint") {
   const auto run = gonio_tool("sphere " + shots.at("paint.hdr") + " " + shots.at("setup.txt") + " --white " +
                               shots.at("white.hdr") + " -o " + shots.at("samples.csv"));
   REQUIRE_MESSAGE(run.exit_code == 0, run.output);
-  CHECK(run.output.find("outline met to") != std::string::npos);
+  CHECK(run.output.find("outline matched to") != std::string::npos);
   std::vector<double> off;
   for (const gonio::sample& s : gonio::io::read_samples(shots.at("samples.csv"))) {
     const auto [wi, wo] = s.directions.pair();
@@ -121,11 +121,11 @@ TEST_CASE("sphere refuses what is missing") {
     CHECK(run.output.find(why) != std::string::npos);
   };
   const std::string paint = shots.at("paint.hdr") + " ", white = " --white " + shots.at("white.hdr");
-  refused(paint + shots.at("setup.txt"), "'white_reflectance' needs a white image: give --white");
-  refused(paint + shots.at("bare.txt"), "'sphere' is missing, or give --normals");
+  refused(paint + shots.at("setup.txt"), "'white_reflectance' needs --white");
+  refused(paint + shots.at("bare.txt"), "'sphere' is missing (or --normals)");
   refused(paint + shots.at("setup.txt") + white + white, "--white needs an image for each photograph, 1, not 2");
   refused(shots.at("paint.hdr") + " " + shots.at("setup.txt") + " --white " + shots.at("black.hdr"),
           "no sphere is found");
   refused(paint + shots.at("setup.txt") + white + " --positions " + shots.at("bare.txt"),
-          "--positions requires --normals");
+          "--positions needs --normals");
 }

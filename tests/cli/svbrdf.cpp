@@ -64,7 +64,7 @@ TEST_CASE("svbrdf: an unfinished map is gone on with, unless it is of other imag
   const std::string whole = scratch::get(given.folder / "map.gsv");
   const auto part = given.folder / "next.gsv.part";
   scratch::put(part, whole.substr(0, whole.size() - 1000));
-  CHECK(run(given.command("next.gsv")).find("went on behind band 1 of 2") != std::string::npos);
+  CHECK(run(given.command("next.gsv")).find("resumed after band 1 of 2") != std::string::npos);
   CHECK(scratch::get(given.folder / "next.gsv") == whole);
   CHECK(!scratch::fs::exists(part));
   // Other images of the same sizes.
@@ -136,7 +136,7 @@ TEST_CASE("svbrdf: images that do not fit, that are missing or hold no numbers, 
   refuses(command, {"list.json", "'exposure' is unknown", "image-0.npy"});
   gonio::io::write_png(given.folder / "photograph.png", gonio::uniform_image(70, 375, gonio::rgb::Ones()));
   list("{\"quantity\": \"brdf\", \"images\": [" + given.entry("photograph.png", 0) + "]}");
-  refuses(command, {"photograph.png: is no image of linear light", ".hdr, .npy or .exr"});
+  refuses(command, {"photograph.png: is not an image of linear radiance", ".hdr, .npy or .exr"});
   CHECK(!scratch::fs::exists(given.folder / "other.gsv"));
   CHECK(!scratch::fs::exists(given.folder / "other.gsv.part"));
 }
@@ -178,7 +178,7 @@ TEST_CASE("svbrdf: on a full disk it says so, and the command given again goes o
   check_refusal(limited(size - 4096, given.command("full.gsv")),
                 {"full.gsv.part", "File too large", "the first 1 of 2 bands are kept"});
   CHECK(!scratch::fs::exists(given.folder / "full.gsv"));
-  CHECK(run(given.command("full.gsv")).find("went on behind band 1 of 2") != std::string::npos);
+  CHECK(run(given.command("full.gsv")).find("resumed after band 1 of 2") != std::string::npos);
   CHECK(scratch::get(given.folder / "full.gsv") == scratch::get(given.folder / "map.gsv"));
   // Where a mask is decoded.
   gonio::io::write_png(given.folder / "mask.png", gonio::uniform_image(70, 375, gonio::rgb::Ones()));

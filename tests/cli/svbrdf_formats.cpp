@@ -46,7 +46,7 @@ TEST_CASE("svbrdf: images of Radiance HDR make the same map as their values in a
   // Gone on with behind the first band.
   const std::string whole = scratch::get(given.folder / "map.gsv");
   scratch::put(given.folder / "next.gsv.part", whole.substr(0, whole.size() - 1000));
-  CHECK(run(given.command("next.gsv", "images.hdr.json")).find("went on behind band 1 of 2") != std::string::npos);
+  CHECK(run(given.command("next.gsv", "images.hdr.json")).find("resumed after band 1 of 2") != std::string::npos);
   CHECK(scratch::get(given.folder / "next.gsv") == whole);
   // Cut, and of more rows than are there.
   const std::string image = scratch::get(file_of(given, 2, ".hdr"));

@@ -105,7 +105,7 @@ TEST_CASE("lab: a manifest that is none says what is wrong") {
   refuses("{}", "'largest_count' is missing");
   refuses(R"({"largest_count": 0, "frames": []})", "must be positive");
   refuses(R"({"largest_count": 1.5, "frames": []})", "whole number");
-  refuses(R"({"largest_count": 255, "frames": []})", "a frame at least");
+  refuses(R"({"largest_count": 255, "frames": []})", "at least one frame");
   refuses(R"({"largest_count": 255, "window": {"column": 0, "row": 0, "columns": 0, "rows": 1}, "frames": [1]})",
           "no pixel");
   refuses(with_frame("7"), "7 is no frame");

@@ -246,7 +246,7 @@ class ReconstructTest(unittest.TestCase):
             gonio.reconstruct(self.samples, "scattered", prior=gonio.read_prior())
 
     def test_warnings_name_pythons_arguments(self):
-        with self.assertWarnsRegex(UserWarning, "method='correction' needs at least .* samples.*method='pca' was taken"):
+        with self.assertWarnsRegex(UserWarning, "method='correction' needs at least .*: used method='pca' instead"):
             gonio.reconstruct(self.samples, "correction")
 
     def test_uncertainty_if_asked_for(self):
@@ -277,15 +277,15 @@ class ReconstructTest(unittest.TestCase):
             ({"noise": float("nan")}, "noise=nan: expected at least 0"),
             ({"eta": "many"}, "eta= needs a positive number, gcv or loo, not 'many'"),
             ({"solver": "nnls"}, "solver='nnls' finds weights of at least 0"),
-            ({"noise": 0.1, "eta": 2.0}, "noise= and eta= both set the penalty: give one of them"),
+            ({"noise": 0.1, "eta": 2.0}, "noise= and eta= exclude each other: give one of them"),
             ({"misplaced_degrees": 1.0, "solver": "lasso"},
-             "misplaced_degrees= needs solver='tikhonov', and noise= or a number as its eta="),
+             "misplaced_degrees= needs solver='tikhonov', and noise= or a number for eta="),
             ({"reject": False, "eta": 2.0, "uncertainty": True},
              "reject=False, --residuals, --report, uncertainty=True and --uncertainty-image need a discrepancy"),
             ({"as_printed": True}, "as_printed=True needs method='correction', not method='pca'"),
             ({"lambda_share": 0.1, "method": "rbf"}, "lambda_share= needs method='pca' or linear"),
             ({"method": "soft-specular", "prior": gonio.read_prior()},
-             "method='soft-specular' needs the file of a prior= that gonio learn --split wrote"),
+             "method='soft-specular' needs prior= as a file, written by gonio learn --split"),
             ({"prior": "nowhere--seed.prior"}, "nowhere--seed.prior"),
         ]:
             with self.subTest(arguments=arguments), self.assertRaises(gonio.Error) as raised:

@@ -65,8 +65,8 @@ std::pair<measured_surface, measured_surface> read_both(const std::filesystem::p
   const gonio::channels &of_part = part.samples.channels(), &of_reference = reference.samples.channels();
   if (!(of_part == of_reference) && !(of_part.size() == 1 && of_reference.size() == 1)) {
     if (of_part.are_wavelengths() && of_reference.are_wavelengths())
-      gonio::refuse({path.native(), ": its wavelengths are not those of ", given.reference.native(),
-                     ", which check compares one by one"});
+      gonio::refuse({path.native(), ": its wavelengths differ from those of ", given.reference.native(),
+                     ", but check needs the same wavelengths"});
     part.samples = as_colours(path, part.samples).colours();
     reference.samples = as_colours(given.reference, reference.samples).colours();
   }
@@ -91,9 +91,8 @@ gonio::conformity_options options_of(const check_options& given, const gonio::lo
     options.part = options.reference = gonio::pooled_noise(gonio::noise_of_repeats(metric, part.located, options),
                                                            gonio::noise_of_repeats(metric, reference.located, options));
     if (options.part.degrees_of_freedom == 0.0)
-      gonio::refuse(
-          "check needs --noise, the relative deviation of the measurements (0.02 is 2 %), or directions that " +
-          std::string("are measured more than once, from which it is estimated"));
+      gonio::refuse("check needs --noise (relative deviation of the measurements, 0.02 is 2 %), or " +
+                    std::string("directions measured more than once, to estimate it"));
   }
   options.part.dark = options.reference.dark = given.dark_noise;
   return options;
@@ -123,7 +122,7 @@ void write_report(const check_options& given, const json& check) {
                  {"Reference", described(given.reference, check["reference"])},
                  {"Prior", given.prior.string()},
                  {"Noise", fixed(100.0 * check["noise"].number(), 2) + " %" +
-                               (given.noise ? " (stated)" : " (of directions that were measured repeatedly)")}});
+                               (given.noise ? " (stated)" : " (estimated from repeated measurements)")}});
   write_report_page(given.report,
                     {{"kind", "check"},
                      {"name", given.parts.front().stem().string() + " beside " + given.reference.stem().string()},
@@ -165,12 +164,13 @@ bool check_or_refuse(const check_options& given) {
 
 void add_noise_options(command& to, check_options& options) {
   to.add_option("--noise", options.noise,
-                "Relative deviation of the measured values (0.02 is 2 %), independent in each channel of each sample; "
-                "without it directions that are measured more than once tell it")
+                "Relative deviation of the measured values (0.02 is 2 %), independent in each channel of each sample "
+                "(default: estimated from directions measured more than once)")
       .check(check::range(1e-6, 0.3));
-  to.add_option("--reference-noise", options.reference_noise, "The same of the reference, if it is another")
+  to.add_option("--reference-noise", options.reference_noise,
+                "Relative deviation of the reference (default: as --noise)")
       .check(check::range(0.0, 0.3));
-  to.add_option("--dark-noise", options.dark_noise, "Deviation of values near zero, sr^-1")
+  to.add_option("--dark-noise", options.dark_noise, "Absolute deviation of the values, sr^-1; it matters near zero")
       .check(check::range(0.0, 1e6))
       .capture_default_str();
 }
@@ -179,42 +179,42 @@ void add_noise_options(command& to, check_options& options) {
 
 void add_check(command& app, const std::vector<std::string>& words) {
   auto command = app.add_subcommand(
-      "check",
-      "Say GO or NO-GO: does a part reflect like a reference? Exit code 0 if no difference is found, 1 if it differs");
+      "check", "Check whether a part reflects like a reference: GO (exit code 0) or NO-GO (exit code 1)");
   const auto options = std::make_shared<check_options>();
   command
-      .add_input("part", options->parts,
-                 "Measurements of the part (.csv, or .brdf in Cornell's text format); several parts become a table")
+      .add_input(
+          "part", options->parts,
+          "Measurements of the part (.csv, or .brdf in Cornell's text format). For several parts, prints a table")
       .required();
   command
       .add_input("--reference", options->reference,
-                 "Measurements of the reference, in the same directions or in others; what is measured in both is "
-                 "compared with the certainty of the noise")
+                 "Measurements of the reference. Directions that only the part has are compared with a prediction, "
+                 "which is less certain")
       .required();
   add_measurement_options(command, options->reading);
   add_noise_options(command, *options);
   command
       .add_option("--tolerance", options->tolerance,
-                  "A part differs if values are off by more than this, relative to them (0.05 is 5 %): one number, or "
-                  "one for each channel")
+                  "Largest allowed relative difference (0.05 is 5 %): one number, or one for each channel")
       .check(check::range(0.0, 10.0));
   command
-      .add_option("--peak-tolerance", options->peak_tolerance,
-                  "The same where the half vector is within 5 degrees of the normal, for gloss")
+      .add_option(
+          "--peak-tolerance", options->peak_tolerance,
+          "Largest allowed relative difference where the half vector is within 5 degrees of the normal, for gloss")
       .check(check::range(0.0, 10.0));
   command
       .add_option("--delta-e", options->delta_e,
-                  "Instead of these: a part differs if a direction's colour is off by more than this CIELAB difference "
-                  "(1976, D65, of reflectance factors)")
+                  "Largest allowed colour difference of a direction, instead of relative differences (CIELAB 1976, "
+                  "D65, of reflectance factors)")
       .check(check::range(0.0, 100.0));
   command
       .add_option("--false-alarms", options->question.false_alarms,
-                  "Share of parts like the reference that are said to differ")
+                  "Share of conforming parts that are reported as different")
       .check(check::range(1e-9, 0.5))
       .capture_default_str();
   command
       .add_option("--same-within", options->same_within,
-                  "Half and difference angles that differ by no more degrees are the same direction")
+                  "Degrees up to which half and difference angles may differ and count as the same direction")
       .check(check::range(0.0, 5.0))
       .capture_default_str();
   add_prior_option(command, options->prior);

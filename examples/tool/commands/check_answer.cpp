@@ -65,7 +65,7 @@ std::string described(const gonio::compared_direction& each, const checked_part&
       part.lines.empty() ? "sample " + std::to_string(number) : "line " + std::to_string(part.lines[number - 1]);
   return angles_of(part.counting[each.number].pair()) + " (" + location + "): " + channel_names(checked)[channel] +
          ' ' + reflectance(each.value[channel]) + " instead of " + reflectance(each.expected[channel]) + " +- " +
-         reflectance(off) + (each.measured > 0 ? "" : ", which the reference predicts") +
+         reflectance(off) + (each.measured > 0 ? "" : ", predicted from the reference") +
          (each.delta_e > 0.0 ? ", Delta E " + fixed(each.delta_e, 1) : "") + ", " + p_value(each.adjusted_p_value);
 }
 
@@ -75,14 +75,14 @@ std::vector<std::string> limits_of(const checked_part& checked) {
   const Eigen::Index predicted = checked.found.predicted(), all = std::ssize(checked.found.directions);
   if (predicted > 0)
     sentences.push_back(std::to_string(predicted) + " of " + std::to_string(all) +
-                        " directions are not in the reference, which predicts them" +
-                        (predicted == all ? ": only a shift of all directions, and gross differences, can be seen"
-                                          : ": there only gross differences can be seen"));
+                        " directions are not measured in the reference and are predicted" +
+                        (predicted == all ? ": only a shift of all directions and large differences are detectable"
+                                          : ": only large differences are detectable there"));
   const auto negative =
       (checked.part.located.values.array() < 0.0).count() + (checked.reference.located.values.array() < 0.0).count();
   if (negative > 0 && checked.options.part.dark == 0.0)
     sentences.push_back(std::to_string(negative) +
-                        " values are negative and count as zero: if that is noise, state --dark-noise");
+                        " values are negative and count as zero: if they are noise, give --dark-noise");
   if (!std::isinf(checked.options.part.degrees_of_freedom))
     sentences.push_back("noise of " + fixed(100.0 * checked.options.part.relative, 2) +
                         " %, estimated from repeats with " + fixed(checked.options.part.degrees_of_freedom, 0) +
@@ -128,7 +128,7 @@ const char* verdict_of(const checked_part& checked) { return checked.conforms ? 
 
 void print_familiarity(const gonio::familiarity& known) {
   std::cout << "known materials explain the part " << (known.p_value < 0.01 ? "badly" : "well") << " ("
-            << p_value(known.p_value) << "; " << fixed(known.scale, 2) << " times what is expected: components "
+            << p_value(known.p_value) << "; " << fixed(known.scale, 2) << " times the expected deviation: components "
             << fixed(100.0 * known.components, 0) << " %, discrepancy " << fixed(100.0 * known.discrepancy, 0)
             << " %, errors " << fixed(100.0 * known.errors, 0) << " %)\n";
 }

@@ -64,7 +64,7 @@ void print(const gonio::comparison& errors, std::optional<double> natural) {
   line("cosine rms        ",
        fixed(errors.cosine_rms.mean(), 4) + "   sr^-1, values weighted by max(cos_i cos_o, 0.001)");
   line("Delta E, lights   ", fixed(errors.delta_e_lights, 2) + "   CIELAB 1976, sphere under two lights");
-  line("Delta E, env      ", fixed(errors.delta_e_env, 2) + "   the same under the closed-form environment");
+  line("Delta E, env      ", fixed(errors.delta_e_env, 2) + "   CIELAB 1976, sphere under the closed-form environment");
   if (natural)
     line("Delta E, natural  ",
          fixed(*natural, 2) + "   under --environment, exposed so that the true sphere is middle grey");
@@ -95,13 +95,14 @@ void compare_tables(const compare_options& options) {
 }  // namespace
 
 void add_compare(command& app) {
-  auto command = app.add_subcommand("compare", "Measure how an estimated table differs from the truth");
+  auto command = app.add_subcommand("compare", "Measure the errors of an estimated table");
   const auto options = std::make_shared<compare_options>();
   command.add_input("estimate", options->estimate, "Estimated table (.binary or .binary.gz)").required();
   command.add_input("truth", options->truth, "True table (.binary or .binary.gz)").required();
   add_prior_option(command, options->prior);
-  command.add_input("--environment", options->environment,
-                    "Latitude-longitude image of a natural light to judge under, too (" + radiance_formats() + ")");
+  command.add_input(
+      "--environment", options->environment,
+      "Latitude-longitude image of a natural environment, for a further Delta E (" + radiance_formats() + ")");
   command.add_flag("--json", options->print_json, "Print the errors as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] { compare_tables(*options); });

@@ -43,38 +43,35 @@ void convert(const convert_options& options) {
 }  // namespace
 
 void add_convert(command& app) {
-  auto command = app.add_subcommand(
-      "convert", "Write what a file holds as a file of another kind: tables, materials for renderers, samples");
+  auto command =
+      app.add_subcommand("convert", "Convert a file to another format: tables, materials for renderers, samples");
   const auto options = std::make_shared<convert_options>();
   command
       .add_input("input", options->input,
                  "Table (.binary, .binary.gz or .npy), RGL material (.bsdf), MDL measurement (.mbsdf) or samples "
-                 "(.csv, or a format of instruments), told by its first bytes or else by its name")
+                 "(.csv, or an instrument's format), recognised by its first bytes or else its extension")
       .required();
   add_measurement_options(command, options->reading);
   options->reading.takes_anisotropic = true;
   command
-      .add_output(
-          "output", options->output, {},
-          "Table (.binary or .npy), RGL material as Mitsuba and pbrt read it (.bsdf), measured BSDF of NVIDIA's "
-          "MDL (.mbsdf), table of OpenMATERIAL (_brdf.xompt), or samples (.csv)")
+      .add_output("output", options->output, {},
+                  "Table (.binary or .npy), RGL material for Mitsuba and pbrt (.bsdf), measured BSDF of NVIDIA's MDL "
+                  "(.mbsdf), OpenMATERIAL table (_brdf.xompt), or samples (.csv)")
       .required();
   command.add_flag("--spectra", options->how.as_spectra,
-                   "Of a .bsdf file: write spectra, as pbrt-v4 and the spectral variants of Mitsuba want them, instead "
-                   "of RGB; of a material in RGB, smooth ones of the same colour");
+                   "For .bsdf: write spectra instead of RGB, for pbrt-v4 and the spectral variants of Mitsuba. A "
+                   "material in RGB gets smooth spectra of the same colour");
   command
-      .add_option(
-          "--polar-steps", options->how.polar_steps,
-          "Of a .mbsdf or .xompt file: steps of each polar angle from 0 to 90 degrees, and twice as many of the "
-          "azimuth, from 0 to 180 or 360. By default .xompt has 18 and 36, .mbsdf as many as a table has of "
-          "theta_d and phi_d, or 90 and 180")
+      .add_option("--polar-steps", options->how.polar_steps,
+                  "For .mbsdf or .xompt: number of steps of each polar angle (to 90 degrees); the azimuth has twice as "
+                  "many (to 180 or 360). Default: 18 for .xompt; for .mbsdf as in the table (theta_d, phi_d), else 90")
       .check(check::range(2, 360));
   add_albedo_tolerance_option(command, options->how.albedo_tolerance);
   command.add_flag("--half", options->how.as_halves,
-                   "Of a .npy file: half floats, which have 11 bits and end at 65504, instead of float32");
+                   "For .npy: write half floats (11 bits, at most 65504) instead of float32");
   command.add_flag("--keep-negative", options->how.keeps_negative,
-                   "Of a .bsdf, .mbsdf or .xompt file: negative values as they are, instead of 0. A renderer subtracts "
-                   "them from other light");
+                   "For .bsdf, .mbsdf or .xompt: keep negative values instead of writing 0. A renderer subtracts them "
+                   "from other light");
   add_threads_option(command, options->how.threads);
   command.callback([options] { convert(*options); });
 }

@@ -45,15 +45,11 @@ struct design_command {
 /// With --given, criterion and search do not apply.
 void require_given_alone(const design_command& command) {
   const design_options standard, &design = command.design;
-  if (design.geometry != standard.geometry)
-    gonio::refuse("--given needs --geometry point: samples are measured one by one");
-  if (!command.start.empty())
-    gonio::refuse("--given needs no --start: the directions of its samples are what is measured already");
+  if (design.geometry != standard.geometry) gonio::refuse("--given needs --geometry point");
+  if (!command.start.empty()) gonio::refuse("--start is not available with --given");
   if (design.criterion != standard.criterion || design.search != standard.search || design.eta != standard.eta ||
       design.in_sample || design.common_shift != 0.0)
-    gonio::refuse(
-        "--given goes with none of --criterion, --search, --eta, --in-sample and --common-shift: it expects the error "
-        "of the reconstruction from its samples");
+    gonio::refuse("--criterion, --search, --eta, --in-sample and --common-shift are not available with --given");
 }
 
 /// Writes the page for people. `samples` are those already measured.
@@ -128,15 +124,15 @@ void run_given(const design_command& command) {
 void require_no_search(const design_command& command) {
   const design_options standard, &design = command.design;
   const std::string asked = command.industry ? "--industry" : "--published";
-  if (command.industry && command.published > 0) gonio::refuse("--industry and --published are two sets: choose one");
+  if (command.industry && command.published > 0)
+    gonio::refuse("--industry and --published exclude each other: give one of them");
   if (design.geometry != "point" && (command.industry || design.geometry != "sphere"))
     gonio::refuse(asked + " needs --geometry point" + (command.industry ? "" : " or sphere"));
   if (!command.start.empty() || !command.given.empty() || !command.constraint.empty() || !command.apparatus.empty() ||
       design.criterion != standard.criterion || design.search != standard.search)
     gonio::refuse(asked +
-                  " searches for nothing: it goes with none of --start, --given, --constraint, --apparatus, "
-                  "--criterion and "
-                  "--search");
+                  " needs no search: --start, --given, --constraint, --apparatus, --criterion and --search are not "
+                  "available with it");
 }
 
 /// Returns a published set as printed; for images, the samples are those of images with a grid of the prior's cells.
@@ -161,8 +157,7 @@ void finish(const design_command& command, const gonio::log_relative_pca& prior,
   const std::string sentence =
       std::to_string(found.poses.size()) + (found.poses.size() == 1 ? " measurement leaves " : " measurements leave ") +
       (is_perceived ? "an expected Delta E of " + fixed(found.value, 2) + " on spheres, and " : "") +
-      fixed(100.0 * figures.unknown_share, 1) +
-      " % of how the prior's materials differ from their mean: an expected error of " +
+      fixed(100.0 * figures.unknown_share, 1) + " % of the error without measurements: an expected error of " +
       fixed(figures.expected_error, 3) + " in a cell's logarithm";
   if (command.report.is_given()) write_report(command, found.poses, sentence, {});
   if (command.print_json) {
@@ -202,7 +197,7 @@ void search(const design_command& command, const gonio::log_relative_pca& prior,
   const designed found = design(prior, command.design, bar.listener(), processes, &record);
   bar.wipe();
   if (!processes.writes()) return;
-  if (record.earlier() > 0 && !command.print_json) std::cout << "went on behind sweep " << record.earlier() << '\n';
+  if (record.earlier() > 0 && !command.print_json) std::cout << "resumed after sweep " << record.earlier() << '\n';
   finish(command, prior, found, false);
   record.remove();
 }
@@ -210,7 +205,7 @@ void search(const design_command& command, const gonio::log_relative_pca& prior,
 /// Returns the usual apparatus or that of --apparatus or --constraint, modified by other options.
 gonio::design::apparatus apparatus_of(const design_command& command) {
   if (!command.constraint.empty() && !command.apparatus.empty())
-    gonio::refuse("--constraint and --apparatus both say what is measured with: choose one");
+    gonio::refuse("--constraint and --apparatus exclude each other: give one of them");
   gonio::design::apparatus chosen = !command.constraint.empty()  ? gonio::io::read_apparatus(command.constraint)
                                     : !command.apparatus.empty() ? shipped_apparatus(command.apparatus)
                                                                  : gonio::design::usual_apparatus();
@@ -261,7 +256,7 @@ void run_together(design_command command, const team& processes) {
 }  // namespace
 
 void add_design(command& app, const std::vector<std::string>& words, const team& processes) {
-  auto command = app.add_subcommand("design", "Find what to measure");
+  auto command = app.add_subcommand("design", "Choose the directions to measure");
   const auto options = std::make_shared<design_command>();
   design_options& design = options->design;
   // Declare the prior and the measurements.
@@ -269,90 +264,91 @@ void add_design(command& app, const std::vector<std::string>& words, const team&
   command.add_option("-n,--count", design.count, "Number of measurements").capture_default_str();
   command
       .add_option("--geometry", design.geometry,
-                  "point: a goniometer's samples; sphere: images of a sphere; near-field: images of a flat sample by "
-                  "a close camera; fixed-camera, fixed-light: such images with one camera, or one light")
+                  "point: single directions of a goniometer; sphere: images of a sphere; near-field: images of a flat "
+                  "sample by a close camera; fixed-camera, fixed-light: near-field with one camera, or one light")
       .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
       .capture_default_str();
   // Declare the criterion and the search.
   command
-      .add_option(
-          "--criterion", design.criterion,
-          "perceived: the error that is seen of the prior's materials, as gonio reconstruct estimates them; "
-          "expected-error: Xu et al. 2016; condition: Nielsen et al. 2015; a-optimal, d-optimal: of the weights' "
-          "covariance")
+      .add_option("--criterion", design.criterion,
+                  "perceived: visible error of gonio reconstruct for the prior's materials; expected-error: Xu et al. "
+                  "2016; condition: condition number, Nielsen et al. 2015; a-optimal, d-optimal: trace or determinant "
+                  "of the weights' covariance")
       .check(check::one_of({"expected-error", "perceived", "condition", "a-optimal", "d-optimal"}))
       .capture_default_str();
   command
-      .add_option("--search", design.search,
-                  "greedy: the best of all candidates is added again and again, so that a longer set begins with the "
-                  "shorter one; exchange: then any is replaced as long as that helps; descent: from random candidates "
-                  "to their neighbours")
+      .add_option(
+          "--search", design.search,
+          "greedy: add the best candidate again and again, so that a longer set begins with the shorter one; exchange: "
+          "greedy, then replace candidates while that helps; descent: move random candidates to better neighbours")
       .check(check::one_of({"greedy", "exchange", "descent"}))
       .capture_default_str();
   // Declare the reconstruction and the errors of the measurements.
   command
       .add_option("--eta", design.eta,
-                  "Tikhonov's penalty of the reconstruction; the default is about what gonio reconstruct chooses")
+                  "Tikhonov's penalty of the reconstruction. The default is close to the choice of gonio reconstruct")
       .capture_default_str();
   command
       .add_option("--common-shift", design.common_shift,
-                  "Size of one shift that all logarithms share: beta of Xu et al. 2016, Eq. 15")
+                  "Size of a shift common to all logarithms: beta of Xu et al. 2016, Eq. 15")
       .capture_default_str();
-  command.add_flag("--in-sample", design.in_sample,
-                   "Expect the error of materials that the prior has seen, as Xu et al. do, instead of each left out");
+  command.add_flag(
+      "--in-sample", design.in_sample,
+      "Compute the error of materials that the prior has learned, as Xu et al. do, instead of leaving each out");
   // Declare the limits of the apparatus.
-  command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
+  command
+      .add_option("--fov", options->field_of_view,
+                  "Near field: angle in degrees that the sample spans, seen from above")
       .capture_default_str();
   command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
-  command.add_option(
-      "--apparatus", options->apparatus,
-      "What is measured with, by name (default: light and viewer up to 80 degrees and 5 degrees apart, noise "
-      "of 2 %): " +
-          gonio::io::listed(shipped_apparatus_names(), ", "));
+  command.add_option("--apparatus", options->apparatus,
+                     "Named apparatus (default: light and viewer up to 80 degrees from the normal, at least 5 degrees "
+                     "apart, noise of 2 %): " +
+                         gonio::io::listed(shipped_apparatus_names(), ", "));
   command.add_input("--constraint", options->constraint,
-                    "An apparatus of your own instead (a text file, docs/reference/formats.md)");
+                    "File of your own apparatus, instead of --apparatus (text, docs/reference/formats.md)");
   command
       .add_option("--largest-polar-angle", options->largest_polar_angle,
-                  "Degrees that light and viewer may have from the normal, instead of the apparatus' own limits")
+                  "Largest angle of light and viewer from the normal, in degrees, instead of the apparatus' limits")
       .check(check::range(1.0, 90.0));
-  command.add_option("--separation", options->separation, "Degrees between light and viewer at least")
+  command.add_option("--separation", options->separation, "Smallest angle between light and viewer, in degrees")
       .check(check::range(0.0, 180.0));
-  command
-      .add_option("--noise", options->noise,
-                  "Deviation of a reading relative to it (0.02 is 2 %), independent of the others'")
+  command.add_option("--noise", options->noise, "Independent relative deviation of each reading (0.02 is 2 %)")
       .check(check::range(0.0, 1.0));
   command
       .add_option("--dark-signal", options->dark_signal,
-                  "Deviation of a reading without light, as BRDF times the cosines of light and viewer, sr^-1: it "
+                  "Deviation of a reading without light, as BRDF times the cosines of light and viewer, sr^-1. It "
                   "matters at grazing angles")
       .check(check::range(0.0, 1.0));
   command.add_option("--misplaced", options->misplaced,
-                     "Points: degrees by which light and viewer may each be off their directions");
-  command.add_input("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
+                     "With --geometry point: error of the directions of light and of viewer, in degrees");
+  command.add_input("--start", options->start, "Directions that are already decided; the search adds to them (.csv)");
   command.add_input("--given", options->given,
-                    "Samples that were measured (.csv): the next ones by what these read, so that the reconstruction "
-                    "errs least as seen on spheres");
+                    "Samples already measured (.csv): choose the next directions by their values, for the least "
+                    "visible error of spheres");
   command
-      .add_option("--until", options->until,
-                  "With --given: nothing is written once half of all directions are known to this (0.1 is 10 %)")
+      .add_option(
+          "--until", options->until,
+          "With --given: write nothing if half of all directions are known to this relative deviation (0.1 is 10 %)")
       .check(check::range(0.0, 1.0));
   add_measurement_options(command, options->reading);
   // Declare the sets that need no search.
   command
       .add_option("--published", options->published,
-                  "No search: the set of Nielsen et al. 2015 of so many points (1, 2, 5, 10, 20) or, with --geometry "
-                  "sphere, images (1, 2, 5)")
+                  "Use the set of Nielsen et al. 2015, without a search: number of points (1, 2, 5, 10, 20) or, with "
+                  "--geometry sphere, of images (1, 2, 5)")
       .check(check::range(1, 20));
-  command.add_flag("--industry", options->industry,
-                   "No search: the five points of industry's goniospectrophotometers (Westlund and Meyer 2001)");
+  command.add_flag(
+      "--industry", options->industry,
+      "Use the five points of industrial goniospectrophotometers, without a search (Westlund and Meyer 2001)");
   // Declare the run and its output.
-  command.add_option("--seed", design.seed, "Seed of what is random").capture_default_str();
+  command.add_option("--seed", design.seed, "Seed of the random candidates").capture_default_str();
   add_report_option(command, options->report, words);
   command.add_flag("--json", options->print_json, "Print the result as JSON");
   add_threads_option(command, design.threads);
   command
       .add_output("-o,--output", options->output, {".csv"},
-                  "Directions to write; of images, those of the centre (.csv)")
+                  "Directions to write (.csv); for images, those at the centre")
       .required();
   command.callback([options, &processes] { run_together(*options, processes); });
 }

@@ -60,7 +60,7 @@ Eigen::MatrixXd given_weights(const expand_options& options, const gonio::log_re
   for (Eigen::Index channel = 0; channel < channels; ++channel) {
     const auto numbers = numbers_of(options.weights[options.weights.size() == 1 ? 0 : channel]);
     if (std::ssize(numbers) > prior.size())
-      gonio::refuse({"--weights: ", numbers.size(), " numbers are more than the ", prior.size(), " components of ",
+      gonio::refuse({"--weights: ", numbers.size(), " numbers, but there are only ", prior.size(), " components of ",
                      options.prior.native()});
     for (Eigen::Index j = 0; j < std::ssize(numbers); ++j) weights(j, channel) = numbers[j];
   }
@@ -111,24 +111,23 @@ void expand(const expand_options& options, const gonio::valid_cells& cells) {
 }  // namespace
 
 void add_expand(command& app) {
-  auto command = app.add_subcommand(
-      "expand", "Write a material given by a network, the prior, weights or a formula as a MERL table");
+  auto command =
+      app.add_subcommand("expand", "Write a material as a table: from a network, the prior, weights or a formula");
   const auto options = std::make_shared<expand_options>();
   auto networks =
       command.add_input("--networks", options->networks, "File of networks (.npy, names in merl_names.txt beside it)");
   add_prior_option(command, options->prior);
-  command.add_option("--name", options->name, "Name of a material of the networks, or else of the prior");
+  command.add_option("--name", options->name, "Name of a material: of --networks if given, else of the prior");
   auto weights = command
                      .add_option("--weights", options->weights,
-                                 "Weights of the prior's components, as 0.5,-1,2: those that are not given are zero. "
-                                 "Once for all channels, or three times, for red, green and blue (of a prior of "
-                                 "spectra, for each wavelength). With --name they are "
-                                 "added to that material's")
+                                 "Weights of the prior's components, as 0.5,-1,2; omitted ones are 0. Give one list "
+                                 "for all channels, or one for each of red, green and blue (or each wavelength of a "
+                                 "spectral prior). With --name: added to that material's weights")
                      .repeatable()
                      .excludes(networks);
   command
       .add_flag("--in-deviations", options->in_deviations,
-                "--weights are in standard deviations of the weights that the prior's materials have")
+                "Give --weights in standard deviations of the weights of the prior's materials")
       .needs(weights);
   std::string known;
   for (const std::string& formula : gonio::model::formula_material_names())

@@ -60,7 +60,7 @@ bool is_table(const std::filesystem::path& path) {
 
 void print(const gonio::model::model_fit& fit, const gonio::model::largest_albedo& albedo, std::size_t measurements) {
   std::cout << measurements << " measurements, loss " << fit.loss << " after " << fit.evaluations << " evaluations"
-            << (fit.converged ? "" : ", which did not converge") << '\n';
+            << (fit.converged ? "" : ", not converged") << '\n';
   for (const gonio::model::analytic_lobe& lobe : fit.model.lobes()) {
     std::cout << lobe.kind().name() << ": colour " << fixed(lobe.colour()[0], 4) << ' ' << fixed(lobe.colour()[1], 4)
               << ' ' << fixed(lobe.colour()[2], 4);
@@ -72,7 +72,7 @@ void print(const gonio::model::model_fit& fit, const gonio::model::largest_albed
     std::cout << '\n';
   }
   std::cout << "largest albedo " << fixed(albedo.value, 3) << ", of light at " << fixed(gonio::degrees(albedo.theta), 0)
-            << " degrees" << (albedo.value > 1.0 ? ": more than falls in" : "") << '\n';
+            << " degrees" << (albedo.value > 1.0 ? ": more light than comes in" : "") << '\n';
 }
 
 /// Writes the page for people. `samples` are the fitted ones, or some values of the table.
@@ -151,25 +151,26 @@ void add_fit(command& app, const std::vector<std::string>& words) {
     names += (names.empty() ? "" : ", ") + std::string(kind->name());
   command
       .add_option("--model", options->choice.model,
-                  "A lobe beside a Lambertian one, or with sum:ward+ggx the lobes that are named: " + names)
+                  "Lobe to fit together with a Lambertian one, or a sum of lobes as sum:ward+ggx: " + names)
       .capture_default_str();
   // Declare the comparison.
   command
       .add_option("--metric", options->choice.metric,
-                  "Reflectance is compared as it is (lin), as log (ln(1 + x)) or as cubic root")
+                  "Comparison of reflectance x: lin (x), log (ln(1 + x)) or cubic (cubic root)")
       .check(check::one_of({"lin", "log", "cubic"}))
       .capture_default_str();
   command.add_flag("--fresnel", options->choice.fresnel,
-                   "The last lobe times the reflectance of a dielectric (Phong's lobes)");
+                   "Multiply the last lobe by the reflectance of a dielectric (Phong's lobes)");
   add_fit_options(command, options->choice.fit);
   command.add_flag("--no-cosine-weight", options->no_cosine_weight,
                    "Compare reflectance without the cosine of the light");
   add_cell_weights_option(command, options->cell_weights);
   // Declare the output.
   command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
-                     "The model as a table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)");
-  auto image = command.add_output("--image", options->image, {".png"},
-                                  "Spheres of measurement (if it is a table) and model to write (.png)");
+                     "Table of the model to write (.binary, .npy, or .bsdf or .mbsdf for renderers)");
+  auto image =
+      command.add_output("--image", options->image, {".png"},
+                         "Image to write (.png): spheres of the measurement, if it is a table, and of the model");
   add_image_options(command, options->how, image);
   for (std::size_t i = 0; i < renderer_formats.size(); ++i) {
     const auto& [option, extension, description, text] = renderer_formats[i];
@@ -180,7 +181,7 @@ void add_fit(command& app, const std::vector<std::string>& words) {
   add_threads_option(command, options->choice.fit.threads);
   command.callback([command, options] {
     if (command.count("--cosine-weighted") > 0 && options->no_cosine_weight)
-      gonio::refuse("--cosine-weighted and --no-cosine-weight contradict each other: give one of them");
+      gonio::refuse("--cosine-weighted and --no-cosine-weight exclude each other: give one of them");
     options->choice.fit.cosine_weighted = !options->no_cosine_weight;
     fit(*options);
   });

@@ -93,29 +93,27 @@ void print(const json& facts) {
 
 void add_info(command& app) {
   auto command = app.add_subcommand("info",
-                                    "Say what a file holds, of any kind that gonio reads or writes: how many samples "
-                                    "or cells, ranges of angles, repeats, what is suspicious");
+                                    "Describe any file that gonio reads or writes: number of samples or cells, ranges "
+                                    "of angles, repeats, suspicious values");
   const auto options = std::make_shared<info_options>();
-  command.add_input("file", options->file, "The file").required();
+  command.add_input("file", options->file, "File to describe").required();
   add_measurement_options(command, options->reading);
   options->reading.takes_anisotropic = true;
-  command.add_output(
-      "--components", options->components, {".png"},
-      "Of a prior: image to write (.png) of slices at phi_d = 90 degrees, theta_h to the right and theta_d upwards: "
-      "the reference BRDF, then what one standard deviation of each of the first components adds to the mapped "
-      "reflectance, from blue (less) over white to red (more), each in a scale of its own (Nielsen et al. 2015, Fig. "
-      "3)");
+  command.add_output("--components", options->components, {".png"},
+                     "For a prior: image to write (.png), slices at phi_d = 90 degrees (theta_h to the right, theta_d "
+                     "upwards): the reference BRDF, then one standard deviation of each first component, blue to red, "
+                     "each in its own scale (Nielsen et al. 2015, Fig. 3)");
   command.add_output("--component-spheres", options->component_spheres, {".png"},
-                     "Of a prior: image to write (.png) of spheres, a column for each of the first components, whose "
-                     "weight is -2, -1, 0, 1 and 2 standard deviations from the top to the bottom");
-  command.add_option("--count", options->count, "How many components are drawn")
+                     "For a prior: image to write (.png), spheres in a column for each of the first components, with "
+                     "its weight at -2, -1, 0, 1 and 2 standard deviations from top to bottom");
+  command.add_option("--count", options->count, "Number of components to draw")
       .check(check::positive_number())
       .capture_default_str();
   command.add_option("--size", options->size, "Rows and columns of each slice or sphere")
       .check(check::range(8, 1024))
       .capture_default_str();
   command.add_option("--weights-of", options->weights_of,
-                     "Of a prior: the weights of one of its materials, as gonio expand --weights takes them");
+                     "For a prior: name of a material whose weights to print, in the form of gonio expand --weights");
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_threads_option(command, options->threads);
   command.callback([command, options] {

@@ -7,8 +7,8 @@
 namespace cli {
 
 void add_lab(command& app) {
-  auto lab =
-      app.add_subcommand("lab", "Measure: plan, scan, calibrate; light probes, photographs (docs/learn/laboratory.md)");
+  auto lab = app.add_subcommand(
+      "lab", "Plan, scan and calibrate measurements; light probes, photographs (docs/learn/laboratory.md)");
   lab.require_subcommand();
   add_lab_plan(lab);
   add_lab_scan(lab);

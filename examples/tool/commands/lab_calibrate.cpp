@@ -54,9 +54,9 @@ void require_comparable(const calibrate_command& options, const gonio::io::recor
   if (material.largest_count != reference.largest_count) gonio::refuse(both + ": expected scans by the same camera");
   const auto same = [](const auto& a, const auto& b) { return a.wi == b.wi && a.wo == b.wo; };
   if (!options.nearest && !std::ranges::equal(material.poses, reference.poses, same))
-    gonio::refuse(both +
-                  ": expected scans of the same poses; --nearest-reference takes the reference's reading of "
-                  "the nearest light");
+    gonio::refuse(
+        both +
+        ": expected scans of the same poses; --nearest-reference uses the reference's reading with the nearest light");
 }
 
 /// Returns a material's reflectance at a pose, relative to the reference at the same pose or, if requested, under the
@@ -67,7 +67,7 @@ gonio::capture::measured_reflectance measured_at(std::size_t pose, const gonio::
                                                  const gonio::capture::calibration& known) {
   const auto missing = [&](const char* what) {
     gonio::capture::measured_reflectance none{material.poses[pose]};
-    none.doubt = std::string("the scan of the ") + what + " does not have it yet";
+    none.doubt = std::string("the scan of the ") + what + " has no reading of this pose yet";
     return none;
   };
   const auto& seen = material.readings[pose];
@@ -85,7 +85,7 @@ void require_reference(const calibrate_command& options,
       gonio::capture::require_bright_reference(usable, reflectance);
     } catch (const gonio::error& refusal) {
       gonio::refuse({options.reference.native(), ": ", refusal.what(),
-                     " (if not, as where only a highlight was measured: --brighter)"});
+                     " (--brighter accepts this, for example if only a highlight was measured)"});
     }
 }
 
@@ -125,20 +125,20 @@ void run(const calibrate_command& options) {
 }  // namespace
 
 void add_lab_calibrate(command& lab) {
-  auto command = lab.add_subcommand("calibrate", "Turn scans of a material and of the white reference into samples");
+  auto command = lab.add_subcommand("calibrate", "Convert scans of a material and of the white reference to samples");
   const auto options = std::make_shared<calibrate_command>();
   command.add_input("material", options->material, "Scan of the material (.scan)").required();
   command
       .add_input("--reference", options->reference,
-                 "Scan of the white reference at the same poses, but for --nearest-reference (.scan)")
+                 "Scan of the white reference at the same poses, or at any with --nearest-reference (.scan)")
       .required();
   add_calibration_options(command, options->calibration);
   command.add_flag("--nearest-reference", options->nearest,
-                   "The reference was measured at other poses: each takes the reading whose light is nearest, by the "
-                   "cosines of both");
+                   "Use the reference reading with the nearest light, scaled by both cosines, if the reference was "
+                   "measured at other poses");
   command.add_flag("--brighter", options->brighter,
-                   "The material is brighter than the reference in most samples, and that is right");
-  command.add_output("--response", options->response, {".csv"}, "The camera's response, to write (.csv)");
+                   "Accept a material that is brighter than the reference in most samples");
+  command.add_output("--response", options->response, {".csv"}, "Camera response to write (.csv)");
   command.add_output("-o,--output", options->output, {".csv"}, "Samples to write (.csv)").required();
   command.callback([options] { run(*options); });
 }

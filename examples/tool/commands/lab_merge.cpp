@@ -109,8 +109,8 @@ void report(const gonio::capture::merged_frames& merged, const gonio::capture::d
   constexpr Eigen::Index one_in = 20;
   if (one_in * merged.count(value_state::contradictory) > std::ssize(merged.states) / 3)
     warn(
-        "the exposures of many pixels contradict each other: the noise is larger than --read-noise, --shot-noise and "
-        "--flicker say, the response is another one, or something moved");
+        "the exposures of many pixels contradict each other: --read-noise, --shot-noise or --flicker is too small, the "
+        "response is wrong, or something moved");
   constexpr std::size_t most_named = 20;
   const auto& hot = dark.hot_pixels();
   for (std::size_t i = 0; i < std::min(hot.size(), most_named); ++i)
@@ -121,7 +121,7 @@ void report(const gonio::capture::merged_frames& merged, const gonio::capture::d
 void run(merge_command options) {
   // Read the frames and the dark signal.
   if (!options.dark.empty() && options.gamma != 1.0)
-    gonio::refuse("--dark needs --gamma 1: the counts of dark frames add up in a linear camera alone");
+    gonio::refuse("--dark needs --gamma 1: dark frames can be subtracted only from a linear camera");
   const auto frames = read_frames(options.frames, options.times);
   gonio::capture::dark_signal dark(options.level);
   if (!options.dark.empty()) {
@@ -162,23 +162,23 @@ void add_lab_photograph(command& lab) {
   const auto options = std::make_shared<photograph_command>();
   command
       .add_input("scene", options->scene,
-                 "Radiance of the scene; 1 / pi is white under a lamp (" + radiance_formats() + ")")
+                 "Radiance of the scene, white under a lamp at 1 / pi (" + radiance_formats() + ")")
       .required();
-  command.add_option("--times", options->times, "Seconds of exposure")
+  command.add_option("--times", options->times, "Exposure times in seconds")
       .check(check::range(1e-6, 1000.0))
       .capture_default_str();
-  command.add_option("--camera", options->camera, "The camera's response")
+  command.add_option("--camera", options->camera, "Response of the camera")
       .check(check::one_of({"linear", "gamma", "s-shaped"}))
       .capture_default_str();
   command
       .add_option("--dark-frames", options->dark_frames,
-                  "Of the shortest and of the longest time each, of a linear camera")
+                  "Number of dark frames at the shortest and at the longest time each, for a linear camera")
       .check(check::range(0, 100))
       .capture_default_str();
-  command.add_option("--seed", options->seed, "Of the noise").capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of the noise").capture_default_str();
   command
       .add_output_folder("-o,--output", options->output, {"truth.npy"},
-                         "Folder to write light/, dark/ and truth.npy to")
+                         "Folder to write, with light/, dark/ and truth.npy")
       .required();
   command.callback([options] { run(*options); });
 }
@@ -189,36 +189,40 @@ void add_lab_merge(command& lab) {
   // Declare the input.
   command
       .add_input_folder("frames", options->frames, {".png", ".tif", ".tiff", ".ppm", ".pgm"},
-                        "Folder of photographs of one scene (.png, .tif, .ppm or .pgm); their names end in their "
-                        "exposure times, or EXIF data says them")
+                        "Folder of photographs of one scene (.png, .tif, .ppm or .pgm), with exposure times at the end "
+                        "of their names or in EXIF data")
       .required();
   command.add_input("--times", options->times,
-                    "Exposure times, if neither names nor EXIF data have them (.csv: file,seconds)");
+                    "Table of exposure times, if neither names nor EXIF data have them (.csv: file,seconds)");
   auto dark = command.add_input_folder("--dark", options->dark, {".png", ".tif", ".tiff", ".ppm", ".pgm"},
-                                       "Folder of dark frames, whose names end in their exposure times");
+                                       "Folder of dark frames, with exposure times like the photographs");
   // Declare the known properties of the camera.
-  command.add_option("--dark-level", options->level, "Counts without light, if there are no dark frames")
+  command.add_option("--dark-level", options->level, "Dark level in counts, if there are no dark frames")
       .check(check::non_negative_number())
       .excludes(dark);
   command
       .add_option("--gamma", options->gamma,
-                  "The camera's response is known: counts are the exposure to the power of 1/gamma (1: linear)")
+                  "Known camera response: counts are the exposure to the power of 1/gamma (1: linear)")
       .check(check::positive_number());
-  command.add_option("--saturation", options->saturation, "Share of the largest count from which a pixel is saturated")
+  command.add_option("--saturation", options->saturation, "Saturation level, as a share of the largest count")
       .check(check::range(0.1, 1.0))
       .capture_default_str();
-  command.add_option("--read-noise", options->merging.noise.read, "Deviation of every count, of a linear camera")
+  command
+      .add_option("--read-noise", options->merging.noise.read,
+                  "Read noise of a linear camera: standard deviation in counts")
       .check(check::non_negative_number())
       .capture_default_str();
-  command.add_option("--shot-noise", options->merging.noise.shot, "Variance in counts for each count, of such a camera")
+  command
+      .add_option("--shot-noise", options->merging.noise.shot,
+                  "Shot noise of a linear camera: variance in counts per count")
       .check(check::non_negative_number())
       .capture_default_str();
-  command.add_option("--flicker", options->merging.noise.relative, "Relative deviation of each exposure")
+  command.add_option("--flicker", options->merging.noise.relative, "Relative standard deviation of each exposure")
       .check(check::non_negative_number())
       .capture_default_str();
   // Declare the output.
   command.add_output("--deviation", options->deviation, {".npy", ".exr"},
-                     std::string("Standard deviation of each value, to write (.npy") + (has_exr ? " or .exr)" : ")"));
+                     std::string("Standard deviations of the values to write (.npy") + (has_exr ? " or .exr)" : ")"));
   command.add_output("--mask", options->mask, {".png"},
                      "Image to write: usable black, dark blue, contradictory yellow, hot green, saturated red (.png)");
   add_threads_option(command, options->merging.threads);

@@ -55,7 +55,7 @@ timed_plan whole_hemisphere(const lab::robot& machine) {
 timed_plan plan_of(const plan_command& options) {
   lab::dark_room room(lab::white(), {}, {});
   if (options.whole) {
-    if (options.machine.name != "robot") gonio::refuse("--whole requires --machine robot");
+    if (options.machine.name != "robot") gonio::refuse("--whole needs --machine robot");
     return whole_hemisphere(lab::robot(room, gonio::radians(options.machine.tolerance)));
   }
   const auto pairs = cli::read_direction_pairs(options.directions, reading_of());
@@ -103,11 +103,11 @@ void write_poses(const plan_command& options, const std::vector<gonio::direction
 
 void run(const plan_command& options) {
   const auto [plan, stops, lamps] = plan_of(options);
-  if (plan.poses.empty()) gonio::refuse("the machine can measure none of the directions");
+  if (plan.poses.empty()) gonio::refuse("the machine cannot reach any of the directions");
   if (!options.poses.empty()) write_poses(options, plan.poses);
   gonio::io::write_direction_pairs(options.output, plan.poses);
   const double minutes = gonio::capture::duration_of_scan(plan.length, stops, lamps) / 60.0;
-  std::cout << plan.poses.size() << " poses, " << plan.unreachable.size() << " cannot be reached; the way is "
+  std::cout << plan.poses.size() << " poses, " << plan.unreachable.size() << " cannot be reached; the path is "
             << fixed(gonio::degrees(plan.length), 0) << " degrees long, and a scan takes about " << fixed(minutes, 1)
             << " minutes\n";
 }
@@ -115,16 +115,16 @@ void run(const plan_command& options) {
 }  // namespace
 
 void add_lab_plan(command& lab) {
-  auto command = lab.add_subcommand("plan", "Directions as poses of a machine, in the order of a short way");
+  auto command = lab.add_subcommand("plan", "Convert directions to poses of a machine, in the order of a short path");
   const auto options = std::make_shared<plan_command>();
-  auto what = command.add_option_group("what", "What to measure (one of)");
+  auto what = command.add_option_group("what", "Directions to measure (one of)");
   what.add_input("directions", options->directions, "Directions, as `gonio design` writes them (.csv)");
   what.add_flag("--whole", options->whole,
-                "Every camera pose of the half hemisphere under every lamp of the robot's arc");
+                "Measure every camera pose of the half hemisphere under every lamp of the robot's arc");
   what.require_option(1);
   add_machine_options(command, options->machine);
   command.add_output("--poses", options->poses, {".csv"},
-                     "Position and quaternion of what the machine moves, for each pose, to write (.csv, "
+                     "Table to write of the position and quaternion of the machine's moving parts for each pose (.csv, "
                      "docs/reference/formats.md)");
   command.add_output("-o,--output", options->output, {".csv"}, "Poses to write (.csv)").required();
   command.callback([options] { run(*options); });

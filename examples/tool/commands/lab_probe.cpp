@@ -43,8 +43,8 @@ gonio::image averaged(const gonio::image& image, std::size_t rows, const std::fi
   const std::size_t factor = image.shape(0) / rows;
   if (factor * rows != image.shape(0) || image.shape(1) % factor != 0)
     gonio::refuse(file.string() + ": an image of " + std::to_string(image.shape(0)) + " rows and " +
-                  std::to_string(image.shape(1)) + " columns cannot be shown in, or compared with, one of " +
-                  std::to_string(rows) + " rows");
+                  std::to_string(image.shape(1)) + " columns cannot be averaged to one of " + std::to_string(rows) +
+                  " rows");
   gonio::image means = gonio::uniform_image(rows, image.shape(1) / factor);
   for (std::size_t row = 0; row < image.shape(0); ++row)
     for (std::size_t column = 0; column < image.shape(1); ++column) {
@@ -99,12 +99,12 @@ void unwrap(const probe_command& options) {
   const gonio::render::environment_map truth(
       averaged(read_radiance(options.truth), options.unwrapping.rows, options.truth));
   std::cout << "mean relative error " << fixed(100.0 * relative_error(map, truth, sphere.largest_polar_angle()), 2)
-            << " % outside the 10 degrees around what the sphere hides\n";
+            << " %, except within 10 degrees of the part that the sphere hides\n";
 }
 
 void add_distance_option(command& to, double& distance) {
   to.add_option("--distance", distance,
-                "From the sphere's centre to the camera, in radii of the sphere; far away if it is not given")
+                "Distance from the sphere's centre to the camera, in radii of the sphere (default: infinite)")
       .check(check::range(1.001, 1e6));
 }
 
@@ -113,34 +113,36 @@ void add_distance_option(command& to, double& distance) {
 void add_lab_probe(command& lab) {
   auto command = lab.add_subcommand("probe", "Photograph a mirror sphere in an environment");
   const auto options = std::make_shared<probe_command>();
-  command.add_input("environment", options->input, "Light all around, latitude-longitude (" + radiance_formats() + ")")
+  command
+      .add_input("environment", options->input,
+                 "Environment to photograph, latitude-longitude (" + radiance_formats() + ")")
       .required();
   add_distance_option(command, options->distance);
-  command.add_option("--size", options->pixels, "Pixels of the image each way")
+  command.add_option("--size", options->pixels, "Rows and columns of the image")
       .check(check::range(8, 8192))
       .capture_default_str();
   command
       .add_output("-o,--output", options->output, {".hdr", ".npy", ".exr"},
-                  "Image to write, filled by the sphere (" + radiance_formats() + ")")
+                  "Image of the sphere to write, square and without a margin (" + radiance_formats() + ")")
       .required();
   command.callback([options] { photograph(*options); });
 }
 
 void add_lab_unwrap(command& lab) {
-  auto command = lab.add_subcommand("unwrap", "Turn an image of a mirror sphere into the light all around");
+  auto command = lab.add_subcommand("unwrap", "Convert an image of a mirror sphere to an environment map");
   const auto options = std::make_shared<probe_command>();
   command
       .add_input("image", options->input,
-                 "Square image that the sphere fills, of linear radiance (" + radiance_formats() + ")")
+                 "Square image of the sphere without a margin, linear radiance (" + radiance_formats() + ")")
       .required();
   add_distance_option(command, options->distance);
-  command.add_option("--rows", options->unwrapping.rows, "Of the map, which is twice as wide")
+  command.add_option("--rows", options->unwrapping.rows, "Rows of the map, which has twice as many columns")
       .check(check::range(1, 8192))
       .capture_default_str();
-  command.add_option("--reflectance", options->unwrapping.reflectance, "Of the mirror").capture_default_str();
-  command.add_input("--truth", options->truth,
-                    "The environment that was photographed, to compare with (" + radiance_formats() + ")");
-  command.add_output("--image", options->image, {".png"}, "The image beside the map, to look at (.png)");
+  command.add_option("--reflectance", options->unwrapping.reflectance, "Reflectance of the mirror")
+      .capture_default_str();
+  command.add_input("--truth", options->truth, "True environment, to print the error (" + radiance_formats() + ")");
+  command.add_output("--image", options->image, {".png"}, "Image to write: the photograph beside the map (.png)");
   add_threads_option(command, options->threads);
   command
       .add_output("-o,--output", options->output, {".hdr", ".npy", ".exr"},

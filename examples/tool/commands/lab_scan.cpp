@@ -121,7 +121,8 @@ gonio::capture::scan_outcome measure_missing(gonio::io::scan_journal& journal, M
 void require_complete(const std::filesystem::path& output, const gonio::io::recorded_scan& scan) {
   if (scan.measured() == scan.poses.size()) return;
   throw std::runtime_error(output.string() + ": " + std::to_string(scan.poses.size() - scan.measured()) + " of " +
-                           std::to_string(scan.poses.size()) + " poses are missing: the same command tries them again");
+                           std::to_string(scan.poses.size()) +
+                           " poses are missing: run the same command again to measure them");
 }
 
 /// Scans the poses missing in the journal.
@@ -130,7 +131,7 @@ void scan_into(const std::filesystem::path& output, const gonio::io::scan_subjec
                const std::vector<gonio::direction_pair>& poses) {
   gonio::io::scan_journal journal(output, subject, poses, machine.largest_count());
   const gonio::capture::scan_outcome outcome = measure_missing(journal, machine);
-  std::cout << outcome.measured << " poses measured, " << outcome.kept_before << " were there already\n";
+  std::cout << outcome.measured << " poses measured, " << outcome.kept_before << " were already there\n";
   require_complete(output, journal.scan());
 }
 
@@ -151,12 +152,11 @@ void scan_adaptively(const scan_command& options, Machine& machine, const std::v
     if (next) journal.add_pose(placed(*next).at);
     is_known = !next.has_value();
   }
-  std::cout << measured << " poses measured, " << std::ssize(journal.scan().poses) << " in all\n";
+  std::cout << measured << " poses measured, " << std::ssize(journal.scan().poses) << " in total\n";
 }
 
 void run(const scan_command& options) {
-  if (options.adaptive && options.white)
-    gonio::refuse("--adaptive needs --material: the white reference is what its readings are compared with");
+  if (options.adaptive && options.white) gonio::refuse("--adaptive needs --material, not --white");
   if (options.adaptive && options.choice.reference.empty())
     gonio::refuse("--adaptive needs --reference, a scan of the white reference by the same machine");
   if (!options.adaptive && !options.choice.reference.empty()) gonio::refuse("--reference needs --adaptive");
@@ -175,72 +175,73 @@ void run(const replay_command& options) {
 
 void add_label_option(command& to, std::string& label) {
   to.add_option("--label", label,
-                "What lies in the machine, in words: a journal is gone on with only for the same (default: the name "
+                "Name of the sample in the machine. A journal is continued only with the same name (default: the name "
                 "of the file)");
 }
 
 }  // namespace
 
 void add_lab_scan(command& lab) {
-  auto command = lab.add_subcommand("scan", "Measure poses in a simulated laboratory; goes on where it was stopped");
+  auto command = lab.add_subcommand("scan", "Measure poses in a simulated laboratory; resumes an interrupted scan");
   const auto options = std::make_shared<scan_command>();
   // Declare the plan and the sample in the machine.
   command.add_input("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)").required();
-  auto what = command.add_option_group("what", "What lies in the machine (one of)");
-  what.add_input("--material", options->material, "A material's table (.binary or .binary.gz)");
-  what.add_flag("--white", options->white, "The white reference");
+  auto what = command.add_option_group("what", "Sample in the machine (one of)");
+  what.add_input("--material", options->material, "Table of a material (.binary or .binary.gz)");
+  what.add_flag("--white", options->white, "Measure the white reference");
   what.require_option(1);
   add_reflectance_option(command, options->reflectance);
   add_label_option(command, options->label);
   // Declare the machine and its camera.
   add_machine_options(command, options->machine);
-  command.add_option("--camera", options->camera, "The camera's response")
+  command.add_option("--camera", options->camera, "Response of the camera")
       .check(check::one_of({"linear", "gamma", "s-shaped"}))
       .capture_default_str();
   // Declare the defects.
-  command.add_flag("--ideal", options->ideal,
-                   "Nothing is wrong: no noise, points for lamp and sample, all in its place, 16 bits instead of 12");
-  command.add_option("--noise", options->noise, "Factor of all noise")
+  command.add_flag(
+      "--ideal", options->ideal,
+      "Simulate a perfect laboratory: no noise, lamp and sample as points, exact alignment, 16 bits instead of 12");
+  command.add_option("--noise", options->noise, "Factor on all noise")
       .check(check::non_negative_number())
       .capture_default_str();
-  command.add_option("--misaligned", options->misalignment, "Degrees by which lamps, camera and sample are off")
+  command.add_option("--misaligned", options->misalignment, "Misalignment of lamps, camera and sample, in degrees")
       .check(check::range(0.0, 10.0))
       .capture_default_str();
-  command.add_option("--outliers", options->outliers, "Share of poses with up to 10 times the light, or a tenth")
+  command
+      .add_option("--outliers", options->outliers,
+                  "Share of outliers: poses with up to 10 times the light, or down to a tenth")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
   // Declare the choice of poses.
-  command.add_flag("--adaptive", options->adaptive, "Go on beyond the plan, with the poses that the readings ask for");
+  command.add_flag("--adaptive", options->adaptive, "Choose further poses after the plan, from the readings");
   command.add_input("--reference", options->choice.reference,
                     "With --adaptive: a scan of the white reference, at poses with about the same lights (.scan)");
   command
-      .add_option(
-          "--until", options->choice.until,
-          "With --adaptive: stop when half of all directions are known to this, relative; 0.04 stays, whatever is "
-          "measured")
+      .add_option("--until", options->choice.until,
+                  "With --adaptive: stop when half of all directions are known to this relative deviation (it never "
+                  "falls below 0.04)")
       .check(check::range(0.001, 1.0))
       .capture_default_str();
-  command.add_option("--most", options->choice.most, "With --adaptive: poses in all")
+  command.add_option("--most", options->choice.most, "With --adaptive: largest number of poses in total")
       .check(check::range(1, 1000))
       .capture_default_str();
   add_prior_option(command, options->choice.prior);
   // Declare the seeds and the journal.
-  command.add_option("--room-seed", options->room_seed, "Seed of how lamps and camera are off").capture_default_str();
-  command.add_option("--seed", options->seed, "Seed of how the sample lies, and of noise and outliers")
+  command.add_option("--room-seed", options->room_seed, "Seed of the misalignment of lamps and camera")
       .capture_default_str();
-  command.add_output("-o,--output", options->output, {".scan"}, "Journal to write, or to go on with (.scan)")
-      .required();
+  command.add_option("--seed", options->seed, "Seed of the misalignment of the sample, of noise and of outliers")
+      .capture_default_str();
+  command.add_output("-o,--output", options->output, {".scan"}, "Journal to write or to continue (.scan)").required();
   command.callback([options] { run(*options); });
 }
 
 void add_lab_replay(command& lab) {
-  auto command = lab.add_subcommand("replay", "Frames that were recorded earlier, as a scan");
+  auto command = lab.add_subcommand("replay", "Convert recorded frames to a scan");
   const auto options = std::make_shared<replay_command>();
-  command.add_input("manifest", options->manifest, "Which file was taken where (.json, docs/reference/formats.md)")
+  command.add_input("manifest", options->manifest, "List of frames and their poses (.json, docs/reference/formats.md)")
       .required();
   add_label_option(command, options->label);
-  command.add_output("-o,--output", options->output, {".scan"}, "Journal to write, or to go on with (.scan)")
-      .required();
+  command.add_output("-o,--output", options->output, {".scan"}, "Journal to write or to continue (.scan)").required();
   command.callback([options] { run(*options); });
 }
 

@@ -65,7 +65,7 @@ void print_kept(const gonio::log_relative_pca& learned, const std::string& what)
 
 void print_residual(bool exact, double residual) {
   if (!exact)
-    std::cout << "found in a random subspace: squared singular values within " << fixed(100.0 * residual, 6)
+    std::cout << "found in a random subspace: squared singular values are accurate to " << fixed(100.0 * residual, 6)
               << " % of the variance\n";
 }
 
@@ -95,7 +95,7 @@ void learn_split(const learn_options& options, const gonio::streaming_options& s
        {std::pair(&prior.soft(), " soft of "), std::pair(&prior.specular(), " specular of ")})
     print_kept(*half, std::to_string(half->names().size()) + kind + source);
   print_residual(learned.exact, learned.residual);
-  std::cout << "a material is specular from a highlight contrast of " << fixed(prior.threshold(), 3) << " on\n";
+  std::cout << "a material is specular if its highlight contrast is at least " << fixed(prior.threshold(), 3) << '\n';
 }
 
 void learn(const learn_options& options, const team& processes) {
@@ -149,49 +149,45 @@ void add_learn(command& app, const team& processes) {
       .capture_default_str();
   const auto weight =
       command
-          .add_option(
-              "--cosine-weight", options->cosine_weight,
-              "What weights a reflectance before its logarithm is taken: product of both cosines (Nielsen et al. "
-              "2015, Eq. 2), or the larger of them (Xu et al. 2016, section 3). The prior keeps it")
+          .add_option("--cosine-weight", options->cosine_weight,
+                      "Weight of reflectance inside the logarithm: product of both cosines (Nielsen et al. 2015, Eq. "
+                      "2), or the larger of them (Xu et al. 2016, section 3). The prior keeps it")
           .check(check::one_of({"product", "larger"}))
           .capture_default_str();
-  const auto split = command.add_flag(
-      "--split", options->split,
-      "Two priors in one file, of the soft and of the specular half of the materials by the contrast of "
-      "their highlights, for gonio reconstruct --method soft-specular (Nielsen et al. 2015, section 8)");
+  const auto split =
+      command.add_flag("--split", options->split,
+                       "Learn two priors in one file, of soft and of specular materials by the contrast of their "
+                       "highlights, for gonio reconstruct --method soft-specular (Nielsen et al. 2015, section 8)");
   const auto spectra =
       command
           .add_flag(
               "--spectra", options->materials.as_spectra,
-              "Learn each wavelength of --rgl materials that are spectra, instead of their colours. All must be at "
-              "the same wavelengths, or --wavelengths says at which")
+              "Learn spectra of --rgl materials instead of colours. If their wavelengths differ, needs --wavelengths")
           .excludes(split);
   command
       .add_option("--wavelengths", options->materials.wavelengths,
-                  "With --spectra: the wavelengths, FIRST:STEP:LAST in nanometres, as 400:10:700; between those of the "
-                  "materials, reflectance is linear")
+                  "With --spectra: wavelengths FIRST:STEP:LAST in nanometres, as 400:10:700. Reflectance is "
+                  "interpolated linearly")
       .needs(spectra);
   const auto thin = add_thin_option(command, options->thin);
   command
-      .add_input(
-          "--add-to", options->add_to,
-          "Prior (.prior) that the materials are added to, over its cells and relative to its reference, without "
-          "the tables that it was learned from (Ross et al. 2008)")
+      .add_input("--add-to", options->add_to,
+                 "Prior (.prior) to add the materials to. Keeps its cells and reference, and does not need its tables "
+                 "(Ross et al. 2008)")
       .excludes(split)
       .excludes(thin)
       .excludes(weight);
   command
       .add_option("--memory", options->memory,
-                  "GiB of memory to use at most, beside the components: tables that do not fit are read from a scratch "
-                  "file")
+                  "Memory limit in GiB, without the components. Tables that do not fit go to a scratch file")
       .check(check::range(1.0, 65536.0))
       .capture_default_str();
-  command.add_input_folder("--scratch", options->scratch, {}, "Folder of the scratch file (default: that of --output)");
+  command.add_input_folder("--scratch", options->scratch, {},
+                           "Folder of the scratch file (default: the folder of --output)");
   command
-      .add_option(
-          "--seed", options->seed,
-          "Seed of the random subspace in which more than 1024 columns are decomposed, three a material or one for "
-          "each wavelength (Halko et al. 2011)")
+      .add_option("--seed", options->seed,
+                  "Seed of the random subspace for more than 1024 columns, three per material or one per wavelength "
+                  "(Halko et al. 2011)")
       .capture_default_str();
   command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();
   add_threads_option(command, options->threads);

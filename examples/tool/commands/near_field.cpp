@@ -70,8 +70,8 @@ std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, s
        .threads = options.threads});
   refinement.solve();
   for (Eigen::Index i = 0; i < std::ssize(images); ++i)
-    std::cout << images[i].file << ": light off by " << angle_of(refinement.turns()[i].light) << " degrees, camera by "
-              << angle_of(refinement.turns()[i].camera) << '\n';
+    std::cout << images[i].file << ": light corrected by " << angle_of(refinement.turns()[i].light)
+              << " degrees, camera by " << angle_of(refinement.turns()[i].camera) << '\n';
   std::vector<gonio::sample_set> all;
   for (Eigen::Index m = 0; m < refinement.materials(); ++m) all.push_back(refinement.samples(m));
   return all;
@@ -114,8 +114,7 @@ void require_fixed_camera(const std::vector<taken_image>& images) {
     if (camera.intrinsics().rows != first.intrinsics().rows ||
         camera.intrinsics().columns != first.intrinsics().columns || camera.position() != first.position() ||
         camera.rotation() != first.rotation())
-      gonio::refuse(image.setup_file +
-                    ": --clusters needs a camera that stands still, and this is another one than in " +
+      gonio::refuse(image.setup_file + ": --clusters needs a fixed camera, but it differs from " +
                     images.front().setup_file);
   }
 }
@@ -133,7 +132,7 @@ gonio::capture::colour_clusters clusters_of(const taken_image& image, const near
   const std::string& text = options.clusters;
   const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (failed != std::errc() || end != text.data() + text.size() || count < 1)
-    gonio::refuse("--clusters needs a positive number, or auto, not '" + text + "'");
+    gonio::refuse("--clusters needs a positive number or auto, not '" + text + "'");
   return gonio::capture::cluster_colours(colours, count, options.seed, options.threads);
 }
 
@@ -187,8 +186,8 @@ void write_samples_of_each(std::vector<taken_image> images, const command& given
 
 void run(const command& given, const near_field_command& options) {
   if (options.reference_in_place && options.angular_error == 0.0)
-    gonio::refuse("--reference-in-place requires --misplaced");
-  if (options.clusters.empty() && !options.labels.empty()) gonio::refuse("--labels requires --clusters");
+    gonio::refuse("--reference-in-place needs --misplaced");
+  if (options.clusters.empty() && !options.labels.empty()) gonio::refuse("--labels needs --clusters");
   std::vector<taken_image> images = read_images(options);
   if (options.clusters.empty())
     write_samples_of_one(images, options);
@@ -199,24 +198,24 @@ void run(const command& given, const near_field_command& options) {
 }  // namespace
 
 void add_near_field(command& app) {
-  auto command = app.add_subcommand("near-field", "Turn images of a flat sample into samples for gonio reconstruct");
+  auto command = app.add_subcommand("near-field", "Convert images of a flat sample to samples for gonio reconstruct");
   const auto options = std::make_shared<near_field_command>();
   add_photograph_options(command, options->files, "images",
                          "Images of linear radiance (" + radiance_formats() +
                              "), each followed by its set-up "
                              "(docs/reference/formats.md): camera, light and region of interest");
   command.add_option("--clusters", options->clusters,
-                     "Several materials: how many, or auto; told apart by colour in the last image, which should "
-                     "show no highlight. Each gets a file of its own, OUTPUT-1.csv and so on, the largest first");
-  command.add_output("--labels", options->labels, {".png"}, "Image of which pixels are which material (.png)");
+                     "Number of materials, or auto, separated by colour in the last image, which should show no "
+                     "highlight. Writes a file for each, OUTPUT-1.csv and so on, the largest first");
+  command.add_output("--labels", options->labels, {".png"}, "Image to write of the material of each pixel (.png)");
   command
       .add_option("--misplaced", options->angular_error,
-                  "Degrees by which light and cameras may be off where the set-ups say: where they were is found with "
-                  "the help of --prior")
+                  "Standard deviation of the directions of lights and cameras in the set-ups, in degrees. If positive, "
+                  "corrects these directions with --prior")
       .capture_default_str();
   command.add_flag("--reference-in-place", options->reference_in_place,
-                   "The irradiance is had from a white reference in the sample's place: a light off its place then "
-                   "leaves the values as they are (with --misplaced; --white without 'white_plane' says it)");
+                   "With --misplaced: the irradiance comes from a white reference in the sample's place, so a "
+                   "misplaced light does not scale the values. Implied by --white without 'white_plane'");
   add_prior_option(command, options->prior);
   command.add_option("--seed", options->seed, "Seed of the clusters").capture_default_str();
   add_threads_option(command, options->threads);

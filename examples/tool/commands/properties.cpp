@@ -172,7 +172,7 @@ std::string symmetry_sentence(const json& symmetry, const char* what) {
   if (symmetry.contains("kept_by")) return "kept by " + symmetry["kept_by"].text();
   if (symmetry.contains("pairs") && symmetry["pairs"].number() == 0.0) return std::string("no samples ") + what;
   const std::string amounts =
-      "off by " + percent(symmetry["median"]) + " in the median and " + percent(symmetry["worst"]) + " at worst, ";
+      "off by " + percent(symmetry["median"]) + " (median) and " + percent(symmetry["worst"]) + " at worst, ";
   if (!symmetry.contains("pairs")) return amounts + "at " + where(symmetry["at"]);
   return symmetry["pairs"].dump() + " pairs " + what + ", " + amounts + "samples " +
          symmetry["samples"].elements()[0].dump() + " and " + symmetry["samples"].elements()[1].dump();
@@ -195,7 +195,8 @@ void print_readings(const json& readings) {
   row("haze at 20 degrees (ISO 13803)", fixed(readings["haze_20"], 1));
   row("haze index (ASTM D4039)", fixed(readings["haze_index"], 1));
   row("reflectance at 8 degrees, specular included", percent(readings["luminous_reflectance_8"]));
-  row("the same, specular excluded (4 degrees)", percent(readings["luminous_reflectance_8_specular_excluded"]));
+  row("reflectance at 8 degrees, specular excluded (4 degrees)",
+      percent(readings["luminous_reflectance_8_specular_excluded"]));
   row("total integrated scatter (outside 2.5 degrees)", percent(readings["total_integrated_scatter"]));
   std::cout << "\n| degrees from the mirror direction, light at 45 | L* | a* | b* |\n|---|---|---|---|\n";
   for (const json& each : readings["colours"].elements())
@@ -230,10 +231,10 @@ void print(const std::filesystem::path& file, const json& all) {
 }  // namespace
 
 void add_properties(command& app) {
-  auto command = app.add_subcommand(
-      "properties",
-      "Say whether a table or samples are physical, and what a gloss meter, an integrating sphere and a multi-angle "
-      "instrument read on a table (docs/learn/properties.md)");
+  auto command =
+      app.add_subcommand("properties",
+                         "Check whether a table or samples are physical; for a table, print the readings of a gloss "
+                         "meter, an integrating sphere and a multi-angle instrument (docs/learn/properties.md)");
   const auto options = std::make_shared<properties_options>();
   command
       .add_input("file", options->file,
@@ -243,7 +244,7 @@ void add_properties(command& app) {
   options->reading.takes_anisotropic = true;
   command
       .add_option("--tolerance", options->tolerance,
-                  "Degrees to which the directions of samples must agree to be compared")
+                  "Degrees up to which directions of samples may differ and still be compared")
       .check(check::range(0.001, 5.0))
       .capture_default_str();
   command.add_flag("--json", options->print_json, "Print as JSON");

@@ -79,10 +79,10 @@ gonio::io::sample_file read_fitted(reconstruct_options& options) {
   gonio::io::sample_file measured = read_measurement_file(options.samples, options.reading);
   const gonio::channels& kinds = measured.samples.channels();
   if (options.fits_spectra && kinds.wavelengths().empty())
-    gonio::refuse({options.samples.native(), ": names no wavelengths, which --spectra needs"});
+    gonio::refuse({options.samples.native(), ": has no wavelengths, but --spectra needs them"});
   const bool is_bsdf = lower_extension(options.output) == ".bsdf";
   if (is_bsdf && options.fits_spectra && !kinds.are_wavelengths())
-    gonio::refuse({options.output.native(), ": spectra need two wavelengths or more: leave out --spectra"});
+    gonio::refuse({options.output.native(), ": spectra need at least two wavelengths: omit --spectra"});
   const bool wants_colours = options.reading.light.has_value();
   if (is_bsdf && kinds.are_wavelengths() && takes_spectra(options.method) && !wants_colours)
     options.fits_spectra = true;
@@ -115,7 +115,7 @@ void reconstruct_and_write(reconstruct_options options, const image_options& how
     write_history(options.iteration_figure / "history.csv", result.history);
   }
   if (options.report.is_given()) write_report_page(options.report, report_data({options, measured, result, nullptr}));
-  if (writes_nothing(options)) warn("no file is written: -o names one for the table");
+  if (writes_nothing(options)) warn("no file is written: -o FILE writes the table");
   print(result, measured, options.print_json);
 }
 
@@ -131,32 +131,33 @@ void add_method_option(command& to, std::string& name) {
 
 void add_correction_options(command& to, reconstruct_options& options) {
   to.add_option("--gamma", options.gamma,
-                "How correction finds outliers: a number, with which the weight of a sample falls off with its "
-                "relative deviation (0 trusts all, the paper mostly has 3); or auto, which needs no number")
+                "With --method correction: decrease of a sample's weight with its relative deviation (0: all count "
+                "equally; mostly 3 in the paper), or auto")
       .capture_default_str();
   to.add_flag("--as-printed", options.as_printed,
-              "correction as Noell et al. 2014 print it: no constant function, no inertia, and their weights, with a "
-              "--gamma of 3 if none is given (they have 0 without outliers, 3 for a fifth, 6 for more)");
-  to.add_option("--iterations", options.iterations, "Rounds of correction at most")
+              "With --method correction: follow Noell et al. 2014 exactly, without constant function and inertia, with "
+              "their weights. Default --gamma 3 (the paper has 0 without outliers, 3 for a fifth, 6 for more)");
+  to.add_option("--iterations", options.iterations, "With --method correction: largest number of rounds")
       .check(check::range(1, 10'000))
       .capture_default_str();
-  to.add_output("--history", options.history, {".csv"}, "What each round of correction did, to write (.csv)");
-  to.add_output_folder("--iteration-figure", options.iteration_figure, {"iterations.png", "history.csv"},
-                       "Folder for an image of the first rounds of correction and the last, and their history");
-  to.add_input("--truth", options.truth, "Table that --iteration-figure compares with (.binary or .binary.gz)");
-  to.add_option("--seed", options.seed, "Seed of the centres of rbf, and of the samples from which correction starts")
+  to.add_output("--history", options.history, {".csv"},
+                "With --method correction: table of the rounds to write (.csv)");
+  to.add_output_folder(
+      "--iteration-figure", options.iteration_figure, {"iterations.png", "history.csv"},
+      "With --method correction: folder to write, with an image of the first rounds and the last, and their history");
+  to.add_input("--truth", options.truth, "True table that --iteration-figure compares with (.binary or .binary.gz)");
+  to.add_option("--seed", options.seed, "Seed of the centres of rbf, and of the initial samples of correction")
       .capture_default_str();
 }
 
 void add_spectra_options(command& to, reconstruct_options& options) {
-  to.add_flag(
-      "--spectra", options.fits_spectra,
-      "Fit each wavelength of spectral samples (.csv with columns like 400nm, or formats of instruments) as a grey "
-      "material: the default where -o is a .bsdf, which has the spectra then; other formats have their colours");
+  to.add_flag("--spectra", options.fits_spectra,
+              "Fit each wavelength of spectral samples (.csv with columns like 400nm, or instruments' formats) as a "
+              "grey material. Default if -o is a .bsdf, which then holds spectra; other formats hold colours");
   to.add_choice(
       "--illuminant", [&options](int light) { options.reading.light = static_cast<gonio::illuminant>(light); },
       {{"D65", static_cast<int>(gonio::illuminant::d65)}, {"A", static_cast<int>(gonio::illuminant::a)}},
-      "Under which spectra become colours: D65, daylight (the default), or A, incandescent");
+      "Light under which spectra become colours: D65, daylight (the default), or A, incandescent");
 }
 
 }  // namespace
@@ -176,42 +177,40 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
   // Declare the metric, the solver and the noise.
   command
       .add_option("--metric", options->metric,
-                  "Errors of linear, rbf and the start of correction are those of the reflectance mapped by: lin, "
-                  "root, log (ln(1 + x), the default) or log-relative")
+                  "Error metric of linear, rbf and the start of correction: lin, root, log (ln(1 + x), the default) or "
+                  "log-relative")
       .check(check::one_of({"lin", "root", "log", "log-relative"}));
-  command.add_option("--root", options->root, "Which root --metric root takes").capture_default_str();
+  command.add_option("--root", options->root, "With --metric root: degree of the root").capture_default_str();
   add_solver_options(command, options->solver);
-  command.add_option(
-      "--noise", options->noise,
-      "Relative deviation of the measured values (0.02 is 2 %), which chooses tikhonov's penalty for pca");
+  command.add_option("--noise", options->noise,
+                     "Relative deviation of the measured values (0.02 is 2 %). Sets the penalty of pca");
   command
       .add_option("--discrepancy", options->discrepancy,
-                  "Variance, in the metric's domain, of what the components of pca cannot say and many samples can; 0: "
-                  "components alone, with a penalty chosen by cross-validation")
+                  "Variance of the discrepancy of pca, in the metric's domain: detail that its components do not have. "
+                  "0: components alone, with a penalty chosen by cross-validation")
       .check(check::range(0.0, 10.0))
       .capture_default_str();
   command.add_flag(
       "--no-reject", options->keeps_all,
-      "Let all samples count in full: without it pca leaves out those that the others contradict, and names "
-      "the worst");
+      "Count all samples fully. By default, pca rejects samples that the others contradict, and names the worst");
   command.add_output("--residuals", options->residuals, {".csv"},
-                     "What all other samples say of each sample, to write (.csv)");
-  command.add_output("--uncertainty", options->uncertainty, {".binary", ".npy"},
-                     "Table to write of how well each direction is known: 0.06 is to 6 % in 68 of 100 cases");
+                     "Table to write of each sample's value as predicted by all others (.csv)");
+  command.add_output(
+      "--uncertainty", options->uncertainty, {".binary", ".npy"},
+      "Table to write of the relative standard deviation of each direction: 0.06 is 6 % (68 of 100 cases)");
   command.add_output("--uncertainty-image", options->uncertainty_image, {".png"},
-                     "Image of a sphere to write (.png), coloured by how well its brightness is known: light to 2 %, "
-                     "dark blue from 100 % on, in steps of equal factors");
+                     "Image of a sphere to write (.png), coloured by the relative uncertainty of its brightness, "
+                     "logarithmically: light up to 2 %, dark blue from 100 %");
   add_report_option(command, options->report, words);
   // Declare the corrections.
   add_correction_options(command, *options);
   command
       .add_option("--misplaced", options->angular_error,
-                  "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
-                  "of highlights count less then (for images: gonio near-field --misplaced)")
+                  "Error of the directions of light and of viewer, in degrees. Samples on the flanks of highlights "
+                  "then count less (for images: gonio near-field --misplaced)")
       .capture_default_str();
   command
-      .add_option("--neighbours", options->neighbours,
-                  "How many samples around each direction scattered takes the mean of; 1: the nearest")
+      .add_option("--neighbours", options->neighbours, "With --method scattered: number of nearest samples to average")
       .check(check::range(1, static_cast<int>(gonio::scattered_options::most_neighbours)))
       .capture_default_str();
   // Declare the output.
@@ -229,7 +228,7 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
   command.callback([command, options, how] {
     take_given(*options, [&](const std::string& option) { return command.count(option) > 0; });
     if (command.count("--truth") > 0 && command.count("--iteration-figure") == 0)
-      gonio::refuse("--truth requires --iteration-figure");
+      gonio::refuse("--truth needs --iteration-figure");
     require_bsdf(options->albedo_tolerance, options->output);
     reconstruct_and_write(*options, *how);
   });

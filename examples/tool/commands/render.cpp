@@ -85,7 +85,7 @@ image_difference difference_of(const gonio::image& one, const gonio::image& othe
 void require_comparable(const render_options& options) {
   if (options.tables.size() != 2)
     gonio::refuse("--compare needs two tables, not " + std::to_string(options.tables.size()));
-  if (is_exr(options.output)) gonio::refuse("--compare draws colours for people: its -o needs the extension .png");
+  if (is_exr(options.output)) gonio::refuse("--compare needs an output (-o) that ends in .png");
   if (options.image.size < static_cast<int>(smallest_with_scale))
     gonio::refuse("--compare needs a --size of at least " + std::to_string(smallest_with_scale) +
                   ", for the numbers of its scale");
@@ -107,16 +107,17 @@ sheet_text text_of(const render_options& options) {
 /// Refuses text in an image of radiance.
 void require_no_text(const render_options& options) {
   if (is_exr(options.output) && (options.labels || !options.caption.empty()))
-    gonio::refuse("--labels and --caption draw text for people: their -o needs the extension .png");
+    gonio::refuse("--labels and --caption need an output (-o) that ends in .png");
 }
 
 /// Draws the flat sample of a map, alone in its image.
 void render_flat_sample(const render_options& options) {
   if (options.tables.size() != 1 || options.slices || options.compares || !options.environment.empty() ||
       options.labels || !options.caption.empty())
-    gonio::refuse({options.tables.front().native(),
-                   ": a map is drawn alone, under lights, without --slices, --compare, --environment, --labels and ",
-                   "--caption"});
+    gonio::refuse(
+        {options.tables.front().native(),
+         ": a map needs to be the only input; not available with it: --slices, --compare, --environment, --labels and ",
+         "--caption"});
   const gonio::image sample =
       flat_sample_image(options.tables.front(), options.prior, lighting_of(options.lights).lights(),
                         options.image.exposure, options.threads);
@@ -148,7 +149,7 @@ void render(const render_options& options) {
   if (options.compares) {
     auto [image, mean] = difference_of(images[0], images[1]);
     images.push_back(std::move(image));
-    std::cout << "Delta E of the images: " << fixed(mean, 2) << " in the mean; 0 is blue, 10 green, 20 and more red\n";
+    std::cout << "Delta E of the images: " << fixed(mean, 2) << " on average; 0 is blue, 10 green, 20 and more red\n";
   }
   const gonio::image beside = contact_sheet(
       images, options.columns == 0 ? images.size() : std::min<std::size_t>(options.columns, images.size()),
@@ -174,32 +175,30 @@ void add_render(command& app) {
   command
       .add_output("-o,--output", options->output, {".png", ".exr"},
                   std::string("Image to write: .png") +
-                      (has_exr ? ", or .exr for the values themselves, of slices pi times the BRDF" : ""))
+                      (has_exr ? ", or .exr for the values themselves (slices: pi times the BRDF)" : ""))
       .required();
   auto slices = command.add_flag("--slices", options->slices,
-                                 "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
+                                 "Draw slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
   auto environment =
       command.add_input("--environment", options->environment,
-                        "Light from all around: a latitude-longitude image (" + radiance_formats() + ")");
+                        "Environment that lights the spheres: a latitude-longitude image (" + radiance_formats() + ")");
   environment.excludes(slices);
   add_light_option(command, options->lights).excludes(environment).excludes(slices);
   command
       .add_option("--quality", options->quality,
-                  "Pairs of directions for each pixel, by the BRDF and by the environment")
+                  "Number of direction pairs per pixel, sampled from the BRDF and from the environment")
       .check(check::range(1, 1'000'000))
       .needs(environment)
       .capture_default_str();
-  command.add_flag(
-      "--compare", options->compares,
-      "Two tables: beside them how far their colours are apart, CIELAB's Delta E of each pixel as a colour");
-  command.add_option("--columns", options->columns, "Images in a row, of a contact sheet of many tables")
+  command.add_flag("--compare", options->compares,
+                   "Draw a third image of the colour difference of two tables, CIELAB's Delta E of each pixel");
+  command.add_option("--columns", options->columns, "Number of images in a row, for a contact sheet of many tables")
       .check(check::range(1, 1000))
       .default_str("all in one row");
-  command.add_flag("--labels", options->labels, "Under each image the name of its table");
-  command.add_option("--caption", options->caption, "A line of text under all images");
+  command.add_flag("--labels", options->labels, "Write the name of its table under each image");
+  command.add_option("--caption", options->caption, "Line of text under all images");
   add_image_options_to(command, options->image,
-                       "0.4 in an environment; under the lights such that the brightest sphere is white at its 99th "
-                       "percentile")
+                       "0.4 in an environment; under lights, white at the 99th percentile of the brightest sphere")
       .second.excludes(slices);
   command.add_option("--seed", options->seed, "Seed of the samples").needs(environment).capture_default_str();
   add_threads_option(command, options->threads);

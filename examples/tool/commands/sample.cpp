@@ -35,17 +35,17 @@ void add_sample(command& app) {
   auto command = app.add_subcommand("sample", "Simulate a measurement: read a table at some of its cells");
   const auto options = std::make_shared<sample_options>();
   command.add_input("table", options->table, "Table to measure (.binary or .binary.gz)").required();
-  auto where = command.add_option_group("where", "Where to measure (one of)");
+  auto where = command.add_option_group("where", "Cells to measure (one of)");
   where.add_option("--count", options->count, "Number of different cells, at random").check(check::positive_number());
-  where.add_option("--ratio", options->ratio, "Share of all cells, at random, above 0 up to 1")
+  where.add_option("--ratio", options->ratio, "Share of all cells, at random, above 0 and up to 1")
       .check(check::positive_number() & check::range(0.0, 1.0));
-  where.add_input("--directions", options->directions, "CSV file of directions; the nearest cells are read");
+  where.add_input("--directions", options->directions, "Directions, measured at the nearest cells (.csv)");
   where.require_option(1);
   command.add_option("--outliers", options->defects.outlier_ratio,
-                     "Share of samples replaced by a random other value of the table");
+                     "Share of outliers: samples replaced by a random other value of the table");
   command.add_option("--noise", options->defects.noise, "Standard deviation of Gaussian noise relative to the value");
   add_aperture_options(command, options->aperture);
-  command.add_option("--seed", options->seed, "Seed of everything random").capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of the random cells, noise and outliers").capture_default_str();
   command.add_output("-o,--output", options->output, {".csv"}, "Samples to write (.csv)").required();
   command.callback([options] {
     options->defects.aperture = options->aperture.in_radians();

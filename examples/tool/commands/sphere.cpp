@@ -34,9 +34,9 @@ using sphere_photograph = taken_photograph<gonio::io::sphere_setup>;
 std::vector<sphere_photograph> photographs_of(const sphere_command& options) {
   return read_photographs(options.files, [&](const std::string& file, const auto& calibration) {
     gonio::io::sphere_setup setup = gonio::io::read_sphere_setup(file, calibration);
-    if (options.normals.empty() && !setup.radius) gonio::refuse(file + ": 'sphere' is missing, or give --normals");
+    if (options.normals.empty() && !setup.radius) gonio::refuse(file + ": 'sphere' is missing (or --normals)");
     if (!options.normals.empty() && setup.radius)
-      gonio::refuse(file + ": 'sphere' and --normals say both what the surface is, give only one of them");
+      gonio::refuse(file + ": 'sphere' and --normals exclude each other: give one of them");
     return setup;
   });
 }
@@ -60,7 +60,7 @@ void require_fixed(const std::vector<sphere_photograph>& taken) {
     if (each.setup.radius != first.radius || each.setup.camera.position() != first.camera.position() ||
         each.setup.camera.pinhole().rotation() != first.camera.pinhole().rotation())
       gonio::refuse(each.setup_file +
-                    ": --fixed needs the same camera and sphere in all set-ups, and these differ from " +
+                    ": --fixed needs the same camera and sphere in all set-ups, but they differ from " +
                     taken.front().setup_file);
 }
 
@@ -98,7 +98,7 @@ known_surfaces surfaces_of(const std::vector<sphere_photograph>& taken, const sp
     std::string said;
     if (found.edge_points > 0)
       said = ", sphere at " + fixed(found.sphere.centre.x(), 4) + ' ' + fixed(found.sphere.centre.y(), 4) + ' ' +
-             fixed(found.sphere.centre.z(), 4) + ", outline met to " + fixed(found.deviation, 2) + " pixels";
+             fixed(found.sphere.centre.z(), 4) + ", outline matched to " + fixed(found.deviation, 2) + " pixels";
     all.emplace_back(
         taken[i].naming_files([&] { return gonio::capture::surface_of(found.sphere, taken[i].setup.camera); }),
         std::move(said));
@@ -113,8 +113,8 @@ std::string noise_of(const gonio::capture::photograph_samples& found) {
 }
 
 void run(const sphere_command& options) {
-  if (!options.positions.empty() && options.normals.empty()) gonio::refuse("--positions requires --normals");
-  if (options.fixed && !options.normals.empty()) gonio::refuse("--fixed is of a sphere, not of --normals");
+  if (!options.positions.empty() && options.normals.empty()) gonio::refuse("--positions needs --normals");
+  if (options.fixed && !options.normals.empty()) gonio::refuse("--fixed is not available with --normals");
   const std::vector<sphere_photograph> taken = photographs_of(options);
   const known_surfaces surfaces = surfaces_of(taken, options);
   gonio::sample_set samples;
@@ -136,23 +136,22 @@ void run(const sphere_command& options) {
 }  // namespace
 
 void add_sphere(command& app) {
-  auto command = app.add_subcommand("sphere", "Turn photographs of a sphere into samples for gonio reconstruct");
+  auto command = app.add_subcommand("sphere", "Convert photographs of a sphere to samples for gonio reconstruct");
   const auto options = std::make_shared<sphere_command>();
-  add_photograph_options(command, options->files, "photographs",
-                         "Images of linear radiance (" + radiance_formats() +
-                             "), each followed by its set-up (docs/reference/formats.md): "
-                             "camera, "
-                             "light and sphere, which is found by its outline (in the white image, if it shows a "
-                             "sphere) unless the set-up "
-                             "says where it is");
+  add_photograph_options(
+      command, options->files, "photographs",
+      "Images of linear radiance (" + radiance_formats() +
+          "), each followed by its set-up (docs/reference/formats.md): camera, light and sphere. Without a centre, the "
+          "sphere is found by its outline (of the white image, if it shows a sphere)");
   command.add_flag("--fixed", options->fixed,
-                   "Camera and sphere are the same in all photographs: the sphere is found in the one that shows the "
-                   "most of its outline");
+                   "Use one sphere for all photographs, found in the one with the most complete outline. The camera "
+                   "must be the same, too");
   command.add_input("--normals", options->normals,
-                    "Another surface than a sphere: the normals that the pixels see, in the camera's world, zero where "
-                    "nothing is seen (.npy of rows x columns x 3)");
-  command.add_input("--positions", options->positions,
-                    "The places that the pixels see, which a lamp at a finite distance needs (with --normals; .npy)");
+                    "Normals of a surface other than a sphere, for each pixel, in world coordinates; zero outside it "
+                    "(.npy, rows x columns x 3)");
+  command.add_input(
+      "--positions", options->positions,
+      "With --normals: positions of the surface for each pixel, needed for a lamp at a finite distance (.npy)");
   command.add_output("-o,--output", options->output, {".csv"}, "Samples to write (.csv)").required();
   command.callback([options] { run(*options); });
 }

@@ -134,14 +134,14 @@ Eigen::Index open_map(std::optional<gonio::io::svbrdf_writer>& map, const svbrdf
   map.emplace(output, header);
   const Eigen::Index before = map->finished();
   if (before > 0 && !map->has_written(before - 1, job.band(header, before - 1)))
-    gonio::refuse({output.string(), ".part: was begun with other images: remove it, or name another -o"});
+    gonio::refuse({output.string(), ".part: was begun with other images: remove it, or give another -o"});
   return before;
 }
 
 void print_done(const gonio::io::svbrdf_header& header, Eigen::Index before) {
   std::cout << header.columns << " x " << header.rows << " texels, " << header.directions.size() << " images, "
             << header.functions.rows() << " components, eta " << header.eta;
-  if (before > 0) std::cout << ", went on behind band " << before << " of " << header.bands();
+  if (before > 0) std::cout << ", resumed after band " << before << " of " << header.bands();
   std::cout << '\n';
 }
 
@@ -186,34 +186,31 @@ void add_svbrdf(command& app, const team& processes) {
   command
       .add_input("images", options->images,
                  "List of images (.json): for each a file (" + radiance_formats() +
-                     ") and its directions, and what their "
-                     "numbers are (docs/reference/formats.md)")
+                     ") and its directions; and the quantity of the values (docs/reference/formats.md)")
       .required();
   add_prior_option(command, options->prior);
   auto noise = command
                    .add_option("--noise", options->noise,
-                               "Relative deviation of the images' values (0.02 is 2 %), which chooses Tikhonov's "
-                               "penalty")
+                               "Relative deviation of the images' values (0.02 is 2 %). Sets Tikhonov's penalty")
                    .check(check::range(0.0, 1.0))
                    .capture_default_str();
-  command.add_option("--eta", options->eta, "Tikhonov's penalty, instead of the one for --noise")
+  command.add_option("--eta", options->eta, "Tikhonov's penalty, instead of --noise")
       .check(check::positive_number())
       .excludes(noise);
   command
       .add_output("-o,--output", options->output, {".gsv"},
-                  "Map to write (.gsv). An interrupted command goes on where it was when it is given again")
+                  "Map to write (.gsv). The same command resumes an interrupted one")
       .required();
   command.add_output("--weights", options->weights, {".npy"},
                      "Array to write of the map's weights: rows x columns x 3 x functions, half floats");
-  command.add_output("--functions", options->functions, {".npy"},
-                     "Array to write of the weights that the prior's components have in each function: components x "
-                     "functions");
+  command.add_output(
+      "--functions", options->functions, {".npy"},
+      "Array to write of the weights of the prior's components in each function: components x functions");
   command.add_output("--uncertainty", options->uncertainty, {".npy"},
-                     "Array to write of how well each texel is known, over all directions: 0.06 is to 6 % in 68 of 100 "
-                     "cases; rows x columns");
+                     "Array to write of each texel's relative standard deviation over all directions: 0.06 is 6 % (68 "
+                     "of 100 cases); rows x columns");
   command.add_output("--disagreement", options->disagreement, {".npy"},
-                     "Array to write of how far each texel's images contradict each other: 1 is as expected; rows x "
-                     "columns");
+                     "Array to write of the disagreement of each texel's images: 1 is as expected; rows x columns");
   add_threads_option(command, options->threads);
   command.callback([options, &processes] { run(*options, processes); });
 }

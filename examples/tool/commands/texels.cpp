@@ -137,15 +137,15 @@ void print_clusters(const texel_clusters& clusters) {
   for (std::size_t k = 0; k < clusters.summary().size(); ++k) {
     const auto& own = clusters.summary()[k];
     std::cout << "cluster " << k + 1 << ": " << fixed(100.0 * own.texels / std::max(texels, 1.0), 1)
-              << " % of the texels, whose logarithms of reflectance are " << fixed(own.distance(), 2)
-              << " from its centre, root mean square\n";
+              << " % of the texels; distance from the centre in logarithms of reflectance: " << fixed(own.distance(), 2)
+              << " (root mean square)\n";
   }
 }
 
 void cluster(const texels_options& options, const gonio::io::svbrdf_map& map, const gonio::log_relative_pca& prior) {
   if (options.clusters > gonio::render::categories && is_png(options.labels))
-    gonio::refuse({"--labels: ", gonio::render::categories, " clusters are told apart by colours, not ",
-                   options.clusters, ": it needs the extension .npy"});
+    gonio::refuse({"--labels: ", gonio::render::categories, " clusters have distinct colours in a .png, not ",
+                   options.clusters, ": give a .npy file"});
   texel_clusters clusters(map, prior, options.clusters, options.seed, options.threads);
   write_labels(options.labels, map, clusters);
   if (!options.materials.empty()) write_materials(options.materials, clusters, prior.size());
@@ -197,7 +197,7 @@ void compare(const texels_options& options, const gonio::io::svbrdf_map& map, co
   };
   double sum = 0.0;
   for (const float each : differences) sum += double{each};
-  std::cout << "Delta E of the maps: " << fixed(sum / static_cast<double>(differences.size()), 2) << " in the mean\n";
+  std::cout << "Delta E of the maps: " << fixed(sum / static_cast<double>(differences.size()), 2) << " on average\n";
   if (!is_png(options.delta_e))
     return write_texel_array(
         options.delta_e, header, "<f4", {},
@@ -215,7 +215,7 @@ void compare(const texels_options& options, const gonio::io::svbrdf_map& map, co
 void run(const texels_options& options) {
   const gonio::io::svbrdf_map map(options.map);
   if (options.uncertainty.empty() && options.disagreement.empty() && options.clusters == 0 && options.other.empty())
-    gonio::refuse("texels needs something to write: --uncertainty, --disagreement, --clusters or --compare");
+    gonio::refuse("texels needs one of --uncertainty, --disagreement, --clusters and --compare");
   const colour_scale of_uncertainty = scale_of_uncertainty();
   write_part(options.uncertainty, map, &band::uncertainty, of_uncertainty, place_of_uncertainty);
   const colour_scale of_disagreement{gonio::render::sequential_colour,
@@ -231,49 +231,49 @@ void run(const texels_options& options) {
 }  // namespace
 
 void add_texels(command& app) {
-  auto command = app.add_subcommand("texels", "Draw how well a map's texels are known, or which are of one material");
+  auto command = app.add_subcommand(
+      "texels", "Draw the uncertainty of a map's texels, their materials, or the difference of two maps");
   const auto options = std::make_shared<texels_options>();
   command.add_input("map", options->map, "Map of gonio svbrdf (.gsv)").required();
   add_prior_option(command, options->prior);
+  command.add_output("--uncertainty", options->uncertainty, {".png", ".npy"},
+                     "Image or array to write of each texel's uncertainty over all directions (68 of 100 cases): 0.1 "
+                     "is 10 %, 1 is a factor of 2.7; light up to 0.1, dark from 5");
   command.add_output(
-      "--uncertainty", options->uncertainty, {".png", ".npy"},
-      "Image or array to write of how well each texel is known, over all directions: 0.1 is to 10 %, 1 to "
-      "a factor of 2.7 in 68 of 100 cases; light to 0.1, dark from 5 on");
-  command.add_output("--disagreement", options->disagreement, {".png", ".npy"},
-                     "Image or array to write of how far each texel's images contradict each other: light 0, dark from "
-                     "4 on; 1 is as expected");
+      "--disagreement", options->disagreement, {".png", ".npy"},
+      "Image or array to write of the disagreement of each texel's images: light at 0, dark from 4; 1 is as expected");
   auto clusters = command
                       .add_option("--clusters", options->clusters,
-                                  "Part the texels into so many materials, by k-means of the logarithms of reflectance "
-                                  "over all directions")
+                                  "Number of materials to divide the texels into, by k-means of logarithms of "
+                                  "reflectance over all directions")
                       .check(check::range(1, 255));
   command
       .add_output("--labels", options->labels, {".png", ".npy"},
-                  "Image or array of bytes to write: the cluster of each texel, from 1, the largest, on; 0, black, are "
-                  "texels that are not of the sample. An image has colours for 8")
+                  "Image (up to 8 clusters) or array of bytes to write: cluster of each texel from 1, the largest; 0 "
+                  "(black) outside the sample")
       .needs(clusters);
   command
-      .add_output("--materials", options->materials, {".npy"},
-                  "Array to write of the clusters' mean materials: clusters x 3 x components of the prior, weights")
+      .add_output(
+          "--materials", options->materials, {".npy"},
+          "Array to write of the weights of the clusters' mean materials: clusters x 3 x components of the prior")
       .needs(clusters);
   command
       .add_output_folder("--tables", options->tables, {"material-1.binary"},
-                         "Folder to write the mean materials into, as MERL tables material-1.binary and so on")
+                         "Folder to write with the mean materials, as MERL tables material-1.binary and so on")
       .needs(clusters);
   command.add_option("--seed", options->seed, "Seed of the clusters").needs(clusters).capture_default_str();
   auto other = command.add_input("--compare", options->other,
-                                 "Another map of the same texels and prior, to be compared as seen from ahead");
+                                 "Another map of the same texels and prior, to compare as seen along the normal");
   auto delta_e = command
                      .add_output("--delta-e", options->delta_e, {".png", ".npy"},
-                                 "Image or array to write of CIELAB's Delta E of each texel: light 0, dark from 10 on")
+                                 "Image or array to write of CIELAB's Delta E of each texel: light at 0, dark from 10")
                      .needs(other);
   other.needs(delta_e);
   add_light_option(command, options->lights).needs(other);
   command
-      .add_option("--exposure", options->exposure,
-                  "What a white Lambertian surface that faces a light has, white being 1")
+      .add_option("--exposure", options->exposure, "Value of a white Lambertian surface that faces a light; 1 is white")
       .check(check::positive_number())
-      .default_str("such that the first map is white at its 99th percentile")
+      .default_str("white at the 99th percentile of the first map")
       .needs(other);
   add_threads_option(command, options->threads);
   command.callback([options] { run(*options); });

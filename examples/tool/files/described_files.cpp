@@ -404,7 +404,7 @@ json describe_file(const std::filesystem::path& path, const measurement_options&
   const file_look file(path);
   const auto kind = std::ranges::find_if(kinds, [&](const described_kind& each) { return each.recognises(file); });
   if (kind == kinds.end())
-    gonio::refuse({path.native(), ": I do not know this kind of file, neither by how it begins nor by its extension"});
+    gonio::refuse({path.native(), ": unknown kind of file, by its first bytes and its extension"});
   if (kind->describe_measurements != nullptr) return kind->describe_measurements(path, reading);
   require_unused(reading, path);
   return kind->describe(path);

@@ -26,7 +26,8 @@ namespace io = gonio::io;
 using bytes = std::span<const std::byte>;
 
 [[noreturn]] void refuse_samples(const fs::path& path) {
-  gonio::refuse({path.native(), ": is a whole material, and samples are not one: 'gonio reconstruct' completes them"});
+  gonio::refuse(
+      {path.native(), ": needs a whole material, but the input holds samples: complete them with 'gonio reconstruct'"});
 }
 
 /// Calls `use` with the BRDF of a complete material.
@@ -57,8 +58,8 @@ bool must_be_clipped(const fs::path& path, const Brdf& f, const gonio::valid_cel
   if (found.cells == 0) return false;
   const auto percent = [&](Eigen::Index channel) { return fixed(100.0 * found.added[channel], 2) + " %"; };
   warn(path.native() + ": " + std::to_string(found.cells) + " of " + std::to_string(cells.size()) +
-       " cells have a negative value, which is written as 0. That adds " + percent(0) + " red, " + percent(1) +
-       " green and " + percent(2) + " blue to the light that the material reflects (--keep-negative keeps them)");
+       " cells have a negative value, written as 0. That adds " + percent(0) + " red, " + percent(1) + " green and " +
+       percent(2) + " blue to the reflected light (--keep-negative keeps them)");
   return true;
 }
 
@@ -145,7 +146,8 @@ void write_openmaterial(const fs::path& path, const file_content& content, const
 void write_samples(const fs::path& path, const file_content& content, const writing& /*how*/) {
   const auto* samples = std::get_if<gonio::sample_set>(&content);
   if (samples == nullptr)
-    gonio::refuse({path.native(), ": holds samples, and a whole material is none: 'gonio sample' takes some of it"});
+    gonio::refuse(
+        {path.native(), ": needs samples, but the input is a whole material: measure it with 'gonio sample'"});
   io::write_samples(path, *samples);
 }
 
@@ -217,15 +219,14 @@ file_content read_file(const fs::path& path, const measurement_options& reading)
   const std::vector<file_kind>& kinds = file_kinds();
   auto found = std::ranges::find_if(kinds, begins);
   if (found == kinds.end()) found = std::ranges::find_if(kinds, ends);
-  if (found == kinds.end())
-    gonio::refuse({path.native(), ": is of no kind that is known, expected one of: ", listed(false)});
+  if (found == kinds.end()) gonio::refuse({path.native(), ": unknown kind of file, expected one of: ", listed(false)});
   return found->parse(content, path.string());
 }
 
 const file_kind& written_kind(const fs::path& path) {
   for (const file_kind& kind : file_kinds())
     if (kind.write != nullptr && ends_as(path, kind)) return kind;
-  gonio::refuse({path.native(), ": is of no kind that is written, expected one of: ", listed(true)});
+  gonio::refuse({path.native(), ": unknown kind of output, expected one of: ", listed(true)});
 }
 
 void write_file(const fs::path& path, const file_content& content, const writing& how) {
@@ -240,8 +241,8 @@ void write_spectra(const fs::path& path, const gonio::spectral_table& table, con
   const std::size_t written = std::get<io::rgl_material>(content).spectra->wavelengths.size();
   if (written < table.wavelengths().size())
     warn(path.native() + ": " + std::to_string(written) + " of " + std::to_string(table.bands()) +
-         " wavelengths, linear between them within " + io::shortest(std::round(1e6 * how.albedo_tolerance) / 1e4) +
-         " %");
+         " wavelengths written; the others are interpolated linearly, within " +
+         io::shortest(std::round(1e6 * how.albedo_tolerance) / 1e4) + " %");
   write_rgl(path, content, how);
 }
 

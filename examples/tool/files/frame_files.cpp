@@ -44,13 +44,13 @@ double seconds_of(const gonio::io::named_file& file, const std::filesystem::path
   try {
     if (const auto seconds = gonio::io::exposure_time_of_name(file.name)) return *seconds;
   } catch (const gonio::error& refusal) {
-    gonio::refuse({file.path.string(), ": ", refusal.what(), " (--times says which)"});
+    gonio::refuse({file.path.string(), ": ", refusal.what(), " (or give --times)"});
   }
   if (const auto seconds = seconds_of_camera(file.path)) return *seconds;
   gonio::refuse(
       {file.path.string(),
-       ": has no exposure time: its name must end in one, as in frame_0.004s or frame_1_250s, EXIF data must say it "
-       "(of a TIFF file, or of a JPEG file beside it), or --times must name a table that has it (file,seconds)"});
+       ": has no exposure time: it needs one at the end of its name, as frame_0.004s or frame_1_250s, or in EXIF data "
+       "(of a TIFF file, or of a JPEG file beside it), or in a table given by --times (file,seconds)"});
 }
 
 gonio::stored_codes codes_of(const std::filesystem::path& file) {

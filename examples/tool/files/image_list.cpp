@@ -38,7 +38,7 @@ std::optional<std::array<double, Count>> radians_of(const json& image, const std
   if (std::ranges::none_of(keys, [&](const char* key) { return image.contains(key); })) return {};
   for (std::size_t i = 0; i < Count; ++i) {
     if (!image.contains(keys[i]) || !image[keys[i]].is_number() || !(std::abs(image[keys[i]].number()) <= 360.0))
-      gonio::refuse({name, ": '", keys[i], "' must be degrees in ", shown(image)});
+      gonio::refuse({name, ": '", keys[i], "' must be an angle in degrees in ", shown(image)});
     found[i] = gonio::radians(image[keys[i]].number());
   }
   return found;
@@ -62,7 +62,7 @@ gonio::direction_pair directions_of(const json& image, const std::string& name) 
 void read_outside(const json& text, const std::filesystem::path& path, image_list& list) {
   if (text.contains("mask")) {
     if (!text["mask"].is_string())
-      gonio::refuse({path.string(), ": 'mask' must be the name of a PNG, black where texels are not of the sample"});
+      gonio::refuse({path.string(), ": 'mask' must be the name of a PNG, black outside the sample"});
     list.mask = path.parent_path() / text["mask"].text();
   }
   if (!text.contains("invalid")) return;
@@ -78,12 +78,11 @@ image_list read_image_list(const std::filesystem::path& path) {
   const auto bytes = gonio::io::read_bytes(path);
   const json text = json::read(std::string(gonio::io::as_text(bytes)));
   if (!text.is_object() || !text.contains("images") || !text["images"].is_array() || text["images"].empty())
-    gonio::refuse({name, ": must be a JSON object whose 'images' is a list with an image at least"});
+    gonio::refuse({name, ": must be a JSON object whose 'images' is a list of at least one image"});
   require_known(text, {"quantity", "mask", "invalid", "images"}, name);
   image_list list;
   if (!text.contains("quantity") || !text["quantity"].is_string())
-    gonio::refuse(
-        {name, ": 'quantity' must say what the numbers are: brdf, brdf-cosine, reflectance-factor or percent"});
+    gonio::refuse({name, ": 'quantity' must be brdf, brdf-cosine, reflectance-factor or percent"});
   const auto quantity = gonio::io::quantity_named(text["quantity"].text());
   if (!quantity)
     gonio::refuse({name, ": 'quantity' is '", gonio::printable(text["quantity"].text()),
@@ -92,7 +91,7 @@ image_list read_image_list(const std::filesystem::path& path) {
   read_outside(text, path, list);
   for (const json& image : text["images"].elements()) {
     if (!image.is_object() || !image.contains("image") || !image["image"].is_string())
-      gonio::refuse({name, ": 'image' is missing or no text in ", shown(image)});
+      gonio::refuse({name, ": 'image' is missing or not a string in ", shown(image)});
     require_known(image, {"image", "theta_i", "phi_i", "theta_o", "phi_o", "theta_h", "theta_d", "phi_d"}, name);
     list.images.push_back({path.parent_path() / image["image"].text(), directions_of(image, name)});
   }

@@ -65,7 +65,7 @@ image_stack::image_stack(const image_list& list, const std::filesystem::path& fo
 }
 
 void image_stack::require_size(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
-  if (rows < 1 || columns < 1) gonio::refuse({name, ": has no texel"});
+  if (rows < 1 || columns < 1) gonio::refuse({name, ": has no texels"});
   if (rows != rows_ || columns != columns_)
     gonio::refuse({name, ": has ", columns, " x ", rows, " pixels, but ", sources_.front().name, " has ", columns_,
                    " x ", rows_});

@@ -38,7 +38,7 @@ void add_columns(const std::string& list, std::vector<gonio::io::column_name>& c
   for (const std::string_view entry : entries) {
     const std::size_t equals = entry.find('=');
     if (equals == std::string_view::npos || equals == 0 || equals + 1 == entry.size())
-      gonio::refuse({"--columns ", list, ": '", entry, "' is no pair of names, expected one like theta_o=Winkel"});
+      gonio::refuse({"--columns ", list, ": '", entry, "' is not a pair of names, expected one like theta_o=Winkel"});
     columns.push_back({std::string(entry.substr(0, equals)), std::string(entry.substr(equals + 1))});
   }
 }
@@ -74,7 +74,7 @@ gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::f
       if (rotation_of(samples.directions(i).pair()) == *options.rotation) chosen.push_back(i);
     if (chosen.empty())
       gonio::refuse({path.native(), ": no sample has the light at an azimuth of --rotation ",
-                     gonio::io::shortest(*options.rotation), ", but at ",
+                     gonio::io::shortest(*options.rotation), ", only at ",
                      rotations.empty() ? "too many to list" : listed(rotations)});
     return samples.subset(chosen);
   }
@@ -82,11 +82,11 @@ gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::f
   const gonio::model::equal_samples turned = gonio::model::compare_equal_samples(samples.in_three_channels()).turned;
   if (turned.pairs < fewest_pairs || turned.median < noticeable) return samples;
   const std::string sentence = path.native() + ": turned about the normal, " + std::to_string(turned.pairs) +
-                               " pairs of samples differ by " + fixed(100.0 * turned.median, 0) + " % in the median";
+                               " pairs of samples differ by " + fixed(100.0 * turned.median, 0) + " % (median)";
   if (turned.median > anisotropic)
     gonio::refuse(
-        {sentence, ": the sample is anisotropic; --rotation takes one of its rotations, ", listed(rotations)});
-  warn(sentence + ": the sample is taken for isotropic");
+        {sentence, ": the sample is anisotropic; choose one of its rotations with --rotation: ", listed(rotations)});
+  warn(sentence + ": the sample is treated as isotropic");
   return samples;
 }
 
@@ -115,36 +115,33 @@ gonio::io::sample_reading reading_of(const measurement_options& options) {
 void add_measurement_options(command& to, measurement_options& options) {
   const auto& names = gonio::io::sample_quantity_names;
   to.add_option("--quantity", options.quantity,
-                "What the numbers of a file of samples are: brdf (sr^-1), brdf-cosine (times the cosine of the "
-                "viewer's angle), reflectance-factor (1 is white) or percent (100 is white); needed for a column "
-                "value, or columns of wavelengths, whose .csv file does not say it; of other formats, what their "
-                "instrument wrote in the place of a BRDF")
+                "Quantity of the values: brdf (sr^-1), brdf-cosine (times the cosine of the viewer's angle), "
+                "reflectance-factor (1 is white) or percent (100 is white). Needed if a .csv file of values or "
+                "wavelengths does not state it (docs/reference/formats.md)")
       .check(check::one_of(std::vector<std::string>(names.begin(), names.end())));
-  to.add_option("--columns", options.columns, "What a .csv file of samples calls its columns: theta_o=Winkel,g=Y")
-      .repeatable();
+  to.add_option("--columns", options.columns, "Names of the columns of a .csv file: theta_o=Winkel,g=Y").repeatable();
   using gonio::io::theta_o_sign;
   to.add_choice(
       "--theta-o-sign", [&options](int sign) { options.sign = static_cast<theta_o_sign>(sign); },
       {{"light", static_cast<int>(theta_o_sign::light)}, {"mirror", static_cast<int>(theta_o_sign::mirror)}},
-      "Where theta_o is positive, azimuths being equal or none: on the light's side of the normal, or towards the "
-      "mirror direction. Without it the file's format says it, and a highlight on the light's side is warned of");
+      "Which side of the normal a positive theta_o lies on, if the file has no azimuths or equal ones: light or "
+      "mirror. Default: as the file's format defines it, with a warning if the highlight is on the light's side");
   to.add_option("--rotation", options.rotation,
-                "Degrees: take the samples whose light has this azimuth, one rotation of an anisotropic sample")
+                "Azimuth of the light in degrees: read only these samples, one rotation of an anisotropic sample")
       .check(check::range(0.0, 360.0));
   to.add_option("--side", options.side,
-                "Whose reflection is read of a Klems matrix or a tensor tree: front or back; the back by itself where "
-                "there is no front")
+                "Side to read from a Klems matrix or a tensor tree: front or back (default: front, or back if there is "
+                "no front)")
       .check(check::one_of(std::vector<std::string>{"front", "back"}));
   to.add_option("--band", options.band,
-                "The wavelengths that are read of a Klems matrix or a tensor tree, as the file calls them: Visible, "
-                "Solar");
+                "Wavelengths to read from a Klems matrix or a tensor tree, by their name in the file: Visible, Solar");
 }
 
 void add_aperture_options(command& to, aperture_option& given) {
   const auto add = [&to](const std::string& whose, double& half_angle) {
     to.add_option("--" + whose + "-half-angle", half_angle,
-                  "Degrees: half angle of the cone under which the sample sees the " + whose +
-                      ", over which each reading is a mean (0: a single direction)")
+                  "Half angle in degrees of the cone of the " + whose +
+                      ", seen from the sample; each reading averages over it (0: a single direction)")
         .check(check::range(0.0, gonio::degrees(gonio::largest_half_angle)));
   };
   add("source", given.source);
@@ -166,8 +163,7 @@ namespace {
 
 void require_no_block(const measurement_options& options, const std::filesystem::path& path, std::string_view kind) {
   if (!options.side.empty() || !options.band.empty())
-    gonio::refuse(
-        {path.native(), ": is ", kind, ", and --side and --band choose from Klems matrices and tensor trees"});
+    gonio::refuse({path.native(), ": --side and --band need a Klems matrix or a tensor tree, not ", kind});
 }
 
 gonio::sample_set read_kind(const measurement_kind& kind, const std::filesystem::path& path,
@@ -189,8 +185,7 @@ gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, 
   const elapsed_time waiting("reading " + path.string());
   gonio::io::sample_file file;
   if (const measurement_kind* kind = measurement_kind_of(path)) {
-    if (!options.columns.empty())
-      gonio::refuse({path.native(), ": is no .csv file, whose columns --columns could name, but ", kind->name});
+    if (!options.columns.empty()) gonio::refuse({path.native(), ": --columns needs a .csv file, not ", kind->name});
     file.samples = read_kind(*kind, path, options);
     if (!options.quantity.empty()) {
       file.quantity = gonio::io::quantity_named(options.quantity);
@@ -204,15 +199,14 @@ gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, 
   }
   if (options.light) {
     if (!file.samples.channels().are_wavelengths())
-      gonio::refuse({path.native(), ": names no wavelengths, of which --illuminant needs several"});
+      gonio::refuse({path.native(), ": --illuminant needs at least two wavelengths"});
     file.samples = file.samples.under(*options.light);
   }
   file.samples = of_one_rotation(file.samples, path, options);
   if (const gonio::aperture aperture = options.aperture.in_radians(); !aperture.is_point()) {
     if (file.samples.have_apertures())
       gonio::refuse({path.native(),
-                     ": says the half angles of its readings: leave out --source-half-angle and "
-                     "--receiver-half-angle"});
+                     ": contains the half angles of its readings: omit --source-half-angle and --receiver-half-angle"});
     file.samples = file.samples.through(aperture);
   }
   for (const std::string& sentence : doubts_of(file)) warn(path.native() + ": " + sentence);
@@ -223,7 +217,7 @@ gonio::sample_set as_colours(const std::filesystem::path& path, const gonio::sam
   if (!samples.channels().are_wavelengths()) return samples;
   if (const std::vector<double>& all = samples.channels().wavelengths(); !samples.channels().have_colour())
     gonio::refuse({path.native(), ": its wavelengths, ", std::lround(all.front()), " to ", std::lround(all.back()),
-                   " nm, are invisible and have no colour: gonio check and gonio reconstruct -o FILE.bsdf take them"});
+                   " nm, are invisible and have no colour: use gonio check or gonio reconstruct -o FILE.bsdf"});
   return samples.colours();
 }
 

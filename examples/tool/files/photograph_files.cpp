@@ -8,11 +8,11 @@ void add_photograph_options(command& to, photograph_files& files, const std::str
                             const std::string& described) {
   to.add_input(name, files.photographs, described).type_name("IMAGE SETUP").required();
   to.add_input("--white", files.white,
-               "A white image (" + radiance_formats() +
-                   ") for each photograph: a white reference under the same light, by the "
-                   "same camera, so that vignetting and the lamp's falloff cancel");
+               "White image (" + radiance_formats() +
+                   ") for each photograph, of a white reference with the same light and camera: cancels vignetting and "
+                   "the lamp's falloff");
   to.add_input("--calibration", files.calibration,
-               "Camera and lens distortion as OpenCV writes them (.yml or .xml), instead of those in the set-ups");
+               "Camera and lens distortion from OpenCV (.yml or .xml), instead of those in the set-ups");
 }
 
 std::optional<gonio::capture::white_reference> read_white(const photograph_files& files, std::size_t i,
@@ -22,9 +22,9 @@ std::optional<gonio::capture::white_reference> read_white(const photograph_files
   const std::string& setup_file = files.photographs[i].second;
   if (!reflectance) {
     if (files.white.empty()) return {};
-    gonio::refuse(setup_file + ": --white needs 'white_reflectance', the reflectance of what the white image shows");
+    gonio::refuse(setup_file + ": --white needs 'white_reflectance', the reflectance of the white reference");
   }
-  if (files.white.empty()) gonio::refuse(setup_file + ": 'white_reflectance' needs a white image: give --white");
+  if (files.white.empty()) gonio::refuse(setup_file + ": 'white_reflectance' needs --white");
   gonio::capture::white_reference white{read_radiance(files.white[i]), *reflectance, {}};
   if (plane) white.surface = gonio::capture::surface_of(*plane, camera);
   return white;

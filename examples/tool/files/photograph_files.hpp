@@ -43,7 +43,7 @@ struct taken_photograph {
     try {
       return act();
     } catch (const gonio::error& refusal) {
-      gonio::refuse({file, " (as ", setup_file, " says): ", refusal.what()});
+      gonio::refuse({file, " (set-up ", setup_file, "): ", refusal.what()});
     }
   }
 };
@@ -58,7 +58,7 @@ template <class ReadSetup>
 [[nodiscard]] auto read_photographs(const photograph_files& files, const ReadSetup& read_setup) {
   if (!files.white.empty() && files.white.size() != files.photographs.size())
     gonio::refuse(
-        {"--white needs an image for each photograph, ", files.photographs.size(), ", not ", files.white.size()});
+        {"--white needs an image for each photograph: ", files.photographs.size(), ", not ", files.white.size()});
   std::optional<gonio::io::camera_calibration> calibration;
   if (!files.calibration.empty()) calibration = gonio::io::read_camera_calibration(files.calibration);
   using setup_type = decltype(read_setup(std::string(), calibration));

@@ -16,8 +16,8 @@ std::string radiance_format(const std::filesystem::path& path) {
   const std::string start = file_start(path);
   if (start.empty() || start.starts_with("#?"))
     return ".hdr";  // the reader gives the reason if there is nothing to read
-  gonio::refuse({path.string(), ": is no image of linear light, ", radiance_formats(),
-                 " (gonio lab merge makes one of photographs)"});
+  gonio::refuse({path.string(), ": is not an image of linear radiance (", radiance_formats(),
+                 "); gonio lab merge makes one from photographs"});
 }
 
 gonio::image read_radiance(const std::filesystem::path& path) {
@@ -26,7 +26,7 @@ gonio::image read_radiance(const std::filesystem::path& path) {
   if (format == ".hdr") return gonio::io::read_hdr(path);
   gonio::image picture = gonio::io::read_npy<float, 3>(path);
   if (picture.shape(2) != 3)
-    gonio::refuse({path.string(), ": has ", picture.shape(2), " numbers for each pixel, expected 3"});
+    gonio::refuse({path.string(), ": has ", picture.shape(2), " values for each pixel, expected 3"});
   return picture;
 }
 

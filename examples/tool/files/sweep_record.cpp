@@ -48,7 +48,7 @@ sweep_record::sweep_record(const std::filesystem::path& output, std::uint32_t ch
     if (!writes_) return;
     text = whole_lines(path_);
     if (!text.empty() && !text.starts_with(head_))
-      gonio::refuse({path_.string(), ": was begun with other inputs or options: remove it, or name another -o"});
+      gonio::refuse({path_.string(), ": was begun with other inputs or options: remove it, or give another -o"});
     if (!text.empty()) text.erase(0, head_.size());
   });
   earlier_ = numbers_in(processes.text_of_writer(std::move(text)));

@@ -13,9 +13,8 @@ namespace cli {
 /// Adds `--albedo-tolerance X`.
 inline void add_albedo_tolerance_option(command& to, double& tolerance) {
   to.add_option("--albedo-tolerance", tolerance,
-                "Of a .bsdf file that is made of another kind of file: how much it may change the albedo, relative to "
-                "it. In RGB its tables take 7, 13 or 24 MB; measured wavelengths are left out where all values are "
-                "linear between the others within it, none if it is 0")
+                "For .bsdf: largest relative change of the albedo by conversion. RGB tables take 7, 13 or 24 MB. "
+                "Wavelengths that can be interpolated linearly within this tolerance are omitted (0: none)")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
 }

@@ -9,7 +9,7 @@ namespace cli {
 
 void add_reflectance_option(command& to, std::filesystem::path& given) {
   to.add_input("--reflectance", given,
-               "Of the white reference: a number, or a table of it by the angles of light and viewer (.csv, "
+               "Reflectance of the white reference: a number, or a table by the angles of light and viewer (.csv, "
                "docs/reference/formats.md)")
       .type_name("FLOAT|FILE")
       .default_str(given.string());
@@ -19,7 +19,7 @@ std::optional<double> number_of_reflectance(const std::filesystem::path& given) 
   double number = 0.0;
   if (gonio::io::read_number(given.native(), number) != nullptr) return {};
   if (!(number >= 0.01 && number <= 1.0))
-    gonio::refuse({"--reflectance ", given.native(), ": expected a number from 0.01 to 1, or a table's file"});
+    gonio::refuse({"--reflectance ", given.native(), ": expected a number from 0.01 to 1, or the file of a table"});
   return number;
 }
 
@@ -31,18 +31,18 @@ gonio::capture::reference_reflectance reflectance_of(const std::filesystem::path
 void add_calibration_options(command& to, calibration_options& options) {
   add_reflectance_option(to, options.reflectance);
   to.add_option("--gamma", options.gamma,
-                "The camera's response is known: counts are the exposure to the power of 1/gamma (1: linear)")
+                "Known camera response: counts are the exposure to the power of 1/gamma (1: linear)")
       .check(check::positive_number());
-  to.add_option("--saturation", options.saturation, "Share of the largest count from which a pixel is saturated")
+  to.add_option("--saturation", options.saturation, "Saturation level, as a share of the largest count")
       .check(check::range(0.1, 1.0))
       .capture_default_str();
-  to.add_option("--read-noise", options.noise.read, "Deviation of every count")
+  to.add_option("--read-noise", options.noise.read, "Read noise: standard deviation in counts")
       .check(check::non_negative_number())
       .capture_default_str();
-  to.add_option("--shot-noise", options.noise.shot, "Variance in counts for each count")
+  to.add_option("--shot-noise", options.noise.shot, "Shot noise: variance in counts per count")
       .check(check::non_negative_number())
       .capture_default_str();
-  to.add_option("--flicker", options.noise.relative, "Relative deviation of each exposure")
+  to.add_option("--flicker", options.noise.relative, "Relative standard deviation of each exposure")
       .check(check::non_negative_number())
       .capture_default_str();
 }

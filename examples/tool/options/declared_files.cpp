@@ -71,7 +71,7 @@ void declared_files::require_writable() const {
     require_not_read(all[i]);
     for (std::size_t j = 0; j < i; ++j)
       if (is_same_file(all[i].path, all[j].path))
-        gonio::refuse({all[i].option, " ", all[i].path.native(), ": is what ", all[j].option, " writes, too"});
+        gonio::refuse({all[i].option, " ", all[i].path.native(), ": is also written by ", all[j].option});
   }
 }
 
@@ -102,8 +102,8 @@ void declared_files::require_not_read(const output& written) const {
                                                 is_same_file(resolved(written.path).parent_path(), path)
                                           : is_same_file(written.path, path);
       if (is_read)
-        gonio::refuse({written.option, " ", written.path.native(), ": would overwrite what is read as ", each.option,
-                       ", expected another name"});
+        gonio::refuse({written.option, " ", written.path.native(), ": would overwrite the input ", each.option,
+                       ": give another name"});
     }
 }
 

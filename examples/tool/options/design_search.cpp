@@ -81,7 +81,7 @@ class shared_sweeps {
   [[nodiscard]] Eigen::Index best_beside(std::span<const Eigen::Index> candidates) const {
     const auto sweep = [&] { return best_of_sweep(candidates); };
     const Eigen::Index best = how_.record ? how_.record->next(sweep) : sweep();
-    if (best >= geometry().size()) gonio::refuse("the record of the sweeps names a candidate that there is not");
+    if (best >= geometry().size()) gonio::refuse("the record of the sweeps names a candidate that does not exist");
     return best;
   }
 
@@ -115,7 +115,7 @@ capture_plan sweep(const Objective& whole, const design_options& options, const 
 template <class Objective>
 capture_plan slide(const Objective& objective, const design_options& options, const gonio::progress& listener) {
   if (!options.start.empty())
-    gonio::refuse("--start needs --criterion expected-error or perceived, and an exhaustive search");
+    gonio::refuse("--start needs --criterion expected-error or perceived, and --search greedy or exchange");
   return gonio::design::grow_and_descend(objective.geometry(), objective, options.count, random_candidates,
                                          options.seed, listener);
 }
@@ -233,10 +233,9 @@ void require_criterion(const design_options& options) {
   const bool is_reconstruction = options.geometry == "point" && options.criterion == "perceived";
   if ((!expects_errors || is_reconstruction) && (options.common_shift != 0.0 || options.in_sample))
     gonio::refuse("--common-shift and --in-sample need --criterion expected-error" +
-                  std::string(is_reconstruction ? ": perceived expects the error of gonio reconstruct"
-                                                : " or perceived, not " + options.criterion));
+                  std::string(is_reconstruction ? ", not perceived" : " or perceived, not " + options.criterion));
   if (is_reconstruction && options.eta != gonio::default_eta)
-    gonio::refuse("--eta needs --criterion expected-error: perceived expects the error of gonio reconstruct");
+    gonio::refuse("--eta needs --criterion expected-error, not perceived");
 }
 
 }  // namespace

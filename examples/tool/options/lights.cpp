@@ -33,8 +33,8 @@ gonio::direction light_of(const std::string& text) {
 option add_light_option(command& to, std::vector<std::string>& lights) {
   return to
       .add_option("--light", lights,
-                  "Instead of the two lights: degrees to the right of the camera and above it, as 45,35. May be given "
-                  "several times")
+                  "Direction of a light instead of the two default lights: degrees to the right of the camera and "
+                  "above it, as 45,35. May be given several times")
       .repeatable();
 }
 

@@ -18,12 +18,13 @@ struct machine_choice {
 
 /// Adds `--machine` and `--lamp-tolerance`.
 inline void add_machine_options(command& to, machine_choice& machine) {
-  to.add_option("--machine", machine.name,
-                "gantry: two arms, for lamp and camera; robot: a camera under an arc of lamps every 7.5 degrees")
+  to.add_option(
+        "--machine", machine.name,
+        "Machine: gantry, two arms for lamp and camera; or robot, a camera under an arc of lamps every 7.5 degrees")
       .check(check::one_of({"gantry", "robot"}))
       .capture_default_str();
   to.add_option("--lamp-tolerance", machine.tolerance,
-                "Degrees from a direction within which robot takes its nearest lamp instead")
+                "With --machine robot: largest angle between a direction and the lamp used for it, in degrees")
       .check(check::range(0.0, 90.0))
       .capture_default_str();
 }

@@ -79,7 +79,7 @@ std::vector<double> wavelengths_in(const std::string& text) {
 gonio::io::rgl_material read_spectral_material(const std::filesystem::path& path) {
   gonio::io::rgl_material material = gonio::io::read_rgl(path);
   if (!material.spectra)
-    gonio::refuse({path.native(), ": is in RGB, but --spectra needs spectra (gonio convert --spectra makes some)"});
+    gonio::refuse({path.native(), ": is in RGB, but --spectra needs spectra (gonio convert --spectra writes them)"});
   return material;
 }
 
@@ -89,8 +89,8 @@ std::vector<float> spectra_over(const gonio::valid_cells& cells, const std::file
   gonio::io::rgl_material material = read_spectral_material(path);
   if (material.spectra->wavelengths != wavelengths) {
     if (!resampled)
-      gonio::refuse(
-          {path.native(), ": is at other wavelengths than the first material: --wavelengths FIRST:STEP:LAST"});
+      gonio::refuse({path.native(),
+                     ": its wavelengths differ from those of the first material: give --wavelengths FIRST:STEP:LAST"});
     try {
       material.spectra = gonio::io::at_wavelengths(*material.spectra, wavelengths);
     } catch (const gonio::error& refusal) {
@@ -114,13 +114,13 @@ std::vector<named_table> spectra_of(const material_source& source, const std::ve
   return all;
 }
 
-[[noreturn]] void refuse_all_excluded() { gonio::refuse("--exclude leaves no material of the sources"); }
+[[noreturn]] void refuse_all_excluded() { gonio::refuse("--exclude leaves no material"); }
 
 /// Returns the requested wavelengths, or those of the first material; none for colours.
 std::vector<double> wavelengths_of(const material_source& source) {
   if (!source.as_spectra) return {};
   if (!source.networks.empty() || !source.tables.empty())
-    gonio::refuse("--spectra needs materials that are spectra: --rgl, without --networks and --merl");
+    gonio::refuse("--spectra needs --rgl, without --networks and --merl");
   if (!source.wavelengths.empty()) return wavelengths_in(source.wavelengths);
   for (const std::filesystem::path& folder : source.rgl)
     for (const auto& [name, path] : gonio::io::list_rgl_directory(folder))
@@ -208,7 +208,7 @@ gonio::log_relative_pca prior_of(const material_source& source) {
 }
 
 option_group add_material_options(command& to, material_source& source) {
-  option_group group = to.add_option_group("source", "Where the materials come from (any of them, together)");
+  option_group group = to.add_option_group("source", "Sources of the materials (one or more)");
   group.add_input("--networks", source.networks, "Files of networks (.npy, names in merl_names.txt beside each)");
   group.add_input_folders("--merl", source.tables, {".binary", ".gz"},
                           "Folders of MERL tables (.binary or .binary.gz)");

@@ -29,7 +29,7 @@ const gonio::model::lobe_kind& with_fresnel_factor(const gonio::model::lobe_kind
   for (const gonio::model::lobe_kind* other : gonio::model::lobe_kinds())
     if (other->name() == name) return *other;
   gonio::refuse(std::string(kind.name()) +
-                " takes no --fresnel: expected phong, blinn-phong or phong-blinn (microfacet models have the factor)");
+                ": --fresnel needs phong, blinn-phong or phong-blinn (microfacet models contain the factor)");
 }
 
 void add_fit_options(command& to, gonio::model::model_fit_options& options) {
@@ -38,16 +38,16 @@ void add_fit_options(command& to, gonio::model::model_fit_options& options) {
         {{"l1", static_cast<int>(gonio::model::fit_norm::l1)},
          {"l2", static_cast<int>(gonio::model::fit_norm::l2)},
          {"huber", static_cast<int>(gonio::model::fit_norm::huber)}},
-        "How residuals add up: l1 (the base of highlights), l2 (their tops), huber (both)")
+        "Loss of the residuals: l1 (favours the base of highlights), l2 (their peaks), huber (both)")
       .default_str(options.norm == gonio::model::fit_norm::huber ? "huber" : "l2");
   to.add_flag("--cosine-weighted", options.cosine_weighted,
-              "Compare reflectance times the cosine of the light (the default)");
+              "Compare reflectance times the cosine of the light's angle (the default)");
   to.add_option("--largest-albedo", options.largest_albedo,
-                "What the model may reflect at most of light that falls in at up to 88 degrees: 1 is all of it, a "
-                "large number bounds nothing")
+                "Largest albedo of the model, for light up to 88 degrees from the normal: 1 is all light; a large "
+                "number sets no limit")
       .check(check::positive_number())
       .capture_default_str();
-  to.add_option("--starts", options.random_starts, "Random starts beside the consecutive scheme")
+  to.add_option("--starts", options.random_starts, "Number of random starts, in addition to the consecutive scheme")
       .check(check::range(0, 10'000))
       .capture_default_str();
   to.add_option("--seed", options.seed, "Seed of the random starts").capture_default_str();
@@ -59,7 +59,7 @@ void add_cell_weights_option(command& to, gonio::model::cell_weighting& weightin
         {{"equal", static_cast<int>(gonio::model::cell_weighting::equal)},
          {"solid-angle", static_cast<int>(gonio::model::cell_weighting::solid_angle)},
          {"cosine", static_cast<int>(gonio::model::cell_weighting::cosine)}},
-        "What a table's cells count: all the same, by their solid angle, or by that times both cosines")
+        "Weight of a table's cells: equal, their solid angle, or solid angle times both cosines")
       .default_str("equal");
 }
 

@@ -32,8 +32,8 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
   std::ostringstream value;
   value << largest;
   const std::string file = options.samples.empty() ? "" : options.samples.native() + ": ";
-  gonio::refuse({file, "these samples, of up to ", value.str(),
-                 " sr^-1, complete to a table that is not finite by the method ", options.method});
+  gonio::refuse({file, "these samples, up to ", value.str(),
+                 " sr^-1, lead to a table that is not finite with --method ", options.method});
 }
 
 /// Refuses samples that are all zero or negative: nothing can be inferred from them.
@@ -47,8 +47,7 @@ void require_light(const gonio::sample_set& samples, const reconstruct_options& 
   if (largest > 0.0 || !(least < 0.0)) return;
   const std::string file = options.samples.empty() ? "" : options.samples.native() + ": ";
   gonio::refuse({file, "none of ", samples.size(),
-                 " samples reflects light, and some are negative: was too much "
-                 "subtracted as the dark signal?"});
+                 " samples reflects light, and some are negative: was the subtracted dark signal too large?"});
 }
 
 /// Adds the warnings that every method gives; refuses a fit that is not finite.
@@ -59,8 +58,7 @@ reconstruction with_warnings(reconstruction result, const reconstruct_options& o
       !sentence.empty())
     result.warnings.push_back(std::move(sentence));
   if (samples.have_apertures() && !result.details.contains("discrepancy"))
-    result.warnings.emplace_back(
-        "readings are taken for those of single directions: --method pca and its discrepancy alone use half angles");
+    result.warnings.emplace_back("half angles are ignored: they need --method pca with a discrepancy");
   require_finite(result.table, samples, options);
   return result;
 }
@@ -83,7 +81,7 @@ void require_taken(const reconstruct_options& options, const std::function<bool(
 const std::vector<reconstruct_method>& reconstruct_methods() {
   static const std::vector<reconstruct_method> all{
       {"pca",
-       "principal components (Nielsen et al. 2015)",
+       "principal components",
        reconstruct_by_components,
        {"--prior",
         "--networks",
@@ -106,33 +104,20 @@ const std::vector<reconstruct_method>& reconstruct_methods() {
         "--report",
         "--source-half-angle",
         "--receiver-half-angle"}},  // refuses some of them itself, with the reason
-      {"soft-specular",
-       "the components of soft or those of specular materials, whichever the contrast of the samples' highlight "
-       "chooses, from a prior of gonio learn --split, with a penalty --eta of 40 shared out by their numbers (Nielsen "
-       "et al. 2015, section 8)",
-       reconstruct_by_soft_or_specular,
-       {"--prior", "--eta"}},
+      {"soft-specular", "pca of a split prior", reconstruct_by_soft_or_specular, {"--prior", "--eta"}},
       {"linear",
-       "a combination of the materials themselves (Noell et al. 2014)",
+       "combination of materials",
        reconstruct_by_materials,
        {"--prior", "--networks", "--merl", "--rgl", "--exclude", "--metric", "--root", "--solver", "--eta", "--lambda",
         "--variance"}},
       {"correction",
-       "such a combination, corrected again and again (Noell et al. 2014), from 2000 samples on, or if an option of "
-       "its "
-       "own is given; else what pca does",
+       "linear, corrected",
        reconstruct_by_corrections,
        {"--prior", "--networks", "--merl", "--rgl", "--exclude", "--metric", "--root", "--gamma", "--as-printed",
         "--iterations", "--history", "--iteration-figure", "--truth", "--seed"}},
-      {"rbf",
-       "radial basis functions (a rival of Noell et al. 2014)",
-       reconstruct_by_radial_functions,
-       {"--prior", "--metric", "--root", "--seed"}},
-      {"pull-push", "interpolation (Gortler et al. 1996, the other rival)", reconstruct_by_pull_push, {}},
-      {"scattered",
-       "a mean of the nearest samples (Shepard 1968), from which nothing else is known: no prior",
-       reconstruct_by_neighbours,
-       {"--neighbours"}}};
+      {"rbf", "radial functions", reconstruct_by_radial_functions, {"--prior", "--metric", "--root", "--seed"}},
+      {"pull-push", "interpolation", reconstruct_by_pull_push, {}},
+      {"scattered", "nearest samples (docs/reference/estimators.md)", reconstruct_by_neighbours, {"--neighbours"}}};
   return all;
 }
 
@@ -157,7 +142,8 @@ void take_given(reconstruct_options& options, const std::function<bool(const std
 
 reconstruction reconstruct(const reconstruct_options& options, const gonio::sample_set& samples) {
   if (options.fits_spectra && !takes_spectra(options.method))
-    gonio::refuse("--spectra needs another --method: " + options.method + " weighs samples by their colours");
+    gonio::refuse("--spectra is not available with --method " + options.method +
+                  ": it weights samples by their colours");
   require_light(samples, options);
   return with_warnings(method_named(options.method).reconstruct(options, samples), options,
                        samples.in_three_channels());

@@ -35,7 +35,7 @@ std::optional<double> gamma_of(const reconstruct_options& options) {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (failed) gonio::refuse(folder.string() + ": cannot make the folder: " + failed.message());
+  if (failed) gonio::refuse(folder.string() + ": cannot create the folder: " + failed.message());
 }
 
 template <class Run>
@@ -48,7 +48,7 @@ void describe(const Run& run, bool converged, bool automatic, reconstruction& re
                     {"error", last.error},
                     {"change", last.change},
                     {"down_weighted", last.down_weighted}};
-  result.sentence = counted(rounds, "round") + ", relative error before the last " + fixed(last.error, 3) + ", " +
+  result.sentence = counted(rounds, "round") + ", relative error before the last round " + fixed(last.error, 3) + ", " +
                     fixed(100.0 * last.down_weighted, 1) + " % down-weighted";
   if (!automatic) return;
   // Few samples limit the fraction of outliers that can be claimed.
@@ -125,7 +125,7 @@ reconstruction reconstruct_by_corrections(const reconstruct_options& options, co
   if (counting < fewest_corrected_samples && !options.has_own_options) {
     reconstruction result = reconstruct_with_discrepancy(options, prior_of(options.materials), samples);
     result.warnings.push_back("--method correction needs at least " + std::to_string(fewest_corrected_samples) +
-                              " samples, not " + std::to_string(counting) + ": --method pca was taken");
+                              " samples, not " + std::to_string(counting) + ": used --method pca instead");
     return result;
   }
   std::optional<gonio::brdf_table> truth;

@@ -104,11 +104,11 @@ void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, re
   if (unnamed > 0)
     result.warnings.push_back(std::to_string(unnamed) +
                               (unnamed == 1 ? " more sample disagrees" : " more samples disagree") + ", left out" +
-                              (samples <= most_residuals ? ": --residuals has what all others say of each" : ""));
+                              (samples <= most_residuals ? ": --residuals lists the predictions of the others" : ""));
   const auto rejected = std::ssize(paint.rejected());
   if (rejected >= 2 && 10 * rejected > samples)
     result.warnings.push_back(std::to_string(rejected) + " of " + std::to_string(samples) +
-                              " samples disagree with the others: if they have something in common, that is the "
+                              " samples disagree with the others: if they have something in common, it may be the "
                               "material, not an error (--no-reject keeps them)");
   result.details["left_out"] = contradicted;
   result.details["outliers"] = paint.outlier_share();
@@ -172,7 +172,7 @@ reconstruction reconstruct_misplaced(const reconstruct_options& options, const g
   const std::string& stated = options.solver.eta;
   const elapsed_time waiting("reconstructing");
   if ((!options.solver.name.empty() && options.solver.name != "tikhonov") || stated == "gcv" || stated == "loo")
-    gonio::refuse("--misplaced needs --solver tikhonov, and --noise or a number as its --eta");
+    gonio::refuse("--misplaced needs --solver tikhonov, and --noise or a number for --eta");
   // A reconstruction that knows the angular error gives the uncertainty and the disagreeing samples.
   const double angle = gonio::radians(options.angular_error);
   const std::vector<Eigen::Index> counting = gonio::counting_positions(samples);

@@ -44,7 +44,7 @@ reconstruction described(const Fit& fitted, const gonio::sample_set& samples, co
   const Eigen::ArrayXd used = (fitted.weights().array() != 0.0).template cast<double>().colwise().sum();
   result.details["non_zero_weights"] = listed(used);
   result.details["iterations"] = fitted.report()->iterations;
-  result.sentence += ", weights that are not zero " + in_words(used, 0);
+  result.sentence += ", nonzero weights " + in_words(used, 0);
   return result;
 }
 
@@ -57,16 +57,15 @@ reconstruction fit(const Basis& basis, const Solver& solver, const gonio::sample
 component_choice choose_components(const reconstruct_options& options) {
   const bool penalised = options.solver.name.empty() || options.solver.name == "tikhonov";
   if (options.noise && !options.solver.eta.empty())
-    gonio::refuse("--noise and --eta both set the penalty: give one of them");
-  if (options.noise && !penalised)
-    gonio::refuse("--noise sets the penalty of --solver tikhonov, not of --solver " + options.solver.name);
+    gonio::refuse("--noise and --eta exclude each other: give one of them");
+  if (options.noise && !penalised) gonio::refuse("--noise needs --solver tikhonov, not " + options.solver.name);
   const auto solver = make_solver(options.solver, {"tikhonov", "gcv"});
   if (solver.non_negative())
     gonio::refuse("--solver " + options.solver.name +
-                  " finds weights of at least 0, but the signs of principal components are arbitrary: "
-                  "give --solver tikhonov, lasso, tsvd or ls, or --method linear");
+                  " finds weights of at least 0, but principal components have arbitrary signs: give --solver "
+                  "tikhonov, lasso, tsvd or ls, or --method linear");
   if (!options.metric.empty() && options.metric != "log-relative")
-    gonio::refuse("--prior was learned under the log-relative metric: --metric " + options.metric +
+    gonio::refuse("--prior was learned with the log-relative metric: --metric " + options.metric +
                   " needs --method linear");
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
     gonio::refuse("--networks, --merl, --rgl and --exclude need --method linear: the components of --prior are fixed");
@@ -76,10 +75,10 @@ component_choice choose_components(const reconstruct_options& options) {
   if (chosen.has_discrepancy || options.angular_error != 0.0) return chosen;
   if (options.keeps_all || !options.residuals.empty() || options.wants_uncertainty())
     gonio::refuse(
-        "--no-reject, --residuals, --report, --uncertainty and --uncertainty-image need a discrepancy: they go with "
-        "none of --discrepancy 0, --eta and other solvers than tikhonov");
+        "--no-reject, --residuals, --report, --uncertainty and --uncertainty-image need a discrepancy: they are not "
+        "available with --discrepancy 0, --eta, or a solver other than tikhonov");
   if (options.discrepancy != 0.0 && options.discrepancy != reconstruct_options{}.discrepancy)
-    gonio::refuse("--discrepancy goes with none of --eta and other solvers than tikhonov");
+    gonio::refuse("--discrepancy is not available with --eta, or a solver other than tikhonov");
   return chosen;
 }
 
@@ -107,14 +106,14 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
 reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options, const gonio::sample_set& samples) {
   const std::filesystem::path& file = options.materials.prior;
   if (options.materials.held_prior)
-    gonio::refuse("--method soft-specular needs the file of a --prior that gonio learn --split wrote");
+    gonio::refuse("--method soft-specular needs --prior as a file, written by gonio learn --split");
   if (is_shipped(file) || gonio::io::is_prior(file))
-    gonio::refuse({"--method soft-specular needs a --prior that gonio learn --split wrote; ", file.native(),
-                   " has one of all materials"});
+    gonio::refuse({"--method soft-specular needs a --prior written by gonio learn --split; ", file.native(),
+                   " holds one prior of all materials"});
   const gonio::soft_specular_prior prior = gonio::io::read_soft_specular_prior(file);
   const std::string& stated = options.solver.eta;
   if (stated == "gcv" || stated == "loo")
-    gonio::refuse("--method soft-specular needs a number as its --eta, not " + stated);
+    gonio::refuse("--method soft-specular needs a number for --eta, not " + stated);
   const auto penalties = gonio::penalties_in_proportion(prior, stated.empty() ? published_eta : number_of_eta(stated));
   // The contrast of the highlight in RGB chooses.
   const auto chosen =
@@ -126,8 +125,8 @@ reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& option
   result.details["contrast"] = chosen.contrast();
   result.details["threshold"] = prior.threshold();
   result.details["eta"] = eta;
-  result.sentence = std::string("taken for ") + (is_soft ? "soft" : "specular") + ": a highlight contrast of " +
-                    fixed(chosen.contrast(), 2) + ", where " + fixed(prior.threshold(), 2) + " divides; " +
+  result.sentence = std::string("classified as ") + (is_soft ? "soft" : "specular") + ": highlight contrast " +
+                    fixed(chosen.contrast(), 2) + " (threshold " + fixed(prior.threshold(), 2) + "); " +
                     result.sentence;
   return result;
 }
@@ -170,8 +169,8 @@ reconstruction reconstruct_by_neighbours(const reconstruct_options& options, con
   });
   result.details["neighbours"] = options.neighbours;
   const Eigen::Index count = std::min(options.neighbours, std::ssize(samples));
-  result.sentence +=
-      count == 1 ? "the nearest counts" : "the nearest " + std::to_string(count) + " count in each direction";
+  result.sentence += count == 1 ? "nearest sample in each direction"
+                                : "mean of the nearest " + std::to_string(count) + " samples in each direction";
   return result;
 }
 

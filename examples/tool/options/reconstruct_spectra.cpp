@@ -16,8 +16,7 @@ reconstruction described_spectra(gonio::spectral_table spectra, const reconstruc
   const gonio::channels kinds(spectra.wavelengths(), options.reading.light.value_or(gonio::illuminant::d65));
   if (!kinds.have_colour() && !options.holds_spectra_alone())
     gonio::refuse(
-        "none of the wavelengths is visible, so that there is no colour to write or to draw: give -o FILE.bsdf "
-        "alone, which holds the wavelengths");
+        "none of the wavelengths is visible, so there are no colours: only -o FILE.bsdf is available, without images");
   reconstruction result{kinds.have_colour() ? spectra.colours(kinds.light(), options.threads)
                                             : gonio::brdf_table(gonio::valid_cells(gonio::grid({1, 1, 1})))};
   const std::vector<double>& wavelengths = kinds.wavelengths();

@@ -67,7 +67,7 @@ std::vector<gonio::direction_pair> read_direction_pairs(const std::filesystem::p
 
 void add_prior_option(command& to, std::filesystem::path& prior) {
   prior = shipped_file("materials.prior");
-  to.add_input("--prior", prior, "The learned prior (default: the one shipped with gonio)");
+  to.add_input("--prior", prior, "Learned prior (default: the one shipped with gonio)");
 }
 
 const std::vector<std::string_view>& shipped_apparatus_names() {

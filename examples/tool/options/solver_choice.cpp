@@ -39,18 +39,18 @@ double number_of_eta(const std::string& text) {
 
 void add_solver_options(command& to, solver_choice& choice) {
   to.add_option("--solver", choice.name,
-                "nnls: weights >= 0; qp: the same as a quadratic program; tikhonov: penalty on their squares; lasso: "
-                "on their magnitudes; tsvd: truncated singular values; ls: least squares (default: tikhonov for pca, "
-                "nnls for linear)")
+                "nnls: weights >= 0; qp: nnls as a quadratic program; tikhonov: penalty on squared weights; lasso: "
+                "penalty on their magnitudes; tsvd: truncated singular values; ls: least squares (default: tikhonov "
+                "for pca, nnls for linear)")
       .check(check::one_of({"nnls", "qp", "tikhonov", "lasso", "tsvd", "ls"}));
-  to.add_option(
-      "--eta", choice.eta,
-      "Penalty of tikhonov: the larger, the nearer to the mean material; or gcv (generalised "
-      "cross-validation) or loo (leave one out) to choose it (default: gcv, for pca among what the prior finds "
-      "plausible for noise of up to 30 %)");
-  to.add_option("--lambda", choice.lambda, "Penalty of lasso, as a share of the one at which all weights vanish")
+  to.add_option("--eta", choice.eta,
+                "Penalty of tikhonov, larger for results nearer to the mean material; gcv (generalised "
+                "cross-validation) or loo (leave one out). Default: gcv; for pca, limited to plausible values for "
+                "noise of up to 30 %; 40 for soft-specular");
+  to.add_option("--lambda", choice.lambda,
+                "Penalty of lasso, as a share of the smallest one at which all weights are 0")
       .capture_default_str();
-  to.add_option("--variance", choice.variance, "Share of the variance that tsvd keeps").capture_default_str();
+  to.add_option("--variance", choice.variance, "Share of the variance to keep, for tsvd").capture_default_str();
 }
 
 gonio::any_solver make_solver(solver_choice choice, const solver_choice& own) {

@@ -26,7 +26,7 @@ inline std::pair<option, option> add_image_options_to(command& to, image_options
                   .check(check::range(8, 4096))
                   .capture_default_str();
   auto exposure = to.add_option("--exposure", options.exposure,
-                                "The mean luminance that a white Lambertian sphere would have, white being 1")
+                                "Mean luminance of a white Lambertian sphere in the image; 1 is white")
                       .check(check::positive_number())
                       .default_str(default_exposure);
   return {size, exposure};
@@ -34,10 +34,8 @@ inline std::pair<option, option> add_image_options_to(command& to, image_options
 
 /// The same for an option that names the image.
 inline void add_image_options(command& to, image_options& options, option image) {
-  auto [size, exposure] =
-      add_image_options_to(to, options,
-                           "such that the sphere is white at its 99th percentile; that of the measurement, "
-                           "if there is one");
+  auto [size, exposure] = add_image_options_to(
+      to, options, "white at the 99th percentile of the sphere, or of the measurement if there is one");
   size.needs(image);
   exposure.needs(image);
 }

@@ -58,12 +58,12 @@ std::string warning_of(const std::string& method, Eigen::Index samples) {
   for (const record& each : records)
     if (each.method == method && each.samples <= samples) nearest = &each;
   if (nearest == nullptr || (nearest->beyond_twice_pca == 0 && nearest->beyond_median_material == 0)) return "";
-  std::string text = "--method " + method + " from " + counted(samples, "sample");
+  std::string text = "--method " + method + " with " + counted(samples, "sample");
   if (nearest->beyond_twice_pca > 0)
-    text += " is usually " + fixed(nearest->over_pca, 1) + " times as far off as --method pca, more than twice for " +
+    text += " usually has " + fixed(nearest->over_pca, 1) + " times the error of --method pca, more than twice for " +
             std::to_string(nearest->beyond_twice_pca) + " of 20 measured materials";
   else
-    text += " is further off than the median material for " + std::to_string(nearest->beyond_median_material) +
+    text += " has a larger error than the median material for " + std::to_string(nearest->beyond_median_material) +
             " of 20 measured materials";
   return text + " (docs/results/real-methods.md)";
 }

@@ -92,7 +92,7 @@ json read_as(const gonio::io::sample_file& file) {
   if (!file.text.dialect.empty()) sentence += "; " + file.text.dialect;
   if (file.text.rows_left_out > 0)
     sentence +=
-        "; " + counted(static_cast<std::ptrdiff_t>(file.text.rows_left_out), "row") + " without a reading left out";
+        "; " + counted(static_cast<std::ptrdiff_t>(file.text.rows_left_out), "row") + " without a reading omitted";
 
   std::string options = "--quantity " + std::string(name_of(quantity));
   std::vector<std::string> unsure = doubts_of(file);

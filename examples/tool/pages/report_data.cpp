@@ -310,7 +310,7 @@ json record_of_fit(const reported_fit& fit) {
        {"Prior", options.materials.prior.string() + ": " + std::to_string(prior.size()) + " components of " +
                      std::to_string(prior.names().size()) + " materials"},
        {"Method", "principal components and a discrepancy of variance " + fixed(options.discrepancy, 3) +
-                      ", which takes the place of a penalty eta"},
+                      ", instead of a penalty eta"},
        {"Noise", options.noise ? fixed(100.0 * *options.noise, 2) + " % (stated)" : "not stated"},
        {"Residual", found.sentence}});
 }

@@ -64,7 +64,7 @@ std::vector<std::string> suspicions_of(const gonio::sample_set& samples, Eigen::
   };
   if (const auto grazing = std::ranges::count_if(samples, grazes); grazing > 0)
     sentences.push_back(counted(grazing, "sample") + (grazing == 1 ? " is" : " are") +
-                        " beyond 85 degrees, where instruments seldom reach: is anything measured there?");
+                        " more than 85 degrees from the normal, which few instruments reach: check the values");
   return sentences;
 }
 

@@ -71,7 +71,7 @@ std::string darkness(const gonio::sample_set& samples) {
   const auto negative = std::ranges::count_if(samples, [](const gonio::sample& s) { return s.value.maxCoeff() < 0.0; });
   if (2 * negative <= std::ssize(samples)) return {};
   return std::to_string(negative) + " of " + std::to_string(samples.size()) +
-         " samples are negative: was too much subtracted as the dark signal?";
+         " samples are negative: was the subtracted dark signal too large?";
 }
 
 bool all_equal(const gonio::sample_set& samples) {
@@ -163,21 +163,21 @@ std::vector<std::string> doubts_of(const gonio::io::sample_file& file) {
   std::vector<std::string> sentences;
   if (looks_like_radians(samples))
     sentences.emplace_back(
-        "light and viewer of all samples are within 3.2 degrees of the normal: are the angles radians? They are read "
-        "as degrees; columns like 'theta_i [rad]' are not");
+        "light and viewer of all samples are within 3.2 degrees of the normal: are the angles in radians? They are "
+        "read as degrees, except in columns like 'theta_i [rad]'");
   const auto read_as = file.quantity.value_or(gonio::io::sample_quantity::brdf);
   const std::vector<dull_reading> readings = dull_readings(samples);
   const double reflectance_factor = typical_reflectance_factor(readings);
   if (const std::string likely = likely_quantity(reflectance_factor, read_as); !likely.empty())
-    sentences.push_back("away from highlights half of the samples reflect more than " + fixed(reflectance_factor, 1) +
-                        " times what a white diffuser does: are the values " + likely + "?");
+    sentences.push_back("away from highlights, half of the samples reflect more than " + fixed(reflectance_factor, 1) +
+                        " times as much as a white diffuser: are the values " + likely + "?");
   if (read_as != gonio::io::sample_quantity::brdf_cosine && fall_like_cosine(readings))
     sentences.emplace_back(
-        "away from highlights the values fall like the cosine of the viewer's angle: do they contain it (--quantity "
-        "brdf-cosine)?");
+        "away from highlights, the values fall like the cosine of the viewer's angle: do they contain this cosine "
+        "(--quantity brdf-cosine)?");
   if (const double ratio = file.sign ? 0.0 : gonio::brightness_towards_light(samples);
       ratio > gonio::implausible_brightness_towards_light)
-    sentences.push_back("where light and viewer meet, it is " + fixed(ratio, 1) +
+    sentences.push_back("where light and viewer have the same direction, the sample is " + fixed(ratio, 1) +
                         " times as bright as in the mirror direction: does the material reflect light back "
                         "(--theta-o-sign light), or is theta_o or its azimuth counted from the mirror direction "
                         "(--theta-o-sign mirror)?");
@@ -187,8 +187,8 @@ std::vector<std::string> doubts_of(const gonio::io::sample_file& file) {
 std::vector<std::string> warnings_of(const gonio::sample_set& samples, double noise) {
   std::vector<std::string> sentences;
   if (noise > 0.5)
-    sentences.push_back("noise of " + fixed(100.0 * noise, 0) + " % leaves little of the values: is it " +
-                        fixed(noise, 2) + " %, that is --noise " + fixed(noise / 100.0, 4) + "?");
+    sentences.push_back("noise of " + fixed(100.0 * noise, 0) + " % is very large: do you mean " + fixed(noise, 2) +
+                        " %, --noise " + fixed(noise / 100.0, 4) + "?");
   if (std::string sentence = contradiction(samples, noise); !sentence.empty()) sentences.push_back(std::move(sentence));
   for (std::string sentence : {saturation(samples), darkness(samples)})
     if (!sentence.empty()) sentences.push_back(std::move(sentence));
@@ -196,8 +196,8 @@ std::vector<std::string> warnings_of(const gonio::sample_set& samples, double no
   if (all_equal(samples)) sentences.emplace_back("all samples have the same value");
   if (all_in_plane(samples))
     sentences.emplace_back(
-        "all samples are in the plane of incidence: what is outside it follows from other materials alone "
-        "(gonio design --given says which directions help most)");
+        "all samples are in the plane of incidence: directions outside it are predicted from other materials alone "
+        "(gonio design --given finds the directions that help most)");
   return sentences;
 }
 

@@ -46,7 +46,7 @@ json viewer_table(const gonio::brdf_table& table) {
   const gonio::valid_cells& cells = table.cells();
   const std::span<const float> values = table.values();
   if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
-    gonio::refuse("a table for the viewer has values that are not finite");
+    gonio::refuse("the table for the viewer has values that are not finite");
   const double scale = scale_of(values);
   // The low bytes of all differences, then the high ones, which are nearly all zero.
   const std::size_t count = values.size();

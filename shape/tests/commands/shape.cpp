@@ -256,10 +256,10 @@ TEST_CASE("shape: options out of range are refused") {
   refuses_shape("", "subcommand");
   refuses_shape("recover scan.ply -o x.ply", "--model");
   refuses_shape("recover scan.ply --model x.shapes --noise 0 -o x.ply", "--noise");
-  refuses_shape("recover scan.ply --model x.shapes -o ./scan.ply", "would overwrite what is read as scan");
-  refuses_shape("recover scan.ply --model x.shapes --truth y.ply -o y.ply", "would overwrite what is read as --truth");
+  refuses_shape("recover scan.ply --model x.shapes -o ./scan.ply", "would overwrite the input scan");
+  refuses_shape("recover scan.ply --model x.shapes --truth y.ply -o y.ply", "would overwrite the input --truth");
   refuses_shape("recover scan.ply --model x.shapes -o x.stl", "expected a name that ends in .ply or .obj");
-  refuses_shape("learn x.shapes --scans y.ply -o x.shapes", "would overwrite what is read as shapes");
+  refuses_shape("learn x.shapes --scans y.ply -o x.shapes", "would overwrite the input shapes");
   refuses_shape("demo --shapes 2", "--shapes");
   refuses_shape("demo --hole none", "--hole");
   refuses_shape("grow --annotated 1", "--annotated");

@@ -6,7 +6,7 @@
 namespace cli {
 
 std::optional<double> read_exif_exposure_time(const std::filesystem::path& path) {
-  gonio::refuse({path.string(), ": this build reads no EXIF data: it needs libexif (libexif-dev)"});
+  gonio::refuse({path.string(), ": this build cannot read EXIF data: it needs libexif (libexif-dev)"});
 }
 
 }  // namespace cli

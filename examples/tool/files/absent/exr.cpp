@@ -8,7 +8,7 @@ namespace cli {
 namespace {
 
 [[noreturn]] void refuse_exr(const std::filesystem::path& path) {
-  gonio::refuse({path.string(), ": this build has no OpenEXR files: it needs OpenEXR (libopenexr-dev)"});
+  gonio::refuse({path.string(), ": this build does not support OpenEXR files: it needs OpenEXR (libopenexr-dev)"});
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace cli {
 namespace {
 
 [[noreturn]] void refuse_tiff(const std::filesystem::path& path) {
-  gonio::refuse({path.string(), ": this build has no TIFF files: it needs libtiff 4.5 (libtiff-dev)"});
+  gonio::refuse({path.string(), ": this build does not support TIFF files: it needs libtiff 4.5 (libtiff-dev)"});
 }
 
 }  // namespace
