@@ -280,6 +280,6 @@ TEST_CASE("bad images and set-ups get exit code 2, one line, and no file") {
   scratch::put(shots.at("moved.txt"),
                "size 48 40\nfocal_length 95 100\nposition 0.7 0 0.6\ntarget 0 0 0\nlight 0 0 1\nregion 0.2\n");
   refused(shots.shot("first") + shots.at("second.hdr") + " " + shots.at("moved.txt") + " --clusters 2",
-          {"moved.txt", "stands still"});
+          {"moved.txt", "a fixed camera"});
   refused(with_setup(camera + "light 0 0 1\nregion 0.01 5 5\n"), {"first.hdr", "does not show the sample"});
 }
