@@ -250,7 +250,7 @@ TEST_CASE("the literature's sets are written as they are printed") {
   board.refuses("--published 10 --geometry sphere", {"images of a sphere", "1, 2 or 5"});
   board.refuses("--published 1 --geometry near-field", {"--published needs --geometry point or sphere"});
   board.refuses("--industry --geometry sphere", {"--industry needs --geometry point"});
-  board.refuses("--industry --published 5", {"choose one"});
+  board.refuses("--industry --published 5", {"exclude each other"});
   board.refuses("--published 5 --criterion condition", {"--published needs no search", "--criterion"});
 }
 

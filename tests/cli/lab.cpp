@@ -158,12 +158,12 @@ TEST_CASE("lab: an adaptive scan chooses its poses, and is the same however ofte
   CHECK(told.find("20 samples: half of all directions are known to ") == 0);
   CHECK(told.find("\nnext: light at ") != std::string::npos);
   CHECK(told.find("stopped at --most 22 poses") != std::string::npos);
-  CHECK(told.ends_with("22 poses measured, 22 in all\n"));
+  CHECK(told.ends_with("22 poses measured, 22 in total\n"));
   const std::string whole = scratch::get(paint);
   scratch::put(paint, whole.substr(0, whole.rfind("added_pose") + 20));  // as a process that was killed leaves it
-  CHECK(run(scan + " --most 22 --until 0.001").ends_with("1 poses measured, 22 in all\n"));
+  CHECK(run(scan + " --most 22 --until 0.001").ends_with("1 poses measured, 22 in total\n"));
   CHECK(scratch::get(paint) == whole);
-  CHECK(run(scan + " --until 1").ends_with("0 poses measured, 22 in all\n"));
+  CHECK(run(scan + " --until 1").ends_with("0 poses measured, 22 in total\n"));
 
   // The reference was measured at other poses.
   refuses("lab calibrate " + paint + " --reference " + white + " -o " + room.at("s.csv"), "--nearest-reference");

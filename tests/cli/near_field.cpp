@@ -245,7 +245,7 @@ TEST_CASE("a white image and a calibration make samples of images by an uneven l
   CHECK(bare.output.find("'white_reflectance' needs --white") != std::string::npos);
   const auto twice = gonio_tool(given + " --white " + shots.at("white.npy") + " " + shots.at("white.npy"));
   CHECK(twice.exit_code == 2);
-  CHECK(twice.output.find("--white needs an image for each photograph, 1, not 2") != std::string::npos);
+  CHECK(twice.output.find("--white needs an image for each photograph: 1, not 2") != std::string::npos);
 }
 
 TEST_CASE("bad images and set-ups get exit code 2, one line, and no file") {

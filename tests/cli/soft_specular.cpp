@@ -68,8 +68,8 @@ TEST_CASE("two priors are learned, and the samples choose one") {
   const std::string either = "reconstruct --method soft-specular " + samples + out;
   refuses(either, {"--method soft-specular needs a --prior written by gonio learn --split", "materials.prior"});
   refuses(either + " --prior " + samples, {"s.csv: not a gonio soft and specular prior"});
-  refuses("reconstruct " + samples + out + " --prior " + split, {"split.prior: a soft and a specular prior"});
-  refuses("design -n 2 -o " + at("none.csv") + " --prior " + split, {"split.prior: a soft and a specular prior"});
+  refuses("reconstruct " + samples + out + " --prior " + split, {"split.prior: has a soft and a specular prior"});
+  refuses("design -n 2 -o " + at("none.csv") + " --prior " + split, {"split.prior: has a soft and a specular prior"});
   refuses(either + " --prior " + split + " --eta gcv", {"needs a number for --eta", "gcv"});
   refuses(either + " --prior " + split + " --eta -1", {"eta"});
   refuses(either + " --prior " + split + " --noise 0.02", {"--noise", "--method pca"});

@@ -123,7 +123,7 @@ TEST_CASE("sphere refuses what is missing") {
   const std::string paint = shots.at("paint.hdr") + " ", white = " --white " + shots.at("white.hdr");
   refused(paint + shots.at("setup.txt"), "'white_reflectance' needs --white");
   refused(paint + shots.at("bare.txt"), "'sphere' is missing (or --normals)");
-  refused(paint + shots.at("setup.txt") + white + white, "--white needs an image for each photograph, 1, not 2");
+  refused(paint + shots.at("setup.txt") + white + white, "--white needs an image for each photograph: 1, not 2");
   refused(shots.at("paint.hdr") + " " + shots.at("setup.txt") + " --white " + shots.at("black.hdr"),
           "no sphere is found");
   refused(paint + shots.at("setup.txt") + white + " --positions " + shots.at("bare.txt"),

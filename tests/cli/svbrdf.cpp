@@ -72,7 +72,7 @@ TEST_CASE("svbrdf: an unfinished map is gone on with, unless it is of other imag
   auto changed = given.images[1];
   changed(20, 3, 1) = 9.0f;
   given.replace(1, changed);
-  refuses(given.command("next.gsv"), {"next.gsv.part", "other image sizes"});
+  refuses(given.command("next.gsv"), {"next.gsv.part", "other images"});
   given.replace(1, given.images[1]);
   // Another penalty.
   refuses(given.command("next.gsv", "images.json", "3"), {"next.gsv.part", "another job"});
@@ -252,5 +252,5 @@ TEST_CASE("svbrdf: a map is drawn as a flat sample, and with its own prior only"
       CHECK(drawn(45, column, c) == doctest::Approx(std::clamp(radiance[c], 0.0, 1.0)).epsilon(0.03));
   }
   refuses("render " + map + " -o " + image, {"map.gsv", "another prior"});
-  refuses("render " + map + prior + " --slices -o " + image, {"map.gsv", "alone"});
+  refuses("render " + map + prior + " --slices -o " + image, {"map.gsv", "needs to be the only input"});
 }

@@ -37,7 +37,7 @@ class help_formatter : public CLI::Formatter {
   }
 
   std::string make_description(const CLI::App* app) const override {
-    const std::string example = app->get_footer(), text = CLI::Formatter::make_description(app);
+    const std::string example = app->get_footer(), text = wrapped("", CLI::Formatter::make_description(app), 0) + '\n';
     return example.empty() ? text : text + "\n" + example + "\n\n";
   }
 
@@ -60,23 +60,28 @@ class help_formatter : public CLI::Formatter {
     return !app->get_options([](const CLI::Option* each) { return each->get_group() == rare_options; }).empty();
   }
 
-  /// Returns a name and, from a fixed column on, its description, broken between words.
+  /// Returns a name and, from a fixed column on, its description.
   static std::string described(const std::string& name, const std::string& description) {
     std::string text = "  " + name;
     if (text.size() + 2 > indent) text += '\n' + std::string(indent, ' ');
     text.resize(std::max(text.size(), indent), ' ');
+    return wrapped(text, description, indent) + '\n';
+  }
+
+  /// Appends words from a column on, broken between words.
+  static std::string wrapped(std::string text, const std::string& description, std::size_t first) {
     std::istringstream words(description);
-    std::size_t column = indent;
+    std::size_t column = first;
     for (std::string word; words >> word;) {
-      if (column > indent && column + 1 + word.size() > width) {
-        text += '\n' + std::string(indent, ' ');
-        column = indent;
+      if (column > first && column + 1 + word.size() > width) {
+        text += '\n' + std::string(first, ' ');
+        column = first;
       }
-      if (column > indent) text += ' ';
+      if (column > first) text += ' ';
       text += word;
-      column += word.size() + (column > indent ? 1 : 0);
+      column += word.size() + (column > first ? 1 : 0);
     }
-    return text + '\n';
+    return text;
   }
 
   // CLI11 does not pass these on to groups of options.
