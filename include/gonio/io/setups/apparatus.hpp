@@ -44,5 +44,5 @@ void apply_rule(const text_rule& rule, design::apparatus& described, const text_
 }  // namespace gonio::io
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/io/setups/impl/capture_constraint.ipp>
+#include <gonio/io/setups/impl/apparatus.ipp>
 #endif
