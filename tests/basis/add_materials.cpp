@@ -103,7 +103,7 @@ TEST_CASE("materials that cannot be added are refused") {
   CHECK_THROWS_WITH_AS(gonio::add_materials(old, gonio::rows_of(materials(4, 3))),
                        doctest::Contains("named 'material-4' already"), gonio::error);
   CHECK_THROWS_WITH_AS(gonio::add_materials(old, gonio::rows_of(synthetic_materials(small_cells(), 3))),
-                       doctest::Contains("over the cells"), gonio::error);
+                       doctest::Contains("over the same cells"), gonio::error);
   CHECK_THROWS_AS(gonio::add_materials(old, {grid_of_test(), {}, {}}), gonio::error);
   auto missing = materials(6, 2);
   missing.values(9, 0) = std::nanf("");

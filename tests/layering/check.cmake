@@ -1,5 +1,6 @@
 # Fails if a header under ROOT, one or several include/gonio folders, includes against the arrows of
-# docs/reference/architecture.md: cmake -D "ROOT=include/gonio;shape/include/gonio" -P check.cmake
+# docs/reference/architecture.md: cmake -D ROOT=include/gonio,shape/include/gonio -P check.cmake.
+# COMPLETE: every included header exists.
 cmake_minimum_required(VERSION 3.25)
 
 # "user -> used ..."; whoever may include a module may include what that module may include.
@@ -81,9 +82,13 @@ function(module_of path result)
 endfunction()
 
 set(violations 0)
+string(REPLACE "," ";" ROOT "${ROOT}") # a list would not survive add_test
 foreach(root IN LISTS ROOT)
   cmake_path(ABSOLUTE_PATH root)
   file(GLOB_RECURSE headers RELATIVE "${root}" "${root}/*.hpp" "${root}/*.ipp")
+  if(NOT headers)
+    message(FATAL_ERROR "${root}: there are no headers")
+  endif()
   foreach(header IN LISTS headers)
     module_of("${header}" user)
     file(READ "${root}/${header}" text)
@@ -102,6 +107,15 @@ foreach(root IN LISTS ROOT)
         continue()
       endif()
 
+      set(exists OFF)
+      foreach(other IN LISTS ROOT)
+        if(EXISTS "${other}/${used_path}")
+          set(exists ON)
+        endif()
+      endforeach()
+      if(COMPLETE AND NOT exists)
+        message(FATAL_ERROR "${header}: ${used_path} does not exist")
+      endif()
       module_of("${used_path}" used)
       if(NOT used IN_LIST allowed_${user})
         string(FIND "${text}" "${directive}" position)
@@ -116,7 +130,7 @@ foreach(root IN LISTS ROOT)
   endforeach()
 
   # A header is in the one of its module; render.hpp is what a renderer needs, and those that need libraries of their own
-  # are apart. A body is in one of the sources of gonio::compiled.
+  # (core/arrays.hpp: xtensor) are apart. A body is in one of the sources of gonio::compiled.
   if(EXISTS "${root}/../../src")
     file(GLOB sources "${root}/../../src/*.cpp")
     set(compiled)
@@ -127,7 +141,7 @@ foreach(root IN LISTS ROOT)
     foreach(header IN LISTS headers)
       if(header MATCHES "[.]ipp$")
         set(places "${compiled}")
-      elseif(header MATCHES "^(render/.*|io/images/(image|exr|tiff|exif)[.]hpp|core/k_d_tree[.]hpp|interpolate/scattered_brdf[.]hpp|[a-z]+[.]hpp)$")
+      elseif(header MATCHES "^(render/.*|io/images/(image|exr|tiff|exif)[.]hpp|core/(k_d_tree|arrays)[.]hpp|interpolate/scattered_brdf[.]hpp|[a-z]+[.]hpp)$")
         continue()
       else()
         string(REGEX REPLACE "/.*" "" module "${header}")
