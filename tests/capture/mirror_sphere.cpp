@@ -124,7 +124,7 @@ TEST_CASE("mirror sphere: bad input is refused") {
   const auto grey = gonio::uniform_image(16, 16, gonio::rgb::Constant(0.5));
   CHECK_THROWS_WITH_AS(unwrap(gonio::uniform_image(16, 20), {}), Contains("not 16 x 20"), gonio::error);
   CHECK_THROWS_WITH_AS(unwrap(gonio::uniform_image(4, 4), {}), Contains("8 pixels"), gonio::error);
-  CHECK_THROWS_WITH_AS(unwrap(grey, {}, {.rows = 0}), Contains("rows"), gonio::error);
+  CHECK_THROWS_WITH_AS(unwrap(grey, {}, {.rows = 0}), Contains("at least one row"), gonio::error);
   CHECK_THROWS_WITH_AS(unwrap(grey, {}, {.reflectance = 0.0}), Contains("reflectance"), gonio::error);
   auto bad = grey;
   bad(3, 3, 0) = std::nanf("");

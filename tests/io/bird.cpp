@@ -143,7 +143,7 @@ TEST_CASE("BiRD: what is no such file is refused") {
   check_bird_refused(
       three_of(variable("wavelength_i", "nm", "500,500,500") + "," + variable("wavelength_r", "nm", "600,600,600")),
       {"fluorescence"});
-  check_bird_refused(three_of("\"adhoc_variables\":{\"heat\":{\"values\":[20,20,30]}}"), {"'heat' changes"});
+  check_bird_refused(three_of("\"adhoc_variables\":{\"heat\":{\"values\":[20,20,30]}}"), {"'heat' varies"});
   CHECK(read_bird(three_of("\"adhoc_variables\":{\"heat\":{\"unit\":\"K\",\"values\":[20,20,20]}}"), "x").size() == 2);
   const auto at = [](const std::string& theta, const std::string& unit, const std::string& phi) {
     return bird_file(variable("theta_i", unit, theta) + "," + variable("phi_i", unit, phi) + "," +

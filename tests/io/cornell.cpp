@@ -33,8 +33,8 @@ TEST_CASE("directions in radians, reflectances by wavelength") {
 }
 
 TEST_CASE("what is no such file is refused") {
-  check_text_refused("", {"ends before"});
-  check_text_refused("# only\n", {"ends before"});
+  check_text_refused("", {"the file ends after"});
+  check_text_refused("# only\n", {"the file ends after"});
   check_text_refused("many\n", {"line 1", "'many'", "not a number"});
   check_text_refused("1\n", {"line 1", "number of wavelengths", "'1'"});
   check_text_refused("2.5\n", {"number of wavelengths"});

@@ -93,7 +93,7 @@ TEST_CASE("Klems: the block that is asked for is read") {
   CHECK(read(both, {.of = window_block::side::back}) == 7.0);
   CHECK(read(klems("Columns", back, "Solar"), {.wavelength = "solar"}) == 7.0);
   check_refused([&] { return read(klems("Columns", back), {.of = window_block::side::front}); },
-                {"has no 'Reflection Front' of 'Visible', but 'Reflection Back' of 'Visible'"});
+                {"has no 'Reflection Front' of 'Visible', it has 'Reflection Back' of 'Visible'"});
   check_refused([&] { return read(both, {.of = window_block::side::back, .wavelength = "Solar"}); },
                 {"has no 'Reflection Back' of 'Solar'", "'Reflection Front' of 'Visible'"});
 }
