@@ -1,6 +1,7 @@
 #pragma once
-/// Frames recorded in a real laboratory, as a goniometer: a folder of PNG files and a manifest with the directions of
-/// each (JSON; docs/reference/formats.md). Recorded measurements take the same path as live ones.
+/// A goniometer that replays frames recorded in a real laboratory: a folder of PNG files and a manifest that lists the
+/// directions of each frame (JSON; docs/reference/formats.md). Recorded measurements run through the same code as live
+/// ones.
 
 #include "tool/files/json.hpp"
 #include <gonio/capture/device.hpp>

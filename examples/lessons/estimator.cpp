@@ -48,7 +48,8 @@ constexpr double light = 45.0, last_sample = 75.0, sample_step = 5.0, last_of_cu
 constexpr double scan_noise = 0.02;
 
 gonio::direction_pair in_plane(double theta_o) {
-  // Avoids a rotation by pi, whose rounding would give the half vector of the mirror direction an azimuth.
+  // Uses a negative polar angle instead of an azimuth of pi. The rounding error of pi would tilt the half vector of the
+  // mirror direction slightly off the normal, and so give it a meaningless azimuth.
   return {gonio::spherical_direction(gonio::radians(light), 0.0),
           gonio::spherical_direction(gonio::radians(-theta_o), 0.0)};
 }

@@ -13,9 +13,9 @@
 
 namespace cli {
 
-/// Clusters the texels of a map by k-means with the distance of `gonio::texel_metric`. The centres are found from
-/// 16,384 texels, one random texel from each of as many equal ranges of the map, so that memory does not grow with the
-/// map; then the texels of each band are assigned to them.
+/// Clusters the texels of a map by k-means with the distance of `gonio::texel_metric`. The centres are computed from a
+/// sample of 16,384 texels: the map is divided into that many equal ranges, and one texel is drawn at random from each.
+/// So memory does not grow with the map. Then the texels of each band are assigned to the centres.
 class texel_clusters {
  public:
   /// Throws gonio::error if the map has another prior, or fewer distinct texels than `clusters`. The result does not

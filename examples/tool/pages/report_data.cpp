@@ -60,7 +60,8 @@ struct known_fit {
   }
 };
 
-/// Returns the viewer's tables and the exposure with which `gonio render` draws a sphere under its first light.
+/// Returns the data of the report's interactive viewer: its tables, and the exposure that `gonio render` uses for a
+/// sphere under its first light.
 json viewer_of(const reported_fit& fit) {
   const reconstruction& found = fit.found;
   const gonio::render::directional_lighting light({{gonio::direction(1.0, 1.0, 1.0)}});

@@ -10,8 +10,8 @@ namespace cli {
 /// differences along phi_d, deflated: 1 to 1.5 MB of text. O(cells). Throws gonio::error if a value is not finite.
 [[nodiscard]] json viewer_table(const gonio::brdf_table& table);
 
-/// Returns relative uncertainties of the green channel at every second cell of each axis, in 255 equal steps of their
-/// logarithm from 0.1 to 1000 %, deflated. O(cells).
+/// Returns the relative uncertainty of the green channel at every second cell along each axis, one byte each: 0.1 % to
+/// 1000 % on a logarithmic scale of 255 equal steps, compressed by deflate. O(cells).
 [[nodiscard]] json viewer_uncertainty(const gonio::brdf_table& relative);
 
 }  // namespace cli

@@ -154,8 +154,8 @@ template <colour_basis Basis>
     return functions.channel(channel);
 }
 
-/// Returns the functions that may take part in a fit, ascending: all, unless the basis has `columns()`, a range of
-/// their numbers. The others have weight zero.
+/// Returns the numbers of the functions that may take part in a fit, in ascending order. If the basis has `columns()`,
+/// these are the numbers it returns; otherwise, all. The remaining functions have weight zero.
 template <colour_basis Basis>
 [[nodiscard]] std::vector<Eigen::Index> columns_of(const Basis& functions) {
   std::vector<Eigen::Index> columns;

@@ -106,7 +106,7 @@ class reconstruction {
 
   [[nodiscard]] solved solve(const located_samples& kept, const std::optional<sample_process>& process) const;
   [[nodiscard]] solved solve_around_centres(located_samples kept) const;
-  /// Returns the components joined to a discrepancy, which is a combination of its covariances with the centres.
+  /// Returns a basis of the principal components and, for the discrepancy, its covariance functions at the centres.
   [[nodiscard]] basis_type functions_around(const std::vector<half_difference>& centres) const {
     return {prior_, {prior_.cells(), prior_.metric(), discrepancy_functions::covariances(centres, model().lengths)}};
   }

@@ -34,8 +34,8 @@ class appearance_metric {
   /// Returns the appearance of a table. Throws gonio::error if it is over other cells.
   [[nodiscard]] appearance look(const brdf_table& table, thread_count threads = {}) const;
 
-  /// Returns the mean difference of two appearances of one metric. To compare many estimates with a truth, keep the
-  /// truth's appearance.
+  /// Returns the mean difference between two appearances computed by the same metric. To compare many estimates with
+  /// one truth, compute the truth's appearance once and reuse it.
   [[nodiscard]] static appearance_difference difference(const appearance& a, const appearance& b) {
     return {sphere_delta_e::difference(a.lights, b.lights), sphere_delta_e::difference(a.environment, b.environment)};
   }

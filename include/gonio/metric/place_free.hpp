@@ -19,7 +19,7 @@ class place_free_metric {
   /// Returns the same metric over other cells.
   [[nodiscard]] const Metric& on(const valid_cells& /*cells*/) const noexcept { return metric(); }
 
-  /// No fields are interpolated with the three channels.
+  /// The metric adds no fields of its own to the three channels that are interpolated.
   static constexpr int companions = 0;
   static constexpr weighted_mean mean = weighted_mean::arithmetic;
 

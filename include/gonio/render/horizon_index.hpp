@@ -59,8 +59,8 @@ template <std::floating_point Real>
 /// contiguous, so a number is the offset of its row plus phi_d.
 class horizon_index {
  public:
-  /// O(cells of the grid). Throws gonio::error if no cell is above the horizon at some theta_d and phi_d. This requires
-  /// more cells along theta_d than twice the square of theta_h's extent.
+  /// O(cells of the grid). Throws gonio::error if no cell is above the horizon at some theta_d and phi_d. That can only
+  /// happen with more cells along theta_d than twice the square of theta_h's extent.
   explicit horizon_index(const gonio::grid& cells = gonio::grid());
 
   /// Returns the number of cells above the horizon.

@@ -213,7 +213,7 @@ class correction : public material_functions<lin> {
   [[nodiscard]] correction without(const std::vector<std::string>& excluded) const { return without_(*this, excluded); }
 
  private:
-  /// Computes the renewed approximations, and takes the others from `known`, if given.
+  /// Computes the corrections whose approximations were computed again, and copies the others from `known`, if given.
   template <class Approximations>
   correction(Approximations approximations, const correction_rule& rule, const correction* known)
       : material_functions<lin>(approximations.materials().names(), approximations.materials().cells(), lin{},

@@ -37,7 +37,8 @@ class growing_cholesky {
   void solve(Eigen::Ref<Eigen::VectorXd> z) const;
 
  private:
-  /// Replaces cross by L^-1 cross. Returns the rest of the new column's square.
+  /// Replaces `cross` by L^-1 cross. Returns `square` minus the squared norm of the result: the square of the new
+  /// diagonal element.
   [[nodiscard]] double forward(Eigen::Ref<Eigen::VectorXd> cross, double square) const;
 
   void set_diagonal(Eigen::Index row, double value);

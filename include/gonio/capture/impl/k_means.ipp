@@ -160,7 +160,7 @@ GONIO_INLINE point_clusters refine_clusters(const point_matrix_view& points, poi
     detail::refill_empty_clusters(labels, squares, k);
     centres = detail::cluster_means(points, labels, k, threads);
   }
-  // The squares belong to the centres before the last step.
+  // `squares` still holds the squared distances to the centres before the last update: compute them again.
   for (Eigen::Index i = 0; i < n; ++i) squares[i] = (points.row(i) - centres.row(labels[i])).squaredNorm();
   return detail::ordered_by_size(labels, centres, squares.sum());
 }

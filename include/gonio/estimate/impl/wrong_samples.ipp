@@ -359,7 +359,8 @@ GONIO_INLINE Eigen::VectorXd judged_samples::probabilities(const located_rows& o
   std::vector<double> log_ratio(p, log_odds_), squares_of_rows(p, 0.0);
   for (Eigen::Index k = 0; k < others.rows.cols(); ++k)
     for (Eigen::Index i = 0; i < p; ++i) squares_of_rows[i] += others.rows(i, k) * others.rows(i, k);
-  // Add the log density ratios, wrong to right, of the mean and of the contrasts.
+  // Add the log ratios of the densities of the value if the sample is wrong and if it is right: first for the mean of
+  // the channels, then for their contrasts.
   const auto add = [&](const cholesky& factors, double share, double wrong_variance, Eigen::Index first,
                        Eigen::Index count) {
     Eigen::MatrixXd sum = with;

@@ -71,7 +71,8 @@ namespace gonio::io::detail {
   while (true) {
     size += stream.read(std::span(result).subspan(size));
     if (stream.ended() || result.size() == limit) return size;
-    // Doubles each time. The last step, which holds both buffers at once, starts at a quarter to a half of the limit.
+    // Double the buffer each time. Growing it holds the old and the new buffer at once, so the last step goes straight
+    // to the limit, from a buffer of a quarter to a half of it.
     const std::size_t doubled = std::max<std::size_t>(2 * result.size(), 4096);
     const std::size_t next = doubled < limit / 2 ? doubled : limit;
     result.reserve(next);
