@@ -31,7 +31,7 @@ TEST_CASE("a mesh's counts are not believed before its bytes are there") {
   refuses("ply",
           "ply\nformat ascii 1.0\nelement face 18446744073709551615\nproperty list uint int vertex_indices\n"
           "end_header\n4294967295 0 0 0\n",
-          "vertex 0 of a mesh of 0");
+          "vertex 0, expected at least 0 and less than 0");
   refuses("ply", "ply\nformat ascii 1.0\nelement other 9\nproperty list uint int x\nend_header\n4294967295 0 0 0\n",
           "ends before");
   refuses("obj", "v 0 0 0\nf 1 1 9223372036854775807\n", "names vertex");

@@ -268,8 +268,10 @@ TEST_CASE("bad PLY headers are refused") {
   refused(start + vertex + "property half x\n", {"line 4", "'half'"});
   refused(start + vertex + "property list uchar\n", {"line 4", "not a PLY type"});
   refused(start + vertex + xyz + "property int x\n", {"line 7", "'x' is given twice"});
-  refused(start + vertex + xyz + "element face 1\nproperty list float int vertex_index\n", {"line 8", "integers"});
-  refused(start + vertex + xyz + "element face 1\nproperty list uchar float vertex_index\n", {"line 8", "integers"});
+  refused(start + vertex + xyz + "element face 1\nproperty list float int vertex_index\n",
+          {"line 8", "an integer type"});
+  refused(start + vertex + xyz + "element face 1\nproperty list uchar float vertex_index\n",
+          {"line 8", "an integer type"});
   refused(start + vertex + xyz + face + "property list uchar int vertex_index\n", {"line 9", "twice"});
   refused(start + vertex + "property float x\nproperty float y\n" + face + end + rows, {"lacks a property x, y or z"});
   refused(start + vertex + "property list int int x\nproperty float y\nproperty float z\n" + face + end,
