@@ -8,7 +8,6 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
-#include <stop_token>
 #include <thread>
 #include <utility>
 
@@ -20,27 +19,35 @@ bool is_seen() { return ::isatty(STDERR_FILENO) != 0; }
 
 }  // namespace
 
-/// A thread that draws once a second until it is asked to stop.
+/// A thread that draws once a second until it is destroyed.
 class elapsed_time::clock {
  public:
-  explicit clock(std::string stage)
-      : stage_(gonio::printable(stage)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+  explicit clock(std::string stage) : stage_(gonio::printable(stage)), thread_([this] { run(); }) {}
+  clock(const clock&) = delete;
+  clock& operator=(const clock&) = delete;
+
+  ~clock() {
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    ends_.notify_one();
+    thread_.join();
+  }
 
  private:
-  void run(const std::stop_token& stop) {
-    std::mutex mutex;
-    std::unique_lock lock(mutex);
-    std::condition_variable_any ticks;
-    for (int seconds = 1;; ++seconds) {
-      ticks.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; });
-      if (stop.stop_requested()) break;
+  void run() {
+    std::unique_lock lock(mutex_);
+    for (int seconds = 1; !ends_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_; }); ++seconds)
       if (seconds > 1) std::fprintf(stderr, "\r\033[K%s, %d s", stage_.c_str(), seconds);
-    }
     wipe_line();
   }
 
   std::string stage_;
-  std::jthread thread_;  // stops and joins first
+  std::mutex mutex_;
+  std::condition_variable ends_;
+  bool ended_ = false;
+  std::thread thread_;  // starts when all else is there; std::jthread is experimental in libc++
 };
 
 elapsed_time::elapsed_time(std::string stage) {
