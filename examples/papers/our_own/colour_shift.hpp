@@ -1,5 +1,5 @@
 #pragma once
-/// By how much a surface's colour has to be changed until it looks different.
+/// The change of a surface's colour that makes it look different by a given amount.
 
 #include <gonio/evaluate/appearance_metric.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace papers {
 
-/// A factor for the channels by which a table looks so much different, by the secant method.
+/// Returns the factor of each channel that makes a table look `wanted` different, by the secant method.
 [[nodiscard]] inline gonio::rgb factor_of(const gonio::appearance_metric& judge, const gonio::brdf_table& table,
                                           const gonio::rgb& towards, double wanted, gonio::thread_count threads) {
   const gonio::appearance seen = judge.look(table, threads);

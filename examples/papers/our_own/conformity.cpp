@@ -1,5 +1,5 @@
-/// gonio-papers conformity: how often `gonio check` is wrong on measured materials whose families its prior has not
-/// seen.
+/// gonio-papers conformity: how often `gonio check` is wrong on measured materials when the prior has not seen their
+/// families.
 
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
@@ -39,11 +39,11 @@ struct conformity_experiment_options : left_out_options {
 using directions = std::vector<gonio::half_difference>;
 using estimator = gonio::reconstruction<gonio::log_relative>;
 
-/// A surface that is measured; what lies beyond the gamut is black there.
+/// A measured surface, black outside the gamut.
 struct known_surface {
   std::string name;
   reflectance measured;
-  /// Factors of the channels by which it looks 1, 2, 4 and 8 Delta E lighter, redder and bluer.
+  /// Factors of the channels that make it look 1, 2, 4 and 8 Delta E lighter, redder and bluer.
   std::map<int, std::array<gonio::rgb, 3>> shifts = {};
 
   [[nodiscard]] reflectance times(const gonio::rgb& factor) const {
@@ -115,7 +115,7 @@ class conformity_experiment {
                                 factor_of(judge_, table, {0.0, 0.0, 1.0}, wanted, given_.threads)};
   }
 
-  /// Many pairs of measurements, each with noise of its own: a p-value of each.
+  /// Returns the p-values of many pairs of measurements, each with its own noise.
   [[nodiscard]] std::vector<double> repeated(
       Eigen::Index times, const std::function<double(std::uint64_t part, std::uint64_t reference)>& once) {
     std::vector<double> all(times);
@@ -134,7 +134,7 @@ class conformity_experiment {
         .p_value;
   }
 
-  /// Noise is known if it is `stated`; otherwise repeats in `where` tell it.
+  /// The noise is known if `stated`; otherwise it is estimated from repeats in `where`.
   [[nodiscard]] std::vector<double> compared(const estimator& known, const reflectance& part,
                                              const reflectance& reference, const directions& where, double noise,
                                              Eigen::Index times, double tolerance = 0.0, bool stated = true) {
@@ -153,7 +153,7 @@ class conformity_experiment {
 
   [[nodiscard]] double middle_noise() const { return given_.noise[given_.noise.size() / 2]; }
 
-  /// A tenth of the repetitions, at least one.
+  /// Returns a tenth of the repetitions, at least one.
   [[nodiscard]] Eigen::Index few() const { return std::max<Eigen::Index>(given_.repetitions / 10, 1); }
 
   static std::string row_name(Eigen::Index count, double noise) {
@@ -188,7 +188,7 @@ class conformity_experiment {
       if (other.name != surface.name) results_.add(row + " others", surface.name, compared_with(other.measured, 1));
   }
 
-  /// A part at the limit of what is tolerated, and others beyond it.
+  /// Compares a part at the limit of the tolerance, and others outside it.
   void compare_with_tolerance(const estimator& known, const known_surface& surface) {
     constexpr double noise = 0.02;
     for (const auto& [count, where] : designed_)
@@ -199,7 +199,7 @@ class conformity_experiment {
       }
   }
 
-  /// The reference has random directions, other ones each time.
+  /// Compares with a reference that is measured in random directions, drawn anew each time.
   void compare_other_directions(const estimator& known, const known_surface& surface) {
     constexpr double noise = 0.02;
     const gonio::valid_cells cells;
@@ -226,7 +226,7 @@ class conformity_experiment {
       }
   }
 
-  /// Parts that are alike, in other channels: a row's name behind that of the channels says where.
+  /// Compares matching parts in other channels. A row's name has the channels first, then the directions.
   void compare_channels(const estimator& known, const known_surface& surface) {
     const double noise = middle_noise();
     const directions designed = designed_.rbegin()->second, in_plane = directions_in_plane();
@@ -261,7 +261,7 @@ class conformity_experiment {
     }
   }
 
-  /// The samples as they are, and as none of the materials is: in another order.
+  /// Judges the samples as they are, and in a random order that matches no material.
   void judge_familiarity(const estimator& known, const known_surface& surface, const std::string& whether) {
     constexpr double noise = 0.02;
     const estimator noisy{known.prior(), {.noise = noise}};

@@ -1,5 +1,5 @@
 #pragma once
-/// Parts that are like their reference, in other channels than colours.
+/// Parts that match their reference, in channels other than red, green and blue.
 
 #include <gonio/conformity/conformity.hpp>
 #include <gonio/core/random.hpp>
@@ -14,7 +14,7 @@
 
 namespace papers {
 
-/// Colours, and what is made of them: one value, one wavelength, and five that are mixtures.
+/// Colours, and channels computed from them: one value, one wavelength, and five mixtures.
 [[nodiscard]] inline std::vector<std::pair<std::string, gonio::channels>> compared_channels() {
   return {{"red, green, blue", {}},
           {"one value", gonio::channels::one_value()},
@@ -22,7 +22,7 @@ namespace papers {
           {"five wavelengths", gonio::channels({450.0, 500.0, 550.0, 600.0, 650.0})}};
 }
 
-/// Three angles of incidence in plane, the receiver in steps of 15 degrees.
+/// Three angles of incidence, with the receiver in the plane of incidence in steps of 15 degrees.
 [[nodiscard]] inline std::vector<gonio::half_difference> directions_in_plane() {
   std::vector<gonio::half_difference> all;
   for (const double theta_i : {20.0, 45.0, 60.0})
@@ -35,7 +35,7 @@ namespace papers {
   return all;
 }
 
-/// A surface in some channels, each value with noise of its own.
+/// Measures a surface in some channels, with independent noise on each value.
 [[nodiscard]] inline gonio::sample_set measure_channels(
     const std::function<gonio::rgb(const gonio::direction_pair&)>& surface, const gonio::channels& kinds,
     const std::vector<gonio::half_difference>& where, double noise, std::uint64_t seed) {

@@ -1,5 +1,5 @@
-/// gonio-papers design: measured materials, whose families the prior has not seen, measured in directions that were
-/// designed by some criterion, that the literature has, and that the readings so far choose.
+/// gonio-papers design: reconstructs measured materials by priors that have not seen their families. The directions are
+/// designed by several criteria, taken from the literature, or chosen by the readings so far.
 
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
@@ -40,8 +40,8 @@ struct design_experiment_options : left_out_options {
   std::filesystem::path folder, environment;
   std::vector<Eigen::Index> counts{5, 8, 10, 16, 20};
   std::vector<std::string> methods = all_methods();
-  Eigen::Index sets = 10;  ///< at random
-  Eigen::Index first = 5;  ///< designed ones of an adaptive scan
+  Eigen::Index sets = 10;  ///< of random directions
+  Eigen::Index first = 5;  ///< number of designed directions that begin an adaptive scan
   double noise = 0.0;
 };
 
@@ -49,14 +49,14 @@ using estimator_type = gonio::reconstruction<gonio::log_relative>;
 using chooser_type = gonio::measurement_chooser<gonio::log_relative>;
 using directions = std::vector<gonio::half_difference>;
 
-/// What is prepared for the materials of one family.
+/// The estimator and the directions for the materials of one family.
 struct family_setup {
   estimator_type estimator;
   chooser_type chooser;
   std::map<std::string, directions> designed = {};  ///< by method and count
 };
 
-/// Of cells in the order that they are measured.
+/// Returns the directions of cells, in the order of measurement.
 directions of_cells(const gonio::design::point_geometry& points, std::span<const Eigen::Index> cells) {
   directions all;
   for (const Eigen::Index cell : cells) {
@@ -66,9 +66,9 @@ directions of_cells(const gonio::design::point_geometry& points, std::span<const
   return all;
 }
 
-/// Orthogonal matching pursuit of the candidates whose values explain those of all cells: Miandji, Tongbuasirilai,
-/// Hajisharif, Kavoosighafi and Unger 2024 (arXiv 2401.07283), with the covariance of a prior as the dictionary's Gram
-/// matrix.
+/// Chooses by orthogonal matching pursuit the candidates whose values explain those of all cells: Miandji,
+/// Tongbuasirilai, Hajisharif, Kavoosighafi and Unger 2024 (arXiv 2401.07283). The covariance of a prior replaces the
+/// dictionary's Gram matrix.
 std::vector<Eigen::Index> pursue(const gonio::design::point_geometry& points, const Eigen::MatrixXd& covariance,
                                  Eigen::Index count) {
   const Eigen::VectorXd lengths = covariance.diagonal();
@@ -91,7 +91,7 @@ std::vector<Eigen::Index> pursue(const gonio::design::point_geometry& points, co
   return chosen;
 }
 
-/// The candidate of which least is known, again and again: the most information about a Gaussian process.
+/// Chooses the least known candidate again and again: the most information about a Gaussian process.
 std::vector<Eigen::Index> most_information(const gonio::design::sequential_design<gonio::log_relative>& cells,
                                            Eigen::Index count) {
   gonio::design::candidate_posterior known = cells.prior();
@@ -121,7 +121,7 @@ class displayed_sphere {
                     90, 72, gonio::render::environment_map(gonio::io::read_hdr(environment))),
                 36, threads) {}
 
-  /// Peak signal-to-noise ratio in dB over the sphere's points, of sRGB values.
+  /// Returns the peak signal-to-noise ratio of sRGB values over the sphere's points, in dB.
   [[nodiscard]] double psnr(const gonio::brdf_table& estimate, const gonio::brdf_table& truth) const {
     const gonio::render::sphere_colours of_truth = sphere_.apply(truth), of_estimate = sphere_.apply(estimate);
     std::vector<double> all(of_truth.data(), of_truth.data() + of_truth.size());
@@ -145,7 +145,7 @@ class design_experiment : left_out_experiment {
     if (!given.environment.empty()) sphere_.emplace(library_.cells(), given.environment, given.threads);
   }
 
-  /// A row for each number of samples and method: errors of each material.
+  /// Returns a row for each number of samples and method, with the errors of each material.
   [[nodiscard]] json run() {
     const std::vector<judged_material> materials = measured_materials(given_.materials, library_);
     std::map<std::pair<Eigen::Index, std::string>, json> found;
@@ -157,7 +157,7 @@ class design_experiment : left_out_experiment {
                        given_.noise, given_.sets, given_.folder.string(), given_.first};
         const json& by_count =
             once(key, material.turn, material.name + " " + method, [&] { return errors_by_count(material, method); });
-        if (by_count.is_null()) continue;  // another process'
+        if (by_count.is_null()) continue;  // left to another process
         for (const auto& [count, errors] : by_count.items()) found[{std::stol(count), method}][material.name] = errors;
       }
     json rows = json::array();
@@ -171,7 +171,7 @@ class design_experiment : left_out_experiment {
  private:
   [[nodiscard]] Eigen::Index most() const { return std::ranges::max(given_.counts); }
 
-  /// Of the family that was asked for last: families are judged one after the other.
+  /// Returns the setup without a family. It keeps only the last one: families are judged one after the other.
   family_setup& setup_without(const std::string& family) {
     if (setup_ && family_ == family) return *setup_;
     setup_.reset();
@@ -184,7 +184,7 @@ class design_experiment : left_out_experiment {
     return *setup_;
   }
 
-  /// The first `count` of a family's directions by a method.
+  /// Returns the first `count` directions for a family by a method.
   directions designed(const std::string& method, Eigen::Index count, family_setup& with) const {
     const bool depends_on_count = method == "exchange";
     const std::string key = depends_on_count ? method + std::to_string(count) : method;
@@ -255,7 +255,8 @@ class design_experiment : left_out_experiment {
     return measure(material.measured, set, given_.noise, material.number);
   }
 
-  /// The first exchanged, further ones by what was read of all before or, of "first-five", of these alone.
+  /// Begins with exchanged directions. All readings so far choose the next ones; for "first-five", only the first
+  /// readings do.
   json followed(const judged_material& material, const std::string& method, family_setup& with) {
     json all = json::object();
     directions so_far = designed("exchanged-five", given_.first, with);
@@ -268,7 +269,7 @@ class design_experiment : left_out_experiment {
       const Eigen::Index batch = method == "adaptive" ? 1 : method == "adaptive-5" ? 5 : most() - count;
       for (const gonio::next_measurement& next : with.chooser.choose(samples, std::min(batch, most() - count)))
         so_far.push_back(next.angles);
-      // Numbers between two batches are of the first of the batch.
+      // A count between two batches takes the first directions of the batch.
       for (const Eigen::Index between : given_.counts)
         if (batch > 1 && between > count && between < std::ssize(so_far))
           all[std::to_string(between)] =
@@ -292,7 +293,7 @@ class design_experiment : left_out_experiment {
   std::optional<family_setup> setup_;
 };
 
-/// The worst material of a row.
+/// Returns the worst material of a row.
 std::string worst_of(const json& row) {
   std::string worst;
   double most = -1.0;
@@ -304,7 +305,7 @@ std::string worst_of(const json& row) {
   return worst + " " + fixed(most, 1);
 }
 
-/// For each family the criterion that is best for all others: what choosing it costs who has not seen the material.
+/// Finds for each family the criterion that is best for all others: the cost of a choice made without the material.
 json chosen_by_others(const json& rows, double samples) {
   const std::vector<std::string> criteria{"pursuit",  "information", "expected-error", "residual",
                                           "variance", "worst-case",  "designed",       "exchanged-five"};

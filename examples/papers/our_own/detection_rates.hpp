@@ -1,5 +1,5 @@
 #pragma once
-/// p-values of many tests as rates: false alarms, detections, the ROC curve.
+/// Rates from the p-values of many tests: false alarms, detections, the ROC curve.
 
 #include "papers/experiments.hpp"
 #include "tool/pages/fixed.hpp"
@@ -13,7 +13,7 @@
 
 namespace papers {
 
-/// p-values by what was tried and by material.
+/// p-values by kind of test and by material.
 class p_values {
  public:
   void add(const std::string& what, const std::string& material, const std::vector<double>& values) {
@@ -27,7 +27,7 @@ class p_values {
     return together;
   }
 
-  /// The share of them below a level, of the material where it is least.
+  /// Returns the smallest share of p-values below a level among the materials, and its material.
   [[nodiscard]] std::pair<double, std::string> worst(const std::string& what, double level) const {
     std::pair<double, std::string> least{2.0, ""};
     for (const auto& [material, values] : of_.at(what)) least = std::min(least, {below(values, level), material});
@@ -45,7 +45,7 @@ class p_values {
 
 [[nodiscard]] inline std::string percent(double share) { return fixed(100.0 * share, 1); }
 
-/// "0.95 (0.69 to 1.30)": a share in per cent with its interval of 95 %, by E. B. Wilson (1927).
+/// "0.95 (0.69 to 1.30)": a share in per cent with its 95 % confidence interval, by E. B. Wilson (1927).
 [[nodiscard]] inline std::string with_interval(const std::vector<double>& values, double level) {
   constexpr double z = 1.96;
   const auto n = static_cast<double>(values.size());
@@ -55,7 +55,7 @@ class p_values {
          fixed(100.0 * (centre + reach), 2) + ")";
 }
 
-/// The probability that a part that differs has the smaller p-value: the area under the ROC curve.
+/// Returns the area under the ROC curve: the probability that a part that differs has the smaller p-value.
 [[nodiscard]] inline double area(const std::vector<double>& alike, std::vector<double> different) {
   std::ranges::sort(different);
   double sum = 0.0;

@@ -1,4 +1,5 @@
-/// gonio-papers directions-measured: real measurements, reconstructed from few directions that were chosen for them.
+/// gonio-papers directions-measured: real measurements, reconstructed from few directions that were optimised for a
+/// database.
 
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
@@ -47,7 +48,7 @@ struct directions_options : resumable_options {
   gonio::thread_count threads;
 };
 
-/// The prior on some cells, and the appearance metric there.
+/// The prior on some cells, and its appearance metric.
 struct benchmark_setup {
   gonio::log_relative_pca prior;
   gonio::appearance_metric appearance;
@@ -61,7 +62,7 @@ benchmark_setup open_benchmark_setup(const directions_options& given, const goni
 
 // ---- tables: judged as a whole -------------------------------------------------------------------------------------
 
-/// The cells to measure, as many times as a set is drawn.
+/// Returns the cells to measure, one list per draw of the set.
 std::vector<std::vector<Eigen::Index>> cells_of(const directions_options& given, const gonio::valid_cells& cells,
                                                 const std::string& set, std::size_t count) {
   std::vector<std::vector<Eigen::Index>> drawn;
@@ -74,14 +75,14 @@ std::vector<std::vector<Eigen::Index>> cells_of(const directions_options& given,
   return drawn;
 }
 
-/// Tikhonov's penalty for some samples.
+/// Returns Tikhonov's penalty for some samples.
 double eta_for(const directions_options& given, const gonio::log_relative_pca& prior,
                const gonio::sample_set& samples) {
   return given.eta == "auto" ? gonio::eta_of_unknown_noise(prior, samples, 0.3, given.threads)
                              : number_of_eta(given.eta);
 }
 
-/// Means over the repetitions.
+/// Returns mean errors over the repetitions.
 json judge_table(const directions_options& given, const benchmark_setup& shop, const std::string& name,
                  const gonio::brdf_table& truth, const std::vector<std::vector<Eigen::Index>>& drawn) {
   std::vector<material_result> results;
@@ -101,8 +102,8 @@ json judge_table(const directions_options& given, const benchmark_setup& shop, c
 
 // ---- scattered measurements: judged on those that were not used ----------------------------------------------------
 
-/// How far one pair of directions is from another: the larger of the angles by which light and viewer are off, after
-/// the turn about the normal that brings both closest, which an isotropic material does not see.
+/// Returns the distance of two pairs of directions: the larger of the angles between the lights and between the
+/// viewers. A turn about the normal, which does not change an isotropic material, first brings both closest.
 double angle_between(const gonio::direction_pair& from, const gonio::direction_pair& to) {
   // The turn maximises the sum of the cosines, A cos phi + B sin phi + C.
   const auto along = [](const gonio::direction& a, const gonio::direction& b) { return a.x() * b.x() + a.y() * b.y(); };
@@ -118,13 +119,13 @@ double angle_between(const gonio::direction_pair& from, const gonio::direction_p
   return std::max(off(from.wi, to.wi), off(from.wo, to.wo));
 }
 
-/// Which measurement stands for which direction, and how far away it is, in radians.
+/// The measurements that replace the wanted directions, with their distances in radians.
 struct stand_ins {
   std::vector<Eigen::Index> samples;
   std::vector<double> distances;
 };
 
-/// The nearest measurement to each direction, light and viewer in either place, none of them twice.
+/// Finds the nearest measurement to each direction. Light and viewer may be exchanged; no measurement is used twice.
 stand_ins nearest_measured(const gonio::sample_set& all, std::span<const gonio::half_difference> directions) {
   stand_ins found;
   for (const gonio::half_difference& angles : directions) {
@@ -146,7 +147,7 @@ stand_ins nearest_measured(const gonio::sample_set& all, std::span<const gonio::
   return found;
 }
 
-/// The measurements to use, as many times as a set is drawn; random ones are where they are.
+/// Returns the measurements to use, one list per draw of the set. Random ones have a distance of zero.
 std::vector<stand_ins> samples_of(const directions_options& given, const gonio::sample_set& all, const std::string& set,
                                   std::size_t count) {
   std::vector<stand_ins> drawn;
@@ -159,7 +160,7 @@ std::vector<stand_ins> samples_of(const directions_options& given, const gonio::
   return drawn;
 }
 
-/// Means over the repetitions.
+/// Returns mean errors over the repetitions.
 json judge_samples(const directions_options& given, const benchmark_setup& shop, const gonio::sample_set& all,
                    const std::vector<stand_ins>& drawn) {
   const auto times = static_cast<double>(drawn.size());
@@ -194,7 +195,7 @@ json judge_samples(const directions_options& given, const benchmark_setup& shop,
 
 // ---- the experiment ------------------------------------------------------------------------------------------------
 
-/// Does what is not done yet, opening the benchmark_setup when it must.
+/// Computes the results that do not exist yet, and opens the benchmark_setup only if needed.
 class experiment {
  public:
   experiment(const directions_options& given, progress_bar& bar) : given_(given), bar_(bar), results_(given) {}
@@ -231,7 +232,7 @@ class experiment {
   }
 
  private:
-  /// A row for each number and set that exists; `judge` returns nothing where it does not.
+  /// Adds a row for each number and existing set. `judge` returns nothing for a set that does not exist.
   template <class Judge>
   void each_set(const std::string& name, std::size_t turn, json& rows, Judge&& judge) {
     for (const Eigen::Index count : given_.counts)
@@ -256,11 +257,11 @@ class experiment {
   const directions_options& given_;
   progress_bar& bar_;
   resumable_results results_;
-  std::size_t turn_ = 0;                 ///< materials have one each
-  std::optional<benchmark_setup> shop_;  // of the last table's cells, most often those of the next, too
+  std::size_t turn_ = 0;                 ///< one per material
+  std::optional<benchmark_setup> shop_;  // on the cells of the last table, which the next table often shares
 };
 
-/// The means over materials of each number and set, in the order of the rows.
+/// Returns the means over materials for each number and set, in the order of the rows.
 json means_of(const json& rows) {
   std::vector<json> means;
   for (const json& row : rows.elements()) {
@@ -323,7 +324,7 @@ void print(const directions_options& given, const json& tables, const json& scat
   }
 }
 
-/// Every set must be there in one of the numbers.
+/// Refuses a set that exists for none of the numbers.
 void require_sets(const directions_options& given) {
   for (const std::string& set : given.sets)
     if (set != "random" && std::ranges::none_of(given.counts, [&](std::size_t count) {

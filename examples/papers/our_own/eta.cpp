@@ -1,4 +1,4 @@
-/// gonio-papers eta: how far the chosen penalty is from the best in hindsight.
+/// gonio-papers eta: compares the chosen penalty with the best in hindsight.
 
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
@@ -32,7 +32,7 @@ struct eta_options {
   gonio::thread_count threads;
 };
 
-/// Ten materials in the domain of a prior: a reconstruction by weights w misses |x|^2 - 2 w'Q'x + w'Sigma^2 w.
+/// Ten materials in a prior's domain. Weights w leave the squared error |x|^2 - 2 w'Q'x + w'Sigma^2 w.
 struct mapped_truths {
   std::vector<gonio::brdf_table> tables;
   Eigen::MatrixXd products;  ///< Q'x, k x 3 for each table
@@ -57,7 +57,8 @@ mapped_truths map_truths(const gonio::log_relative_pca& prior, const gonio::mate
   return truths;
 }
 
-/// Reconstructions from some rows of the prior, in the eigenvectors U of A A': weights A'U g, g = U'y / (l + eta).
+/// Errors of reconstructions from some rows A of the prior. In the eigenvectors U of A A', the weights are A'U g with g
+/// = U'y / (l + eta).
 class reconstruction_error {
  public:
   reconstruction_error(const gonio::log_relative_pca& prior, const mapped_truths& truths, const Eigen::MatrixXd& rows)
@@ -70,7 +71,8 @@ class reconstruction_error {
     products_ = turned * truths.products;
   }
 
-  /// The root mean square over all cells in the mapped domain, mean over the channels, from mapped measurements.
+  /// Returns the root mean square error over all cells in the mapped domain, averaged over the channels, from mapped
+  /// values.
   [[nodiscard]] double operator()(std::size_t material, const Eigen::MatrixXd& measured, double eta) const {
     double sum = 0.0;
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -96,7 +98,7 @@ std::vector<gonio::half_difference> directions_of(const std::string& set, std::s
                 (shipped_directions() / points_file(set, count)).string());
 }
 
-/// What a way to choose eta comes to.
+/// The result of one rule that chooses eta.
 struct eta_outcome {
   double rms = 0.0, log_eta = 0.0;
 
@@ -110,20 +112,20 @@ json outcome_row(const eta_outcome& choice, double best) {
   return {{"eta", std::exp(choice.log_eta)}, {"rms", choice.rms}, {"ratio", choice.rms / best}};
 }
 
-/// All ways to choose eta for measurements at some cells with some noise.
+/// Tries all rules that choose eta, for measurements at some cells with some noise.
 json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& truths,
                    std::span<const Eigen::Index> cells, double noise, const eta_options& options) {
   const auto equations_of = [&](const gonio::sample_set& samples) {
     return gonio::basis_equations(prior, gonio::locate_samples(prior.cells(), samples)).problem();
   };
   const auto gcv = gonio::eta_criterion::generalised_cross_validation;
-  // Derive the penalties that depend on the places alone.
+  // Compute the penalties that depend only on the locations.
   const gonio::sample_set places = gonio::sample_table(truths.tables[0], cells);
   const double stated = gonio::eta_of_noise(prior, places, noise, options.threads);
   const gonio::eta_range plausible = gonio::plausible_etas(prior, places, 0.3, options.threads);
   const reconstruction_error error(prior, truths, equations_of(places).rows());
 
-  // Reconstruct each material with every penalty, and with the one that each rule chooses.
+  // Reconstruct each material with every penalty and with the choice of each rule.
   const Eigen::VectorXd etas = gonio::geometric_sequence(1e-3, 1e5, 97);
   Eigen::VectorXd shared = Eigen::VectorXd::Zero(etas.size());
   eta_outcome each, forty, of_noise, unknown, free;
@@ -145,7 +147,7 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
       add(unknown, gonio::choose_eta(problem, gcv, plausible));
       add(free, gonio::choose_eta(problem, gcv));
     }
-  // Find the penalty that is best for all materials together.
+  // Find the best common penalty for all materials.
   Eigen::Index at = 0;
   const double best = shared.minCoeff(&at);
   return {{"best", {{"eta", etas[at]}, {"rms", best}}},
@@ -157,7 +159,7 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
           {"plausible", {plausible.lowest, plausible.highest}}};
 }
 
-/// Two digits that count.
+/// Returns a number with two significant digits.
 std::string brief(const json& eta) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.2g", eta.number());

@@ -1,5 +1,5 @@
 #pragma once
-/// Dips and rings: how far a table's luminance is from falling with theta_h, as that of most materials does.
+/// Dips and rings: how a table's luminance departs from a monotonic decrease with theta_h, which most materials show.
 
 #include <gonio/core/rgb.hpp>
 #include <gonio/table/brdf_table.hpp>
@@ -11,12 +11,11 @@
 namespace papers {
 
 struct highlight_shape {
-  double mirror =
-      1.0;  ///< the least of all curves of luminance at the mirror direction over the largest below 8 degrees
-  double turning_points = 0.0;  ///< of the luminance below a theta_h of 45 degrees, the mean over curves
+  double mirror = 1.0;          ///< luminance at theta_h = 0 over the largest below 8 degrees, minimum over curves
+  double turning_points = 0.0;  ///< of the luminance at theta_h below 45 degrees, mean over curves
 };
 
-/// How often a curve of logarithms turns by more than 2 %.
+/// Counts the turns of more than 2 % in a curve of logarithms.
 [[nodiscard]] inline int turning_points(const std::vector<double>& curve) {
   constexpr double visible = 0.02;
   int turns = 0, direction = 0;
@@ -38,7 +37,7 @@ struct highlight_shape {
   return turns;
 }
 
-/// Curves of luminance over theta_h, of all theta_d up to 75 degrees; those up to 65 degrees for `mirror`.
+/// Examines the curves of luminance over theta_h at theta_d up to 75 degrees, for `mirror` up to 65 degrees.
 [[nodiscard]] inline highlight_shape highlight_shape_of(const gonio::brdf_table& table) {
   const gonio::valid_cells& cells = table.cells();
   const gonio::grid_extents size = cells.grid().extents();

@@ -1,4 +1,5 @@
-/// gonio-papers implausible-samples: how often numbers that are no BRDF are noticed, and how often a BRDF is doubted.
+/// gonio-papers implausible-samples: how often values that are no BRDF are noticed, and how often a true BRDF is
+/// doubted.
 
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
@@ -58,13 +59,13 @@ direction_set random_directions(std::size_t count, std::uint64_t seed) {
   return set;
 }
 
-/// How many materials there are, and of how many the numbers are noticed to be a quantity, or taken for another one.
+/// The number of materials and, by quantity, how often it is named correctly or mistaken for another one.
 struct tally {
   int materials = 0;
   std::array<int, gonio::io::sample_quantity_names.size()> named{}, mistaken{};
 };
 
-/// A file of numbers that are some quantity, and that is read as a BRDF.
+/// Writes each quantity of a material as a file, which is then read as a BRDF.
 template <gonio::brdf Brdf>
 void count(const Brdf& material, const direction_set& set, tally& sum) {
   ++sum.materials;

@@ -1,5 +1,5 @@
-/// gonio-papers importance-sampling: how much less light estimates vary with directions drawn by importance of the
-/// BRDF than with cosine-weighted ones.
+/// gonio-papers importance-sampling: how much the variance of light estimates falls if directions are drawn by
+/// importance of the BRDF rather than cosine-weighted.
 
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
@@ -53,14 +53,14 @@ std::vector<named_light> lights_of(const sampling_options& options) {
   return lights;
 }
 
-/// Variances of one sample's estimate of the luminance towards the camera.
+/// Variances of one-sample estimates of the luminance towards the camera.
 struct variances {
   double by_cosine = 0.0, by_importance = 0.0;
 };
 
-/// At a point of the sphere. The variance of f L cos / pdf is the integral of its square times pdf, less the square of
-/// its mean. Both integrals are estimated with draws by the environment and by the material, in equal shares, the same
-/// for both kinds: drawn by either kind alone, a small lamp would be missed and the table be one of chance.
+/// Returns the variances at a point of the sphere. The variance of f L cos / pdf is the integral of its square times
+/// pdf, minus its squared mean. Environment and material draw half of the directions each; both kinds share them. With
+/// either kind alone, the draws would miss a small lamp and chance would dominate the table.
 variances variances_at(const gonio::render::surface_frame& surface, const sampled_material& f,
                        const gonio::render::environment_sampler& light, std::size_t draws, std::mt19937_64& generator) {
   const auto number = [&] { return gonio::uniform_number(generator); };
@@ -82,7 +82,7 @@ variances variances_at(const gonio::render::surface_frame& surface, const sample
   return {squares.by_cosine - mean * mean, squares.by_importance - mean * mean};
 }
 
-/// The ratio of the mean variances over the points of a sphere that the camera sees.
+/// Returns the ratio of the mean variances over the visible points of a sphere.
 double ratio_of_variances(const sampled_material& f, const gonio::render::environment_sampler& light,
                           const sampling_options& options) {
   std::mt19937_64 generator(options.seed);

@@ -1,5 +1,5 @@
-/// gonio-papers in-plane: what scans in the plane of incidence, the most common measurements, say of the rest of a
-/// material, and which further directions repair it.
+/// gonio-papers in-plane: what scans in the plane of incidence, the most common measurements, reveal about the rest of
+/// a material, and which further directions help.
 
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
@@ -27,11 +27,11 @@ struct in_plane_options : left_out_options {
   Eigen::Index more = 5;
 };
 
-/// The scans alone, and with further directions: in the plane, anywhere as if the mean material lay there, anywhere one
-/// by one.
+/// The scans alone, and with further directions: in the plane; anywhere, chosen for the mean material; anywhere, chosen
+/// one by one.
 const std::vector<std::string> in_plane_methods{"scans", "more in the plane", "the same anywhere", "adaptive anywhere"};
 
-/// Every few degrees of viewing angle on both sides of the normal, but for those at which the viewer hides the light.
+/// Returns viewing angles every few degrees on both sides of the normal, except where the viewer hides the light.
 std::vector<gonio::half_difference> scan_directions(const in_plane_options& given) {
   constexpr double largest = 85.0, hidden = 2.5;
   std::vector<gonio::half_difference> directions;
@@ -53,7 +53,7 @@ class in_plane_experiment : left_out_experiment {
   in_plane_experiment(const in_plane_options& given, progress_bar& bar)
       : left_out_experiment(given, bar), given_(given) {}
 
-  /// Errors of each material by method.
+  /// Returns the errors of each material by method.
   [[nodiscard]] std::map<std::string, json> run() {
     std::map<std::string, json> found;
     for (const judged_material& material : measured_materials(given_.materials, library_))
@@ -67,7 +67,7 @@ class in_plane_experiment : left_out_experiment {
     return found;
   }
 
-  /// Beside the scans, as if the mean of all materials lay there.
+  /// Returns the directions to add to the scans if the material is the mean of all materials.
   [[nodiscard]] std::vector<gonio::next_measurement> recommended() {
     const setup& with = setup_without("");
     return with.anywhere.choose(scan_of_mean(with), given_.more);
@@ -129,9 +129,9 @@ class in_plane_experiment : left_out_experiment {
     return all;
   }
 
-  /// In the plane and out of it, of every 37th cell: mapped errors, stated deviations, and values within intervals of
-  /// 95 %. A cell next to the plane has phi_d within 10 degrees of 0 or 180, one out of it is 30 degrees away from
-  /// both.
+  /// Returns mapped errors, stated deviations and the coverage of 95 % intervals, in and out of the plane, over every
+  /// 37th cell. A cell is near the plane if its phi_d is within 10 degrees of 0 or 180. It is out of the plane if its
+  /// phi_d is at least 30 degrees from both.
   [[nodiscard]] json errors_by_region(const gonio::brdf_table& table, const gonio::brdf_table& truth,
                                       const gonio::reconstruction<gonio::log_relative>::result_type& known) const {
     struct sums {

@@ -1,5 +1,5 @@
 #pragma once
-/// Measured materials, each judged by what is learned without its family: the protocol of
+/// Measured materials, each reconstructed by a prior that was learned without its family: the protocol of
 /// docs/results/real-materials.md and real-methods.md.
 
 #include "papers/resumable_results.hpp"
@@ -25,10 +25,10 @@
 
 namespace papers {
 
-/// Materials that are judged, or learned from, as tables.
+/// Tables of materials to judge or to learn from.
 class material_library {
  public:
-  /// From files of networks (.npy), and a folder of measured materials (.bsdf). Throws gonio::error if it holds none.
+  /// Reads files of networks (.npy) and a folder of measured materials (.bsdf). Throws gonio::error if it holds none.
   material_library(const std::vector<std::filesystem::path>& networks, const std::filesystem::path& measured,
                    const cli::thinning& thin, const gonio::progress& listener, gonio::thread_count threads);
 
@@ -36,7 +36,7 @@ class material_library {
   [[nodiscard]] const gonio::material_set& measured() const noexcept { return sets_.back(); }
   [[nodiscard]] const gonio::material_set& first() const noexcept { return sets_.front(); }
 
-  /// Of the first `sets` files of networks, or of everything, the materials that `keep` does not refuse.
+  /// Returns those materials of the first `sets` sets that `keep` accepts. The last set holds the measured materials.
   template <class Keep>
   [[nodiscard]] gonio::material_set materials(Eigen::Index sets, const Keep& keep) const {
     gonio::material_set chosen{cells_, {}, {}};
@@ -54,7 +54,7 @@ class material_library {
   }
   [[nodiscard]] Eigen::Index all() const noexcept { return std::ssize(sets_); }
 
-  /// Components of everything but a family, under log_relative of the median of what is left.
+  /// Returns the components of all materials outside a family, under log_relative of their median.
   [[nodiscard]] gonio::log_relative_pca prior_without(const std::string& family, Eigen::Index components) const;
 
  private:
@@ -63,7 +63,7 @@ class material_library {
   std::vector<gonio::material_set> sets_;
 };
 
-/// What experiments by this protocol are told.
+/// Options of the experiments that follow this protocol.
 struct left_out_options : resumable_options {
   std::vector<std::filesystem::path> networks;
   std::filesystem::path materials;
@@ -74,23 +74,23 @@ struct left_out_options : resumable_options {
 /// Adds `--networks`, `--materials`, `--components`, `--thin`, `--state` and `--threads`.
 void add_left_out_options(cli::command& to, left_out_options& options);
 
-/// What is measured: reflectance in a pair of directions, sr^-1.
+/// Reflectance in a pair of directions, sr^-1.
 using reflectance = std::function<gonio::rgb(const gonio::direction_pair&)>;
 
-/// Which materials are judged, and what is left out of the prior for each.
+/// A material to judge, and the family to leave out of its prior.
 struct judged_material {
   std::string name, family;
   gonio::brdf_table truth;
   reflectance measured;
-  std::uint64_t number = 0;  ///< its position: each has noise and wrong samples of its own
-  std::size_t turn = 0;      ///< its family's, one process' own: what is learned without it serves all of the family
+  std::uint64_t number = 0;  ///< its position, which seeds its noise and its outliers
+  std::size_t turn = 0;      ///< its family's; one process judges the whole family by one prior
 };
 
-/// The measured materials of a library that was made from the same folder.
+/// Returns the measured materials. The library must have been made from the same folder.
 [[nodiscard]] std::vector<judged_material> measured_materials(const std::filesystem::path& folder,
                                                               const material_library& library);
 
-/// What such an experiment has: materials, measures of error, and results that outlive an interruption.
+/// Base of such an experiment: materials, measures of error, and results that survive an interruption.
 class left_out_experiment {
  protected:
   left_out_experiment(const left_out_options& given, cli::progress_bar& bar);
@@ -99,7 +99,7 @@ class left_out_experiment {
     return gonio::compare(table, material.truth, metric_, judge_, threads_);
   }
 
-  /// The result of some work, as resumable_results has it. `shown` stands beside the progress.
+  /// Returns the result of `work` through resumable_results. The progress bar displays `shown`.
   template <class Work>
   [[nodiscard]] const cli::json& once(const cli::json& key, std::size_t turn, const std::string& shown, Work&& work) {
     return results_.once(key, turn, [&] {
@@ -118,21 +118,21 @@ class left_out_experiment {
   resumable_results results_;
 };
 
-/// Where is measured: its name, and a set of directions for each repetition.
+/// A named set of directions for each repetition.
 struct sampling {
   std::string name;
   std::vector<std::vector<gonio::half_difference>> sets;
-  double judged_from = 0.0;  ///< theta_h in radians: coverage is counted there and beyond
+  double judged_from = 0.0;  ///< theta_h in radians: coverage is counted only from there on
 };
 
-/// "20 random": cells of MERL's grid at random, others each time.
+/// "20 random": random cells of MERL's grid, drawn anew for each repetition.
 [[nodiscard]] sampling random_sampling(Eigen::Index count, Eigen::Index repetitions);
 
-/// Values in some directions, each channel with noise relative to it.
+/// Returns the values in some directions, with noise relative to each channel.
 [[nodiscard]] gonio::sample_set measure(const reflectance& of, const std::vector<gonio::half_difference>& directions,
                                         double noise, std::uint64_t seed);
 
-/// The same directions as those of some samples, as if a prior's mean material lay there.
+/// Returns the values of a prior's mean material in the samples' directions.
 [[nodiscard]] gonio::sample_set of_mean_material(const gonio::sample_set& samples,
                                                  const gonio::log_relative_pca& prior);
 

@@ -40,7 +40,7 @@ struct measured_options {
   gonio::thread_count threads;
 };
 
-/// The lower bound that the prior allows: a fit to a random tenth of the cells.
+/// Samples for a lower bound on the prior's error: a fit to a random tenth of the cells.
 constexpr Eigen::Index many_samples = 100'000;
 
 gonio::brdf_table reconstruct(const measured_options& options, const gonio::log_relative_pca& prior,
@@ -50,7 +50,7 @@ gonio::brdf_table reconstruct(const measured_options& options, const gonio::log_
                                                                                          options.threads);
 }
 
-/// One table: its errors for each number of samples (all repetitions), and the row of spheres.
+/// Errors of one table for each number of samples (all repetitions), and its row of spheres.
 struct table_report {
   std::vector<std::vector<material_result>> errors;
   std::vector<gonio::image> spheres;
@@ -89,7 +89,8 @@ void run(const measured_options& options) {
   const auto files = gonio::io::list_merl_directory(options.tables);
   // Reconstruct each table from random samples, and judge the results.
   std::vector<gonio::image> rows;
-  std::vector<gonio::appearance_metric> appearances;  // of the last table's cells, most often those of the next, too
+  std::vector<gonio::appearance_metric>
+      appearances;  // on the cells of the last table, which the next table often shares
   json result = json::object();
   for (std::size_t f = 0; f < files.size(); ++f) {
     bar.draw(files[f].name, static_cast<double>(f) / static_cast<double>(files.size()));

@@ -1,4 +1,4 @@
-/// gonio-papers measured-intervals: how often intervals hold in directions that were measured, but not fitted.
+/// gonio-papers measured-intervals: how often intervals contain measurements that were not fitted.
 
 #include "papers/experiments.hpp"
 #include "papers/our_own/rank_correlation.hpp"
@@ -28,13 +28,13 @@ struct measured_intervals_options {
   gonio::thread_count threads;
 };
 
-/// What was found in the directions that were not fitted, each channel on its own.
+/// Counts over the directions that were not fitted, each channel separately.
 struct tally {
   double values = 0.0, within_68 = 0.0, within_95 = 0.0, rank = 0.0;
   std::vector<double> errors;  ///< in the metric's domain, of all channels
 };
 
-/// Fits some of the measurements, chosen at random, and looks at all others.
+/// Fits some randomly chosen measurements and examines all others.
 void count_repetition(const gonio::reconstruction<gonio::log_relative>& estimator, const gonio::located_samples& all,
                       Eigen::Index count, std::uint64_t seed, tally& sum) {
   const std::vector<Eigen::Index> chosen = gonio::random_choice(all.size(), count, seed);

@@ -14,7 +14,7 @@ namespace papers {
 
 namespace {
 
-/// A share of the way between the bounds of a parameter that says how sharp a lobe is, narrowed to what materials have.
+/// Places each parameter of a lobe's sharpness at a share of its range, restricted to values of real materials.
 gonio::model::lobe_kind::values of_sharpness(const gonio::model::lobe_kind& kind, double sharpness) {
   auto values = kind.typical();
   const auto about = kind.parameters();

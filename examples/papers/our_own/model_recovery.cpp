@@ -1,4 +1,4 @@
-/// gonio-papers model-recovery: do fits find the parameters that made the data, and how much noise do they pass on?
+/// gonio-papers model-recovery: whether fits find the parameters that made the data, and how much noise they pass on.
 
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
@@ -30,7 +30,7 @@ double between(std::mt19937_64& random, double low, double high) {
   return std::uniform_real_distribution(low, high)(random);
 }
 
-/// Directions above the horizon, half of them within about 20 degrees of the highlight.
+/// Draws directions above the horizon, half of them within about 20 degrees of the highlight.
 std::vector<gonio::direction_pair> draw_pairs(std::mt19937_64& random, std::size_t count) {
   std::vector<gonio::direction_pair> pairs;
   while (pairs.size() < count) {
@@ -42,8 +42,8 @@ std::vector<gonio::direction_pair> draw_pairs(std::mt19937_64& random, std::size
   return pairs;
 }
 
-/// Parameters that a few hundred directions can tell: exponents from 1 to 500, slopes from 0.04 to 0.8, refractive
-/// indices from 1.1 to 2.5, tilts from 30 to 60 degrees, others within their bounds; colours from 0.05 to 1.
+/// Draws parameters that a few hundred directions can determine: exponents from 1 to 500, slopes from 0.04 to 0.8,
+/// refractive indices from 1.1 to 2.5, tilts from 30 to 60 degrees, others within their bounds; colours from 0.05 to 1.
 gonio::model::analytic_lobe draw_lobe(const gonio::model::lobe_kind& kind, std::mt19937_64& random) {
   gonio::model::lobe_kind::values values{};
   const auto about = kind.parameters();
@@ -66,7 +66,7 @@ std::vector<gonio::model::fit_observation> observe(const gonio::model::analytic_
   return all;
 }
 
-/// All unknowns of a model: the parameters of each lobe, then its colour.
+/// Returns all unknowns of a model: the parameters of each lobe, followed by its colour.
 Eigen::VectorXd unknowns_of(const gonio::model::analytic_brdf& f) {
   std::vector<double> all;
   for (const gonio::model::analytic_lobe& lobe : f.lobes()) {
@@ -77,7 +77,8 @@ Eigen::VectorXd unknowns_of(const gonio::model::analytic_brdf& f) {
   return Eigen::Map<const Eigen::VectorXd>(all.data(), std::ssize(all));
 }
 
-/// Fisher's information of the unknowns; an observation's weight is one over the variance of each of its channels.
+/// Returns the Fisher information of the unknowns. An observation's weight is the inverse variance of each of its
+/// channels.
 Eigen::MatrixXd information(const gonio::model::analytic_brdf& f,
                             const std::vector<gonio::model::fit_observation>& observations) {
   const Eigen::Index n = unknowns_of(f).size();
@@ -98,7 +99,7 @@ Eigen::MatrixXd information(const gonio::model::analytic_brdf& f,
   return sum;
 }
 
-/// The model with noise: each channel off by a deviation that is a share of the mean of the three.
+/// Returns values with noise. The standard deviation in each channel is a share of the mean of the three.
 std::vector<gonio::model::fit_observation> observe_with_noise(const gonio::model::analytic_brdf& f,
                                                               const std::vector<gonio::direction_pair>& pairs,
                                                               double noise, std::mt19937_64& random) {
@@ -136,11 +137,10 @@ json recover(const gonio::model::lobe_kind& kind, const recovery_options& given)
     many.random_starts = given.starts;
     const auto estimate = gonio::model::fit_model({&lambert, &kind}, noisy, gonio::lin(), many);
     const Eigen::VectorXd error = unknowns_of(estimate.model) - exact;
-    // Weigh the error by the information: the mean is 1 for an unbiased estimator that reaches the bound of Cramer and
-    // Rao.
+    // Weight the error by the information. The mean is 1 for an unbiased estimator that reaches the Cramer-Rao bound.
     passed_on.push_back(error.dot(information(truth, noisy) * error) / static_cast<double>(error.size()));
   }
-  // Report how often it was found, and how much of the noise was passed on.
+  // Report the share of recoveries and the noise that was passed on.
   const auto near = std::ranges::count_if(passed_on, [](double ratio) { return ratio <= 4.0; });
   const double median = distribution(passed_on).median;
   std::erase_if(passed_on, [](double ratio) { return ratio > 4.0; });

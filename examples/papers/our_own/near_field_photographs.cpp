@@ -1,6 +1,6 @@
-/// gonio-papers near-field-photographs: measured materials reconstructed from raw photographs of a flat sample from
-/// close by, against perfect images of radiance. The photographs are simulated: brackets of exposures by a noisy chip
-/// behind a lens that distorts and darkens, with light and camera not quite where they are said to be.
+/// gonio-papers near-field-photographs: measured materials reconstructed from raw close-up photographs of a flat
+/// sample, compared with perfect images of radiance. The photographs are simulated: exposure brackets by a noisy sensor
+/// behind a lens with distortion and vignetting. Light and camera are slightly off their stated places.
 
 #include "lab/near_field_lab.hpp"
 #include "lab/photographs.hpp"
@@ -40,12 +40,12 @@ struct near_field_photographs_options : left_out_options {
   Eigen::Index pixels = 192, block = 4;
 };
 
-/// The laboratory: a camera at distance 1 from a sample that is larger than what counts of it, a lamp at distance 4.
+/// The laboratory: a camera at distance 1 from a sample that exceeds the evaluated area, and a lamp at distance 4.
 class near_field_laboratory {
  public:
   explicit near_field_laboratory(const near_field_photographs_options& given) : given_(given) {}
 
-  /// What the experimenter believes of a view.
+  /// Returns the setup of a view as the experimenter states it.
   [[nodiscard]] gonio::capture::near_field_setup setup(const gonio::direction_pair& pair) const {
     const double field_of_view = gonio::radians(given_.field_of_view);
     const gonio::lens_camera camera(gonio::design::near_field_camera(pair.wo, field_of_view, given_.pixels),
@@ -59,7 +59,7 @@ class near_field_laboratory {
             .white_reflectance = reflectance_of_white};
   }
 
-  /// Where light and camera truly are.
+  /// Returns the true setup, with light and camera off their stated places.
   [[nodiscard]] gonio::capture::near_field_setup true_setup(const gonio::capture::near_field_setup& stated,
                                                             std::uint64_t seed) const {
     std::mt19937_64 generator(seed);
@@ -73,7 +73,7 @@ class near_field_laboratory {
     return lab::photograph(material, {sample_radius}, truth, {.noise = noise}, seed);
   }
 
-  /// A bracket of raw frames and dark frames of the same camera, merged.
+  /// Takes an exposure bracket of raw frames and dark frames with one camera, and merges them.
   template <class Brdf>
   [[nodiscard]] gonio::capture::merged_frames photograph(const Brdf& material,
                                                          const gonio::capture::near_field_setup& truth,
@@ -100,7 +100,7 @@ class near_field_laboratory {
   const near_field_photographs_options& given_;
 };
 
-/// Pixels that are not hot, and at which no exposures contradict each other, in both images.
+/// Returns the pixels that are not hot and whose exposures agree, in both images.
 std::vector<bool> sound_pixels(const gonio::capture::merged_frames& one, const gonio::capture::merged_frames& other) {
   using gonio::capture::value_state;
   std::vector<bool> sound;
@@ -114,7 +114,8 @@ std::vector<bool> sound_pixels(const gonio::capture::merged_frames& one, const g
   return sound;
 }
 
-/// Radiance that is infinite where it is a lower bound alone, so that no block averages over it.
+/// Returns the radiance with infinity at saturated values, which are only lower bounds: no block then averages over
+/// them.
 gonio::image with_infinite_saturation(const gonio::capture::merged_frames& merged) {
   gonio::image radiance = merged.radiance;
   for (std::size_t i = 0; i < radiance.size(); ++i)
@@ -125,9 +126,9 @@ gonio::image with_infinite_saturation(const gonio::capture::merged_frames& merge
 
 /// The samples of all views.
 struct views {
-  std::vector<gonio::sample_set> perfect;    ///< of perfect images, light and camera where they are said to be
-  std::vector<gonio::sample_set> misplaced;  ///< of perfect images, light and camera off
-  std::vector<gonio::sample_set> raw;        ///< of raw frames
+  std::vector<gonio::sample_set> perfect;    ///< perfect images, light and camera as stated
+  std::vector<gonio::sample_set> misplaced;  ///< perfect images, light and camera off
+  std::vector<gonio::sample_set> raw;        ///< raw frames
 };
 
 gonio::sample_set joined(const std::vector<gonio::sample_set>& parts) {
@@ -166,7 +167,7 @@ class near_field_photographs_experiment : photograph_experiment {
       const gonio::capture::near_field_setup truth = laboratory_.true_setup(stated, seed);
       taken.perfect.push_back(near_field_samples(laboratory_.radiance(brdf, stated), stated));
       taken.misplaced.push_back(near_field_samples(laboratory_.radiance(brdf, truth), stated));
-      // The white reference lies where the sample lay.
+      // The white reference takes the place of the sample.
       constexpr double reflectance = near_field_laboratory::reflectance_of_white;
       const auto merged = laboratory_.photograph(brdf, truth, seed + 1);
       const auto white = laboratory_.photograph(lab::white_material{reflectance}, truth, seed + 2);
@@ -179,7 +180,7 @@ class near_field_photographs_experiment : photograph_experiment {
     return taken;
   }
 
-  /// The samples where light and camera are found to be, as `gonio near-field --misplaced` does it.
+  /// Returns the samples with refined poses of light and camera, like `gonio near-field --misplaced`.
   [[nodiscard]] gonio::sample_set refined(const gonio::log_relative_pca& prior,
                                           const std::vector<gonio::sample_set>& images,
                                           gonio::light_calibration calibrated_by) const {

@@ -1,5 +1,5 @@
-/// gonio-papers noell-measured: real measurements, of which the materials of a database know nothing, reconstructed
-/// by robust estimation (after Noell, Koehler and Stricker 2014) from some of their samples.
+/// gonio-papers noell-measured: real measurements of materials outside a database, reconstructed by robust estimation
+/// (after Noell, Koehler and Stricker 2014) from some of their samples.
 
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
@@ -30,7 +30,7 @@ namespace papers {
 
 namespace {
 
-/// Of radial basis functions, as in Table 1.
+/// The penalty of radial basis functions, as in Table 1.
 const gonio::tikhonov radial_penalty{1e-6};
 
 struct measured_options {
@@ -44,7 +44,7 @@ struct measured_options {
   gonio::thread_count threads;
 };
 
-/// The materials on some cells, their corrections, and the measures of error there.
+/// The materials on some cells, their corrections, and the measures of error.
 struct benchmark_setup {
   benchmark_setup(const measured_options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
       : methods(given.methods),
@@ -55,7 +55,7 @@ struct benchmark_setup {
         printed_corrections(materials, gonio::correction_rule::as_printed(), gonio::nnls{}, threads),
         measures(cells, given.environment, threads) {}
 
-  /// Calls `use(name, fit)` for each of the methods: ours, the paper's as printed, and those it compares with.
+  /// Calls `use(name, fit)` for each method: ours, the paper's as printed, and those that the paper compares with.
   template <class Use>
   void reconstruct(const gonio::sample_set& samples, double outlier_ratio, Use&& use) const {
     const gonio::decomposition combination{materials, gonio::nnls{}, threads};
@@ -80,12 +80,12 @@ struct benchmark_setup {
   noell_measures measures;
 };
 
-/// One for each method and share of outliers.
+/// Returns the beginning of the row of one method and share of outliers.
 json row(const std::string& name, const std::string& method, std::size_t samples, double outlier_ratio) {
   return {{"name", name}, {"method", method}, {"samples", samples}, {"outlier_ratio", outlier_ratio}};
 }
 
-/// Means over the tables, one row a method and share of outliers.
+/// Prints means over the tables, one row per method and share of outliers.
 void print_means(const measured_options& given, const json& rows) {
   std::cout
       << "\nMeans over the tables\n\n| outliers | method | tables | error | Delta E formula light | natural light "
@@ -108,7 +108,7 @@ void print_means(const measured_options& given, const json& rows) {
     }
 }
 
-/// Judged on the whole table.
+/// Judges estimates on the whole table.
 void judge_table(const measured_options& given, const benchmark_setup& shop, const std::string& name,
                  const gonio::brdf_table& truth, json& rows) {
   const std::size_t count = gonio::share_of(truth.cells().size(), given.data_ratio);
@@ -127,7 +127,7 @@ void judge_table(const measured_options& given, const benchmark_setup& shop, con
                      });
 }
 
-/// Judged on the measurements that the estimate was not made from.
+/// Judges estimates on the measurements that were not used.
 void judge_samples(const measured_options& given, const benchmark_setup& shop, const std::filesystem::path& path,
                    json& rows) {
   const gonio::sample_set all = read_measurements(path);
@@ -176,7 +176,7 @@ void run(const measured_options& given) {
     gonio::refuse("there is nothing to reconstruct: give --tables or --samples");
   progress_bar bar;
   json rows = json::array();
-  std::unique_ptr<benchmark_setup> shop;  // of the last table's cells, most often those of the next, too
+  std::unique_ptr<benchmark_setup> shop;  // on the cells of the last table, which the next table often shares
   const auto shop_for = [&](const gonio::valid_cells& cells) -> const benchmark_setup& {
     if (!shop || !(shop->materials.cells() == cells)) {
       shop.reset();  // two would take twice the memory

@@ -1,5 +1,5 @@
 #pragma once
-/// Measured materials reconstructed from simulated photographs: what the experiments with photographs share.
+/// Base of the experiments that reconstruct measured materials from simulated photographs.
 
 #include "papers/our_own/left_out_families.hpp"
 #include <gonio/core/statistics.hpp>
@@ -28,7 +28,7 @@ class photograph_experiment : protected left_out_experiment {
  protected:
   using estimator_type = gonio::reconstruction<gonio::log_relative>;
 
-  /// Throws gonio::error naming the one of `names` that is not in the folder of materials.
+  /// Throws gonio::error if the folder of materials lacks one of `names`; the message has its name.
   photograph_experiment(const left_out_options& given, const std::vector<std::string>& names, cli::progress_bar& bar)
       : left_out_experiment(given, bar), given_(given), all_(measured_materials(given.materials, library_)) {
     for (const std::string& name : names) static_cast<void>(material(name));
@@ -40,7 +40,7 @@ class photograph_experiment : protected left_out_experiment {
     return *found;
   }
 
-  /// The prior of all but a material's family.
+  /// Returns the prior learned without a material's family.
   [[nodiscard]] gonio::log_relative_pca prior_of(const judged_material& of) const {
     return library_.prior_without(of.family, given_.components);
   }
@@ -48,13 +48,13 @@ class photograph_experiment : protected left_out_experiment {
     return estimator_type(std::move(prior), gonio::discrepancy_model{}, given_.threads);
   }
 
-  /// As `gonio reconstruct` does it.
+  /// Judges the reconstruction that `gonio reconstruct` makes.
   [[nodiscard]] gonio::comparison judged(const estimator_type& estimator, const gonio::sample_set& samples,
                                          const judged_material& of) const {
     return compare(estimator.fit(samples).tabulate(library_.cells()), of);
   }
 
-  /// The median of the samples' relative errors in green, where they are said to be.
+  /// Returns the median relative error of the samples in green, in their stated directions.
   [[nodiscard]] static double median_error(const gonio::sample_set& samples, const judged_material& of) {
     std::vector<double> relative;
     for (const gonio::sample& s : samples)

@@ -17,16 +17,16 @@
 
 namespace papers {
 
-/// What is drawn of a material.
+/// The random parameters of a material.
 struct random_parameters {
   gonio::model::lambertian base;
   gonio::model::ggx second;
   double roughness = 0.0;  ///< of the first lobe
   gonio::rgb tint;
-  bool is_ggx = false;  ///< else Ward's
+  bool is_ggx = false;  ///< otherwise Ward's
 };
 
-/// The same number gives the same material.
+/// Draws parameters. The same number gives the same material.
 inline random_parameters draw_parameters(std::uint64_t number) {
   std::mt19937_64 generator(number);
   const auto within = [&](double low, double high) { return low + (high - low) * gonio::uniform_number(generator); };
@@ -54,16 +54,16 @@ inline gonio::brdf_table tabulate_parameters(const random_parameters& drawn, con
   return gonio::tabulate(gonio::model::sum_of_lobes{base, gloss, second}, cells, threads);
 }
 
-/// A table of a Lambertian base below two lobes, the second GGX's; the first is GGX's or Ward's (bounded albedo).
-/// Albedos are uniform, roughnesses from 0.03 to 0.8 and reflectances from 0.01 to 0.8 in their logarithm; a third of
-/// the lobes are coloured.
+/// Tabulates a Lambertian base below two lobes. The second lobe is GGX; the first is GGX or Ward (bounded albedo).
+/// Albedos are uniform. Roughnesses from 0.03 to 0.8 and reflectances from 0.01 to 0.8 are uniform in their logarithm.
+/// A third of the lobes are coloured.
 inline gonio::brdf_table random_material(std::uint64_t number, const gonio::valid_cells& cells,
                                          gonio::thread_count threads) {
   return tabulate_parameters(draw_parameters(number), cells, threads);
 }
 
-/// The same material at the wavelengths of `spectra`: albedo and reflectances are the smoothest spectra that have their
-/// colours. Three wavelengths at a time take the places of red, green and blue.
+/// Returns the same material at the wavelengths of `spectra`. Its albedo and reflectances are the smoothest spectra of
+/// the given colours. Three wavelengths at a time take the places of red, green and blue.
 inline gonio::spectral_table random_spectra(std::uint64_t number, const gonio::model::smooth_spectra& spectra,
                                             const gonio::valid_cells& cells, gonio::thread_count threads) {
   const random_parameters drawn = draw_parameters(number);

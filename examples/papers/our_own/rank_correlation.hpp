@@ -1,5 +1,5 @@
 #pragma once
-/// Do two figures of the same things grow together?
+/// Spearman's rank correlation: whether two quantities increase together.
 
 #include <Eigen/Core>
 
@@ -11,7 +11,7 @@
 
 namespace papers {
 
-/// The rank of each value, from 0.
+/// Returns the rank of each value, from 0.
 [[nodiscard]] inline Eigen::ArrayXd ranks_of(std::span<const double> values) {
   std::vector<Eigen::Index> order(values.size());
   std::iota(order.begin(), order.end(), Eigen::Index{0});
@@ -21,8 +21,8 @@ namespace papers {
   return ranks;
 }
 
-/// Spearman's rank correlation of two figures of at least two things: 1 if the one grows with the other, 0 if it says
-/// nothing of it. Ties keep their order.
+/// Returns Spearman's rank correlation of at least two pairs of values: 1 if both increase together, 0 if they are
+/// unrelated. Equal values are ranked in their order.
 [[nodiscard]] inline double rank_correlation(std::span<const double> a, std::span<const double> b) {
   const Eigen::ArrayXd left = ranks_of(a) - 0.5 * static_cast<double>(a.size() - 1);
   const Eigen::ArrayXd right = ranks_of(b) - 0.5 * static_cast<double>(b.size() - 1);

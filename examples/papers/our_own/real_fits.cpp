@@ -1,4 +1,4 @@
-/// gonio-papers real-fits: analytic models fitted to measured materials, by every way to add up errors.
+/// gonio-papers real-fits: analytic models fitted to measured materials, with every error measure.
 
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
@@ -31,7 +31,7 @@ struct real_fits_options : resumable_options {
   thinning thin{{3, 5}};
 };
 
-/// How errors add up, as the options of gonio fit say it.
+/// An error measure, named as in the options of gonio fit.
 struct error_choice {
   std::string metric, loss;
   bool cosine_weighted = false;
@@ -51,7 +51,7 @@ struct error_choice {
   [[nodiscard]] json key() const { return {metric, loss, cosine_weighted, cell_weights}; }
 };
 
-/// All ways to add up errors of samples, or of tables.
+/// Returns all error measures of samples, or of tables.
 std::vector<error_choice> choices(const real_fits_options& given, bool of_tables) {
   std::vector<error_choice> all;
   for (const std::string& metric : given.metrics)
@@ -71,7 +71,7 @@ class fits_experiment {
         judge_(library_.cells(), 36, given.threads),
         results_(given) {}
 
-  /// A row for each way to add up errors, model and number of samples (0: a table), with the Delta E of each material.
+  /// Returns a row for each error measure, model and number of samples (0: a table), with the distribution of Delta E.
   [[nodiscard]] json run() {
     const std::vector<judged_material> materials = measured_materials(given_.materials, library_);
     json rows = json::array();
@@ -94,7 +94,7 @@ class fits_experiment {
           });
           if (!error.is_null()) errors.push_back(error.number());
         }
-        if (errors.empty()) continue;  // other processes' alone
+        if (errors.empty()) continue;  // left to other processes
         const distribution seen(errors);
         rows.push_back({{"choice", choice.key()},
                         {"model", model},
@@ -105,7 +105,7 @@ class fits_experiment {
       }
   }
 
-  /// Delta E under the environment, the mean of the repetitions.
+  /// Returns Delta E under the environment, averaged over the repetitions.
   [[nodiscard]] double error_of(const judged_material& material, Eigen::Index count, const error_choice& choice,
                                 const std::string& model) const {
     if (count == 0)

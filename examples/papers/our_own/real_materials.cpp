@@ -53,7 +53,8 @@ std::vector<sampling> samplings(const real_materials_options& given) {
   return all;
 }
 
-/// A material whose lobes are so many times as wide: theta_h is another one, the more so the smaller it is.
+/// Returns a material with lobes `width` times as wide: it scales theta_h by 1 / width at the highlight, and less
+/// further out.
 judged_material with_lobes(judged_material material, double width) {
   material.measured = [of = material.measured, width](const gonio::direction_pair& pair) {
     gonio::half_difference angles = gonio::to_half_difference(pair.wi, pair.wo);
@@ -66,7 +67,7 @@ judged_material with_lobes(judged_material material, double width) {
   return material;
 }
 
-/// Makes some samples, chosen at random, ten times too bright and too dark by turns. Returns which.
+/// Makes some random samples alternately ten times too bright and ten times too dark. Returns their indices.
 std::vector<Eigen::Index> corrupt_some(gonio::sample_set& samples, Eigen::Index count, std::uint64_t seed) {
   const std::vector<Eigen::Index> chosen = gonio::random_choice(samples.size(), count, seed);
   for (Eigen::Index i = 0; i < std::ssize(chosen); ++i) samples[chosen[i]].value *= i % 2 == 0 ? 10.0 : 0.1;
@@ -77,7 +78,7 @@ class experiment : left_out_experiment {
  public:
   experiment(const real_materials_options& given, progress_bar& bar) : left_out_experiment(given, bar), given_(given) {}
 
-  /// A row for each sampling and method: errors of each material, means over the repetitions.
+  /// Returns a row for each sampling and method with the errors of each material, averaged over the repetitions.
   [[nodiscard]] json run() {
     const std::vector<judged_material> materials = judged();
     json rows = json::array();
@@ -117,7 +118,7 @@ class experiment : left_out_experiment {
     return all;
   }
 
-  /// By networks of the first file alone, or by everything; of surrogates the ten test materials are left out.
+  /// Learns from the first file of networks, or from everything. For surrogates, leaves out the ten test materials.
   const gonio::log_relative_pca& prior(bool everything, const std::string& family) {
     const std::string key = everything ? "all " + family : "first";
     if (const auto known = priors_.find(key); known != priors_.end()) return known->second;
@@ -132,7 +133,7 @@ class experiment : left_out_experiment {
     return priors_.emplace(key, gonio::learn_pca(std::move(set), metric, components, given_.threads)).first->second;
   }
 
-  /// What the instrument reads: the mean over its receiver.
+  /// Returns the instrument's readings: means over its aperture.
   [[nodiscard]] reflectance reading_of(const judged_material& material) const {
     const gonio::aperture cones = given_.aperture();
     if (cones.is_point()) return material.measured;
@@ -142,17 +143,17 @@ class experiment : left_out_experiment {
     };
   }
 
-  /// A table, and which samples were left out, the worst first.
+  /// A table, and the samples that were left out, the worst first.
   struct estimated {
     gonio::brdf_table table;
     std::vector<Eigen::Index> left_out = {};
-    /// Values of cells in each of eight regions, and how many of them are within the intervals of 68 and 95 %.
+    /// Number of values in each of eight regions, and of those within the 68 and 95 % intervals.
     std::vector<double> values = std::vector<double>(8, 0.0), within_68 = values, within_95 = values;
     double rank = 0.0;    ///< correlation of deviations and errors
-    bool warned = false;  ///< that the highlight is known to a factor of 4 or worse
+    bool warned = false;  ///< whether the highlight is known only to a factor of 4 or worse
   };
 
-  /// Of every 37th cell; regions by theta_h (2, 10 and 30 degrees) and theta_d (45).
+  /// Counts over every 37th cell. The regions are split by theta_h (2, 10 and 30 degrees) and theta_d (45 degrees).
   void count_within(estimated& found, const gonio::reconstruction<gonio::log_relative>::result_type& known,
                     const gonio::brdf_table& truth, double judged_from) const {
     std::vector<double> deviations, errors;
@@ -182,7 +183,7 @@ class experiment : left_out_experiment {
     found.rank = rank_correlation(deviations, errors);
   }
 
-  /// Is the highlight of a channel within the gamut, where a ratio of peaks says something?
+  /// Returns for each channel whether the highlight is within the gamut, so that a ratio of peaks is meaningful.
   [[nodiscard]] static std::array<bool, 3> in_gamut(const judged_material& material) {
     std::array<bool, 3> inside{true, true, true};
     for (const double theta_d : {5.0, 25.0, 45.0, 65.0}) {
@@ -275,7 +276,7 @@ class experiment : left_out_experiment {
   std::map<std::string, gonio::log_relative_pca> priors_;
 };
 
-/// How many values are within the intervals of 68 and 95 %, and of the latter in the worst region.
+/// Returns the coverage of the 68 and 95 % intervals, and that of the latter in the worst region.
 std::string coverage(const json& materials) {
   std::vector<double> values(8, 0.0), within_68 = values, within_95 = values;
   for (const auto& [name, errors] : materials.items())

@@ -34,7 +34,7 @@ struct real_methods_options : left_out_options {
   Eigen::Index repetitions = 2;
 };
 
-/// What is learned without one family, the parts that not all methods need on demand.
+/// Everything learned without one family. Parts that only some methods need are made on demand.
 class learned {
  public:
   learned(const material_library& library, const std::string& family, Eigen::Index components,
@@ -43,7 +43,7 @@ class learned {
 
   [[nodiscard]] const gonio::log_relative_pca& prior() const noexcept { return prior_; }
 
-  /// The materials as the prior remembers them: what `gonio reconstruct` has.
+  /// Returns the materials expanded from the prior, as in `gonio reconstruct`.
   [[nodiscard]] const gonio::measured<gonio::log>& materials() {
     if (!materials_) materials_.emplace(gonio::expand(prior_, threads_), gonio::log{}, threads_);
     return *materials_;
@@ -61,7 +61,7 @@ class learned {
   std::optional<gonio::correction> corrections_;
 };
 
-/// The tool's estimates.
+/// Estimates by the methods of the tool.
 class tool_methods {
  public:
   tool_methods(learned& known, gonio::thread_count threads) : known_(known), threads_(threads) {}
@@ -108,8 +108,8 @@ class methods_experiment : left_out_experiment {
   methods_experiment(const real_methods_options& given, progress_bar& bar)
       : left_out_experiment(given, bar), given_(given) {}
 
-  /// A row for each number of samples, share of wrong ones and method, with the errors of each material: means over
-  /// the repetitions.
+  /// Returns a row for each number of samples, share of outliers and method, with the errors of each material averaged
+  /// over the repetitions.
   [[nodiscard]] json run() {
     std::map<std::string, json> errors;  // by the row's name
     for (const judged_material& material : measured_materials(given_.materials, library_))
@@ -137,7 +137,7 @@ class methods_experiment : left_out_experiment {
     return json{count, wrong, method}.dump();
   }
 
-  /// The families come one after the other: what was learned last is kept.
+  /// Keeps only the last family: the families come one after the other.
   [[nodiscard]] learned& without(const std::string& family) {
     if (!known_ || family_ != family) {
       known_.reset();
@@ -175,7 +175,7 @@ class methods_experiment : left_out_experiment {
   std::optional<learned> known_;
 };
 
-/// The Delta E of each material under the environment.
+/// Returns the Delta E of each material under the environment.
 std::map<std::string, double> environment_of(const json& materials) {
   std::map<std::string, double> found;
   if (materials.is_object())
@@ -183,7 +183,7 @@ std::map<std::string, double> environment_of(const json& materials) {
   return found;
 }
 
-/// How many times the errors of others these are, material by material; nothing if there are no others.
+/// Returns the ratios of these errors to others, material by material; empty if there are no others.
 std::vector<double> ratios_of(const std::map<std::string, double>& errors,
                               const std::map<std::string, double>& others) {
   std::vector<double> ratios;
@@ -201,7 +201,7 @@ void print(const real_methods_options& given, const json& rows) {
             << ".\n\n| samples | wrong | method | mapped rms, mean | Delta E env, mean | median | worst | Delta E "
                "lights, mean | Delta E env over pca's, median | beyond pca's | beyond twice pca's | beyond the median "
                "material's |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-  std::map<std::string, std::map<std::string, double>> pca, median;  // by what was sampled
+  std::map<std::string, std::map<std::string, double>> pca, median;  // by sampling
   const auto sampled = [](const json& row) { return json{row["samples"], row["wrong"]}.dump(); };
   for (const json& row : rows.elements()) {
     if (row["method"] == "pca") pca[sampled(row)] = environment_of(row["materials"]);

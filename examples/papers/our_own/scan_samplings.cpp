@@ -10,7 +10,7 @@ namespace papers {
 
 namespace {
 
-/// Cells of MERL's grid at random, below some degrees of theta_h; what lies 8 degrees beyond is judged.
+/// Returns random cells of MERL's grid below some theta_h in degrees, judged only from 8 degrees further out.
 sampling below(Eigen::Index count, double theta_h) {
   const gonio::valid_cells cells;
   std::vector<gonio::half_difference> all, directions;
@@ -20,7 +20,8 @@ sampling below(Eigen::Index count, double theta_h) {
   return {std::to_string(count) + " below " + cli::fixed(theta_h, 0), {directions}, gonio::radians(theta_h + 8.0)};
 }
 
-/// Viewers from -80 to 80 degrees in steps, but next to the light, in planes at some azimuths from that of incidence.
+/// Returns viewers from -80 to 80 degrees, except close to the light, in planes at some azimuths from that of
+/// incidence.
 sampling in_planes(const std::vector<double>& incidences, const std::vector<double>& azimuths, double step) {
   std::vector<gonio::half_difference> directions;
   for (const double theta_i : incidences)

@@ -1,5 +1,5 @@
 #pragma once
-/// Directions as scans have them: close together in one region or plane, and nowhere else.
+/// Directions typical of scans: close together in one region or plane, and nowhere else.
 
 #include "papers/our_own/left_out_families.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace papers {
 
-/// 20, 60 and 500 below some theta_h, where what lies 8 degrees beyond is judged; one incidence and four in one plane,
-/// four in two planes, in steps of 1 to 10 degrees.
+/// Returns 20, 60 and 500 directions below some theta_h, judged only from 8 degrees further out; then scans in steps of
+/// 1 to 10 degrees: one and four incidences in one plane, four in two planes.
 [[nodiscard]] std::vector<sampling> scan_samplings();
 
 }  // namespace papers

@@ -1,5 +1,5 @@
 #pragma once
-/// How far an estimate is from measurements in any directions.
+/// Errors of an estimate against measurements in arbitrary directions.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>
@@ -9,7 +9,7 @@
 
 namespace papers {
 
-/// Root mean square of the difference of ln(f + 0.001) over values of all channels; negative ones count as zero.
+/// Root mean square difference of ln(f + 0.001) over all values of all channels. Negative values count as zero.
 class logarithmic_error {
  public:
   void add(const gonio::rgb& estimate, const gonio::rgb& truth) {
@@ -23,8 +23,8 @@ class logarithmic_error {
   double sum_ = 0.0, count_ = 0.0;
 };
 
-/// Root of the sum of squares of (estimate - truth) cos_i cos_o over that of truth cos_i cos_o, all channels together:
-/// 1 for an estimate that is black.
+/// Square root of the sum of squares of (estimate - truth) cos_i cos_o over that of truth cos_i cos_o, all channels
+/// together. A black estimate has an error of 1.
 class cosine_weighted_error {
  public:
   void add(const gonio::rgb& estimate, const gonio::rgb& truth, const gonio::direction_pair& pair) {

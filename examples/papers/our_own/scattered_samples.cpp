@@ -1,5 +1,5 @@
-/// gonio-papers scattered-samples: how measurements are best interpolated between their neighbours, found by leaving
-/// some of them out.
+/// gonio-papers scattered-samples: finds the best interpolation between neighbouring measurements by leaving some of
+/// them out.
 
 #include "tool/options/scattered_samples.hpp"
 
@@ -39,11 +39,11 @@ struct scattered_samples_options {
 /// Samples to interpolate, and others of the same material to judge by.
 struct judged_samples {
   std::string name, family;
-  Eigen::Index count = 0;  ///< of those to interpolate; 0: readings
+  Eigen::Index count = 0;  ///< of samples to interpolate; 0: readings
   gonio::sample_split samples;
 };
 
-/// The options that are tried: the nearest sample alone, then all combinations.
+/// Returns the options to try: the nearest sample alone, then all combinations.
 std::vector<gonio::scattered_options> candidates() {
   std::vector<gonio::scattered_options> all;
   for (const double theta_d_scale : {0.7, 1.0, 1.4})
@@ -67,7 +67,7 @@ std::string scales_of(const gonio::scattered_options& options) {
   return "a " + fixed(options.embedding.theta_d_scale, 1) + ", b " + fixed(options.embedding.phi_d_scale, 2);
 }
 
-/// Random cells of measured tables.
+/// Draws random cells of measured tables.
 std::vector<judged_samples> samples_of_tables(const scattered_samples_options& given) {
   std::vector<judged_samples> all;
   for (const auto& [name, path] : gonio::io::list_rgl_directory(given.materials)) {
@@ -83,7 +83,8 @@ std::vector<judged_samples> samples_of_tables(const scattered_samples_options& g
   return all;
 }
 
-/// Two thirds of a goniometer's readings, by which the others are judged: one family, of one laboratory.
+/// Adds a goniometer's readings, two thirds to interpolate and the rest to judge by. Those of one laboratory are one
+/// family.
 void add_readings(const scattered_samples_options& given, std::vector<judged_samples>& to) {
   for (const std::filesystem::path& path : given.readings) {
     const gonio::sample_set readings = read_measurements(path);
@@ -92,7 +93,7 @@ void add_readings(const scattered_samples_options& given, std::vector<judged_sam
   }
 }
 
-/// The difference of two values in the log-relative metric, whatever its reference is.
+/// Returns the difference of two values in the log-relative metric, for any reference of the metric.
 gonio::rgb mapped_difference(const gonio::rgb& one, const gonio::rgb& other, const gonio::half_difference& at) {
   const gonio::cosine_pair cosine = gonio::cosines(at);
   const double weight = std::max(cosine.i * cosine.o, gonio::log_relative::epsilon);
@@ -103,7 +104,7 @@ gonio::rgb mapped_difference(const gonio::rgb& one, const gonio::rgb& other, con
   return difference;
 }
 
-/// Root mean square over the samples that were left out and the channels.
+/// Returns the root mean square error over the channels of the samples that were left out.
 double error_of(const judged_samples& judged, const gonio::scattered_options& options) {
   const interpolated_samples f = interpolate(judged.samples.some, options);
   double squares = 0.0;
@@ -114,7 +115,7 @@ double error_of(const judged_samples& judged, const gonio::scattered_options& op
   return std::sqrt(squares / (3.0 * static_cast<double>(judged.samples.others.size())));
 }
 
-/// The errors of all candidates on all samples, and what they say.
+/// The errors of all candidates on all samples, and the choices that follow from them.
 class choice_of_options {
  public:
   choice_of_options(std::vector<judged_samples> judged, gonio::thread_count threads, progress_bar& bar)
@@ -126,7 +127,7 @@ class choice_of_options {
     }
   }
 
-  /// The candidate that is best on all families but one, relative to the nearest sample of the default scales.
+  /// Returns the best candidate on all families but one, relative to the nearest sample with the default scales.
   [[nodiscard]] Eigen::Index best_without(const std::string& family, const auto& allows) const {
     Eigen::Index best = -1;
     double least = std::numeric_limits<double>::infinity();
@@ -143,8 +144,8 @@ class choice_of_options {
     return best;
   }
 
-  /// A row for each number of samples: the mean error of candidates, each chosen without the family that it is judged
-  /// by.
+  /// Prints a row for each number of samples: the mean error of candidates, each chosen without the family that judges
+  /// it.
   void print_judged() const {
     const auto nearest = [](const gonio::scattered_options& o) { return o.neighbours == 1; };
     const auto linear = [](const gonio::scattered_options& o) {
@@ -172,7 +173,7 @@ class choice_of_options {
     }
   }
 
-  /// What is chosen for each family.
+  /// Prints the choice for each family.
   void print_chosen() const {
     std::map<std::string, std::vector<std::string>> chosen;
     for (const std::string& family : families()) {
@@ -187,7 +188,7 @@ class choice_of_options {
     }
   }
 
-  /// The mean error over all samples, with the best of what is not named.
+  /// Prints the mean error over all samples for each name, with the best values of all other options.
   void print_by(const char* title, const auto& name) const {
     std::map<std::string, double> least;
     for (Eigen::Index j = 0; j < errors_.cols(); ++j) {

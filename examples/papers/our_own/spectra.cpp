@@ -1,4 +1,5 @@
-/// gonio-papers spectra: spectral measurements reconstructed wavelength by wavelength, against the same as colours.
+/// gonio-papers spectra: spectral measurements reconstructed wavelength by wavelength, compared with reconstructed
+/// colours.
 
 #include "papers/experiments.hpp"
 #include "tool/files/measurement_files.hpp"
@@ -45,13 +46,13 @@ spectral_fit_estimator keeping_all(gonio::log_relative_pca prior, gonio::thread_
   return spectral_fit_estimator{std::move(prior), {}, threads}.keeping_all();
 }
 
-/// Of the directions that were not fitted.
+/// Errors in the directions that were not fitted.
 struct path_errors {
   double spectral_rms = 0.0;  ///< of ln(f + 0.001), all wavelengths
-  // Mean Delta E under an illuminant, of colours that may be out of the gamut, and of those that a display shows.
+  // Mean Delta E under an illuminant: of colours that may be out of gamut, and of colours clipped to a display's gamut.
   double daylit = 0.0, lamplit = 0.0;
   double shown_daylit = 0.0, shown_lamplit = 0.0;
-  double other_lamp = 0.0;  ///< under A, of the spectra where colours were fitted under D65
+  double other_lamp = 0.0;  ///< under A, of spectra computed from colours fitted under D65
 };
 
 struct measure {
@@ -69,7 +70,7 @@ constexpr std::array measures{
     measure{&path_errors::other_lamp, "Delta E, A, fitted under D65", 2},
 };
 
-/// What was not fitted, in one repetition.
+/// The samples that were not fitted in one repetition.
 struct held_out {
   const gonio::sample_set& samples;
   gonio::spectral_colour daylit, lamplit;
@@ -81,7 +82,7 @@ struct held_out {
     return light == illuminant::a ? lamplit : daylit;
   }
 
-  /// Root mean square of the difference of ln(f + 0.001) over directions and wavelengths; negative values count as
+  /// Returns the root mean square difference of ln(f + 0.001) over directions and wavelengths. Negative values count as
   /// zero.
   template <class Spectrum>
   [[nodiscard]] double rms(const Spectrum& spectrum_in) const {
@@ -94,8 +95,8 @@ struct held_out {
     return std::sqrt(sum / static_cast<double>(samples.size()));
   }
 
-  /// Mean CIELAB difference of pi f, over the directions in which the material is no brighter than a white diffuser:
-  /// first of colours as they are, then of those that a display shows.
+  /// Returns the mean CIELAB difference of pi f, over the directions in which the material is no brighter than a white
+  /// diffuser: first of unclipped colours, then of colours as a display shows them.
   template <class Colour>
   [[nodiscard]] std::pair<double, double> delta_e(illuminant light, const Colour& colour_in) const {
     double sum = 0.0, shown = 0.0, count = 0.0;
@@ -118,7 +119,7 @@ struct held_out {
   }
 };
 
-/// Each wavelength as a grey material.
+/// Fits each wavelength like a grey material.
 path_errors fit_wavelengths(const spectral_fit_estimator& estimator, const gonio::sample_set& fitted,
                             const held_out& others) {
   const auto fit = estimator.fit(fitted);
@@ -134,10 +135,10 @@ path_errors fit_wavelengths(const spectral_fit_estimator& estimator, const gonio
   return {others.rms(spectrum_in), daylit, lamplit, shown_daylit, shown_lamplit, lamplit};
 }
 
-/// What three channels of a colour are fitted.
+/// The three channels in which colours are fitted.
 enum class colour_space { rgb, xyz };
 
-/// A fit of three channels, as linear Rec. 709: XYZ is relative to white, and not negative.
+/// A fit of three channels that returns linear Rec. 709. XYZ is relative to white and not negative.
 class colour_fit {
  public:
   colour_fit(const spectral_fit_estimator& estimator, const gonio::sample_set& fitted, colour_space space,
@@ -160,7 +161,7 @@ class colour_fit {
   spectral_fit_estimator::result_type fit_;
 };
 
-/// Colours under each illuminant; the spectra are the smoothest of those under D65.
+/// Fits colours under each illuminant. The spectra are the smoothest ones of the colours under D65.
 path_errors fit_colours(const spectral_fit_estimator& estimator, const gonio::sample_set& fitted, colour_space space,
                         const gonio::model::smooth_spectra& smooth, const held_out& others) {
   const colour_fit daylit(estimator, fitted, space, illuminant::d65), lamplit(estimator, fitted, space, illuminant::a);
@@ -173,7 +174,7 @@ path_errors fit_colours(const spectral_fit_estimator& estimator, const gonio::sa
   return {others.rms(spectrum_in), under_d65.first, under_a.first, under_d65.second, under_a.second, other_lamp.first};
 }
 
-/// One way of fitting, in all repetitions.
+/// The errors of one method in all repetitions.
 using all_errors = std::vector<path_errors>;
 
 /// "0.123 (0.101)": mean and median over the repetitions.
@@ -187,7 +188,7 @@ std::string described(const all_errors& errors, const measure& one) {
   return fixed(sum / static_cast<double>(all.size()), one.digits) + " (" + fixed(gonio::median(all), one.digits) + ")";
 }
 
-/// "18 of 20": repetitions in which the first is nearer.
+/// "18 of 20": the repetitions in which the first has the smaller error.
 std::string wins(const all_errors& first, const all_errors& second, const measure& one) {
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < first.size(); ++i) count += first[i].*one.which < second[i].*one.which ? 1 : 0;
@@ -198,7 +199,7 @@ struct comparison {
   all_errors wavelengths, rgb, xyz;
 };
 
-/// Some measurements at random, and the others.
+/// Splits measurements into some random ones and the rest.
 std::pair<gonio::sample_set, gonio::sample_set> parted(const gonio::sample_set& all, Eigen::Index count,
                                                        Eigen::Index seed) {
   const std::vector<Eigen::Index> chosen = gonio::random_choice(std::ssize(all), count, seed);
@@ -222,7 +223,7 @@ comparison compare(const spectral_fit_estimator& estimator, const gonio::sample_
   return found;
 }
 
-/// A line of a table: its first columns, and one for each measure.
+/// Prints a row of a table: its first columns, and one for each measure.
 template <class EntryOf>
 void print_row(const std::string& start, const EntryOf& entry_of) {
   std::cout << start;
@@ -243,7 +244,7 @@ void print_rows(const std::string& material, Eigen::Index count, const compariso
 
 // ---- a prior of spectra ------------------------------------------------------------------------
 
-/// The materials of a prior as the smoothest spectra that have their colours, learned with as many components.
+/// Learns the same number of components from a prior's materials, converted to the smoothest spectra of their colours.
 gonio::log_relative_pca learn_as_spectra(const gonio::log_relative_pca& prior, const std::vector<double>& wavelengths,
                                          gonio::thread_count threads) {
   const gonio::model::smooth_spectra smooth(wavelengths);
@@ -282,7 +283,7 @@ void compare_priors(const std::string& name, const gonio::sample_set& all, const
   }
 }
 
-/// All files, before anything is printed. Throws gonio::error for one that has too few measurements.
+/// Reads all files before anything is printed. Throws gonio::error if one has too few measurements.
 std::vector<gonio::sample_set> read_all(const spectra_options& given) {
   std::vector<gonio::sample_set> all;
   for (const std::filesystem::path& file : given.samples) {

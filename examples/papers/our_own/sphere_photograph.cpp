@@ -1,5 +1,5 @@
-/// gonio-papers sphere-photograph: measured materials reconstructed from simulated photographs of a sphere, against
-/// perfect samples of the same directions.
+/// gonio-papers sphere-photograph: measured materials reconstructed from simulated photographs of a sphere, compared
+/// with perfect samples in the same directions.
 
 #include "lab/sphere_lab.hpp"
 #include "papers/experiments.hpp"
@@ -30,10 +30,10 @@ struct sphere_photograph_options : left_out_options {
   std::vector<std::string> names{"vch_golden_yellow", "paper_white", "chm_light_blue"};
   double noise = 0.02;
   int pixels = 320;
-  int coarser = 1;  ///< of the cells whose pixels are averaged, than those of MERL's grid
+  int coarser = 1;  ///< size of the cells whose pixels are averaged, relative to those of MERL's grid
 };
 
-/// Where to photograph: a photograph for each pair.
+/// A named set of direction pairs, with one photograph for each pair.
 struct photograph_set {
   std::string name;
   std::vector<gonio::direction_pair> pairs;
@@ -52,8 +52,8 @@ std::vector<photograph_set> sets_of(const sphere_photograph_options& options) {
   return sets;
 }
 
-/// The laboratory: a sphere of radius 1 not quite in the middle, a camera 12 radii away with a lens that distorts and
-/// darkens, a lamp 15 radii away.
+/// The laboratory: a sphere of radius 1 slightly off centre, a camera at 12 radii with lens distortion and vignetting,
+/// and a lamp at 15 radii.
 class sphere_laboratory {
  public:
   explicit sphere_laboratory(int pixels)
@@ -65,7 +65,7 @@ class sphere_laboratory {
   [[nodiscard]] const gonio::lens_camera& camera() const noexcept { return camera_; }
   [[nodiscard]] const gonio::capture::placed_sphere& sphere() const noexcept { return sphere_; }
 
-  /// A lamp seen from the sphere at twice a theta_d from the camera.
+  /// Returns a lamp that the sphere sees at 2 theta_d from the camera.
   [[nodiscard]] static gonio::capture::point_lamp lamp(double theta_d) {
     return {15.0 * Eigen::Vector3d(std::sin(2.0 * theta_d), 0.0, std::cos(2.0 * theta_d)), gonio::rgb::Constant(700.0)};
   }
@@ -82,12 +82,12 @@ class sphere_laboratory {
   gonio::capture::placed_sphere sphere_{{0.02, -0.03, 0.0}, 1.0};
 };
 
-/// What was made of a set of photographs.
+/// The samples from a set of photographs.
 struct photographed {
   gonio::sample_set samples;
   Eigen::Index pixels = 0;
-  Eigen::Index views = 0;  ///< that show something that is lit
-  double off = 0.0;        ///< of the sphere's centre across the view, pixels
+  Eigen::Index views = 0;  ///< with visible lit points
+  double off = 0.0;        ///< error of the sphere's centre across the view, pixels
 };
 
 class sphere_photograph_experiment : photograph_experiment {
@@ -95,7 +95,7 @@ class sphere_photograph_experiment : photograph_experiment {
   sphere_photograph_experiment(const sphere_photograph_options& given, progress_bar& bar)
       : photograph_experiment(given, given.names, bar), given_(given), laboratory_(given.pixels) {}
 
-  /// For each set and each material.
+  /// Returns the results for each set and material.
   [[nodiscard]] std::map<std::string, std::map<std::string, json>> run() {
     std::map<std::string, std::map<std::string, json>> found;
     for (std::size_t number = 0; number < given_.names.size(); ++number) {
@@ -114,7 +114,7 @@ class sphere_photograph_experiment : photograph_experiment {
   }
 
  private:
-  /// One photograph of material and white sphere for each direction; the sphere is found in the white image that shows
+  /// Photographs the material and a white sphere for each direction. Locates the sphere in the white image that shows
   /// the most of its outline.
   [[nodiscard]] photographed photograph(const judged_material& material, const photograph_set& set) const {
     struct shot {
@@ -148,7 +148,7 @@ class sphere_photograph_experiment : photograph_experiment {
         taken.pixels += found.pixels;
         ++taken.views;
       } catch (const gonio::error& refusal) {
-        why = refusal.what();  // with light and camera nearly opposite, nothing is lit and seen
+        why = refusal.what();  // with light and camera nearly opposite, no lit point is visible
       }
     if (taken.views == 0) gonio::refuse(set.name + ": " + why);
     const Eigen::Vector3d off = outline.sphere.centre - laboratory_.sphere().centre;
@@ -158,7 +158,7 @@ class sphere_photograph_experiment : photograph_experiment {
 
   [[nodiscard]] json errors_of(const judged_material& material, const photographed& taken, std::size_t views,
                                const estimator_type& estimator) const {
-    // The same directions without any error.
+    // Judge perfect samples in the same directions.
     gonio::sample_set perfect = taken.samples;
     for (gonio::sample& s : perfect) s.value = material.measured(s.directions.pair());
     const gonio::comparison photo = judged(estimator, taken.samples, material),

@@ -1,5 +1,5 @@
-/// gonio-papers streamed-learning: time and memory of learning from many materials that are not held, and how far the
-/// result is from what learning in memory, or from all at once, gives.
+/// gonio-papers streamed-learning: time and memory of learning from many materials that are not held in memory, and the
+/// difference from learning in memory or from all materials at once.
 
 #include "papers/experiments.hpp"
 #include "papers/our_own/random_materials.hpp"
@@ -51,14 +51,14 @@ double seconds_of(const std::function<void()>& act) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// What a process of its own has found: numbers, and the largest memory that it had.
+/// The numbers that a separate process computed, and its peak memory.
 template <std::size_t Count>
 struct separate_result {
   std::array<double, Count> values{};
   double megabytes = 0.0;
 };
 
-/// Lets a process of its own do the work, whose memory is then that of the work alone.
+/// Runs the work in a separate process, whose memory is that of the work alone.
 template <class Work>
 auto separately(const Work& work) {
   std::array<int, 2> ends{};
@@ -94,10 +94,10 @@ std::string scientific(double value) {
   return text.data();
 }
 
-/// Half of MERL's theta_h, a third of its theta_d, a fifth of its phi_d.
+/// Returns a grid with half of MERL's theta_h, a third of its theta_d and a fifth of its phi_d.
 gonio::valid_cells coarse_cells() { return gonio::valid_cells(gonio::grid({45, 30, 36})); }
 
-/// At as many wavelengths from 400 to 700 nm as are wanted.
+/// Returns smooth spectra at the wanted number of wavelengths from 400 to 700 nm.
 std::optional<gonio::model::smooth_spectra> spectra_of(const streaming_experiment& given) {
   if (given.wavelengths == 0) return {};
   std::vector<double> wavelengths;
@@ -106,7 +106,7 @@ std::optional<gonio::model::smooth_spectra> spectra_of(const streaming_experimen
   return gonio::model::smooth_spectra(wavelengths);
 }
 
-/// Materials `first` to `end` of the random ones.
+/// Returns the random materials from `first` up to, but not including, `end`.
 gonio::io::scratch_materials random_tables(Eigen::Index first, Eigen::Index end, const streaming_experiment& given) {
   const gonio::valid_cells cells = coarse_cells();
   gonio::io::scratch_materials scratch(given.folder);
@@ -165,20 +165,20 @@ void print_costs(const streaming_experiment& given) {
 
 // ---- how far from the exact result -------------------------------------------------------------
 
-/// The largest difference of two matrices, relative to the second one's largest entry.
+/// Returns the largest difference of two matrices, relative to the second one's largest entry.
 template <class A, class B>
 double relative_difference(const A& a, const B& b) {
   return double{(a - b).cwiseAbs().maxCoeff()} / double{b.cwiseAbs().maxCoeff()};
 }
 
-/// What no combination of some columns gives of others.
+/// Returns the residual of `others` after projection onto the span of `columns`.
 Eigen::MatrixXd rest_beside(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) {
   const Eigen::MatrixXd unit = columns.colwise().normalized();
   const gonio::cholesky factors(gonio::product(unit.transpose(), unit));
   return others - gonio::product(unit, factors.solve(gonio::product(unit.transpose(), others)));
 }
 
-/// The share of the second prior's components' variation that is outside of the first one's.
+/// Returns the share of the variation of the second prior's components outside the span of the first one's.
 double outside(const gonio::log_relative_pca& first, const gonio::log_relative_pca& second) {
   const Eigen::MatrixXd of_second = second.components().cast<double>();
   return rest_beside(first.components().cast<double>(), of_second).squaredNorm() / of_second.squaredNorm();
@@ -207,7 +207,7 @@ void print_same_as_in_memory(const streaming_experiment& given) {
             << std::flush;
 }
 
-/// A line of the table: the same materials by their Gram matrix and in a random subspace.
+/// Prints a row of the table: the same materials by their Gram matrix and in a random subspace.
 void print_both_ways(Eigen::Index materials, const streaming_experiment& given) {
   const auto found = separately([&] {
     const gonio::material_rows rows = random_tables(0, materials, given).rows();
@@ -241,7 +241,7 @@ void print_subspace_errors(const streaming_experiment& given) {
   for (const Eigen::Index materials : given.compared) print_both_ways(materials, given);
 }
 
-/// What the components of a prior leave of the materials' mapped values: rms.
+/// Returns the rms residual of the materials' mapped values outside the span of a prior's components.
 double left_of(const gonio::log_relative_pca& prior, const gonio::material_rows& rows) {
   const gonio::mapped_materials mapped(rows, prior.metric());
   const gonio::row_source centred = mapped.first_pass();

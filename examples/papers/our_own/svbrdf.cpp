@@ -1,5 +1,5 @@
-/// gonio-papers svbrdf: gonio svbrdf on a synthetic sample of five measured materials: time, memory, colour
-/// differences, and interruptions.
+/// gonio-papers svbrdf: runs gonio svbrdf on a synthetic sample of five measured materials. Reports time, memory,
+/// colour differences, and interruptions.
 
 #include "papers/experiments.hpp"
 #include "papers/our_own/svbrdf_maps.hpp"
@@ -58,7 +58,7 @@ double seconds_of(const Act& act) {
   return seconds_since(start);
 }
 
-/// The words of `gonio svbrdf`.
+/// Returns the command line of `gonio svbrdf`.
 std::vector<std::string> words_of(const std::filesystem::path& images, const std::filesystem::path& map,
                                   const svbrdf_options& given) {
   return {"svbrdf",    images.string(),
@@ -126,7 +126,7 @@ class svbrdf_experiment {
     gonio::io::write_atomically(file("images.json"), std::as_bytes(std::span(list)));
   }
 
-  /// Reading all images once, and nothing else.
+  /// Returns the time to read all images once.
   [[nodiscard]] double seconds_of_reading() const {
     std::vector<char> bytes(1u << 20);
     return seconds_of([&] {
@@ -153,7 +153,7 @@ class svbrdf_experiment {
     print_product();
   }
 
-  /// The solving of texels in memory, beside large products of floats.
+  /// Compares the time to solve texels in memory with that of large products of floats.
   void print_product() const {
     const Eigen::Index band = 16384;
     const gonio::io::svbrdf_map map(file("map.gsv"));
@@ -195,7 +195,7 @@ class svbrdf_experiment {
     return least;
   }
 
-  /// Kills the tool at random moments, until it was killed as often as wanted, and compares what it ends with.
+  /// Kills the tool at random moments, as often as wanted, and compares its final result.
   void print_interruptions() const {
     const std::filesystem::path again = file("again.gsv");
     std::filesystem::remove(again);
@@ -213,7 +213,7 @@ class svbrdf_experiment {
         ++killed;
         if (std::filesystem::file_size(file("again.gsv.part"), none) > 65536 && !none) ++with_bands;
       } else {
-        // It was whole before it was killed as often as wanted: begin once more.
+        // If it finished before the wanted number of kills, begin once more.
         same = same && same_bytes(file("map.gsv"), again);
         std::filesystem::remove(again);
       }
@@ -232,7 +232,7 @@ class svbrdf_experiment {
     return all;
   }
 
-  /// Of texels on a grid: spheres under the two lights, and errors beside the stated uncertainty.
+  /// Prints errors of texels on a grid: spheres under the two lights, and errors beside the stated uncertainty.
   void print_errors() const {
     const gonio::valid_cells cells = cli::thinning{{3, 5}}.of(gonio::valid_cells());
     std::vector<gonio::brdf_table> tables;
@@ -264,7 +264,7 @@ class svbrdf_experiment {
     print_row("disagreement", halves);
   }
 
-  /// Clusters, found by the tool, and an image of the maps.
+  /// Prints the tool's clusters, and writes an image of the maps.
   void print_maps() const {
     const process_cost cost =
         run_tool({"texels", file("map.gsv").string(), "--prior", given_.prior.string(), "--clusters",

@@ -22,13 +22,13 @@ namespace papers {
 
 namespace {
 
-/// The materials that the clusters are called by, and the share of texels that are then called by their own.
+/// The material assigned to each cluster, and the resulting share of correctly labelled texels.
 struct cluster_names {
   std::vector<Eigen::Index> material;
   double right = 0.0;
 };
 
-/// The best of all names: counts are clusters x materials.
+/// Returns the best assignment of materials. `counts` is clusters x materials.
 cluster_names best_names(const Eigen::MatrixXd& counts) {
   std::vector<Eigen::Index> material(static_cast<std::size_t>(counts.rows()));
   std::iota(material.begin(), material.end(), Eigen::Index{0});
@@ -43,7 +43,7 @@ cluster_names best_names(const Eigen::MatrixXd& counts) {
 
 double share_right(const Eigen::MatrixXd& counts) { return best_names(counts).right; }
 
-/// Radiance times pi of a flat sample under the two lights, seen from ahead.
+/// Returns the radiance times pi of a flat sample under the two lights, seen from the normal.
 template <class Brdf>
 gonio::rgb lit(const Brdf& f) {
   gonio::rgb sum = gonio::rgb::Zero();
@@ -73,7 +73,7 @@ Eigen::Index svbrdf_maps::main_material(Eigen::Index row, Eigen::Index column) c
 
 void svbrdf_maps::print_labels(gonio::thread_count threads) const {
   const Eigen::Index size = map_.header().rows, count = std::ssize(materials_), r = map_.header().functions.cols();
-  // Of all texels, and of those that are of one material but for a tenth.
+  // Count all texels, and those in which one material has at least 90 %.
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, count), pure = all;
   for (Eigen::Index row = 0; row < size; ++row)
     for (Eigen::Index column = 0; column < size; ++column) {
@@ -86,7 +86,7 @@ void svbrdf_maps::print_labels(gonio::thread_count threads) const {
             << "| all | 100 % | " << cli::fixed(100.0 * share_right(all), 1) << " % |\n| nine tenths of one material | "
             << cli::fixed(100.0 * pure.sum() / all.sum(), 0) << " % | " << cli::fixed(100.0 * share_right(pure), 1)
             << " % |\n";
-  // The same of 128 x 128 texels, with distances of their weights as they are.
+  // Repeat on 128 x 128 texels, also with plain distances of the weights.
   constexpr Eigen::Index across = 128;
   gonio::capture::point_matrix weights(across * across, 3 * r), mapped = weights;
   std::vector<Eigen::Index> truth, mostly_one;

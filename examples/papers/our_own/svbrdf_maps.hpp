@@ -1,5 +1,5 @@
 #pragma once
-/// Maps of a synthetic sample beside the truth: which texels are of one material, and an image of it all.
+/// Maps of a synthetic sample beside the truth: the material of each texel, and an image of all maps.
 
 #include "papers/our_own/synthetic_texels.hpp"
 #include <gonio/basis/pca.hpp>
@@ -18,15 +18,16 @@ namespace papers {
 
 class svbrdf_maps {
  public:
-  /// All must outlive it. `labels` is what `gonio texels --clusters` wrote (.npy), as many clusters as materials.
+  /// All arguments must outlive it. `labels` is the .npy file of `gonio texels --clusters`, with one cluster per
+  /// material.
   svbrdf_maps(const gonio::log_relative_pca& prior, const gonio::io::svbrdf_map& map, const synthetic_texels& texels,
               const std::vector<gonio::model::adaptive_brdf>& materials, const std::filesystem::path& labels);
 
-  /// The share of texels that are labelled by the material that they have most of; and by k-means of other distances.
+  /// Prints the share of texels whose label is their main material, also for k-means with other distances.
   void print_labels(gonio::thread_count threads) const;
 
-  /// Truth, estimate and their Delta E, below them the material that a texel has most of, disagreement and the
-  /// clusters, each of `size` x `size` texels of a grid. Prints the mean Delta E.
+  /// Returns an image of truth, estimate and their Delta E; below them the main material of each texel, disagreement
+  /// and clusters. Each map has `size` x `size` texels of a grid. Prints the mean Delta E.
   [[nodiscard]] gonio::image figure(Eigen::Index size) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// A flat sample that is made of measured materials, which blend into one another smoothly, as registered images.
+/// A flat sample of measured materials that blend smoothly into one another, as registered images.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/parallel.hpp>
@@ -24,7 +24,7 @@ namespace papers {
 
 class synthetic_texels {
  public:
-  /// `size` x `size` texels; `values` are 3 x directions of each material, sr^-1.
+  /// `size` x `size` texels. `values` holds for each material a matrix of 3 x directions, sr^-1.
   synthetic_texels(Eigen::Index size, std::vector<Eigen::MatrixXd> values, double noise, std::uint64_t seed)
       : size_(size), values_(std::move(values)), noise_(noise), seed_(seed) {
     std::mt19937_64 generator(seed);
@@ -33,7 +33,7 @@ class synthetic_texels {
       waves_.push_back({frequency(generator), frequency(generator), phase(generator)});
   }
 
-  /// The share of each material in a texel: 1 in all; most texels are mostly of one.
+  /// Returns the share of each material in a texel. The shares sum to 1; one material dominates most texels.
   [[nodiscard]] Eigen::VectorXd shares(Eigen::Index row, Eigen::Index column) const {
     Eigen::VectorXd found(waves_.size());
     for (Eigen::Index m = 0; m < found.size(); ++m) {
@@ -45,7 +45,7 @@ class synthetic_texels {
     return found / found.sum();
   }
 
-  /// Writes an image of one direction pair (.npy), row by row; the noise is relative to the value.
+  /// Writes the image of one direction pair (.npy), row by row. The noise is relative to the value.
   void write(const std::filesystem::path& path, Eigen::Index direction) const {
     const auto extent = static_cast<std::size_t>(size_);
     const std::string header =

@@ -19,7 +19,8 @@ process_cost run_tool(const std::vector<std::string>& words, double kill_after) 
   std::vector<std::string> all{tool};
   all.insert(all.end(), words.begin(), words.end());
   std::vector<char*> arguments;
-  for (const std::string& word : all) arguments.push_back(const_cast<char*>(word.c_str()));  // which exec keeps
+  for (const std::string& word : all)
+    arguments.push_back(const_cast<char*>(word.c_str()));  // exec does not modify them
   arguments.push_back(nullptr);
   const auto start = std::chrono::steady_clock::now();
   const pid_t child = ::fork();

@@ -1,5 +1,5 @@
 #pragma once
-/// The tool `gonio` as a process of its own, with what it costs.
+/// Runs the tool `gonio` as a process and measures its cost.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ struct process_cost {
   bool was_killed = false;
 };
 
-/// Runs `gonio WORDS`, which is beside this program; kills it after some seconds, if they are positive. Throws
+/// Runs `gonio WORDS`; the tool is in this program's folder. Kills it after some seconds if they are positive. Throws
 /// gonio::error if it fails.
 process_cost run_tool(const std::vector<std::string>& words, double kill_after = 0.0);
 
