@@ -1,5 +1,5 @@
 #pragma once
-/// Figures of many reconstructions in short.
+/// Summary statistics over many reconstructions.
 
 #include <algorithm>
 #include <numeric>
@@ -8,7 +8,7 @@
 
 namespace papers {
 
-/// What a row of a table says of one figure of many reconstructions, of which there is at least one.
+/// Mean, median and worst of at least one value.
 struct distribution {
   double mean = 0.0, median = 0.0, worst = 0.0;
 

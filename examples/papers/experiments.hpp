@@ -6,7 +6,7 @@
 
 namespace papers {
 
-using namespace cli;  // what command lines are made of
+using namespace cli;  // command-line classes
 
 void add_nielsen_test_materials(command& app);
 void add_measured_materials(command& app);
@@ -34,8 +34,8 @@ void add_svbrdf(command& app);
 void add_streamed_learning(command& app);
 void add_run(command& app);
 
-// Those with results that outlive an interruption, which a team of processes may share. It must live until the program
-// has run.
+// Experiments whose results survive an interruption, and which a team of processes may share. `processes` must live
+// until the program ends.
 void add_noell_tables(command& app, const team& processes);
 void add_noell_gap(command& app, const team& processes);
 void add_directions(command& app, const team& processes);
@@ -48,7 +48,7 @@ void add_design_experiment(command& app, const team& processes);
 void add_in_plane(command& app, const team& processes);
 void add_near_field_photographs(command& app, const team& processes);
 void add_sphere_photograph(command& app, const team& processes);
-/// All of these.
+/// Adds all of these.
 void add_resumable(command& app, const team& processes);
 
 }  // namespace papers

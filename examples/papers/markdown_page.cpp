@@ -21,20 +21,20 @@ namespace {
 
 constexpr std::size_t line_width = 120;
 
-/// Does this argument set an option that changes nothing of what is printed?
+/// Returns whether an argument names an option that does not change the output.
 bool is_left_out(const std::string& argument) {
   const std::string name = argument.substr(0, argument.find('='));
   return name == "--markdown" || name == "--state" || name == "--threads";
 }
 
-/// A path by its last part; everything else as it is.
+/// Returns the last part of a path, and any other argument unchanged.
 std::string without_folders(const std::string& argument) {
   std::string name = argument;
   while (name.size() > 1 && name.back() == '/') name.pop_back();
   return name.substr(name.rfind('/') + 1);
 }
 
-/// The value that an option was given last.
+/// Returns the last value given for an option.
 std::optional<std::string> value_of(const std::string& name, std::span<const std::string> arguments) {
   std::optional<std::string> value;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -49,7 +49,7 @@ std::string read_text(const std::filesystem::path& path) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Prose in lines of at most 120 characters. Rows of tables, lists and what is indented stay as they are.
+/// Wraps prose at 120 characters. Rows of tables, lists and indented lines stay unchanged.
 std::string wrapped(const std::string& text) {
   std::string all;
   std::istringstream lines(text);
@@ -80,7 +80,7 @@ std::string today() {
   return text.data();
 }
 
-/// " of an AMD EPYC": the processor by its own name, where the system tells it.
+/// Returns " of an AMD EPYC": the processor's own name, if the system reports it.
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
@@ -89,7 +89,7 @@ std::string processor() {
   return {};
 }
 
-/// Passes everything on to a buffer, and keeps it.
+/// Forwards everything to another buffer, and keeps a copy.
 class keeping_buffer : public std::streambuf {
  public:
   explicit keeping_buffer(std::streambuf& next) : next_(&next) {}
@@ -112,7 +112,7 @@ class keeping_buffer : public std::streambuf {
   std::string kept_;
 };
 
-/// What the work prints to standard output, where it also appears.
+/// Returns the text that the work prints to standard output, where it also appears.
 std::string printed_by(const std::function<void()>& work) {
   keeping_buffer buffer(*std::cout.rdbuf());
   struct redirection {
@@ -130,7 +130,7 @@ std::string normalised_command(std::span<const std::string> arguments) {
   std::string command = "gonio-papers";
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     if (is_left_out(arguments[i])) {
-      if (arguments[i].find('=') == std::string::npos) ++i;  // its value
+      if (arguments[i].find('=') == std::string::npos) ++i;  // skip its value
     } else if (arguments[0] == "run" && arguments[i] == "--") {
       command.clear();
     } else {
@@ -187,7 +187,7 @@ void markdown_page::around(const std::function<void()>& work) const {
   const std::string printed = printed_by(work);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  // The page may have other text by now.
+  // Read the page again: it may have changed in the meantime.
   const std::string content = '\n' + wrapped(trimmed(printed)) + '\n' + wrapped(origin(seconds));
   const std::string page = with_block(read_text(path_), path_, command, content);
   gonio::io::write_atomically(path_, std::as_bytes(std::span(page)));

@@ -1,5 +1,5 @@
 #pragma once
-/// What the published experiments share: how each material came out.
+/// The error of a reconstructed material, shared by the published experiments.
 
 #include <gonio/evaluate/comparison.hpp>
 
@@ -8,13 +8,13 @@
 
 namespace papers {
 
-/// How one material came out.
+/// The errors of one reconstructed material.
 struct material_result {
   std::string name;
   gonio::comparison errors;
 };
 
-/// The mean over materials, and over channels where there is one value a channel, of a measure.
+/// Returns the mean of a measure over materials. A measure with a value per channel must itself average the channels.
 template <class Measure>
 [[nodiscard]] double mean_over(std::span<const material_result> results, Measure&& measure) {
   double sum = 0.0;

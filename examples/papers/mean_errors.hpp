@@ -1,5 +1,5 @@
 #pragma once
-/// How materials came out, as JSON.
+/// Errors of reconstructed materials as JSON.
 
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
@@ -9,10 +9,10 @@
 
 namespace papers {
 
-/// The means over materials of all measures, with the keys of `gonio compare --json`.
+/// Returns the means of all measures over materials, with the keys of `gonio compare --json`.
 [[nodiscard]] json mean_errors(std::span<const material_result> results);
 
-/// The errors of each material by its name.
+/// Returns the errors of each material by its name.
 [[nodiscard]] json errors_by_name(std::span<const material_result> results);
 
 }  // namespace papers

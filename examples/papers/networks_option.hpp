@@ -1,5 +1,5 @@
 #pragma once
-/// Which materials an experiment studies, and from how many measurements.
+/// Options for the materials of an experiment and the number of measurements.
 
 #include "papers/experiments.hpp"
 #include "tool/options/thinning.hpp"
@@ -10,12 +10,12 @@
 
 namespace papers {
 
-/// Adds `--networks FILE`, which must be given.
+/// Adds the required option `--networks FILE`.
 inline void add_networks_option(command& to, std::filesystem::path& networks) {
   to.add_input("--networks", networks, "File of networks of the 100 materials (.npy)").required();
 }
 
-/// A file of networks, and the cells of MERL's grid that its materials are tabulated over.
+/// A file of networks, and the cells of MERL's grid on which its materials are tabulated.
 struct studied_networks {
   std::filesystem::path file;
   thinning thin = {};
@@ -24,7 +24,7 @@ struct studied_networks {
   [[nodiscard]] gonio::valid_cells cells() const { return thin.of(gonio::valid_cells()); }
 };
 
-/// Adds `--networks FILE`, which must be given, and `--thin N M`.
+/// Adds the required option `--networks FILE`, and `--thin N M`.
 inline void add_networks_option(command& to, studied_networks& networks) {
   add_networks_option(to, networks.file);
   add_thin_option(to, networks.thin);

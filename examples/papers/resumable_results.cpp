@@ -11,7 +11,7 @@ namespace papers {
 
 namespace {
 
-/// What earlier runs left in a file, as text.
+/// Returns the text that earlier runs left in a file.
 std::string left_in(const std::filesystem::path& path) {
   if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
     gonio::refuse("'" + path.string() + "' is not a regular file");
@@ -43,7 +43,7 @@ resumable_results::resumable_results(const resumable_options& options)
   });
   std::istringstream lines(processes_.text_of_writer(std::move(earlier)));
   for (std::string line; std::getline(lines, line);) {
-    // A run that was killed may have left half a line.
+    // Skip incomplete lines: a killed run may leave one.
     const json entry = json::read(line);
     if (entry.is_object() && entry.contains("key") && entry.contains("result"))
       results_.insert_or_assign(entry["key"].dump(), entry["result"]);

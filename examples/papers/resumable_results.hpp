@@ -1,5 +1,5 @@
 #pragma once
-/// Results of a long experiment that survive its end, and that several processes share.
+/// Results of a long experiment that survive an interruption, and that several processes share.
 
 #include "tool/files/json.hpp"
 #include "tool/options/command.hpp"
@@ -18,31 +18,31 @@ namespace papers {
 
 using cli::json;
 
-/// What experiments with such results are told.
+/// Options of experiments with such results.
 struct resumable_options {
   std::filesystem::path state;  ///< the file; none if empty
   gonio::thread_count threads;
   const cli::team* processes = &cli::alone();
 
-  /// Has this process all results, and prints them?
+  /// Returns whether this process has all results and prints them.
   [[nodiscard]] bool prints() const { return processes->writes(); }
 };
 
 /// Adds `--state` and `--threads`.
 void add_resumable_options(cli::command& to, resumable_options& options);
 
-/// Does the same work in all processes, each with its share of the machine's cores.
+/// Runs the same work in all processes, each with its share of the machine's cores.
 void run_together(const cli::team& processes, resumable_options& options, const std::function<void()>& work);
 
-/// Has a command do `work(options)` in all processes.
+/// Makes a command run `work(options)` in all processes.
 template <class Options, class Work>
 void do_together(cli::command& command, const cli::team& processes, const std::shared_ptr<Options>& options,
                  Work work) {
   command.callback([=, &processes] { run_together(processes, *options, [&] { work(*options); }); });
 }
 
-/// Does an experiment that is made of options and a progress bar; what its `run()` found goes to `print` where all of
-/// it is.
+/// Runs an experiment constructed from options and a progress bar. Passes the result of its `run()` to `print` in the
+/// process that has all results.
 template <class Experiment, class Options, class Print>
 void run_and_print(const Options& options, const Print& print) {
   cli::progress_bar bar;
@@ -53,23 +53,24 @@ void run_and_print(const Options& options, const Print& print) {
   print(found);
 }
 
-/// Results that earlier runs left in a file, one JSON object a line; new ones are appended as they come. Without a file
-/// they are only remembered.
+/// Results from earlier runs in a file, one JSON object per line, and new results, which are appended immediately.
+/// Without a file they are only kept in memory.
 ///
-/// Processes of a team run the same loop over the same keys. Each does the work whose turn is its own; the one that
-/// writes has all results, in the order of the loop. Others have null for those of others, and print nothing.
+/// All processes of a team run the same loop over the same keys. Each computes only the work of its own turns. The
+/// process that writes has all results, in the order of the loop. The others have null for foreign turns, and print
+/// nothing.
 class resumable_results {
  public:
-  /// The process that writes reads and writes the file. Throws gonio::error if it cannot.
+  /// The writing process opens the file. Throws gonio::error if it cannot.
   explicit resumable_results(const resumable_options& options);
 
-  /// The result of some work, which is done if it was not done before. Work of the same turn, that of one material say,
-  /// is one process' own. Throws gonio::error if that process has done other work.
+  /// Returns the result for `key`, computing it if necessary. One process does all work with the same `turn`, for
+  /// example a material. Throws gonio::error if that process worked on another key.
   const json& once(const json& key, std::size_t turn, const std::function<json()>& work);
 
-  /// Nothing if there is no such result here.
+  /// Returns null if there is no such result in this process.
   [[nodiscard]] const json* find(const json& key) const;
-  /// Is work of this turn done here?
+  /// Returns whether this process does the work of a turn.
   [[nodiscard]] bool is_own(std::size_t turn) const { return turn % processes_.size() == processes_.number(); }
 
  private:

@@ -1,4 +1,4 @@
-/// `gonio-papers run`: another program of the repository prints a table.
+/// `gonio-papers run`: runs another program of the repository that prints a table.
 
 #include "papers/experiments.hpp"
 #include <gonio/core/error.hpp>
@@ -16,7 +16,7 @@ namespace papers {
 
 namespace {
 
-/// A word of the shell that means itself.
+/// Quotes a word for the shell.
 std::string quoted(const std::string& word) {
   std::string all = "'";
   for (const char letter : word) all += letter == '\'' ? std::string("'\\''") : std::string(1, letter);

@@ -1,4 +1,4 @@
-/// The experiments with shapes where dlib and nanoflann are not: they say what they need.
+/// Replaces the experiments with shapes if dlib or nanoflann is missing: they say what they need.
 
 #include "papers/experiments.hpp"
 #include <gonio/core/error.hpp>

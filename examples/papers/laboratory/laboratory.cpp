@@ -1,5 +1,5 @@
-/// gonio-papers laboratory: measured tables put into the simulated laboratory, scanned, calibrated, reconstructed,
-/// and compared with what was in the machine.
+/// gonio-papers laboratory: measured tables are scanned in the simulated laboratory, calibrated and reconstructed, and
+/// compared with the original tables.
 
 #include "lab/measure.hpp"
 #include "papers/distribution.hpp"
@@ -42,7 +42,7 @@ struct laboratory_options {
   gonio::thread_count threads;
 };
 
-/// What is wrong with the laboratory, and what calibration knows of that.
+/// The defects of a laboratory, and the noise that calibration assumes.
 struct laboratory {
   std::string name;
   lab::sensor chip;
@@ -61,7 +61,7 @@ std::array<laboratory, 4> laboratories(double outliers) {
            {"noise, misplaced, outliers", lab::sensor::usual(), with_outliers, usual_noise}}};
 }
 
-/// The poses that the machine makes of pairs, or of cells at random, until there are enough.
+/// Returns at most `most` poses of pairs that the machine can reach.
 std::vector<gonio::direction_pair> reachable(const laboratory_options& options,
                                              const std::vector<gonio::direction_pair>& pairs, std::size_t most) {
   lab::dark_room room(lab::white(), {}, {});
@@ -79,7 +79,7 @@ std::vector<gonio::direction_pair> reachable(const laboratory_options& options,
 
 std::vector<gonio::direction_pair> random_poses(const laboratory_options& options, Eigen::Index count) {
   const gonio::valid_cells cells;
-  // In the order of their numbers cells are in that of theta_h, so the first would be those of the highlight.
+  // Shuffle the chosen cells: they are sorted by theta_h, so the first ones would all be in the highlight.
   std::vector<gonio::direction_pair> pairs;
   for (const Eigen::Index cell : gonio::random_choice(cells.size(), std::min(3 * count, cells.size()), options.seed))
     pairs.push_back(gonio::to_directions(cells.angles(cell)));
@@ -87,7 +87,7 @@ std::vector<gonio::direction_pair> random_poses(const laboratory_options& option
   return reachable(options, pairs, count);
 }
 
-/// What this laboratory measures of a table.
+/// Returns the measurements of a table in a laboratory.
 std::vector<gonio::capture::measured_reflectance> measure(const laboratory_options& options, const laboratory& where,
                                                           const gonio::brdf_table& table,
                                                           const std::vector<gonio::direction_pair>& poses,
@@ -103,10 +103,10 @@ std::vector<gonio::capture::measured_reflectance> measure(const laboratory_optio
   return measured;
 }
 
-/// How samples differ from the table that was measured.
+/// Errors of samples against the measured table.
 struct sample_errors {
-  std::vector<double> relative;  ///< of the sum over the channels
-  double within = 0.0;           ///< channels of which the 95 % interval holds the truth
+  std::vector<double> relative;  ///< errors of the sum over the channels
+  double within = 0.0;           ///< number of channels whose 95 % interval contains the truth
   double channels = 0.0;
 
   void add(const gonio::capture::measured_reflectance& found, const gonio::brdf_table& truth) {
@@ -119,7 +119,7 @@ struct sample_errors {
 
 using method_of = reconstruction (*)(const reconstruct_options&, const gonio::sample_set&);
 
-/// One line of the table: errors over repetitions.
+/// Returns one row of the table: errors over repetitions.
 json errors_of(const laboratory_options& options, const laboratory& where, const gonio::brdf_table& truth,
                const std::vector<gonio::direction_pair>& poses, method_of method, std::size_t repetitions,
                const gonio::appearance_metric& appearance, const gonio::log_relative_pca& prior) {
@@ -142,7 +142,7 @@ json errors_of(const laboratory_options& options, const laboratory& where, const
   errors["samples"] = of_samples.relative.size() / repetitions;
   errors["sample_error_median"] = relative.median;
   errors["sample_error_worst"] = relative.worst;
-  // Without noise there is no interval.
+  // Without noise there are no intervals.
   if (where.noise.relative > 0.0) errors["within_95"] = of_samples.within / of_samples.channels;
   return errors;
 }

@@ -34,14 +34,14 @@ struct models_options : resumable_options {
   bool print_json = false;
 };
 
-/// Four digits, whatever the size.
+/// Returns a number with four significant digits.
 std::string significant(double value) {
   std::ostringstream text;
   text << std::setprecision(4) << value;
   return text.str();
 }
 
-/// Every third theta_d and fifth phi_d: a lobe is smooth there, and the fit takes a fifteenth of the time.
+/// Returns every third theta_d and fifth phi_d. Lobes are smooth there, and the fit takes a fifteenth of the time.
 gonio::valid_cells cells_of_fit() { return gonio::valid_cells(gonio::grid({90, 30, 36})); }
 
 json fit_one(const models_options& given, const std::string& model, const std::string& loss,
@@ -59,7 +59,7 @@ json fit_one(const models_options& given, const std::string& model, const std::s
           {"lobes", to_json(fit.model)}};
 }
 
-/// Everything that was fitted, in the order of the materials.
+/// Returns all fits in the order of the materials.
 json fit_all(const models_options& given, progress_bar& bar) {
   const auto all = gonio::io::read_networks(given.networks);
   const auto networks = given.only.empty() ? all : networks_in(all, given.only);
@@ -97,7 +97,7 @@ std::vector<json> of(const std::vector<json>& rows, const std::string& key, cons
   return some;
 }
 
-/// Of one model by one loss, given its fits.
+/// Prints the means of one model and one loss.
 void print_mean(const std::vector<json>& rows) {
   std::vector<double> lights, environment, evaluations, losses;
   std::size_t converged = 0;
@@ -132,7 +132,7 @@ void print_means(const models_options& given, const json& rows) {
       }
 }
 
-/// alpha of the variant, what is made small, and what is seen of each model, by material.
+/// Prints by material the variants' alpha, and each model's loss and Delta E.
 void print_materials(const models_options& given, const json& rows) {
   std::cout << "\n| material | loss | alpha | alpha with Fresnel |";
   for (const std::string& model : given.models) std::cout << ' ' << model << ": loss | Delta E lights |";

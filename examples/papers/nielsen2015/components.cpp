@@ -1,5 +1,5 @@
-/// gonio-papers components: Nielsen et al. 2015, Fig. 3 and 4: the first principal components of the database, of
-/// mapped reflectance and of reflectance as it is.
+/// gonio-papers components: Nielsen et al. 2015, Fig. 3 and 4: the first principal components of the database, for
+/// mapped and unmapped reflectance.
 
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
@@ -35,10 +35,10 @@ struct components_options {
   gonio::thread_count threads;
 };
 
-/// A direction with theta_h up to this is in the specular peak.
+/// Directions with theta_h up to this are in the specular peak.
 constexpr double peak = gonio::radians(5.0);
 
-/// What is printed of the components under one metric, and how they look.
+/// The printed results of the components under one metric, and their images.
 struct learned_components {
   std::string label;
   std::vector<double> shares;   ///< of the variance, of each component
@@ -46,7 +46,7 @@ struct learned_components {
   gonio::image slices;
 };
 
-/// For each component the share of its squared values that lies in the peak.
+/// Returns for each component the share of its squared values that lies in the peak.
 template <class Metric>
 std::vector<double> shares_in_peak(const gonio::pca<Metric>& prior) {
   Eigen::VectorXd inside = Eigen::VectorXd::Zero(prior.size()), all = inside;
@@ -109,7 +109,7 @@ void run(const components_options& options) {
   const auto tabulate = [&] { return gonio::model::tabulate_networks(networks, cells, options.threads, listener); };
   auto materials = tabulate();
   const auto metric = gonio::log_relative::to_median_of(materials, options.threads);
-  // Learning consumes the materials: they are tabulated twice, so that they are in memory once.
+  // Tabulate the materials twice, so that only one copy is in memory: learning consumes them.
   auto mapped = learn(options, std::move(materials), metric, "mapped", listener);
   const std::array both{std::move(mapped), learn(options, tabulate(), gonio::lin(), "as it is", listener)};
   bar.wipe();

@@ -1,6 +1,6 @@
 #pragma once
-/// The experiment of Nielsen et al. 2015, section 6: reconstruct materials that the prior has not seen from a
-/// few directions, and compare with their full tables.
+/// The experiment of Nielsen et al. 2015, section 6: reconstructs materials that the prior has not seen from a few
+/// directions, and compares them with their full tables.
 
 #include "papers/material_result.hpp"
 #include <gonio/basis/project.hpp>
@@ -16,8 +16,8 @@
 
 namespace papers {
 
-/// Reconstructs each truth by an estimator from `measure(truth, its number)`, and compares over the truth's cells in
-/// the domain of `metric`.
+/// Reconstructs each truth by an estimator from `measure(truth, its number)`. Compares over the truth's cells in the
+/// domain of `metric`.
 template <gonio::estimator Estimator, gonio::error_metric Metric, class Measure>
 requires std::is_invocable_r_v<gonio::sample_set, Measure&, const gonio::brdf_table&, std::size_t>
 [[nodiscard]] std::vector<material_result> reconstruct_each(const Estimator& estimator, Measure&& measure,
@@ -34,7 +34,7 @@ requires std::is_invocable_r_v<gonio::sample_set, Measure&, const gonio::brdf_ta
   return results;
 }
 
-/// The same from the cells of its table. A material's defects come from `seed` plus its number.
+/// Reconstructs each truth from cells of its table. The seed of a material's defects is `seed` plus its number.
 template <gonio::estimator Estimator, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_cells(
     const Estimator& estimator, std::span<const Eigen::Index> cells, const gonio::material_set& truths,
@@ -48,7 +48,7 @@ template <gonio::estimator Estimator, gonio::error_metric Metric>
       truths, metric, appearance, threads);
 }
 
-/// The same by a prior with Tikhonov's penalty eta (Eq. 12).
+/// Reconstructs each truth from cells by a prior with Tikhonov's penalty eta (Eq. 12).
 template <gonio::basis Basis, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_cells(
     const Basis& prior, double eta, std::span<const Eigen::Index> cells, const gonio::material_set& truths,
@@ -58,7 +58,7 @@ template <gonio::basis Basis, gonio::error_metric Metric>
                                 threads, defects, seed);
 }
 
-/// The same without defects, at the cells nearest to `directions`.
+/// Reconstructs each truth without defects, from the cells nearest to `directions`.
 template <gonio::basis Basis, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_directions(
     const Basis& prior, double eta, std::span<const gonio::half_difference> directions,
@@ -68,7 +68,8 @@ template <gonio::basis Basis, gonio::error_metric Metric>
                                 threads);
 }
 
-/// The lower bound: each truth projected on the prior's components. Prior and truths must share their cells.
+/// Projects each truth on the prior's components: the lower bound of the error. Prior and truths must share their
+/// cells.
 template <gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> project_on(const gonio::pca<Metric>& prior,
                                                       const gonio::material_set& truths,

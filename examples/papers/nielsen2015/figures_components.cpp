@@ -1,4 +1,4 @@
-/// Nielsen et al. 2015, Tables 1 and 2, by the condition number of the first k components: k is not printed.
+/// Nielsen et al. 2015, Tables 1 and 2, by the condition number of the first k components. The paper does not print k.
 
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/gradient_descent.hpp"
@@ -17,7 +17,7 @@ namespace papers::figures {
 
 namespace {
 
-/// More components than that are too many for all pairs of images: it would take minutes.
+/// With more components, all pairs of images would take minutes.
 constexpr Eigen::Index most_of_pairs = 100;
 
 std::vector<Eigen::Index> swept(const options& given, const laboratory& lab) {
@@ -26,7 +26,7 @@ std::vector<Eigen::Index> swept(const options& given, const laboratory& lab) {
   return numbers;
 }
 
-/// R of a QR decomposition, which has the singular values of the whole; its first columns have those of the first.
+/// Returns R of a QR decomposition. The first columns of R have the singular values of the first columns of the whole.
 Eigen::MatrixXd triangle_of(Eigen::MatrixXd rows) {
   const gonio::householder_qr decomposed(std::move(rows));
   const Eigen::Index n = std::min(decomposed.rows(), decomposed.cols());
@@ -37,7 +37,7 @@ Eigen::MatrixXd triangle_of(Eigen::MatrixXd rows) {
   return triangle;
 }
 
-/// The condition number of images of a sphere by the first k components.
+/// The condition number of images of a sphere with the first k components.
 class sphere_conditions {
  public:
   sphere_conditions(const laboratory& lab, gonio::thread_count threads)
@@ -87,7 +87,7 @@ std::string printed(const gonio::design::sphere_geometry& geometry, slices chose
   return text;
 }
 
-/// Each of some sets of images, and what it is worth.
+/// Returns the condition number of each set of images.
 std::vector<double> values_of(const sphere_conditions& condition, const std::vector<slices>& sets,
                               gonio::thread_count threads) {
   std::vector<double> values(sets.size());
@@ -96,7 +96,7 @@ std::vector<double> values_of(const sphere_conditions& condition, const std::vec
   return values;
 }
 
-/// The best of all sets of one size, and where the published one is among them.
+/// Adds the best of all sets of one size, and the rank of the published one.
 void add_ranks(std::vector<json>& row, const sphere_conditions& condition, const std::vector<slices>& sets,
                const slices& published, gonio::thread_count threads) {
   const std::vector<double> values = values_of(condition, sets, threads);
@@ -108,7 +108,7 @@ void add_ranks(std::vector<json>& row, const sphere_conditions& condition, const
   row.emplace_back(1 + std::ranges::count_if(values, [&](double value) { return value < reached; }));
 }
 
-/// All sets of one and of two slices.
+/// Returns all sets of one slice and of two slices.
 std::array<std::vector<slices>, 2> small_sets(const gonio::design::sphere_geometry& geometry) {
   std::array<std::vector<slices>, 2> sets;
   for (Eigen::Index a = 0; a < geometry.size(); ++a) {
@@ -120,7 +120,7 @@ std::array<std::vector<slices>, 2> small_sets(const gonio::design::sphere_geomet
   return sets;
 }
 
-/// The best of some searches along the gradient.
+/// Returns the best of several searches along the gradient.
 gonio::design::capture_plan best_search(const sphere_conditions& condition, std::size_t n, const options& given) {
   std::vector<gonio::design::capture_plan> found(given.repetitions);
   gonio::for_each_index(
@@ -130,7 +130,7 @@ gonio::design::capture_plan best_search(const sphere_conditions& condition, std:
   return std::ranges::min(found, {}, &gonio::design::capture_plan::value);
 }
 
-/// Points of n rows at random directions that a condition number is lower for, in per cent.
+/// Returns the percentage of random sets of n directions with a condition number below `value`.
 double percentage_below(const gonio::log_relative_pca& prior, std::size_t n, double value, const options& given) {
   constexpr Eigen::Index sets = 2000;
   std::vector<char> below(sets);
@@ -146,7 +146,7 @@ double percentage_below(const gonio::log_relative_pca& prior, std::size_t n, dou
   return 100.0 * static_cast<double>(std::ranges::count(below, 1)) / sets;
 }
 
-/// One number of points by the first k components: the published set, and the best of some searches.
+/// Returns the row for n points and the first k components: the published set, and the best of several searches.
 std::vector<json> points_row(const laboratory& lab, const options& given, Eigen::Index k, std::size_t n) {
   const gonio::log_relative_pca prior = lab.prior().truncated(k);
   const gonio::design::point_geometry points(prior.cells());

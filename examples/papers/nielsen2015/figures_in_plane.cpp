@@ -1,5 +1,5 @@
-/// Nielsen et al. 2015, Fig. 10: materials that the prior has not seen, from 20 directions, against a scan in the plane
-/// of incidence with the light at 45 degrees.
+/// Nielsen et al. 2015, Fig. 10: materials that the prior has not seen, reconstructed from 20 directions and compared
+/// with a scan in the plane of incidence with the light at 45 degrees.
 
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
@@ -27,13 +27,13 @@ using angles = std::vector<gonio::half_difference>;
 
 constexpr double light_angle = 45.0;
 
-/// The viewer in degrees, negative on the light's side, and what is seen there.
+/// The viewer's angle in degrees, negative on the light's side, and the sample there.
 struct seen_sample {
   double view = 0.0;
   gonio::sample sample;
 };
 
-/// A material: what it is reconstructed from, by the name of the set, and its scan.
+/// A material: the samples of each set of directions, by the set's name, and its scan.
 struct scanned_material {
   std::string name;
   std::map<std::string, gonio::sample_set> sets;
@@ -46,7 +46,7 @@ std::map<std::string, angles> sets_of_directions() {
   return sets;
 }
 
-/// A table, whose cells next to the directions are what is measured; its scan is every degree.
+/// Returns a tabulated material. Its samples are the cells nearest to the directions; its scan has steps of one degree.
 scanned_material of_table(const std::string& name, const gonio::brdf_table& truth) {
   scanned_material material{name, {}, {}};
   for (const auto& [set, directions] : sets_of_directions())
@@ -62,8 +62,8 @@ scanned_material of_table(const std::string& name, const gonio::brdf_table& trut
   return material;
 }
 
-/// Scattered measurements: those next to the directions, each once, and those in the plane with the light within 6
-/// degrees of 45, or by reciprocity the viewer.
+/// Returns a material from scattered measurements. Each direction takes its nearest measurement. The scan takes those
+/// in the plane with light or, by reciprocity, viewer within 6 degrees of 45.
 scanned_material of_samples(const std::string& name, const gonio::sample_set& all) {
   constexpr double near_the_light = 6.0, in_plane = 1.0;
   scanned_material material{name, {}, {}};
@@ -104,7 +104,7 @@ std::vector<scanned_material> materials_of(const options& given) {
   return materials;
 }
 
-/// How far a reconstruction is from a scan, over all of it and by parts.
+/// Returns the errors of a reconstruction on a scan, in all and by parts.
 std::vector<json> errors_on(const scanned_material& material, const std::string& set, const gonio::brdf auto& fit) {
   constexpr double highlight = 15.0;  // degrees from the mirror direction
   logarithmic_error all, mirror, others;

@@ -1,4 +1,5 @@
-/// Nielsen et al. 2015, Fig. 6: does the search find the best two directions? Beside it all pairs of a coarse grid.
+/// Nielsen et al. 2015, Fig. 6: whether the search finds the best two directions, compared with all pairs of a coarse
+/// grid.
 
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/gradient_descent.hpp"
@@ -18,18 +19,18 @@ namespace {
 
 using angles = std::vector<gonio::half_difference>;
 
-/// Two cells, and what they are worth.
+/// Two cells and their value.
 struct cell_pair {
   std::array<Eigen::Index, 2> cells{};
   double value = std::numeric_limits<double>::infinity();
 };
 
-/// The best first.
+/// Sorts the best pair first.
 void sort(std::vector<cell_pair>& pairs) {
   std::ranges::sort(pairs, {}, [](const cell_pair& pair) { return std::tuple(pair.value, pair.cells); });
 }
 
-/// The cells next to those of a grid whose theta_d and phi_d are that many degrees apart.
+/// Returns the cells nearest to those of a grid with the given step of theta_d and phi_d in degrees.
 std::vector<Eigen::Index> coarse_cells(const gonio::valid_cells& cells, double step) {
   const auto along = [&](double all) { return std::max(1, static_cast<int>(std::lround(all / step))); };
   const gonio::valid_cells coarse(gonio::grid({along(90.0), along(90.0), along(180.0)}));
@@ -45,21 +46,21 @@ angles angles_of(const laboratory& lab, const std::array<Eigen::Index, 2>& cells
   return {lab.prior().cells().angles(cells[0]), lab.prior().cells().angles(cells[1])};
 }
 
-/// The components at some cells.
+/// Returns the components at some cells.
 Eigen::MatrixXd components_at(const laboratory& lab, const std::vector<Eigen::Index>& cells) {
   Eigen::MatrixXd rows(std::ssize(cells), lab.prior().size());
   for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i) = lab.prior().components().row(cells[i]).cast<double>();
   return rows;
 }
 
-/// The condition number of two rows, from their scalar products.
+/// Returns the condition number of two rows from their scalar products.
 double condition_of_pair(double first, double second, double product) {
   const double mean = 0.5 * (first + second), radius = std::hypot(0.5 * (first - second), product);
   return radius < mean ? std::sqrt((mean + radius) / (mean - radius)) : std::numeric_limits<double>::infinity();
 }
 
-/// Calls `values(i)` for each i of some cells, from several threads: what the pairs of that cell and each later one are
-/// worth. Keeps the pairs that are worth at most `limit`, and in any case the best pair of each cell; the best first.
+/// Calls `values(i)` for each cell i, from several threads. It returns the values of the pairs of that cell and each
+/// later one. Keeps the pairs with a value of at most `limit` and the best pair of each cell. Sorts the best first.
 template <class Values>
 std::vector<cell_pair> best_pairs(const std::vector<Eigen::Index>& cells, double limit, Values&& values,
                                   gonio::thread_count threads) {
@@ -80,10 +81,10 @@ std::vector<cell_pair> best_pairs(const std::vector<Eigen::Index>& cells, double
   return all;
 }
 
-/// All pairs up to this condition number are looked at.
+/// Keep all pairs up to this condition number.
 constexpr double good_condition = 1.01;
 
-/// Of the first k components.
+/// Returns the pairs by the condition number of the first k components.
 std::vector<cell_pair> pairs_by_condition(const laboratory& lab, const options& given, Eigen::Index k,
                                           const std::vector<Eigen::Index>& cells) {
   const Eigen::MatrixXd rows = components_at(lab, cells).leftCols(k);
@@ -118,7 +119,7 @@ std::vector<cell_pair> pairs_by_expected_error(const laboratory& lab, const opti
       given.threads);
 }
 
-/// A search from one seed after the other, the best first; of two directions that of the smaller theta_h is the first.
+/// Searches from successive seeds. Returns the best first; a pair's first direction has the smaller theta_h.
 template <gonio::design::design_criterion Criterion, class Search>
 std::vector<cell_pair> searched(const gonio::log_relative_pca& prior, const options& given, const Criterion& criterion,
                                 const Search& search) {
@@ -137,14 +138,14 @@ std::vector<cell_pair> searched(const gonio::log_relative_pca& prior, const opti
   return found;
 }
 
-/// To the best neighbour, from the best of some tries.
+/// Moves to the best neighbour, from the best of several tries.
 auto to_best_neighbour(Eigen::Index tries) {
   return [tries](const auto& points, const auto& objective, std::uint64_t seed) {
     return gonio::design::grow_and_descend(points, objective, 2, tries, seed);
   };
 }
 
-/// As printed.
+/// The search as printed.
 constexpr auto along_gradient = [](const auto& points, const auto& objective, std::uint64_t seed) {
   return grow_along_gradient(points, objective, 2, seed);
 };
@@ -154,7 +155,7 @@ std::string printed(const gonio::half_difference& at) {
   return rounded(at.theta_h) + ' ' + rounded(at.theta_d) + ' ' + rounded(at.phi_d);
 }
 
-/// One pair, judged by both criteria and by the ten materials.
+/// Returns the row of one pair: both criteria, and the errors of the ten materials.
 std::vector<json> row_of(const laboratory& lab, const options& given, const std::string& name, const angles& pair) {
   const Eigen::MatrixXd rows = gonio::design::rows_at(lab.prior(), pair).components;
   return {name,
@@ -165,7 +166,7 @@ std::vector<json> row_of(const laboratory& lab, const options& given, const std:
           printed(pair[1])};
 }
 
-/// What the searches reached beside the best pair of the grid.
+/// Compares the values that the searches reach with the best pair of the grid.
 std::vector<json> reached(const std::string& name, const std::vector<cell_pair>& found, double best, double scale) {
   const auto within = [&](double factor) {
     return std::ranges::count_if(found, [&](const cell_pair& pair) { return pair.value <= factor * best; });
@@ -179,7 +180,7 @@ std::vector<json> reached(const std::string& name, const std::vector<cell_pair>&
           within(1.01)};
 }
 
-/// Where the searches end: the middle half of them.
+/// Adds the end points of the searches: their interquartile ranges.
 void add_places(table& shown, const std::string& name, const laboratory& lab, const std::vector<cell_pair>& found) {
   for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
     std::vector<double> heights, differences;
@@ -196,7 +197,7 @@ void add_places(table& shown, const std::string& name, const laboratory& lab, co
   }
 }
 
-/// How well pairs reconstruct that the condition number does not tell from the best.
+/// Tabulates the reconstruction errors of pairs with nearly the best condition number.
 table errors_by_condition(const laboratory& lab, const options& given, const std::vector<cell_pair>& pairs) {
   constexpr Eigen::Index judged = 200;
   table shown{"Pairs of the grid up to a condition number: the mapped errors of as many as 200 of them, at random",
@@ -213,8 +214,8 @@ table errors_by_condition(const laboratory& lab, const options& given, const std
   return shown;
 }
 
-/// The best pair by the condition number of the first k components, for one k after the other, and where the published
-/// pair (Table 1) is among them all.
+/// Tabulates for each k the best pair by the condition number of the first k components, and the rank of the published
+/// pair (Table 1).
 table pairs_by_components(const laboratory& lab, const options& given, const std::vector<Eigen::Index>& cells) {
   const std::string repeated = std::to_string(given.repetitions);
   table shown{"By condition number of the first k components: all pairs of the grid, and " + repeated +

@@ -1,4 +1,4 @@
-/// Nielsen et al. 2015, section 5: what the penalty is good for. Least squares (eta = 0), ridge and Lasso.
+/// Nielsen et al. 2015, section 5: the effect of the penalty. Least squares (eta = 0), ridge and Lasso.
 
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
@@ -17,17 +17,17 @@ namespace papers::figures {
 namespace {
 
 constexpr std::array etas{0.1, 1.0, 4.0, 10.0, 40.0, 100.0, 400.0, 1000.0};
-/// In the units of `lasso`, which halves the squares: Eq. 11 with |c|_1 in place of |c|^2 would have twice as much.
+/// In units of `lasso`, which halves the squares. In Eq. 11 with |c|_1 in place of |c|^2 they would be twice as large.
 constexpr std::array lambdas{0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0};
 
-/// The measurements of one set, and what they leave to solve.
+/// The measurements of one set, and their least-squares problem.
 struct measured_set {
   std::string name;
   Eigen::Index count = 0;
   gonio::least_squares_problem problem;
 };
 
-/// Mapped values with Gaussian errors of a deviation: relative noise, as long as it is small.
+/// Adds Gaussian noise of some deviation to mapped values. Small deviations correspond to relative noise.
 gonio::least_squares_problem with_noise(const gonio::least_squares_problem& problem, double deviation,
                                         std::uint64_t seed) {
   std::mt19937_64 generator(seed);
@@ -37,7 +37,7 @@ gonio::least_squares_problem with_noise(const gonio::least_squares_problem& prob
   return {problem.rows(), std::move(values)};
 }
 
-/// The published sets, and ours by expected error that ship with the tool.
+/// Returns the published sets, and our sets by expected error, which ship with the tool.
 std::vector<measured_set> sets_of(const laboratory& lab, const options& given) {
   std::vector<measured_set> sets;
   for (const char* name : {"published", "expected-error"})
@@ -49,9 +49,9 @@ std::vector<measured_set> sets_of(const laboratory& lab, const options& given) {
   return sets;
 }
 
-/// What one penalty leads to.
+/// The result of one penalty.
 struct outcome {
-  double penalty = 0.0, error = 0.0, weights = 0.0;  ///< mean mapped error; weights that are not zero, mean
+  double penalty = 0.0, error = 0.0, weights = 0.0;  ///< mean mapped error; mean number of nonzero weights
 };
 
 template <gonio::solver Solver>
@@ -76,7 +76,7 @@ std::string short_number(double value) {
   return text.str();
 }
 
-/// Errors by penalty, one row a set.
+/// Tabulates errors by penalty, one row per set.
 template <std::size_t Count>
 table curves(const std::string& title, const std::string& symbol, const std::array<double, Count>& penalties,
              const std::vector<measured_set>& sets, const std::vector<std::vector<outcome>>& outcomes) {
@@ -89,7 +89,7 @@ table curves(const std::string& title, const std::string& symbol, const std::arr
   return shown;
 }
 
-/// Every method beside the others; penalties that are best are so in hindsight.
+/// Compares all methods. The best penalties are chosen in hindsight.
 table beside_each_other(const std::string& title, const laboratory& lab, const options& given,
                         const std::vector<measured_set>& sets, const std::vector<std::vector<outcome>>& ridges,
                         const std::vector<std::vector<outcome>>& lassos) {
@@ -114,8 +114,8 @@ table beside_each_other(const std::string& title, const laboratory& lab, const o
   return shown;
 }
 
-/// Errors of one solver with the first k components: of more components than measurements, least squares has no inverse
-/// (Eq. 9) and is the shortest of all weights that fit.
+/// Tabulates errors of one solver with the first k components. With more components than measurements, least squares
+/// has no inverse (Eq. 9) and returns the shortest weights that fit.
 template <gonio::solver Solver>
 table by_components(const std::string& title, const laboratory& lab, const options& given,
                     const std::vector<measured_set>& sets, const Solver& solver) {
@@ -136,7 +136,7 @@ table by_components(const std::string& title, const laboratory& lab, const optio
   return shown;
 }
 
-/// All tables of the sets as they are.
+/// Returns all tables for some sets.
 tables compared(const std::string& condition, const laboratory& lab, const options& given,
                 const std::vector<measured_set>& sets) {
   std::vector<std::vector<outcome>> ridges, lassos;

@@ -21,7 +21,7 @@ namespace {
 
 using angles = std::vector<gonio::half_difference>;
 
-/// The search of Nielsen et al. 2015: of some seeds the lowest condition number.
+/// Searches like Nielsen et al. 2015: returns the lowest condition number over several seeds.
 angles by_condition(const laboratory& lab, const options& given, std::size_t n) {
   const gonio::design::point_geometry points(lab.prior().cells());
   const gonio::design::criterion_of_plan condition{lab.prior(), points, gonio::design::condition_number{}};
@@ -33,7 +33,7 @@ angles by_condition(const laboratory& lab, const options& given, std::size_t n) 
   return samples_of(points, best.candidates);
 }
 
-/// The best points by E of 1 to `most`.
+/// Returns the best 1 to `most` points by E.
 std::vector<angles> points_by_expected_error(const laboratory& lab, const options& given, std::size_t most,
                                              const gonio::progress& listener) {
   const gonio::design::cell_candidates candidates(lab.prior(), criterion_of(lab, given), {}, given.threads);
@@ -43,7 +43,7 @@ std::vector<angles> points_by_expected_error(const laboratory& lab, const option
   return sets;
 }
 
-/// The best spheres by E of 1 to `most`.
+/// Returns the best 1 to `most` spheres by E.
 std::vector<gonio::design::capture_plan> spheres_by_expected_error(const laboratory& lab, const options& given,
                                                                    std::size_t most, const gonio::progress& listener) {
   const gonio::design::image_candidates candidates(
@@ -53,7 +53,7 @@ std::vector<gonio::design::capture_plan> spheres_by_expected_error(const laborat
   return best_plans(candidates, most, most, given.seed, listener);
 }
 
-/// A random set of cells.
+/// Returns a random set of cells.
 angles random_points(const laboratory& lab, std::size_t n, std::uint64_t seed) {
   angles directions;
   for (const Eigen::Index cell : gonio::random_cells(lab.prior().cells(), n, seed))
@@ -61,7 +61,7 @@ angles random_points(const laboratory& lab, std::size_t n, std::uint64_t seed) {
   return directions;
 }
 
-/// The mean error over random sets of points, or of slices.
+/// Returns the mean error over random sets of points or of slices.
 template <class Draw>
 double error_of_random(const laboratory& lab, const options& given, Draw&& draw) {
   double sum = 0.0;
@@ -69,7 +69,7 @@ double error_of_random(const laboratory& lab, const options& given, Draw&& draw)
   return sum / static_cast<double>(given.random_sets);
 }
 
-/// The published points of a number, if there are any.
+/// Returns the error of n published points, if there are any.
 json error_of_published(const laboratory& lab, std::size_t n) {
   if (!gonio::design::has_nielsen_directions(n)) return {};
   return lab.error(gonio::design::nielsen_directions(n));
@@ -114,7 +114,7 @@ table against_spheres(const laboratory& lab, const options& given, const gonio::
   return shown;
 }
 
-/// What there is without measuring, and with measuring all.
+/// The bounds on the error: without any measurement, and with all of them.
 table bounds(const laboratory& lab) {
   return {"Bounds",
           {{"measured"}, {"mean mapped error"}},
@@ -122,13 +122,13 @@ table bounds(const laboratory& lab) {
            {"all: the projection", lab.tested.from_all().mean()}}};
 }
 
-/// Errors of one set of Fig. 8: a row of materials.
+/// Errors of one set of Fig. 8, one row per material.
 struct named_errors {
   std::string name;
   Eigen::ArrayX3d errors;
 };
 
-/// Ward's lobe beside a Lambertian one, fitted to each material's measurements there; compared by ln(1 + f).
+/// Fits a Ward lobe and a Lambertian lobe to each material's measurements in the directions, under ln(1 + f).
 Eigen::ArrayX3d fitted_ward(const laboratory& lab, const options& given, const angles& directions) {
   const std::vector kinds{&gonio::model::lobe_kind::of<gonio::model::lambert_shape>(),
                           &gonio::model::lobe_kind::of<gonio::model::ward_shape>()};
@@ -190,7 +190,7 @@ tables nielsen_9(const options& given, const gonio::progress& listener) {
 }
 
 tables xu_19(const options& given, const gonio::progress& listener) {
-  // The same curves as those of 2015, of which Xu et al. compare two; and how many points one criterion saves.
+  // The curves are those of 2015; Xu et al. compare two of them. Count the points that one criterion saves.
   const laboratory lab = open_laboratory(given, listener);
   const table points = against_points(lab, given, listener);
   table saved{

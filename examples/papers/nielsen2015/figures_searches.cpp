@@ -1,5 +1,5 @@
-/// Nielsen et al. 2015, Fig. 5: their search along the gradient, ours to the best neighbour and that of Xu et al. 2016
-/// against random swaps in the same time.
+/// Nielsen et al. 2015, Fig. 5: their search along the gradient, our search to the best neighbour and that of Xu et al.
+/// 2016, each compared with random swaps in the same time.
 
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/gradient_descent.hpp"
@@ -14,7 +14,7 @@ namespace papers::figures {
 
 namespace {
 
-/// More points than that are not exchanged over all cells: it would take minutes.
+/// Exchanging more points than this over all cells would take minutes.
 constexpr Eigen::Index most_exchanged_points = 10;
 
 struct timed_plan {
@@ -29,7 +29,7 @@ timed_plan timed(Search&& search) {
   return {std::move(plan), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 
-/// Random swaps for about as long as is said: as many as some take, and then as that run says.
+/// Swaps at random for about `seconds`. Each run's time determines the number of swaps of the next run.
 template <class Objective>
 timed_plan swaps_within(double seconds, const Objective& objective, std::size_t n, std::uint64_t seed) {
   Eigen::Index count = 300;
@@ -42,13 +42,13 @@ timed_plan swaps_within(double seconds, const Objective& objective, std::size_t 
   return run;
 }
 
-/// What a search found, seed after seed.
+/// The results of a search, one per seed.
 struct record {
   std::string search;
   std::vector<timed_plan> found = {};
 };
 
-/// The best of them, their mean, and what that took.
+/// Adds a row: the best result, the mean, and the time.
 template <class Objective>
 void add_row(table& shown, std::size_t n, const record& searched, const Objective& objective, const laboratory& lab,
              double scale) {
@@ -63,7 +63,7 @@ void add_row(table& shown, std::size_t n, const record& searched, const Objectiv
                         lab.error(samples_of(objective.geometry(), best->plan.candidates))});
 }
 
-/// A search from some seeds.
+/// Runs a search from several seeds.
 template <class Search>
 record timed_record(const char* name, const options& given, const Search& search) {
   record timings{name};
@@ -72,7 +72,7 @@ record timed_record(const char* name, const options& given, const Search& search
   return timings;
 }
 
-/// A search from some seeds, then random swaps in its time, and in five times its time.
+/// Runs a search from several seeds, and random swaps for the same time and for five times that.
 template <class Objective, class Search>
 std::vector<record> race(const std::string& name, const Objective& objective, std::size_t n, const options& given,
                          Search&& search) {
@@ -94,7 +94,7 @@ std::vector<Eigen::Index> race_counts(const options& given) {
   return counts;
 }
 
-/// Of the first k components. Directions are found by them, and judged with all.
+/// Compares searches that use the first k components. All components judge the directions found.
 table race_by_condition(const laboratory& lab, const options& given, Eigen::Index k, const gonio::progress& listener) {
   table shown{"By condition number of the first " + std::to_string(k) +
                   " components (the figure's): reached from "

@@ -1,5 +1,5 @@
-/// Nielsen et al. 2015, Fig. 7 and 11: the optimal directions of points and of spheres; and what spheres of Cornell's
-/// paints would have shown (Fig. 12).
+/// Nielsen et al. 2015, Fig. 7 and 11: the optimal directions of points and of spheres; and the reconstruction of
+/// Cornell's paints from simulated images of spheres (Fig. 12).
 
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
@@ -19,8 +19,8 @@ namespace {
 
 using angles = std::vector<gonio::half_difference>;
 
-/// How far a direction is out of the plane of incidence, in degrees: which of the two is light does not matter for the
-/// smaller of both.
+/// Returns the smaller angle between one direction and the plane of the other and the normal, in degrees. Exchanging
+/// light and viewer does not change it.
 double out_of_plane(const gonio::half_difference& at) {
   const auto [wi, wo] = gonio::to_directions(at);
   const auto from_plane = [](const gonio::direction& in_plane, const gonio::direction& other) {
@@ -31,10 +31,10 @@ double out_of_plane(const gonio::half_difference& at) {
   return gonio::degrees(std::min(from_plane(wi, wo), from_plane(wo, wi)));
 }
 
-/// Half the measured directions of a sample that are in an image of a sphere: theta_d within this many degrees.
+/// An image of a sphere contains the measured directions whose theta_d is within this many degrees.
 constexpr double half_slice = 2.5;
 
-/// What an image of a sphere would show of what was measured, and the rest.
+/// The measurements that an image of a sphere would contain, and the rest.
 struct parted_samples {
   gonio::sample_set seen, others;
 };
@@ -51,7 +51,7 @@ parted_samples part(const gonio::sample_set& all, const angles& slices) {
   return parted;
 }
 
-/// The slices of a set as angles.
+/// Returns the slices of a set as angles.
 angles slices_of(const gonio::valid_cells& cells, const std::string& set, Eigen::Index n) {
   const gonio::design::sphere_geometry spheres(cells);
   angles slices;

@@ -1,6 +1,6 @@
 #pragma once
-/// The search of Nielsen et al. 2015, section 4, as printed: candidates move along the numerical gradient. The
-/// library's own, `gonio::design::descend`, moves them to the best of six neighbours.
+/// The search of Nielsen et al. 2015, section 4, as printed: it moves candidates along the numerical gradient. The
+/// library's own search, `gonio::design::descend`, moves them to the best of six neighbours.
 
 #include <gonio/core/progress.hpp>
 #include <gonio/design/search.hpp>
@@ -21,8 +21,8 @@
 
 namespace papers {
 
-/// The step of a length, in cells, down the gradient: central differences of the neighbours, one-sided at an edge.
-/// `value_at(candidate)` is what the plan is worth with a candidate in place of `from`.
+/// Returns the step of `length` cells down the gradient, from central differences, one-sided at an edge.
+/// `value_at(candidate)` returns the plan's value with a candidate in place of `from`.
 template <gonio::design::capture_geometry Geometry, class Value>
 [[nodiscard]] gonio::design::grid_step step_down(const Geometry& geometry, Eigen::Index from, double here, int length,
                                                  const Value& value_at) {
@@ -48,7 +48,8 @@ template <gonio::design::capture_geometry Geometry, class Value>
   return step;
 }
 
-/// Where a step leads: if nowhere, without those axes that lead nowhere by themselves ("clip accordingly").
+/// Returns the end of a step. If there is none, drops the axes along which the step alone has none ("clip
+/// accordingly").
 template <gonio::design::capture_geometry Geometry>
 [[nodiscard]] std::optional<Eigen::Index> stepped_or_clipped(const Geometry& geometry, Eigen::Index from,
                                                              gonio::design::grid_step step) {
@@ -61,8 +62,8 @@ template <gonio::design::capture_geometry Geometry>
   return geometry.stepped(from, step);
 }
 
-/// Moves the candidates of a plan, in random order, along the gradient as long as that is an improvement, by steps of
-/// one length after the other.
+/// Moves the candidates of a plan in random order along the gradient while this improves the plan, with one step length
+/// after the other.
 template <gonio::design::capture_geometry Geometry, gonio::design::plan_objective Objective>
 [[nodiscard]] gonio::design::capture_plan descend_along_gradient(const Geometry& geometry, const Objective& objective,
                                                                  gonio::design::capture_plan plan, std::uint64_t seed,
@@ -98,8 +99,8 @@ template <gonio::design::capture_geometry Geometry, gonio::design::plan_objectiv
   return plan;
 }
 
-/// Plans of 1 to `most` measurements: each is the one before and a random candidate more (r = 1, step 4), improved by
-/// `descent(plan, seed)`.
+/// Returns plans of 1 to `most` measurements. Each adds a random candidate to the previous one (r = 1, step 4);
+/// `descent(plan, seed)` then improves it.
 template <gonio::design::capture_geometry Geometry, class Descent>
 [[nodiscard]] std::vector<gonio::design::capture_plan> grown_plans(const Geometry& geometry, std::size_t most,
                                                                    std::uint64_t seed, const Descent& descent,
@@ -120,7 +121,7 @@ template <gonio::design::capture_geometry Geometry, class Descent>
   return plans;
 }
 
-/// The paper's search for n measurements.
+/// Runs the paper's search for n measurements.
 template <gonio::design::capture_geometry Geometry, gonio::design::plan_objective Objective>
 [[nodiscard]] gonio::design::capture_plan grow_along_gradient(const Geometry& geometry, const Objective& objective,
                                                               std::size_t n, std::uint64_t seed,

@@ -27,11 +27,11 @@ struct nielsen_options {
   gonio::thread_count threads;
 };
 
-/// What a numpy reference measured with all components at cell centres and eta = 40, in the mapped domain.
+/// Results of a numpy reference with all components at cell centres and eta = 40, in the mapped domain.
 constexpr std::array reference_rms{0.921, 0.775, 0.409, 0.245, 0.238};
 constexpr double reference_projection = 0.038;
 
-/// The prior in the form in which one ships with gonio.
+/// Returns the prior in the form that ships with gonio.
 gonio::log_relative_pca as_shipped(const gonio::log_relative_pca& prior) {
   const gonio::grid_extents fine = prior.cells().grid().extents();
   const gonio::valid_cells thin(gonio::grid({fine.theta_h, fine.theta_d / 3, fine.phi_d / 5}));
@@ -72,7 +72,7 @@ void run(const nielsen_options& options) {
     result["directions"][std::to_string(n)] = {
         {"full", mean_errors(full)}, {"shipped_form", mean_errors(thin)}, {"materials", errors_by_name(full)}};
   }
-  // Project the test materials on the prior, which bounds every reconstruction.
+  // Project the test materials on the prior: a lower bound for every reconstruction.
   const auto bound = project_on(prior, truths, appearance, options.threads);
   result["projection"] = {{"full", mean_errors(bound)}, {"materials", errors_by_name(bound)}};
   bar.wipe();

@@ -1,5 +1,5 @@
 #pragma once
-/// The experiment of Nielsen et al. 2015, section 6, that most tables are of: 90 materials learned, ten others tested.
+/// The split that most tables of Nielsen et al. 2015 use (section 6): 90 materials learned, ten others tested.
 
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
@@ -16,29 +16,29 @@
 
 namespace papers {
 
-/// All principal components of some networks' materials, relative to their median.
+/// Learns all principal components of the materials of some networks, relative to their median.
 [[nodiscard]] gonio::log_relative_pca learn_all_components(
     const gonio::model::named_networks& networks, const gonio::valid_cells& cells, gonio::thread_count threads,
     const gonio::progress& listener, gonio::cosine_weighting weighting = gonio::cosine_weighting::product);
 
-/// What is learned from, and what is tested.
+/// The learned prior and the materials to test.
 struct nielsen_split {
   gonio::log_relative_pca prior;  ///< of the 90, with all components
   gonio::material_set truths;     ///< the ten
 
-  /// From a file of the 100 networks.
+  /// Learns from a file of the 100 networks.
   static nielsen_split learn(const studied_networks& networks, gonio::thread_count threads,
                              const gonio::progress& listener);
 };
 
-/// Folder of the sets of directions that ship with the tool.
+/// Returns the folder of the sets of directions that ship with the tool.
 [[nodiscard]] std::filesystem::path shipped_directions();
 
-/// What the file of such a set is called.
+/// Returns the file name of such a set.
 [[nodiscard]] std::string points_file(const std::string& set, std::size_t count);
 
-/// A set of points that is written down: `published`, or one of a folder, named after its number and criterion as
-/// `gonio-papers directions --write` does. Nothing where there is none of that many.
+/// Reads a set of points: `published`, or a file of a folder, named after its number and criterion as by `gonio-papers
+/// directions --write`. Returns nothing if there is no set of that size.
 [[nodiscard]] std::optional<std::vector<gonio::half_difference>> written_points(const std::filesystem::path& folder,
                                                                                 const std::string& set,
                                                                                 std::size_t count);

@@ -1,5 +1,5 @@
-/// gonio-papers soft-specular: Nielsen et al. 2015, section 8: one prior against one for soft and one for specular
-/// materials.
+/// gonio-papers soft-specular: Nielsen et al. 2015, section 8: one prior compared with a prior for soft and one for
+/// specular materials.
 
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
@@ -52,16 +52,16 @@ struct rivals {
   gonio::soft_specular_penalties eta;  ///< of the halves
 };
 
-/// What a row of the table is about: the reconstruction taken of each material.
+/// A row of the table: the results chosen for the materials.
 struct chosen_results {
   std::string label;
   std::vector<material_result> results;
 };
 
-/// The materials whose errors the paper shows (Figure 2): soft, and not captured by the one prior.
+/// The material whose errors the paper shows (Figure 2): soft, and not captured by the single prior.
 constexpr auto papers_example = "white-fabric";
 
-/// In proportion to the materials of each half, or that of --eta-of-halves.
+/// Returns penalties in proportion to the number of materials in each half, or the value of --eta-of-halves.
 gonio::soft_specular_penalties penalties_of(const soft_specular_options& options,
                                             const gonio::soft_specular_prior& prior) {
   if (options.eta_of_halves) return {*options.eta_of_halves, *options.eta_of_halves};
@@ -80,7 +80,7 @@ rivals learn_rivals(const soft_specular_options& options, gonio::material_set tr
   return {ridge{std::move(all), gonio::tikhonov{options.eta}}, std::move(switching), std::move(halves), eta};
 }
 
-/// For each material the one of two results that `takes_second(m)` says.
+/// Returns for each material m the second result if `takes_second(m)`, otherwise the first.
 template <class Choice>
 std::vector<material_result> choose(const std::vector<material_result>& first,
                                     const std::vector<material_result>& second, Choice&& takes_second) {
@@ -99,7 +99,7 @@ std::vector<material_result> better(const std::vector<material_result>& first,
 double mapped_rms(const gonio::comparison& errors) { return errors.mapped_rms.mean(); }
 double delta_e_env(const gonio::comparison& errors) { return errors.delta_e_env; }
 
-/// All rows of one number of directions. The switch has none where the directions do not tell soft from specular.
+/// Returns all rows of one number of directions. The switch has none if the directions cannot tell soft from specular.
 std::vector<chosen_results> reconstruct_all_ways(const rivals& from, const gonio::material_set& truths,
                                                  const gonio::appearance_metric& appearance, std::size_t count,
                                                  gonio::thread_count threads) {

@@ -13,8 +13,8 @@
 
 namespace papers {
 
-/// The other functions' weights in each channel, k x 3, that describe a correction function best by a solver of normal
-/// equations; its own are zero. The constant function, if there is one, is among the others.
+/// Returns the weights, k x 3, of the other functions that best describe a correction function, by a solver of normal
+/// equations. The function's own weights are zero. The constant function, if there is one, is among the others.
 template <gonio::normal_solver Solver>
 [[nodiscard]] Eigen::MatrixXd weights_of_others(const gonio::correction& functions, Eigen::Index target,
                                                 const Solver& solver, gonio::thread_count threads = {}) {
@@ -29,8 +29,8 @@ template <gonio::normal_solver Solver>
   return weights;
 }
 
-/// For each material that takes part, the mean over all cells and channels of |C - its combination of the others|, by a
-/// solver of normal equations. O(cells functions^2).
+/// Returns for each participating material the mean over all cells and channels of |C - its combination of the others|,
+/// by a solver of normal equations. O(cells functions^2).
 template <gonio::normal_solver Solver>
 [[nodiscard]] std::vector<double> deviations_from_others(const gonio::correction& functions, const Solver& solver,
                                                          gonio::thread_count threads = {}) {
@@ -44,7 +44,7 @@ template <gonio::normal_solver Solver>
   Eigen::ArrayXd sums = Eigen::ArrayXd::Zero(std::ssize(targets));
   for (std::size_t c = 0; c < 3; ++c) {
     const auto channel = functions.channel(c);
-    Eigen::MatrixXf residual(size, std::ssize(targets));  // of which the products with the functions are the deviations
+    Eigen::MatrixXf residual(size, std::ssize(targets));  // the deviations are its products with the functions
     for (std::size_t i = 0; i < targets.size(); ++i) {
       residual.col(i) = -combinations[i].col(c).template cast<float>();
       residual(targets[i], i) = 1.0f;

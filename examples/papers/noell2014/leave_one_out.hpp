@@ -1,6 +1,6 @@
 #pragma once
-/// Every material of a database explained by the others: Noell, Koehler and Stricker 2014, section 2, where it
-/// generates the correction functions and gives the linear-combination rival its estimate from full data.
+/// Reconstructs each material of a database from the others: Noell, Koehler and Stricker 2014, section 2. The paper
+/// thereby generates the correction functions, and the linear-combination rival's estimate from full data.
 
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/decomposition.hpp>
@@ -11,8 +11,8 @@
 
 namespace papers {
 
-/// Fits materials of a basis by the other ones, over all cells, with weight 1. The Gram matrices of the three channels
-/// are the basis's own: O(cells size^2) for the first fit; after that one touches no data and costs the solver alone.
+/// Fits each material of a basis by the other ones, over all cells, with weight 1. The first fit computes the basis's
+/// own Gram matrices of the three channels, O(cells size^2). Later fits touch no data and only cost the solver.
 ///
 /// ```cpp
 /// const papers::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}, gonio::nnls{}};
@@ -27,12 +27,12 @@ class leave_one_out_decomposition {
 
   [[nodiscard]] const gonio::measured<Metric>& basis() const noexcept { return basis_; }
 
-  /// The normal equations of one channel of one material over those that the basis does not leave out, itself excepted.
+  /// Returns the normal equations of one channel of a material over all other materials that the basis includes.
   [[nodiscard]] gonio::normal_equations problem(Eigen::Index material, Eigen::Index channel) const {
     return gonio::leave_one_out(basis_.channel(channel).products(threads_), material, others(material));
   }
 
-  /// A material from all others. Throws gonio::error if it is the only one, or the solver gives up.
+  /// Reconstructs a material from all others. Throws gonio::error if there are none, or if the solver gives up.
   [[nodiscard]] gonio::fitted_brdf<gonio::measured<Metric>> reconstruct(Eigen::Index material) const {
     const std::vector<Eigen::Index> columns = others(material);
     std::array<gonio::solution, 3> found;

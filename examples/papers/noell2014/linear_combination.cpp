@@ -32,7 +32,7 @@ struct combination_options {
   gonio::thread_count threads;
 };
 
-/// What a numpy reference measured: mean Delta E under the environment.
+/// Results of a numpy reference: mean Delta E under the environment.
 constexpr std::array reference_delta_e{16.4, 6.41, 8.82};
 
 class combination_experiment {

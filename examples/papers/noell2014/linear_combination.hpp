@@ -1,6 +1,6 @@
 #pragma once
 /// The linear-combination (LC) estimate of Noell, Koehler and Stricker 2014, section 3.1, from full data: each test
-/// material as a combination of all materials but itself.
+/// material as a combination of all other materials.
 
 #include "papers/material_result.hpp"
 #include "papers/noell2014/leave_one_out.hpp"
@@ -8,7 +8,7 @@
 
 namespace papers {
 
-/// Reconstructs the materials of these names from the others and compares with their tables in `truths`, which has the
+/// Reconstructs the named materials from the others and compares with their tables in `truths`. `truths` must have the
 /// materials of the basis in the same order over the same cells.
 template <gonio::error_metric Metric, gonio::normal_solver Solver, gonio::error_metric Judged>
 [[nodiscard]] std::vector<material_result> combine_others(

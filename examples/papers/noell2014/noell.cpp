@@ -28,8 +28,8 @@ struct noell_options : resumable_options {
   std::vector<std::string> methods;
   std::vector<double> data_ratios, outlier_ratios;
   std::vector<std::uint64_t> seeds{1};
-  std::vector<int> iterations;  // if any, otherwise as many as a method takes
-  std::vector<int> basis;       // if any, otherwise all other materials
+  std::vector<int> iterations;  // if empty, a method stops by itself
+  std::vector<int> basis;       // if empty, all other materials
   bool print_json = false;
 };
 
@@ -42,7 +42,7 @@ struct noell_options : resumable_options {
   return {choice};
 }
 
-/// Which results a row of the table sums up.
+/// The setting whose results a row of the table summarises.
 struct noell_setting {
   std::string method;
   std::optional<int> iterations, basis;
@@ -61,8 +61,8 @@ struct noell_setting {
   }
 };
 
-/// Mean (and its range over seeds, if there are several), median, worst and range of the peak ratio, as a row's cells.
-/// Results are those of the first seed, of the second, and so on.
+/// Returns a row's cells: mean (with its range over several seeds), median, worst, and range of the peak ratio. The
+/// results of the first seed come first, followed by those of the second, and so on.
 [[nodiscard]] std::string summary(const std::vector<json>& results, const std::string& measure, std::size_t seeds) {
   std::vector<double> values, peaks, means;
   for (const json& result : results) {
@@ -98,7 +98,7 @@ class noell_sweep {
     const std::size_t total = all.size() * materials_.size() * options_.seeds.size();
     std::size_t done = 0;
     prepare();
-    // Materials outermost: each has corrections of its own.
+    // Loop over materials outermost: each has its own corrections.
     for (std::size_t m = 0; m < materials_.size(); ++m)
       for (const noell_setting& setting : all)
         for (const std::uint64_t seed : options_.seeds) {
@@ -109,7 +109,7 @@ class noell_sweep {
         }
   }
 
-  /// One for each row of the table. Numbers of iterations stand next to each other.
+  /// Returns a setting for each row of the table. Those that differ only in iterations are adjacent.
   [[nodiscard]] std::vector<noell_setting> settings() const {
     std::vector<noell_setting> all;
     for (const std::string& method : options_.methods)
@@ -123,7 +123,7 @@ class noell_sweep {
 
   [[nodiscard]] std::vector<json> results(const noell_setting& setting) const { return results(setting, materials_); }
 
-  /// Of some materials with the first seed, then the second, and so on.
+  /// Returns the results of some materials with the first seed, then with the second, and so on.
   [[nodiscard]] std::vector<json> results(const noell_setting& setting, std::span<const std::string> materials) const {
     std::vector<json> found;
     for (const std::uint64_t seed : options_.seeds)
@@ -135,13 +135,13 @@ class noell_sweep {
   [[nodiscard]] const std::vector<std::string>& materials() const noexcept { return materials_; }
 
  private:
-  /// Those that an option gives, if a method has a use for them.
+  /// Returns the values of an option, if a method uses them.
   [[nodiscard]] static std::vector<std::optional<int>> choices(const std::vector<int>& given, bool of_use) {
     if (given.empty() || !of_use) return {std::nullopt};
     return {given.begin(), given.end()};
   }
 
-  /// What this process' missing cases of a method, a share of data and a seed have in common.
+  /// Prepares the parts common to this process' missing cases of a method, a share of data and a seed.
   void prepare() {
     for (const std::string& method : options_.methods)
       for (const double data_ratio : options_.data_ratios)
@@ -197,7 +197,7 @@ void print_json(const noell_options& options, const noell_sweep& sweep) {
   std::cout << all.dump(1) << '\n';
 }
 
-/// What the last number of iterations did to each reconstruction: its error over the least that any of them left.
+/// Prints the harm of the last number of iterations: each reconstruction's error over the least of all numbers.
 void print_harm(const noell_options& options, const noell_sweep& sweep) {
   for (const noell_setting& last : sweep.settings()) {
     if (last.iterations != options.iterations.back()) continue;
@@ -218,7 +218,7 @@ void print_harm(const noell_options& options, const noell_sweep& sweep) {
   }
 }
 
-/// How long a round takes: the time by which the most rounds take longer than the fewest. Methods need not take all.
+/// Prints the time of a round, from the longest and the shortest runs. A method may stop before its last round.
 void print_seconds(const noell_options& options, const noell_sweep& sweep) {
   const auto [fewest, most] = std::ranges::minmax(options.iterations);
   std::cout << "\nSeconds per iteration: mean (least - most). The paper: \"a few seconds\".\n\n"
@@ -239,7 +239,7 @@ void print_seconds(const noell_options& options, const noell_sweep& sweep) {
   }
 }
 
-/// Those of the materials that no default was chosen on.
+/// Returns the materials on which no default was tuned.
 [[nodiscard]] std::vector<std::string> unseen(std::vector<std::string> materials) {
   const auto seen = gonio::nielsen_test_materials();
   std::erase_if(materials, [&](const std::string& name) {
@@ -268,7 +268,7 @@ void print_table(const noell_options& options, const noell_sweep& sweep, std::sp
   }
 }
 
-/// The share of outliers that each estimate reports, beside the true one: a row for each amount of data.
+/// Prints the share of outliers that each estimate reports, beside the true one, one row per amount of data.
 void print_outliers(const noell_options& options, const noell_sweep& sweep) {
   const auto reports = [&](const noell_setting& setting) {
     return sweep.results(setting).front().contains("outliers");

@@ -1,5 +1,5 @@
-/// gonio-papers noell-corrections: Noell, Koehler and Stricker 2014, section 2: is a correction function a
-/// combination of the others?
+/// gonio-papers noell-corrections: Noell, Koehler and Stricker 2014, section 2: whether a correction function is a
+/// combination of the others.
 
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
@@ -48,7 +48,7 @@ void run_corrections(const corrections_options& options) {
   check("as printed", gonio::correction_rule::as_printed());
   check("gonio's default", {});
   bar.wipe();
-  // Print how far the combinations are off.
+  // Print the deviations of the combinations.
   if (options.print_json) {
     json all = json::array();
     for (const row& each : rows)

@@ -27,7 +27,7 @@ namespace papers {
 
 namespace {
 
-/// "our-lin" is the method "our" under the metric "lin"; "gamma-3" has a number in its place.
+/// "our-lin" is the method "our" under the metric "lin"; "gamma-3" has a number in place of the metric.
 struct method_name {
   std::string method, metric = "log";
   double gamma = 0.0;
@@ -48,13 +48,13 @@ struct method_name {
   return std::nullopt;
 }
 
-/// The names to leave out for a material's sake: none if it has no name.
+/// Returns the names to leave out for a material: none if its name is empty.
 [[nodiscard]] std::vector<std::string> names_of(const std::string& material) {
   return material.empty() ? std::vector<std::string>() : std::vector{material};
 }
 
-/// The names that a case leaves out: its material's, and those of the others that are not drawn. Smaller bases are
-/// parts of the larger ones of the same seed.
+/// Returns the names that a case leaves out: its material and all others that are not drawn. Smaller bases are subsets
+/// of the larger ones with the same seed.
 [[nodiscard]] std::vector<std::string> left_out(const noell_case& which, const std::vector<std::string>& names) {
   std::vector<std::string> out = names_of(which.material);
   if (!which.basis) return out;
@@ -68,13 +68,13 @@ struct method_name {
   return out;
 }
 
-/// What a case measures.
+/// Identifies the measurement of a case.
 using case_key = std::tuple<std::string, double, double, std::uint64_t>;
 [[nodiscard]] case_key key_of(const noell_case& which) {
   return {which.material, which.data_ratio, which.outlier_ratio, which.seed};
 }
 
-/// A value made when it is first asked for.
+/// A value that is made on first use.
 template <class Value>
 class made_on_demand {
  public:
@@ -88,19 +88,19 @@ class made_on_demand {
   std::optional<Value> value_;
 };
 
-/// Materials under a metric, and combinations of them at the cells of each share of the data and seed, which all
-/// materials are measured at.
+/// Materials under a metric, and their combinations at the cells of each share of data and seed. These cells are the
+/// same for all materials.
 template <class Metric>
 struct combinations_under {
   made_on_demand<gonio::measured<Metric>> materials;
   made_on_demand<gonio::rbf<Metric>> radial_functions;
-  std::map<case_key, Eigen::MatrixXd> radial_weights;  // found beforehand
+  std::map<case_key, Eigen::MatrixXd> radial_weights;  // computed by solve_radial
   std::map<std::pair<double, std::uint64_t>, papers::planned_decomposition<Metric>> plans;
 };
 
 }  // namespace
 
-/// Only keeps the system solvable where samples are few.
+/// Only keeps the system solvable when there are few samples.
 const gonio::tikhonov radial_penalty{1e-6};
 
 struct noell_experiment::parts {
@@ -109,7 +109,7 @@ struct noell_experiment::parts {
   noell_measures measures;
   std::tuple<combinations_under<gonio::lin>, combinations_under<gonio::root>, combinations_under<gonio::log>>
       combinations;
-  /// Of all materials; and without those that were left out last, which many runs in a row have in common.
+  /// Corrections of all materials, and those without the materials left out last: many consecutive runs share them.
   struct correction_cache {
     made_on_demand<gonio::correction> all, fewer;
     std::vector<std::string> left_out;
@@ -130,7 +130,8 @@ struct noell_experiment::parts {
     });
   }
 
-  /// The weights of radial basis functions for cases that measure at the same cells: they share their normal equations.
+  /// Solves the weights of radial basis functions for cases measured at the same cells, which share the normal
+  /// equations.
   template <class Metric>
   void solve_radial(const Metric& metric, std::span<const noell_case> cases) {
     gonio::located_samples all = gonio::locate_samples(truths.cells, measure(cases.front()), threads);
@@ -143,7 +144,7 @@ struct noell_experiment::parts {
     for (std::size_t i = 0; i < cases.size(); ++i) known[key_of(cases[i])] = weights.middleCols(3 * i, 3);
   }
 
-  /// Cells at random, the same for all materials, some of them with another cell's value.
+  /// Measures random cells, the same for all materials. Outliers have another cell's value.
   [[nodiscard]] gonio::sample_set measure(const noell_case& which) const {
     const std::size_t material = truths.find(which.material);
     return gonio::sample_table(truths.table(material), cells_of(which), {.outlier_ratio = which.outlier_ratio},
@@ -154,7 +155,7 @@ struct noell_experiment::parts {
     return gonio::random_cells(truths.cells, samples_of(which.data_ratio, truths.cells.size()), which.seed);
   }
 
-  /// The non-negative combination of other materials.
+  /// Returns the non-negative combination of other materials.
   template <class Metric>
   [[nodiscard]] auto combination(const Metric& metric, const noell_case& which, const gonio::sample_set& samples) {
     const auto located = gonio::locate_samples(truths.cells, samples, threads);
@@ -175,13 +176,13 @@ struct noell_experiment::parts {
     return cache.fewer.get([&] { return all.without(names); });
   }
 
-  /// An estimate, and which share of the samples it takes for outliers if it has an opinion.
+  /// An estimate, and the share of samples that the method rejects as outliers, if it reports one.
   struct estimated {
     gonio::brdf_table table;
     std::optional<double> outliers = {};
   };
 
-  /// The estimate of a material by a method, from other materials.
+  /// Estimates a material by a method from other materials.
   template <class Metric>
   [[nodiscard]] estimated estimate(const method_name& method, const Metric& metric, const noell_case& which,
                                    const gonio::sample_set& samples) {
@@ -265,7 +266,7 @@ Eigen::Index noell_experiment::samples_of(double data, Eigen::Index cells) noexc
 
 namespace {
 
-/// The share of samples that are more than 5 % off the truth: an outlier has another cell's value, which may be right.
+/// Returns the share of samples more than 5 % off the truth: an outlier has another cell's value, which may be right.
 [[nodiscard]] double share_off(const gonio::sample_set& samples, const gonio::sample_set& right) {
   constexpr double offset = 0.001, limit = 0.05;
   Eigen::Index off = 0;
@@ -282,7 +283,7 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
   const gonio::brdf_table truth = parts_->truths.table(parts_->truths.find(which.material));
   const gonio::sample_set samples = parts_->measure(which);
 
-  // What is made once for a material is no part of an iteration.
+  // Make the corrections before the time is measured: they are not part of an iteration.
   const method_name name = *read_method(method);
   if (iterates(method))
     static_cast<void>(parts_->corrections_without(left_out(which, parts_->truths.names), name.method == "printed"));

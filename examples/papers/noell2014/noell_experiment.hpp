@@ -26,11 +26,11 @@ struct noell_case {
   double data_ratio = 1.0;  ///< share of the cells; above 1, their number
   double outlier_ratio = 0.0;
   std::uint64_t seed = 1;
-  std::optional<int> iterations = {};  ///< exactly as many; or else the method stops by itself
-  std::optional<int> basis = {};       ///< how many other materials, drawn by the seed, to estimate from; or else all
+  std::optional<int> iterations = {};  ///< the exact number; if empty, the method stops by itself
+  std::optional<int> basis = {};       ///< number of other materials to estimate from, drawn by the seed; if empty, all
 };
 
-/// Holds the materials, the bases that methods need (each made when first asked for), and the measures of error.
+/// Holds the materials, the bases of the methods (each made on first use), and the measures of error.
 class noell_experiment {
  public:
   noell_experiment(const std::filesystem::path& networks, const std::filesystem::path& environment,
@@ -39,40 +39,41 @@ class noell_experiment {
 
   [[nodiscard]] const std::vector<std::string>& names() const noexcept;
 
-  /// The materials' tables.
+  /// Returns the materials' tables.
   [[nodiscard]] const gonio::material_set& materials() const noexcept;
 
-  /// The estimate by a method from samples, from the other materials that a case draws; from all if it has no name.
+  /// Estimates by a method from samples and the other materials that a case draws; from all if the case has no
+  /// material.
   [[nodiscard]] gonio::brdf_table estimate(const std::string& method, const noell_case& which,
                                            const gonio::sample_set& samples);
 
-  /// All materials but one under the paper's metric.
+  /// Returns all materials except one under the paper's metric.
   [[nodiscard]] gonio::measured<gonio::log> materials_without(const std::string& material);
 
-  /// The correction functions of all materials but one, by gonio's rule.
+  /// Returns the correction functions of all materials except one, by gonio's rule.
   [[nodiscard]] const gonio::correction& corrections_without(const std::string& material);
 
-  /// Measures the material, reconstructs it by a method from the other materials that the case draws, and judges
-  /// (`noell_measures::judge`); seconds are those of the fit.
+  /// Measures the material, reconstructs it by a method from the other materials that the case draws, and judges it
+  /// (`noell_measures::judge`). The seconds are those of the fit.
   [[nodiscard]] json run(const std::string& method, const noell_case& which);
 
-  /// Does what is done once for cases of the same share of data and seed, which are then quicker: radial basis
-  /// functions have their normal equations in common.
+  /// Prepares cases with the same share of data and seed, which then run faster: their radial basis functions share the
+  /// normal equations.
   void prepare(const std::string& method, std::span<const noell_case> cases);
 
-  /// How many of the cells are measured, given a share of them or, above 1, a number; at least 1.
+  /// Returns the number of cells to measure, at least 1. `data` is a share of them or, above 1, a number.
   [[nodiscard]] static Eigen::Index samples_of(double data, Eigen::Index cells) noexcept;
 
-  /// Does a method correct its estimate again and again?
+  /// Returns whether a method corrects its estimate iteratively.
   [[nodiscard]] static bool iterates(const std::string& method);
 
-  /// Does a method combine other materials?
+  /// Returns whether a method combines other materials.
   [[nodiscard]] static bool combines(const std::string& method);
 
-  /// What is wrong with the name of a method; empty if nothing is.
+  /// Returns the error in the name of a method; empty if there is none.
   [[nodiscard]] static std::string complaint(const std::string& method);
 
-  /// What the paper prints for a method in a setting, if anything.
+  /// Returns the paper's result for a method in a setting, if it is printed.
   [[nodiscard]] static std::optional<double> published(const std::string& method, double data_ratio,
                                                        double outlier_ratio);
 

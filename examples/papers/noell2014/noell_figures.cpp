@@ -1,4 +1,4 @@
-/// gonio-papers noell-figures: Fig. 1 to 5 of Noell, Koehler and Stricker 2014, drawn.
+/// gonio-papers noell-figures: draws Fig. 1 to 5 of Noell, Koehler and Stricker 2014.
 
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
@@ -33,7 +33,7 @@ struct figure_options {
   gonio::thread_count threads;
 };
 
-/// What Fig. 3 compares, in its order, and ours.
+/// The methods that Fig. 3 compares, in its order, and ours.
 const std::vector<std::string> all_methods{"lc-lin", "lc", "rbf-lin", "rbf", "pull-push", "our"};
 
 class noell_figures {
@@ -43,7 +43,7 @@ class noell_figures {
         experiment_(options.networks, options.environment, options.threads, listener),
         listener_(listener) {}
 
-  /// What is printed below the figure.
+  /// Draws the figure and prints its caption.
   void draw() {
     switch (options_.figure) {
       case 1:
@@ -60,7 +60,7 @@ class noell_figures {
   }
 
  private:
-  /// Fig. 1: some of the cells beyond 12 degrees of the highlight, two of ten with another cell's value.
+  /// Fig. 1: random cells with theta_h of at least 12 degrees, 20 % of them with another cell's value.
   void draw_overview() {
     const gonio::brdf_table truth = truth_of_material();
     std::vector<Eigen::Index> cells = random_cells_of(truth.cells());
@@ -69,13 +69,13 @@ class noell_figures {
             grace());
   }
 
-  /// Fig. 3: cells at random, four of ten with another cell's value.
+  /// Fig. 3: random cells, 40 % of them with another cell's value.
   void draw_methods() {
     const gonio::brdf_table truth = truth_of_material();
     compare(truth, measured_share(truth), options_.material, grace());
   }
 
-  /// Fig. 5: a measured table that the database knows nothing of, under point lights.
+  /// Fig. 5: a measured table outside the database, under point lights.
   void draw_measured() {
     if (options_.table.empty()) gonio::refuse("--figure 5 needs --table FILE, a measured table");
     const gonio::brdf_table truth =
@@ -107,7 +107,7 @@ class noell_figures {
     write(tiles_in_columns(columns));
   }
 
-  /// Fig. 2: eleven correction functions, and what the others make of it.
+  /// Fig. 2: eleven correction functions, and their approximations by the others.
   void draw_corrections() {
     const gonio::correction& functions = experiment_.corrections_without("");
     std::vector<std::vector<gonio::image>> columns;
@@ -126,7 +126,7 @@ class noell_figures {
     write(tiles_in_columns(columns));
   }
 
-  /// Fig. 4: what the first rounds of our iteration do with the measurements of Fig. 3.
+  /// Fig. 4: the effect of the first rounds of our iteration on the measurements of Fig. 3.
   void draw_iteration() {
     const gonio::brdf_table truth = truth_of_material();
     const gonio::sample_set samples = measured_share(truth);
@@ -159,7 +159,7 @@ class noell_figures {
     return gonio::sample_table(truth, random_cells_of(truth.cells()), {.outlier_ratio = 0.4}, options_.seed);
   }
 
-  /// The paper's light.
+  /// Returns the measure of Delta E under the paper's light.
   [[nodiscard]] gonio::sphere_delta_e grace() const {
     if (options_.environment.empty()) gonio::refuse("--figure 1 and 3 need --environment FILE, a natural light");
     const gonio::render::environment_map map(gonio::io::read_hdr(options_.environment));

@@ -1,5 +1,5 @@
-/// gonio-papers noell-gap: why the linear combination (LC) of Noell, Koehler and Stricker 2014, Table 1, suffers less
-/// from outliers there than here. What the paper leaves open is varied, one thing at a time.
+/// gonio-papers noell-gap: why outliers harm the linear combination (LC) of Noell, Koehler and Stricker 2014 less in
+/// their Table 1 than here. Varies the details that the paper leaves open, one at a time.
 
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
@@ -32,7 +32,7 @@ namespace papers {
 
 namespace {
 
-/// ln(1 + scale rho): the paper's metric of reflectance in another unit than sr^-1.
+/// ln(1 + scale rho): the paper's metric with reflectance in a unit other than sr^-1.
 struct scaled_log : gonio::place_free_metric<scaled_log> {
   double scale = 1.0;
 
@@ -48,7 +48,7 @@ struct scaled_log : gonio::place_free_metric<scaled_log> {
 
 static_assert(gonio::error_metric<scaled_log>);
 
-/// Where an outlier's value comes from.
+/// The source of an outlier's value.
 enum class outlier_source { valid_cells, all_cells, each_channel, angles, directions };
 
 struct named_source {
@@ -65,10 +65,11 @@ constexpr std::array all_sources{
 constexpr std::array samples_too{named_source{outlier_source::angles, "samples and outliers of random angles"}};
 constexpr std::array cells_and_angles{all_sources[0], all_sources[3]};
 
-/// What is measured: cells at random, of which a quarter has theta_h below 6 degrees, or angles at random.
+/// The locations of samples: random cells, a quarter of which have theta_h below 6 degrees, or random angles.
 enum class sampling { cells, angles };
 
-/// How the spheres are seen: at the truth's own mean luminance, or all at the exposure at which a white sphere has it.
+/// The exposure of the spheres: at the truth's own mean luminance, or at the exposure that gives a white sphere this
+/// value.
 struct judgement {
   std::string name;
   double luminance = gonio::sphere_delta_e::middle_grey;
@@ -87,14 +88,14 @@ struct gap_options : resumable_options {
   std::uint64_t seed = 1;
 };
 
-/// Uniform by solid angle over the hemisphere.
+/// Returns a direction, uniform by solid angle over the hemisphere.
 [[nodiscard]] gonio::direction random_direction(std::mt19937_64& generator) {
   std::uniform_real_distribution<double> height(0.0, 1.0), turn(0.0, 2.0 * std::numbers::pi);
   const double z = height(generator), phi = turn(generator), radius = std::sqrt(1.0 - z * z);
   return {radius * std::cos(phi), radius * std::sin(phi), z};
 }
 
-/// Uniform in each angle, above the horizon.
+/// Returns directions above the horizon, uniform in each angle.
 [[nodiscard]] gonio::direction_pair random_angles(std::mt19937_64& generator) {
   std::uniform_real_distribution<double> right_angle(0.0, std::numbers::pi / 2.0), half_turn(0.0, std::numbers::pi);
   while (true) {
@@ -104,7 +105,7 @@ struct gap_options : resumable_options {
   }
 }
 
-/// Every channel of a sample is another outlier.
+/// Draws the outliers of each channel independently.
 [[nodiscard]] gonio::sample_set corrupt_channels(const gonio::sample_set& samples,
                                                  const gonio::measurement_defects& defects, std::uint64_t seed,
                                                  const std::function<gonio::rgb(std::mt19937_64&)>& any_value) {
@@ -116,7 +117,7 @@ struct gap_options : resumable_options {
   return all;
 }
 
-/// The table's values at locations, with outliers. Empty cells, where the paper's tables may hold anything, hold zero.
+/// Returns the table's values at locations, with outliers. Empty cells hold zero; in the paper's tables they may not.
 [[nodiscard]] gonio::sample_set measure(const gonio::brdf_table& truth, std::span<const gonio::location> locations,
                                         double outlier_ratio, outlier_source source, std::uint64_t seed) {
   gonio::sample_set samples;
@@ -151,13 +152,13 @@ struct gap_options : resumable_options {
   }
 }
 
-/// A table from samples of a case's material, which the estimate must not know.
+/// Estimates a table from samples of a case's material, without using that material.
 using estimate_function = std::function<gonio::brdf_table(const gonio::sample_set&, const noell_case&)>;
 
-/// Mean Delta E by outlier ratio, one list for each judgement.
+/// Mean Delta E by outlier ratio, one list per judgement.
 using judged_means = std::array<std::vector<double>, judgements.size()>;
 
-/// A row of the table: a method, what is varied, and where its samples and outliers come from.
+/// A row of the table: a method, the variation, and the sources of samples and outliers.
 struct gap_setting {
   std::string method, variation;
   named_source outliers;
@@ -166,7 +167,7 @@ struct gap_setting {
   [[nodiscard]] std::string name() const { return variation + outliers.name; }
 };
 
-/// What is measured, who looks, and how.
+/// Measures the materials, reconstructs them and judges the results.
 class gap_experiment {
  public:
   gap_experiment(const gap_options& options, const gonio::progress& listener)
@@ -179,7 +180,7 @@ class gap_experiment {
                      90, 72, gonio::render::environment_map(gonio::io::read_hdr(options.environment))),
                  36, gonio::sphere_delta_e::middle_grey, options.threads) {}
 
-  /// Where a share of the table is measured.
+  /// Returns the locations of a share of the table.
   [[nodiscard]] std::vector<gonio::location> locations(sampling how) const {
     const Eigen::Index count = gonio::share_of(truths_.cells.size(), options_.data_ratio);
     std::vector<gonio::location> chosen;
@@ -196,7 +197,7 @@ class gap_experiment {
     return chosen;
   }
 
-  /// The combination of the other materials under ln(1 + scale rho), measured there.
+  /// Returns the combination of the other materials under ln(1 + scale rho), planned for the locations.
   template <gonio::normal_solver Solver>
   [[nodiscard]] estimate_function combination(double scale, const Solver& solver, sampling how) const {
     const papers::planned_decomposition plan{gonio::measured{truths_, scaled_log{scale}, options_.threads},
@@ -207,21 +208,21 @@ class gap_experiment {
     };
   }
 
-  /// A method of Table 1.
+  /// Returns a method of Table 1.
   [[nodiscard]] estimate_function method(const std::string& name) {
     return [this, name](const gonio::sample_set& samples, const noell_case& which) {
       return methods_.estimate(name, which, samples);
     };
   }
 
-  /// The means in each setting; all take their samples from the same locations.
+  /// Returns the means in each setting. All settings must measure at the same locations.
   [[nodiscard]] std::vector<judged_means> run(const estimate_function& estimate,
                                               std::span<const gap_setting> settings) {
     const std::vector<gonio::location> measured_at = locations(settings.front().samples);
     judged_means none;
     none.fill(std::vector<double>(options_.outlier_ratios.size(), 0.0));
     std::vector<judged_means> means(settings.size(), none);
-    // Materials outermost: each has corrections of its own.
+    // Loop over materials outermost: each has its own corrections.
     for (std::size_t m = 0; m < options_.materials.size(); ++m)
       for (std::size_t s = 0; s < settings.size(); ++s)
         for (std::size_t r = 0; r < options_.outlier_ratios.size(); ++r) {
@@ -229,7 +230,7 @@ class gap_experiment {
               options_.materials[m], options_.data_ratio, options_.outlier_ratios[r], options_.seed, {}, {}};
           const json& result = results_.once(key_of(settings[s], which), m,
                                              [&] { return judged(estimate, settings[s], which, measured_at); });
-          if (result.is_null()) continue;  // another process'
+          if (result.is_null()) continue;  // left to another process
           for (std::size_t j = 0; j < judgements.size(); ++j)
             means[s][j][r] += result[j].number() / static_cast<double>(options_.materials.size());
         }
@@ -247,7 +248,7 @@ class gap_experiment {
             options_.environment.filename().string()};
   }
 
-  /// The error by each judgement.
+  /// Returns the error by each judgement.
   [[nodiscard]] json judged(const estimate_function& estimate, const gap_setting& setting, const noell_case& which,
                             std::span<const gonio::location> measured_at) {
     const std::size_t material = truths_.find(which.material);
@@ -271,11 +272,11 @@ class gap_experiment {
   gap_options options_;
   resumable_results results_;
   noell_experiment methods_;
-  const gonio::material_set& truths_;  ///< of the methods
+  const gonio::material_set& truths_;  ///< held by methods_
   gonio::sphere_delta_e delta_e_;
 };
 
-/// A row and its figures by outlier ratio.
+/// A row and its errors by outlier ratio.
 struct gap_row {
   gap_setting setting;
   judged_means means;
@@ -288,7 +289,7 @@ struct gap_row {
   return means;
 }
 
-/// How far a row is from the paper's: the mean |ln(ours / paper's)|, as a factor.
+/// Returns the distance of a row from the paper's: the mean |ln(ours / paper's)|, as a factor.
 [[nodiscard]] double factor_between(const std::vector<double>& row, const std::vector<double>& paper) {
   double sum = 0.0;
   for (std::size_t i = 0; i < row.size(); ++i) sum += std::abs(std::log(row[i] / paper[i]));
@@ -332,7 +333,7 @@ void run_gap(const gap_options& options) {
     const std::vector<judged_means> means = experiment.run(estimate, settings);
     for (std::size_t s = 0; s < settings.size(); ++s) rows.push_back({settings[s], means[s]});
   };
-  // Vary where outliers come from for each method, and metric and solver of the combination.
+  // For each method vary the source of outliers, and for the combination also metric and solver.
   const auto combine = [&](double scale, const std::string& metric) {
     run("lc", metric, experiment.combination(scale, gonio::nnls{}, sampling::cells), all_sources);
     run("lc", metric, experiment.combination(scale, gonio::nnls{}, sampling::angles), samples_too, sampling::angles);

@@ -1,5 +1,5 @@
 #pragma once
-/// What judges the reconstructions of the experiments after Noell et al. 2014.
+/// The error measures of the experiments after Noell et al. 2014.
 
 #include "papers/experiments.hpp"
 #include "tool/files/json.hpp"
@@ -14,12 +14,12 @@
 
 namespace papers {
 
-/// Adds `--environment FILE`, which is optional.
+/// Adds the optional `--environment FILE`.
 inline void add_environment_option(command& to, std::filesystem::path& environment) {
   to.add_input("--environment", environment, "Latitude-longitude image of a natural light to judge under, too (.hdr)");
 }
 
-/// Looks at tables over given cells under the formula environment and, if there is one, a natural light.
+/// Compares tables over given cells under the formula environment and, if there is one, a natural light.
 class noell_measures {
  public:
   noell_measures(const gonio::valid_cells& cells, const std::filesystem::path& environment, gonio::thread_count threads)
@@ -31,8 +31,8 @@ class noell_measures {
           36, gonio::sphere_delta_e::middle_grey, threads);
   }
 
-  /// delta_e_env under the formula environment at the exposure of a white sphere, delta_e_natural (if there is an
-  /// environment) at the truth's own exposure, peak_ratio of the green highlight with theta_d below 70 degrees.
+  /// Returns delta_e_env under the formula environment at the exposure of a white sphere, delta_e_natural (if there is
+  /// an environment) at the truth's own exposure, and peak_ratio of the green highlight with theta_d below 70 degrees.
   [[nodiscard]] json judge(const gonio::brdf_table& estimate, const gonio::brdf_table& truth) const {
     const double limit = gonio::radians(70.0);
     json result{{"delta_e_env", formula_.difference(estimate, truth, threads_).environment},

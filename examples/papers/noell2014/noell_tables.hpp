@@ -1,5 +1,5 @@
 #pragma once
-/// The benchmark of Noell, Koehler and Stricker 2014, section 3.1: what it varies, and the figures that Table 1 prints.
+/// The benchmark of Noell, Koehler and Stricker 2014, section 3.1: its settings and the printed results of Table 1.
 
 #include <array>
 #include <cstddef>
@@ -8,17 +8,17 @@
 
 namespace papers {
 
-/// Shares of a material's table that are measured: the columns of Table 1.
+/// Measured shares of a material's table: the columns of Table 1.
 inline constexpr std::array noell_data_ratios{1.0, 0.7, 0.5, 0.3, 0.1};
-/// Shares of the measurements that are outliers: its rows.
+/// Shares of outliers among the measurements: the rows of Table 1.
 inline constexpr std::array noell_outlier_ratios{0.0, 0.2, 0.4, 0.6, 0.8};
 
-/// The gamma that the paper chose for an outlier ratio.
+/// Returns the gamma that the paper chose for an outlier ratio.
 [[nodiscard]] constexpr double noell_gamma(double outlier_ratio) noexcept {
   return outlier_ratio <= 0.0 ? 0.0 : outlier_ratio <= 0.2 ? 3.0 : 6.0;
 }
 
-/// Materials that the robust estimate and its defaults were chosen on, beside Nielsen et al.'s ten test materials.
+/// Materials on which the robust estimate and its defaults were tuned, besides Nielsen et al.'s ten test materials.
 inline constexpr std::array noell_tuned_materials{
     "black-obsidian",        "black-phenolic",          "chrome-steel",
     "color-changing-paint3", "grease-covered-steel",    "nickel",
@@ -57,7 +57,7 @@ inline constexpr noell_figures noell_pull_push{{{0.00, 0.09, 0.20, 0.46, 2.14},
 /// The methods of Table 1.
 enum class noell_method { ours, combination, radial, pull_push };
 
-/// What Table 1 prints for a method, a data ratio and an outlier ratio, if it has them.
+/// Returns the result that Table 1 prints for a method, a data ratio and an outlier ratio, if it has these ratios.
 [[nodiscard]] constexpr std::optional<double> noell_table_1(noell_method method, double data_ratio,
                                                             double outlier_ratio) noexcept {
   constexpr std::array tables{&detail::noell_ours, &detail::noell_combination, &detail::noell_radial,

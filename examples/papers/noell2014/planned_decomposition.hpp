@@ -1,6 +1,6 @@
 #pragma once
-/// Combinations of measured materials (Noell, Koehler and Stricker 2014, Eq. 7-11) for many surfaces that are measured
-/// in the same directions: the normal equations' matrix depends on the directions alone and is built once.
+/// Combinations of measured materials (Noell, Koehler and Stricker 2014, Eq. 7-11) for many surfaces measured in the
+/// same directions. The matrix of the normal equations depends only on the directions and is built once.
 
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
@@ -16,8 +16,8 @@
 
 namespace papers {
 
-/// Fits measurements at locations that are given beforehand, each of weight 1. What `decomposition` does for the same
-/// samples, up to float products in the matrix (docs/results/solvers.md); a reconstruction then reads the materials at
+/// Fits measurements at locations known in advance, each of weight 1. The results equal those of `decomposition` on the
+/// same samples, up to float products in the matrix (docs/results/solvers.md). A reconstruction reads the materials at
 /// the locations once.
 ///
 /// ```cpp
@@ -36,16 +36,16 @@ class planned_decomposition {
         threads_(threads),
         plan_(std::make_shared<const plan>(materials_, std::move(locations), threads)) {}
 
-  /// The same plan for combinations without these materials. Nothing is copied. Throws gonio::error for a name that
-  /// there is not, or if none is left.
+  /// Returns the same plan for combinations without these materials. Copies no data. Throws gonio::error if a name does
+  /// not exist, or if no material is left.
   [[nodiscard]] planned_decomposition without(const std::vector<std::string>& excluded) const {
     planned_decomposition fewer(*this);
     fewer.materials_ = materials_.without(excluded);
     return fewer;
   }
 
-  /// From reflectance in sr^-1 at the locations, 3 x n. Throws gonio::error if there are not as many, or one is not
-  /// finite, or if the solver gives up. O(locations materials).
+  /// Reconstructs from reflectance in sr^-1 at the locations, 3 x n. Throws gonio::error if the number differs, a value
+  /// is not finite, or the solver gives up. O(locations materials).
   [[nodiscard]] gonio::fitted_brdf<gonio::measured<Metric>> reconstruct(const gonio::channel_values& values) const {
     const auto count = std::ssize(plan_->locations);
     if (values.cols() != count)

@@ -60,7 +60,7 @@ int voxel_band::neighbour(Eigen::Index voxel, Eigen::Index axis, int step) const
 
 namespace {
 
-/// The rows of the prior: what the neighbours of a voxel are in sum beside six times itself.
+/// Returns the rows of the prior: the sum of a voxel's six neighbours minus six times the voxel.
 Eigen::SparseMatrix<double, Eigen::RowMajor> laplacian_of(const voxel_band& band) {
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index voxel = 0; voxel < band.size(); ++voxel) {
@@ -93,7 +93,7 @@ distance_field::distance_field(const gonio::shape::surface_index& scan, const go
   }
   // Find the most probable field.
   const Eigen::SparseMatrix<double, Eigen::RowMajor> laplacian = laplacian_of(band_);
-  // A voxel at the band's corner, which no other needs, is left to be 0.
+  // Makes the system regular: a corner voxel that no other voxel uses becomes 0.
   constexpr double negligible = 1e-12;
   Eigen::SparseMatrix<double> of_observations(band_.size(), band_.size());
   of_observations.setIdentity();

@@ -1,7 +1,7 @@
 #pragma once
-/// A surface as the zero of a field of signed distances, which is a Gaussian Markov random field over voxels near it:
-/// the rival of "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V, section
-/// 4), after Paulsen, Baerentzen and Larsen, "Markov random field surface reconstruction" (IEEE TVCG 16(4), 2010).
+/// A surface as the zero set of a field of signed distances, a Gaussian Markov random field over nearby voxels: the
+/// rival of "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V, section 4),
+/// after Paulsen, Baerentzen and Larsen, "Markov random field surface reconstruction" (IEEE TVCG 16(4), 2010).
 
 #include <gonio/shape/surface_index.hpp>
 
@@ -14,26 +14,26 @@
 
 namespace papers {
 
-/// How a field is found. Millimetres.
+/// Options of the field, in millimetres.
 struct distance_field_options {
   double spacing = 0.35;     ///< of the voxels
-  double band = 2.5;         ///< voxels are at most as far from where the surface is expected
-  double reach = 1.0;        ///< a voxel is observed if the scan is at most as far away
-  double smoothness = 0.01;  ///< lambda: how much the prior counts beside an observation, in voxels
+  double band = 2.5;         ///< largest distance of a voxel from the expected surface
+  double reach = 1.0;        ///< largest distance between scan and observed voxels
+  double smoothness = 0.01;  ///< lambda: weight of the prior relative to an observation, in voxels
 };
 
-/// Where voxels are: a part of a grid.
+/// The voxels of the field: a part of a grid.
 class voxel_band {
  public:
-  /// The voxels at most `options.band` from any of the points.
+  /// Takes the voxels at most `options.band` from any of the points.
   voxel_band(const gonio::shape::point_columns& near, const distance_field_options& options);
 
   [[nodiscard]] Eigen::Index size() const noexcept { return std::ssize(voxels_); }
   [[nodiscard]] Eigen::Vector3d centre(Eigen::Index voxel) const;
-  /// The number of a voxel; -1 if it is not in the band.
+  /// Returns the number of a voxel; -1 if it is not in the band.
   [[nodiscard]] int at(const Eigen::Array3i& place) const;
   [[nodiscard]] int neighbour(Eigen::Index voxel, Eigen::Index axis, int step) const;
-  /// In voxels, from the centre of the grid's first one.
+  /// Returns a position in voxels, from the centre of the grid's first voxel.
   [[nodiscard]] Eigen::Vector3d grid_place(const Eigen::Vector3d& point) const { return (point - origin_) / spacing_; }
   [[nodiscard]] double spacing() const noexcept { return spacing_; }
 
@@ -41,31 +41,31 @@ class voxel_band {
   double spacing_;
   Eigen::Vector3d origin_;  ///< the centre of the first voxel
   Eigen::Array3i extent_;
-  std::vector<int> numbers_;  ///< of all voxels of the grid
+  std::vector<int> numbers_;  ///< of all voxels of the grid; -1 outside the band
   std::vector<Eigen::Array3i> voxels_;
 };
 
-/// The distances d that minimise sum_observed (d_i - o_i)^2 + lambda sum_i (sum of the six neighbours - 6 d_i)^2: the
-/// most probable field, by a sparse Cholesky factorisation. The second sum is over voxels whose neighbours are all in
-/// the band. What is observed is the signed distance to the scan, unless its closest place is on a border: there the
-/// surface goes on, and nothing is known.
+/// The most probable field, by a sparse Cholesky factorisation: the distances d that minimise sum_observed (d_i -
+/// o_i)^2 + lambda sum_i (sum of the six neighbours - 6 d_i)^2. The second sum is over voxels whose neighbours are all
+/// in the band. The observations o are signed distances to the scan. Voxels closest to a border are not observed: the
+/// surface continues there.
 class distance_field {
  public:
-  /// `near` are points near the whole surface, also where the scan has a hole. Throws gonio::error if the observations
-  /// do not determine the field.
+  /// `near` holds points near the whole surface, including the holes of the scan. Throws gonio::error if the
+  /// observations do not determine the field.
   distance_field(const gonio::shape::surface_index& scan, const gonio::shape::point_columns& near,
                  const distance_field_options& options);
 
-  /// The points moved along the field's gradient to where it is zero. Those that leave the band stay where they left
-  /// it; `lost` counts them.
+  /// Moves the points along the field's gradient to its zero. A point that leaves the band stays where it left it;
+  /// `lost` counts these points.
   [[nodiscard]] gonio::shape::point_columns on_surface(gonio::shape::point_columns points, Eigen::Index& lost) const;
 
  private:
-  /// The field and its gradient, trilinear between voxels.
+  /// The field and its gradient, interpolated trilinearly between voxels.
   struct value_and_gradient {
     double value = 0.0;
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-    bool is_inside = true;  ///< the band
+    bool is_inside = true;  ///< whether the point is in the band
   };
   [[nodiscard]] value_and_gradient at(const Eigen::Vector3d& point) const;
 

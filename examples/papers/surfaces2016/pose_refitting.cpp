@@ -1,5 +1,5 @@
-/// gonio-papers shape-poses: how far recovered ears are from the truth if the pose that they begin with is off, and
-/// held or fitted again. After "Anatomically correct surface recovery", section 2 and Algorithm 1.
+/// gonio-papers shape-poses: errors of recovered ears if the initial pose is off, and is then held or refitted. After
+/// "Anatomically correct surface recovery", section 2 and Algorithm 1.
 
 #include "papers/experiments.hpp"
 #include "synthetic/ear_study.hpp"
@@ -32,13 +32,13 @@ struct shape_poses_command {
   gonio::thread_count threads;
 };
 
-/// By how much a pose is off: a turn about the middle of the scan, and a shift, each in any direction.
+/// The error of a pose: a rotation about the centroid of the scan, and a shift, both in random directions.
 struct pose_error {
   double degrees, millimetres;
 };
 constexpr std::array<pose_error, 5> pose_errors{{{0.0, 0.0}, {0.5, 0.1}, {1.0, 0.25}, {4.0, 1.0}, {16.0, 4.0}}};
 
-/// A scan, where it belongs in the model's space, and the pose that a way begins with.
+/// A scan, its true pose in the model's space, and the initial pose.
 struct posed_ear {
   const synthetic::ear_scan& scan;
   gonio::shape::surface_index index;
@@ -65,7 +65,7 @@ similarity_transform moved(const similarity_transform& right, const synthetic::e
   return off * right;
 }
 
-/// The ways to recover a hole: mean absolute distance from the truth there.
+/// Returns the methods that recover a hole. Their error is the mean absolute distance from the truth in the hole.
 std::vector<named_way> ways_to_recover(const gonio::shape::shape_model& model, const synthetic::ear_study& study,
                                        gonio::thread_count threads) {
   const auto in_hole = [&study, threads](const posed_ear& ear, const gonio::shape::recovered_shape& found) {
@@ -97,7 +97,8 @@ std::vector<named_way> ways_to_recover(const gonio::shape::shape_model& model, c
           {"Algorithm 1, fitted before and aligned", algorithm_1(true, true)}};
 }
 
-/// The ways to register a whole scan: mean distance of the vertices from where they are on the ear.
+/// Returns the methods that register a whole scan. Their error is the mean distance of the vertices from their true
+/// places.
 std::vector<named_way> ways_to_register(const gonio::shape::shape_model& model, gonio::thread_count threads) {
   const auto registers = [&model, threads](bool holds_pose, bool realigns) -> judged_way {
     gonio::shape::registration_options how;
@@ -115,7 +116,7 @@ std::vector<named_way> ways_to_register(const gonio::shape::shape_model& model, 
           {"fitted, aligned anew", registers(false, true)}};
 }
 
-/// The mean over the ears that are not refused, and how many are.
+/// Returns the mean over the ears that were not refused, and the number of refused ones.
 std::string cell_of(const std::vector<std::optional<double>>& off) {
   double sum = 0.0;
   Eigen::Index refused = 0;

@@ -1,5 +1,5 @@
-/// gonio-papers shape-fields: holes of synthetic ears filled by a Markov random field of signed distances, beside a
-/// thin plate and our recovery. After "Anatomically correct surface recovery", section 4.
+/// gonio-papers shape-fields: fills holes of synthetic ears by a Markov random field of signed distances, compared with
+/// a thin plate and our recovery. After "Anatomically correct surface recovery", section 4.
 
 #include "papers/experiments.hpp"
 #include "papers/surfaces2016/distance_field.hpp"
@@ -29,7 +29,7 @@ struct shape_fields_command {
   gonio::thread_count threads;
 };
 
-/// What the ways are off by in a hole: the field, the membrane and the thin plate over the template, ours.
+/// Errors in a hole: of the field, the membrane and the thin plate over the template, and our recovery.
 constexpr std::size_t ways = 4;
 struct judged_hole {
   std::array<gonio::shape::surface_distance, ways> off;
@@ -40,7 +40,7 @@ judged_hole judge_hole(const gonio::shape::shape_model& model, const synthetic::
                        const synthetic::ear_scan& scan, const shape_fields_command& options) {
   const gonio::shape::surface_index index(scan.mesh), complete(scan.complete);
   const std::vector<Eigen::Index> hole = study.hole_of(scan);
-  // Recover it: where the template's vertices are on the scan is what the smooth fillings begin with.
+  // Recover it. The smooth fillings begin with the template's vertices on the scan.
   const auto right = gonio::shape::align(scan.truth, model.mean().vertices);
   const auto ours = gonio::shape::recover(model, index, right, {}, options.threads);
   const auto to_scan = ours.pose.inverse();
@@ -52,7 +52,7 @@ judged_hole judge_hole(const gonio::shape::shape_model& model, const synthetic::
   };
   const auto in_hole = [&](const gonio::shape::point_columns& all) { return gonio::shape::chosen_columns(all, hole); };
   const gonio::shape::point_columns plate = in_hole(filled(gonio::shape::smoothness::thin_plate));
-  // The field is that near the plate, whose vertices go to where it is zero.
+  // Find the field near the plate, and move the plate's vertices to its zero.
   judged_hole judged;
   const distance_field field(index, plate, options.field);
   const std::array<gonio::shape::point_columns, ways> found{field.on_surface(plate, judged.lost),

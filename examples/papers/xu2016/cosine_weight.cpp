@@ -1,5 +1,5 @@
-/// gonio-papers cosine-weight: what it does to the error that Nielsen et al. 2015 weight a reflectance by the product
-/// of both cosines (Eq. 2), and Xu et al. 2016 by the larger one (section 3).
+/// gonio-papers cosine-weight: how the error depends on the weight of reflectance: the product of both cosines in
+/// Nielsen et al. 2015 (Eq. 2), the larger cosine in Xu et al. 2016 (section 3).
 
 #include "papers/experiments.hpp"
 #include "papers/mean_errors.hpp"
@@ -39,7 +39,8 @@ struct cosine_options {
 constexpr std::array weightings{std::pair{"product", cosine_weighting::product},
                                 std::pair{"larger", cosine_weighting::larger}};
 
-/// Means over the materials from some directions, mapped errors in the domain of either weight.
+/// Returns means over the materials reconstructed from some directions, with mapped errors in the domain of either
+/// weight.
 json judged(const gonio::log_relative_pca& prior, const gonio::material_set& truths, std::size_t count,
             const std::string& eta, const gonio::appearance_metric& appearance, gonio::thread_count threads) {
   const auto cells = gonio::cells_at(truths.cells, gonio::design::nielsen_directions(count));
@@ -72,7 +73,7 @@ void print_row(const json& row) {
 }
 
 void run(const cosine_options& options) {
-  // Refuse penalties that are no numbers.
+  // Refuse penalties that are not positive numbers.
   for (const std::string& eta : options.etas)
     if (eta != "auto" && !(number_of_eta(eta) > 0.0)) gonio::refuse("--eta must be positive, or auto");
   progress_bar bar;

@@ -1,4 +1,4 @@
-/// gonio-papers directions: where to measure; published sets and ours on materials that neither has seen.
+/// gonio-papers directions: compares published sets of directions with ours, on materials that neither has seen.
 
 #include "lab/near_field_lab.hpp"
 #include "papers/experiments.hpp"
@@ -40,7 +40,7 @@ struct directions_options : resumable_options {
   std::vector<std::string> sets{"published", "industry",  "random",         "condition",
                                 "a-optimal", "d-optimal", "expected-error", "perceived"};
   std::vector<Eigen::Index> counts{1, 2, 5, 10, 20};
-  std::vector<std::filesystem::path> files;  ///< of directions, judged beside the sets
+  std::vector<std::filesystem::path> files;  ///< of directions to judge besides the sets
   std::string geometry = "point";
   std::string reconstruction_eta = "auto";
   bool in_sample = false;
@@ -51,7 +51,7 @@ struct directions_options : resumable_options {
   gonio::thread_count threads;
 };
 
-/// What all sets are judged with.
+/// The prior, the test materials and the metric that judge all sets.
 struct laboratory : nielsen_split {
   gonio::appearance_metric appearance;
 };
@@ -84,21 +84,21 @@ design_options search_for(const directions_options& options, const std::string& 
   return search;
 }
 
-/// A set of point samples that is not searched for.
+/// Returns a given set of point samples, without a search.
 designed point_samples(const std::vector<gonio::half_difference>& directions) {
   designed set{{}, directions, 0.0};
   for (const gonio::half_difference& angles : directions) set.poses.push_back(gonio::to_directions(angles));
   return set;
 }
 
-/// A set of directions and how many there are: by its name, or in a file.
+/// A set of directions and its size: a named set, or a file.
 struct judged_set {
   std::string name;
   Eigen::Index count = 0;
-  std::vector<gonio::direction_pair> directions = {};  ///< those of the file
+  std::vector<gonio::direction_pair> directions = {};  ///< from the file
 };
 
-/// Sets that are not searched for are of points, and of the numbers that somebody published.
+/// Returns whether a set exists. Sets without a search are points, in the published numbers.
 bool exists(const directions_options& options, const std::string& set, std::size_t count) {
   const bool points = options.geometry == "point";
   if (set == "published") return points && gonio::design::has_nielsen_directions(count);
@@ -106,7 +106,7 @@ bool exists(const directions_options& options, const std::string& set, std::size
   return set != "random" || points;
 }
 
-/// All sets that exist, and the files.
+/// Returns all sets that exist, and the files.
 std::vector<judged_set> sets_to_judge(const directions_options& options) {
   std::vector<judged_set> all;
   for (const std::filesystem::path& file : options.files) {
@@ -120,7 +120,7 @@ std::vector<judged_set> sets_to_judge(const directions_options& options) {
   return all;
 }
 
-/// A set that exists.
+/// Finds a set that exists.
 designed find_set(const laboratory& lab, const directions_options& options, const judged_set& wanted,
                   const gonio::progress& listener) {
   const auto& [set, count, directions] = wanted;
@@ -146,7 +146,7 @@ bool takes_images(const directions_options& options) {
   return options.geometry != "point" && options.geometry != "sphere";
 }
 
-/// All images of a material, each by the simulated laboratory with defects of its own.
+/// Returns the samples of all images of a material. The simulated laboratory gives each image its own defects.
 std::vector<gonio::sample_set> photographed(const gonio::brdf_table& material, const directions_options& options,
                                             const designed& found, std::uint64_t seed) {
   const gonio::design::near_field_options apparatus = search_for(options, "expected-error", 1).near_field;
@@ -174,10 +174,10 @@ gonio::sample_set sampled(const gonio::brdf_table& material, const directions_op
   return gonio::sample_table(material, gonio::cells_at(material.cells(), found.samples), defects, seed);
 }
 
-/// By who trusts the directions.
+/// Reconstructs with trust in the directions.
 gonio::fitted_brdf<gonio::log_relative_pca> trusting(const laboratory& lab, const directions_options& options,
                                                      const gonio::sample_set& samples) {
-  // As `gonio reconstruct` does when nobody says how noisy the measurements are.
+  // Choose eta as `gonio reconstruct` does if the noise is unknown.
   if (options.reconstruction_eta == "auto")
     return gonio::decomposition{lab.prior, gonio::tikhonov{gonio::eta_of_unknown_noise(lab.prior, samples)}}.fit(
         samples);
@@ -185,7 +185,7 @@ gonio::fitted_brdf<gonio::log_relative_pca> trusting(const laboratory& lab, cons
       .fit(samples);
 }
 
-/// By who expects that points are off their directions, as `gonio reconstruct --misplaced` does.
+/// Reconstructs points whose directions may be off, like `gonio reconstruct --misplaced`.
 gonio::fitted_brdf<gonio::log_relative_pca> expecting(const laboratory& lab, const directions_options& options,
                                                       const gonio::sample_set& samples) {
   const double eta = options.reconstruction_eta == "auto"
@@ -195,7 +195,7 @@ gonio::fitted_brdf<gonio::log_relative_pca> expecting(const laboratory& lab, con
       .fit(samples);
 }
 
-/// A material reconstructed from what is measured of it, by who trusts the directions or expects that they are off.
+/// Measures and reconstructs a material, with trust in the directions or with expected errors.
 gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab, const gonio::brdf_table& material,
                                                           const directions_options& options, const designed& found,
                                                           std::uint64_t seed) {
@@ -241,7 +241,7 @@ json judged(const laboratory& lab, const directions_options& options, const desi
           {"samples", found.samples.size()}, {"errors", mean_errors(results)},           {"poses", poses}};
 }
 
-/// JSON has no infinity: it comes back as null.
+/// Prints null as "infinite": JSON has no infinity.
 std::string printed(const json& value, int digits) {
   if (!value.is_number() || !std::isfinite(value.number())) return "infinite";
   return fixed(value, digits);
@@ -256,7 +256,7 @@ void print_row(const json& row) {
             << printed(errors["delta_e_lights"], 2) << " | " << printed(errors["peak_ratio"], 2) << " |\n";
 }
 
-/// A set as a file of directions that is named after what it is for.
+/// Writes a set as a file of directions, named after its purpose.
 void write_set(const directions_options& options, const json& row) {
   const auto vector = [](const json& w) { return gonio::direction(w[0].number(), w[1].number(), w[2].number()); };
   std::vector<gonio::direction_pair> poses;
@@ -278,7 +278,7 @@ void run(const directions_options& options) {
   const auto listener = bar.listener();
   // Find and judge each set, unless the state file has its result.
   resumable_results results(options);
-  std::optional<laboratory> lab;  // opened when there is something to do
+  std::optional<laboratory> lab;  // opened on first use
   json all = json::array();
   std::size_t turn = 0;
   for (const judged_set& set : sets_to_judge(options)) {

@@ -115,8 +115,8 @@ json to_json(const tables& shown) {
   return all;
 }
 
-/// A table that was drawn twice, with either cosine weight: what differs has two columns. Two tables where the rows are
-/// of other things.
+/// Merges two tables of the same figure, one for each cosine weight: columns that differ appear twice. Returns two
+/// tables if their rows differ.
 tables beside(table product, table larger) {
   bool alike = product.rows.size() == larger.rows.size() && product.columns.size() == larger.columns.size();
   for (std::size_t row = 0; alike && row < product.rows.size(); ++row)
@@ -142,7 +142,7 @@ tables beside(table product, table larger) {
   return {std::move(both)};
 }
 
-/// A figure with each of the cosine weights.
+/// Draws a figure with each of the cosine weights.
 tables drawn(const figure& chosen, options given, const std::vector<std::string>& weights,
              const gonio::progress& listener) {
   std::vector<tables> each;

@@ -24,16 +24,16 @@ struct options {
   studied_networks networks;
   std::filesystem::path measured_tables, spheres;       ///< measured tables; an image to write
   std::vector<std::filesystem::path> measured_samples;  ///< measured samples
-  Eigen::Index most = 0;                                ///< measurements; 0: as many as the figure has
+  Eigen::Index most = 0;                                ///< number of measurements; 0: as in the figure
   Eigen::Index repetitions = 5, random_sets = 20;
   double eta = 40.0, step = 10.0;
   std::vector<double> fields_of_view{15.0, 25.0, 35.0, 45.0};
-  std::vector<Eigen::Index> components;  ///< how many components a sweep has; none: as the figure says
+  std::vector<Eigen::Index> components;  ///< numbers of components in a sweep; empty: as in the figure
   gonio::cosine_weighting weighting = gonio::cosine_weighting::product;
   std::uint64_t seed = 0;
   gonio::thread_count threads;
 
-  /// The numbers of components below all of them that are swept.
+  /// Returns the numbers of components to sweep that are below `all`.
   [[nodiscard]] std::vector<Eigen::Index> swept_components(std::vector<Eigen::Index> of_figure,
                                                            Eigen::Index all) const {
     std::vector<Eigen::Index> swept = components.empty() ? std::move(of_figure) : components;
@@ -46,7 +46,7 @@ struct options {
   }
 };
 
-/// What is printed: cells are words or numbers, of which null is none.
+/// A printed table. Cells are words or numbers; null is an empty cell.
 struct table {
   struct column {
     std::string title;
@@ -58,54 +58,55 @@ struct table {
 };
 using tables = std::vector<table>;
 
-/// What all are judged with: materials learned, others tested. All components are kept.
+/// The learned prior with all components, and the errors on the tested materials.
 struct laboratory {
   mapped_errors tested;
 
   [[nodiscard]] const gonio::log_relative_pca& prior() const noexcept { return tested.prior(); }
 
-  /// The mean over the tested materials and channels of the error from measurements.
+  /// Returns the mean error from measurements over the tested materials and channels.
   [[nodiscard]] double error(std::span<const gonio::half_difference> directions) const {
     return tested.from(directions).mean();
   }
 
-  /// Of Xu et al. 2016, Eq. 15, root mean square over the cells.
+  /// Converts E of Xu et al. 2016, Eq. 15, to a root mean square over the cells.
   [[nodiscard]] double expected(double value) const {
     return value / std::sqrt(static_cast<double>(prior().cells().size()));
   }
 };
 
-/// The 90 materials that Nielsen et al. 2015 learn from, or some of them, and the ten others.
+/// Learns the 90 materials of Nielsen et al. 2015, or those given, and tests the ten others.
 [[nodiscard]] laboratory open_laboratory(const options& given, const gonio::progress& listener);
 [[nodiscard]] laboratory open_laboratory(const options& given, const gonio::model::named_networks& learned,
                                          const gonio::progress& listener);
 
-/// E of Xu et al. 2016, with the prior of all and the penalty that is given.
+/// Returns E of Xu et al. 2016, with the full prior and the given penalty.
 [[nodiscard]] gonio::design::expected_error criterion_of(const laboratory& lab, const options& given);
 
-/// E of a set of points, root mean square over the cells.
+/// Returns E of a set of points as a root mean square over the cells.
 [[nodiscard]] double expected_of(const laboratory& lab, const options& given,
                                  const std::vector<gonio::half_difference>& directions);
 
-/// The field of view that most of the near-field figures have, in degrees.
+/// The field of view of most near-field figures, in degrees.
 inline constexpr double figures_field_of_view = 25.0;
 
-/// Light and camera of the images of a set that ships with the tool, of that name.
+/// Returns light and camera of the images in a named set that ships with the tool.
 [[nodiscard]] std::vector<gonio::direction_pair> shipped_poses(const std::string& name);
 
-/// All samples of images of 25 degrees, given light and camera as seen from the middle of each.
+/// Returns all samples of images with a 25 degree field of view. `poses` are light and camera seen from each image's
+/// centre.
 [[nodiscard]] std::vector<gonio::half_difference> samples_of_images(const std::vector<gonio::direction_pair>& poses);
 
-/// Two images by a camera that stays as Xu et al. 2016 print them (Fig. 14 a), and by a light that stays (Fig. 14 b).
+/// The two images with a fixed camera (Fig. 14 a) and with a fixed light (Fig. 14 b), as Xu et al. 2016 print them.
 [[nodiscard]] std::vector<gonio::direction_pair> printed_fixed_camera();
 [[nodiscard]] std::vector<gonio::direction_pair> printed_fixed_light();
 
-/// The slices of a set of spheres: `published` in Nielsen et al. 2015, Table 2, or one that ships with the tool. None
-/// for a number that there is no set of.
+/// Returns the slices of a set of spheres: `published` in Nielsen et al. 2015, Table 2, or a set that ships with the
+/// tool. Returns none if there is no set of that size.
 [[nodiscard]] std::vector<Eigen::Index> sphere_slices(const gonio::design::sphere_geometry& spheres,
                                                       const std::string& set, Eigen::Index n);
 
-/// All samples of a plan.
+/// Returns all samples of a plan.
 template <gonio::design::capture_geometry Geometry>
 [[nodiscard]] std::vector<gonio::half_difference> samples_of(const Geometry& geometry,
                                                              const std::vector<Eigen::Index>& candidates) {
@@ -117,8 +118,8 @@ template <gonio::design::capture_geometry Geometry>
   return samples;
 }
 
-/// The best plans of 1 to `most` measurements: each grown from the one before by the best of all additions, exchanged
-/// while it has not more than `exchanged` measurements, and slid along the grid.
+/// Returns the best plans of 1 to `most` measurements. Each adds the best candidate to the previous plan, is exchanged
+/// if it has at most `exchanged` measurements, and slides along the grid.
 template <gonio::design::sweeping_objective Objective>
 [[nodiscard]] std::vector<gonio::design::capture_plan> best_plans(const Objective& objective, std::size_t most,
                                                                   std::size_t exchanged, std::uint64_t seed,
@@ -134,7 +135,7 @@ template <gonio::design::sweeping_objective Objective>
   return plans;
 }
 
-/// Measured samples of paints, judged where they were not used: of images of a sphere only what was measured there.
+/// Tabulates paints reconstructed from simulated images of a sphere, judged on the measurements that were not used.
 [[nodiscard]] table paints_from_spheres(const options& given, const gonio::log_relative_pca& prior);
 
 [[nodiscard]] tables nielsen_2(const options& given, const gonio::progress& listener);

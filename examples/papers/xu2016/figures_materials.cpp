@@ -26,7 +26,7 @@ namespace {
 
 using angles = std::vector<gonio::half_difference>;
 
-/// What is measured of every material; nothing: all of it, the projection.
+/// The directions measured of every material. An empty set stands for the projection of the full table.
 struct measured_set {
   std::string name;
   angles directions = {};
@@ -41,7 +41,7 @@ gonio::brdf_table reconstructed(const options& given, const gonio::log_relative_
   return gonio::decomposition{prior, gonio::tikhonov{given.eta}}.fit(samples).tabulate(truth.cells(), given.threads);
 }
 
-/// One measure of all estimates, a row a material and a column a set.
+/// Tabulates one measure of all estimates, one row per material and one column per set.
 table measure_of(const std::string& title, const std::vector<measured_set>& sets,
                  const std::vector<std::vector<material_result>>& results, int digits,
                  const std::function<double(const gonio::comparison&)>& measure) {
@@ -61,15 +61,15 @@ gonio::image draw(const gonio::brdf_table& material, gonio::thread_count threads
                                       {.size = 96, .supersampling = 2}, threads);
 }
 
-/// A material's spheres in a row, the truth at the right, all exposed as the truth is.
+/// Returns a material's spheres in a row, the truth at the right. All have the exposure of the truth.
 gonio::image row_of_spheres(std::vector<gonio::image> spheres) {
   const double exposure = gonio::render::exposure_of_spheres(std::span(spheres).last(1));
   for (gonio::image& sphere : spheres) gonio::render::expose(sphere, exposure);
   return gonio::render::side_by_side(spheres, 4);
 }
 
-/// Reconstructs the ten from each set and tables every measure; draws spheres under the papers' two lights, if a file
-/// is given for them.
+/// Reconstructs the ten materials from each set and tabulates every measure. If a file is given, draws spheres under
+/// the papers' two lights.
 tables judged(const options& given, const nielsen_split& split, const std::vector<measured_set>& sets,
               const gonio::progress& listener) {
   const gonio::appearance_metric appearance(split.truths.cells, 36, given.threads);
@@ -98,12 +98,12 @@ tables judged(const options& given, const nielsen_split& split, const std::vecto
                      [](const gonio::comparison& errors) { return errors.delta_e_env; })};
 }
 
-/// Adds a set, named after where it comes from and how many measurements it has; nothing if there is none.
+/// Adds a set, named after its source and its size, unless it is empty.
 void add(std::vector<measured_set>& sets, const std::string& name, std::size_t n, angles directions) {
   if (!directions.empty()) sets.push_back({name + ' ' + std::to_string(n), std::move(directions)});
 }
 
-/// All samples of the images of a sphere, published or by expected error; none of a number that is not printed.
+/// Returns all samples of the images of a sphere, published or by expected error; none if the size is not printed.
 angles sphere_samples(const gonio::valid_cells& cells, const std::string& set, Eigen::Index n) {
   const gonio::design::sphere_geometry spheres(cells);
   return samples_of(spheres, sphere_slices(spheres, set, n));

@@ -1,4 +1,4 @@
-/// Xu et al. 2016, Fig. 3, 5 to 8 and 13: images of a flat sample from close by.
+/// Xu et al. 2016, Fig. 3, 5 to 8 and 13: close-up images of a flat sample.
 
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 using images = gonio::design::image_candidates<gonio::log_relative, gonio::design::near_field_geometry>;
 
-/// More images than that are not exchanged: it would take minutes.
+/// Exchanging more images than this would take minutes.
 constexpr std::size_t most_exchanged = 2;
 
 gonio::design::near_field_geometry geometry_of(double field_of_view, double step) {
@@ -37,7 +37,7 @@ images read_images(const laboratory& lab, const options& given, double field_of_
       given.threads, listener);
 }
 
-/// The best plans of 1 to `most` images on the grid of candidates, slid on from there on one of degrees.
+/// Returns the best plans of 1 to `most` images on the coarse grid, then slid on a grid of one degree.
 std::vector<gonio::design::capture_plan> refined_plans(const laboratory& lab, const options& given,
                                                        const images& coarse, std::size_t most,
                                                        const gonio::progress& listener) {
@@ -54,7 +54,7 @@ std::vector<gonio::design::capture_plan> refined_plans(const laboratory& lab, co
   return plans;
 }
 
-/// The error after each of some plans.
+/// Returns the error of each plan.
 std::vector<json> errors_of(const laboratory& lab, const gonio::design::near_field_geometry& geometry,
                             const std::vector<gonio::design::capture_plan>& plans) {
   std::vector<json> errors;
@@ -62,7 +62,7 @@ std::vector<json> errors_of(const laboratory& lab, const gonio::design::near_fie
   return errors;
 }
 
-/// Points as a basis of comparison: published, and by expected error.
+/// Errors of points for comparison: published, and by expected error.
 struct point_errors {
   std::vector<json> published, expected;
 };
@@ -80,7 +80,7 @@ point_errors errors_of_points(const laboratory& lab, const options& given, std::
   return errors;
 }
 
-/// Columns by their titles side by side, one row a number of measurements; short columns end in nothing.
+/// Puts titled columns side by side, one row per number of measurements. Short columns end in empty cells.
 table side_by_side(const std::string& title, const std::vector<std::pair<std::string, std::vector<json>>>& columns) {
   table shown{title, {{"n", 0}}};
   std::size_t longest = 0;
@@ -98,7 +98,7 @@ table side_by_side(const std::string& title, const std::vector<std::pair<std::st
 
 std::string degrees_of(double field_of_view) { return std::to_string(std::lround(field_of_view)) + " degrees"; }
 
-/// How many points there have to be for the error of some images.
+/// Tabulates the number of points that reach the error of images.
 table points_for_images(const std::vector<std::pair<std::string, std::vector<json>>>& series,
                         const point_errors& points) {
   table shown{"The fewest points that reach the error of images; of the published ones there are 1, 2, 5, 10, 20",
@@ -115,7 +115,7 @@ table points_for_images(const std::vector<std::pair<std::string, std::vector<jso
   return shown;
 }
 
-/// Half and difference angles of the images of a plan in degrees, as the paper tabulates them.
+/// Returns half and difference angles of the images of a plan in degrees, as in the paper's tables.
 std::vector<std::vector<json>> printed_angles(const std::string& name,
                                               const gonio::design::near_field_geometry& geometry,
                                               const std::vector<Eigen::Index>& candidates) {
@@ -141,7 +141,7 @@ table table_of_angles() {
            {"camera's polar angle", 0}}};
 }
 
-/// Images of which the light, or the camera, stays where it is.
+/// Restricts images to a fixed polar angle of light or camera.
 class with_one_in_place {
  public:
   with_one_in_place(const images& all, gonio::direction gonio::direction_pair::*fixed, double polar_angle)
@@ -171,7 +171,7 @@ class with_one_in_place {
   double polar_angle_;
 };
 
-/// For each number of images the best of all places to stand in.
+/// Returns for each number of images the best plan over all fixed places.
 std::vector<gonio::design::capture_plan> plans_in_place(const images& all, const options& given, std::size_t most,
                                                         gonio::direction gonio::direction_pair::*fixed,
                                                         const gonio::progress& listener) {
@@ -187,7 +187,7 @@ std::vector<gonio::design::capture_plan> plans_in_place(const images& all, const
   return best;
 }
 
-/// Where the images of a plan are, added to a table of angles.
+/// Adds the angles of a plan's images to a table.
 void add_angles(table& angles, const std::string& name, const gonio::design::near_field_geometry& geometry,
                 const gonio::design::capture_plan& plan) {
   const auto rows = printed_angles(name, geometry, plan.candidates);
@@ -209,7 +209,7 @@ tables xu_3(const options& given, const gonio::progress& listener) {
   std::vector<Eigen::ArrayX3d> missed;
   for (const auto& [name, directions] : sets) {
     shown.columns.push_back({"E_recon, " + name});
-    // The projection is orthogonal to what is missed of it.
+    // The projection is orthogonal to its residual.
     missed.push_back((lab.tested.from(directions).square() - deviation.square()).max(0.0).sqrt());
   }
   for (Eigen::Index m = 0; m < deviation.rows(); ++m) {
@@ -269,7 +269,7 @@ tables xu_6(const options& given, const gonio::progress& listener) {
 
 tables xu_7(const options& given, const gonio::progress& listener) {
   auto learned = networks_except(given.networks.read(), gonio::nielsen_test_materials());
-  // In random order: the first ones of it are learned.
+  // Shuffle the materials; each row learns the first ones.
   std::vector<std::string> order = learned.names;
   std::mt19937_64 generator(given.seed);
   std::ranges::shuffle(order, generator);
@@ -290,7 +290,7 @@ tables xu_7(const options& given, const gonio::progress& listener) {
 }
 
 tables xu_8(const options& given, const gonio::progress& listener) {
-  // As the paper's, these directions are for materials that nobody has measured: all that there are have been learned.
+  // Learn all materials: like the paper's, these directions are for materials that nobody has measured.
   const laboratory lab = open_laboratory(given, given.networks.read(), listener);
   table angles = table_of_angles();
   table worth{"E, root mean square over the cells, mean over all materials learned",

@@ -1,4 +1,4 @@
-/// Sets of measurements that somebody printed, or that ship with the tool, as the figures ask for them.
+/// The published sets of measurements, and those that ship with the tool, for the figures.
 
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/xu2016/figures.hpp"
@@ -32,7 +32,7 @@ std::vector<gonio::direction_pair> printed_fixed_camera() { return {at_degrees(4
 
 std::vector<gonio::direction_pair> printed_fixed_light() {
   std::vector<gonio::direction_pair> images{at_degrees(4, 63, 90), at_degrees(39, 33, 126)};
-  // As printed it is the camera that stays: (b) is (a) with light and camera exchanged.
+  // In print the camera is fixed: (b) is (a) with light and camera exchanged.
   for (gonio::direction_pair& image : images) std::swap(image.wi, image.wo);
   return images;
 }

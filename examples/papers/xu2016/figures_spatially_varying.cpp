@@ -1,4 +1,4 @@
-/// Xu et al. 2016, Fig. 17: several materials in one flat sample, told apart by their colours. Simulated.
+/// Xu et al. 2016, Fig. 17: simulates a flat sample of several materials, separated by their colours.
 
 #include "lab/near_field_lab.hpp"
 #include "papers/experiments.hpp"
@@ -25,16 +25,16 @@ namespace {
 
 constexpr Eigen::Index pixels_across = 96;
 constexpr double noise_of_pixels = 0.02;
-/// Rays along each side of a pixel: where two materials meet, a pixel sees both.
+/// Rays along each side of a pixel: a pixel on a boundary mixes two materials.
 constexpr Eigen::Index rays_across = 3;
 
-/// A material in the sample.
+/// A material of the sample.
 struct ingredient {
   std::string name;
   gonio::brdf_table truth;
 };
 
-/// The two images of a camera that stays; the second one is the diffuse one.
+/// Returns the two images of a fixed camera; the second image shows diffuse reflection.
 std::vector<gonio::capture::near_field_setup> two_setups(Eigen::Index pixels) {
   const double field_of_view = gonio::radians(figures_field_of_view);
   std::vector<gonio::capture::near_field_setup> setups;
@@ -45,7 +45,7 @@ std::vector<gonio::capture::near_field_setup> two_setups(Eigen::Index pixels) {
   return setups;
 }
 
-/// Which of k materials a pixel shows in its middle: square patches in diagonal rows, eight along the diameter.
+/// Returns which of k materials is at a pixel's centre: square patches in diagonal rows, eight along the diameter.
 int patch_of(const gonio::capture::near_field_setup& setup, Eigen::Index row, Eigen::Index column, int k) {
   const gonio::ray line = setup.camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
   const auto point = line.at_ground();
@@ -54,7 +54,7 @@ int patch_of(const gonio::capture::near_field_setup& setup, Eigen::Index row, Ei
   return point ? (number(point->x()) + number(point->y())) % k : 0;
 }
 
-/// The means of blocks of an image's pixels.
+/// Returns an image of the means over blocks of pixels.
 gonio::image averaged(const gonio::image& fine) {
   gonio::image coarse = gonio::uniform_image(pixels_across, pixels_across);
   for (Eigen::Index row = 0; row < pixels_across; ++row)
@@ -67,15 +67,15 @@ gonio::image averaged(const gonio::image& fine) {
   return coarse;
 }
 
-/// A sample of several materials: what was photographed, and which pixel shows which.
+/// A sample of several materials: its photographs, and the material of each pixel.
 struct photographed_sample {
   std::vector<gonio::capture::near_field_setup> setups = two_setups(pixels_across);
   std::vector<Eigen::Index> region = gonio::capture::pixels_of_region(setups.back());
-  Eigen::VectorXi labels = {};                        ///< of the region
-  std::vector<std::vector<gonio::image>> alone = {};  ///< each material all over the sample: by image
+  Eigen::VectorXi labels = {};                        ///< material of each of the region's pixels
+  std::vector<std::vector<gonio::image>> alone = {};  ///< by image: photographs with one material all over the sample
   std::vector<gonio::image> images = {};
 
-  /// Measurements in some of the region's pixels, of both images.
+  /// Returns the measurements of both images in some of the region's pixels.
   [[nodiscard]] gonio::sample_set measured(const std::vector<gonio::image>& pictures,
                                            const std::vector<Eigen::Index>& chosen) const {
     gonio::sample_set all;
@@ -98,7 +98,7 @@ photographed_sample photograph(const std::vector<const ingredient*>& materials, 
     sample.labels[i] =
         patch_of(sample.setups.back(), sample.region[i] / pixels_across, sample.region[i] % pixels_across, k);
   for (const gonio::capture::near_field_setup& setup : two_setups(rays_across * pixels_across)) {
-    // The sample goes on beyond the region, whose pixels see nothing else.
+    // Extend the sample past the region, so that the region's pixels see only the sample.
     const gonio::capture::sample_disc disc{1.5 * setup.disc->radius};
     const double noise = noise_of_pixels * static_cast<double>(rays_across);
     std::vector<gonio::image> pictures;
@@ -116,7 +116,7 @@ photographed_sample photograph(const std::vector<const ingredient*>& materials, 
   return sample;
 }
 
-/// Colours of the region's pixels in the second image.
+/// Returns the colours of the region's pixels in the second image.
 gonio::capture::point_matrix colours_of(const photographed_sample& sample) {
   gonio::capture::point_matrix colours(std::ssize(sample.region), 3);
   for (Eigen::Index i = 0; i < colours.rows(); ++i)
@@ -127,14 +127,14 @@ gonio::capture::point_matrix colours_of(const photographed_sample& sample) {
   return colours;
 }
 
-/// How many pixels of each material (row) are in each cluster (column).
+/// Returns the number of pixels of each material (row) in each cluster (column).
 Eigen::MatrixXi overlap_of(const Eigen::VectorXi& labels, const gonio::capture::colour_clusters& clusters, int k) {
   Eigen::MatrixXi overlap = Eigen::MatrixXi::Zero(k, clusters.count());
   for (Eigen::Index i = 0; i < labels.size(); ++i) ++overlap(labels[i], clusters.labels[i]);
   return overlap;
 }
 
-/// The share of the pixels that are in a cluster which is mostly of their material.
+/// Returns the share of pixels whose cluster is mostly of their material.
 double purity(const Eigen::MatrixXi& overlap) {
   return static_cast<double>(overlap.colwise().maxCoeff().sum()) / static_cast<double>(overlap.sum());
 }
@@ -146,7 +146,7 @@ std::vector<Eigen::Index> pixels_with(const Eigen::VectorXi& labels, Eigen::Inde
   return found;
 }
 
-/// Where all samples of one database end up.
+/// The tables that collect all samples of one database.
 struct report {
   table clusters{"Samples, and their clusters",
                  {{"sample"},
@@ -166,7 +166,7 @@ struct report {
                 {"alone", 2}}};
 };
 
-/// The tools that estimates are made and judged with.
+/// Reconstructs and judges a material.
 struct judge {
   const gonio::log_relative_pca& prior;
   const gonio::appearance_metric& appearance;
@@ -209,7 +209,7 @@ void add_sample(report& shown, const std::string& name, const std::vector<const 
   }
 }
 
-/// The means over all rows of errors, as its last row.
+/// Appends a row with the means over all rows.
 void add_mean(table& errors) {
   std::vector<json> mean{"mean", ""};
   for (std::size_t column = 2; column < errors.columns.size(); ++column) {
@@ -220,7 +220,7 @@ void add_mean(table& errors) {
   errors.rows.push_back(std::move(mean));
 }
 
-/// How well the clusters of each two materials tell them apart.
+/// Tabulates how well clusters separate each pair of materials.
 table all_pairs(const std::vector<ingredient>& materials, const options& given) {
   struct pair_purity {
     double purity = 0.0;
@@ -240,7 +240,7 @@ table all_pairs(const std::vector<ingredient>& materials, const options& given) 
           {{pairs.size(), pure, pairs[pairs.size() / 2].purity, pairs.front().purity, pairs.front().names}}};
 }
 
-/// Samples of two and of three of some materials, each material in at most one of either.
+/// Combines materials into samples of two and of three. A material is in at most one sample of each kind.
 tables samples_of_each(const std::string& database, const options& given, const gonio::log_relative_pca& prior,
                        const std::vector<ingredient>& materials, const gonio::progress& listener) {
   if (materials.size() < 2) gonio::refuse("figure 2016-17 needs at least two materials: " + database);
