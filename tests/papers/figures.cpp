@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -143,11 +144,15 @@ TEST_CASE("figures 2015-table-1 and -2: the condition number of the first k comp
   REQUIRE(spheres.size() == 2);
   REQUIRE(spheres[0]["rows"].size() == 3);
   for (const json& row : spheres[0]["rows"]) {
+    // JSON has no infinity: a singular set has null.
+    const auto condition = [&](const char* column) {
+      return row[column].is_null() ? std::numeric_limits<double>::infinity() : row[column].get<double>();
+    };
     // No other image and no other pair is better than the best; the published ones have a rank among them.
-    CHECK(row["its condition"].get<double>() <= row["of the published, 5"].get<double>() * (1.0 + 1e-9));
+    CHECK(condition("its condition") <= condition("of the published, 5") * (1.0 + 1e-9));
     CHECK(row["its rank of 30"].get<int>() >= 1);
     CHECK(row["their rank of 435"].get<int>() <= 435);
-    CHECK(row["their condition"].get<double>() <= row["its condition"].get<double>() * (1.0 + 1e-9));
+    CHECK(condition("their condition") <= condition("its condition") * (1.0 + 1e-9));
   }
   CHECK(spheres[1]["rows"].size() == 3);
 }
