@@ -6,7 +6,7 @@
 #include <string>
 
 /// Names the benchmarks whose rates are limits: "read", "2 x product" for twice the rate, or several separated by "; ".
-/// The binding limit is the one with the largest share. A rate is a counter that both have.
+/// The binding limit is the one with the largest share. Rates are compared by a counter that both benchmarks have.
 inline void limited_by(benchmark::State& state, const std::string& names) { state.SetLabel("limit: " + names); }
 
 inline void count_operations(benchmark::State& state, double operations) {

@@ -95,7 +95,8 @@ def print_copies():
               f"{'no' if one.flags.owndata else 'yes'} |")
     table.values[:] = 0.25
     written = (table([0, 0, 1], [0, 0, 1]) == 0.25).all()
-    print(f"\nIs what is written to `Table.values` what the table returns? {'Yes' if written else 'No'}.")
+    print()
+    print(f"Does the table return the values that were written to `Table.values`? {'Yes' if written else 'No'}.")
 
 
 def print_speed(count=1_000_000):

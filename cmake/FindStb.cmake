@@ -1,5 +1,5 @@
-# Stb::Stb: the stb single-file libraries in the form that Debian's libstb-dev ships them, headers in
-# <stb/...> with a compiled library, for which there is no CMake package.
+# Stb::Stb: the stb libraries as Debian's libstb-dev ships them, without a CMake package: headers in <stb/...> and a
+# compiled library.
 find_path(Stb_INCLUDE_DIR stb/stb_image_write.h)
 find_library(Stb_LIBRARY stb)
 mark_as_advanced(Stb_INCLUDE_DIR Stb_LIBRARY)

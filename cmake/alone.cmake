@@ -1,5 +1,5 @@
-# Included by a project beside the library that is built alone: takes gonio from where it is installed (CMAKE_PREFIX_PATH),
-# with the parts in gonio_optional_components if they are there.
+# Included by a project beside the library when it is built alone. Finds the installed gonio (CMAKE_PREFIX_PATH), with
+# the parts in gonio_optional_components if they are installed.
 find_package(gonio 0.2 REQUIRED CONFIG COMPONENTS image
              OPTIONAL_COMPONENTS compiled exr tiff exif scattered ${gonio_optional_components})
 foreach(part IN ITEMS image exr tiff exif scattered)
@@ -7,7 +7,7 @@ foreach(part IN ITEMS image exr tiff exif scattered)
 endforeach()
 include("${CMAKE_CURRENT_LIST_DIR}/project.cmake")
 list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
-# What a project installs belongs to the package that it was built with.
+# A project installs its files into the package that it was built with.
 include(GNUInstallDirs)
 set(gonio_package_dir "${CMAKE_INSTALL_DATADIR}/cmake/gonio")
 if(gonio_compiled_FOUND)

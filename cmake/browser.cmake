@@ -1,5 +1,5 @@
-# Part of checks.cmake: sees to it that the tests labelled browser find chromium, Node.js and what npm ci brings. Where they
-# cannot be had it says so, and the tests say that they are skipped.
+# Part of checks.cmake: installs chromium, Node.js and the packages of npm ci for the tests labelled browser. If that
+# fails, it prints a message, and the tests report that they are skipped.
 if(SET_UP)
   include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
   gonio_set_up(chromium nodejs npm)
@@ -13,5 +13,5 @@ if(NOT failed)
                   RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
 endif()
 if(failed)
-  message("== browser: not here: there is no chromium, no npm or no registry")
+  message("== browser: skipped: chromium, npm or its registry is missing")
 endif()

@@ -1,16 +1,18 @@
-# cmake [-D OUTPUT=docs/results/compile-cost.md] -P cmake/build_times.cmake: where the time of README's two commands goes, by
-# the logs that ninja and ctest keep of a fresh build/demo and build/test; of OUTPUT it writes the part between its marks.
+# cmake [-D OUTPUT=docs/results/compile-cost.md] -P cmake/build_times.cmake: prints how the time of README's two
+# commands is spent, from the logs of ninja and ctest in a fresh build/demo and build/test. Replaces the part of OUTPUT
+# between its marks.
 cmake_minimum_required(VERSION 3.25)
 cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH source)
+include("${CMAKE_CURRENT_LIST_DIR}/page_block.cmake")
 
-# add(GROUP MILLISECONDS)
+# add(GROUP MILLISECONDS): adds to the sum of a group.
 function(add group milliseconds)
   get_property(sum GLOBAL PROPERTY "sum_${group}")
   math(EXPR sum "${sum} + ${milliseconds}")
   set_property(GLOBAL PROPERTY "sum_${group}" ${sum})
 endfunction()
 
-# The seconds of a group, or "" for none.
+# seconds_of(RESULT GROUP): returns the seconds of a group, or "" if it has none.
 function(seconds_of result group)
   get_property(sum GLOBAL PROPERTY "sum_${group}")
   set(${result} "" PARENT_SCOPE)
@@ -20,7 +22,7 @@ function(seconds_of result group)
   endif()
 endfunction()
 
-# What each file of a build took, of the last time that it was built.
+# Read the time that each file of a build took when it was last compiled.
 foreach(build IN ITEMS demo test)
   if(NOT EXISTS "${source}/build/${build}/.ninja_log") # only the other command was run
     continue()
@@ -86,10 +88,5 @@ foreach(group IN ITEMS library tool LISTS rows ITEMS other all)
 endforeach()
 message("${table}")
 if(OUTPUT)
-  file(READ "${source}/${OUTPUT}" page)
-  string(FIND "${page}" "<!-- cmake -P cmake/build_times.cmake -->" begin)
-  string(FIND "${page}" "<!-- end of build_times.cmake -->" end)
-  string(SUBSTRING "${page}" 0 ${begin} before)
-  string(SUBSTRING "${page}" ${end} -1 after)
-  file(WRITE "${source}/${OUTPUT}" "${before}<!-- cmake -P cmake/build_times.cmake -->\n\n${table}\n${after}")
+  write_block("${source}/${OUTPUT}" "cmake -P cmake/build_times.cmake" "end of build_times.cmake" "${table}")
 endif()

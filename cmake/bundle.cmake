@@ -1,5 +1,5 @@
-# Part of checks.cmake: is examples/report/bundle.js what `npm ci && npm run bundle` makes? Says so where there is no npm, or
-# where it reaches no registry.
+# Part of checks.cmake: fails unless `npm ci && npm run bundle` makes the committed examples/report/bundle.js. Skipped
+# with a message if npm is missing or reaches no registry.
 set(bundle_folder "${source}/build/bundle")
 find_program(npm npm NO_CACHE)
 if(NOT npm)

@@ -1,17 +1,19 @@
-# cmake [-D ONLY=format|weight|site|bundle|others|libcxx|sanitize|wheel|debian] -P cmake/checks.cmake: what CI does besides
-# cmake/test.cmake, or one part of it. Two parts are for releases: a Python wheel, which asks PyPI, and Debian packages.
+# cmake [-D ONLY=format|weight|site|bundle|others|libcxx|sanitize|wheel|debian|release|windows] -P cmake/checks.cmake:
+# runs the checks of CI that cmake/test.cmake does not, or one of them. Four run only if named, for releases: a Python
+# wheel, which needs PyPI; Debian packages; the static program, which needs Debian's sources; programs for Windows, by
+# MinGW and Wine.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 
 set(parts format weight site bundle others libcxx sanitize)
 if(ONLY)
-  if(NOT ONLY IN_LIST parts AND NOT ONLY MATCHES "^(wheel|debian)$")
-    message(FATAL_ERROR "ONLY is one of ${parts};wheel;debian")
+  if(NOT ONLY IN_LIST parts AND NOT ONLY MATCHES "^(wheel|debian|release|windows)$")
+    message(FATAL_ERROR "ONLY is one of ${parts};wheel;debian;release;windows")
   endif()
   set(parts ${ONLY})
 endif()
 gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} ${gonio_test_packages} ${gonio_python_packages}
              ${gonio_mpi_packages} wasi-libc lld-19 libclang-rt-19-dev-wasm32 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32
-             clang-19 libclang-rt-19-dev libc++-19-dev libc++abi-19-dev clang-format-14 time)
+             clang-19 libclang-rt-19-dev libc++-19-dev libc++abi-19-dev clang-format-14 codespell time)
 
 if("format" IN_LIST parts)
   set(sources)
@@ -20,27 +22,28 @@ if("format" IN_LIST parts)
     list(APPEND sources ${found})
   endforeach()
   step("clang-format" clang-format-14 --dry-run -Werror ${sources})
+  step("codespell" codespell) # .codespellrc lists the files and the permitted words
 endif()
 
-# Does README's program, or gonio.hpp, cost its compiler 30 % more than it may?
+# Compile times: fails if README's program or gonio.hpp costs its compiler 30 % more than its limit.
 if("weight" IN_LIST parts)
   step("weight" ${cmake} -D GUARD=ON -P cmake/compile_times.cmake)
 endif()
 
-# The site: no dead link, no docstring that Doxygen does not understand.
+# The site: fails for a dead link, and for a docstring that Doxygen does not understand.
 if("site" IN_LIST parts)
   step("site" ${cmake} -P cmake/site.cmake)
 endif()
 
-# The scripts of gonio report's page, made again of the locked versions: where npm and its registry are, they are those
-# that are committed.
+# The scripts of gonio report's page: if npm and its registry are available, bundles the locked versions again and
+# compares with the committed files.
 if("bundle" IN_LIST parts)
   include("${CMAKE_CURRENT_LIST_DIR}/bundle.cmake")
 endif()
 
-# In the build of cmake/test.cmake: programs of the headers alone, 50 kills of each long command, the Python module, pages
-# in a browser; projects that know the installed package alone, a reader's and those beside the library with their tests:
-# shape, mpi, the quick runs of the papers' experiments, the programs of examples/learn, the lessons.
+# In the build of cmake/test.cmake: header-only programs, 50 kills of each long command, the Python module, and pages in
+# a browser. Also projects that see only the installed package: a reader's, and those beside the library with their
+# tests (shape, mpi, the quick experiments of the papers, the programs of examples/learn, the lessons).
 if("others" IN_LIST parts)
   include("${CMAKE_CURRENT_LIST_DIR}/browser.cmake")
   step("others: configure" ${cmake} -S . -B build/test -G Ninja
@@ -51,7 +54,7 @@ if("others" IN_LIST parts)
   step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|projects|kills|python|browser")
 endif()
 
-# Clang with another standard library: the library, the tool and the tests of what differs, numbers and threads.
+# Clang with libc++: the library, the tool, and the tests of numbers and threads, in which standard libraries differ.
 if("libcxx" IN_LIST parts)
   set(tested core table io)
   list(TRANSFORM tested PREPEND test_ OUTPUT_VARIABLE targets)
@@ -76,4 +79,13 @@ endif()
 
 if("debian" IN_LIST parts)
   step("debian" ${cmake} -D CHECK=ON -P cmake/debian.cmake)
+endif()
+
+if("release" IN_LIST parts)
+  step("release" ${cmake} -P cmake/release.cmake)
+endif()
+
+if("windows" IN_LIST parts)
+  gonio_set_up(g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine wine64)
+  step("windows" ${cmake} -D SCRATCH=${source}/build/windows -P tests/install/windows.cmake)
 endif()

@@ -1,9 +1,10 @@
-# cmake [-D GUARD=ON] [-D OUTPUT=docs/results/compile-cost.md] -P cmake/compile_times.cmake: what README's program and each
-# header that has all of a module cost a compiler, in CPU seconds and megabytes, beside a plain Eigen program with one
-# product and one Cholesky decomposition, which is compiled again before each: the median of three ratios. GUARD:
-# README's program and gonio.hpp alone, which fail where they are 30 % above their goals; the program of the headers alone,
-# which misses its goal, where it is 30 % above what it cost when that was decided (docs/decisions/0036).
+# cmake [-D GUARD=ON] [-D OUTPUT=docs/results/compile-cost.md] -P cmake/compile_times.cmake: measures the CPU seconds
+# and the megabytes that compilers need for README's program and for each module's header. Compares with a plain Eigen
+# program of one product and one Cholesky decomposition, compiled again before each: the median of three ratios. GUARD:
+# measures only README's program and gonio.hpp, and fails if one is 30 % above its goal. README's header-only program
+# misses its goal; it fails at 30 % above its cost when that was accepted (docs/decisions/0036).
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/page_block.cmake")
 gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} time)
 find_program(time time REQUIRED NO_CACHE)
 set(scratch "${source}/build/compile_times")
@@ -28,12 +29,12 @@ function(compile file)
                   ERROR_VARIABLE used COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCH "([0-9]+)[.]([0-9][0-9]) ([0-9]+)\n$" line "${used}")
   math(EXPR megabytes "${CMAKE_MATCH_3} / 1024")
-  math(EXPR hundredths "100 * ${CMAKE_MATCH_1} + 1${CMAKE_MATCH_2} - 100") # 1 in front: no octal number
+  math(EXPR hundredths "100 * ${CMAKE_MATCH_1} + 1${CMAKE_MATCH_2} - 100") # the leading 1 avoids octal numbers
   set(hundredths ${hundredths} PARENT_SCOPE)
   set(megabytes ${megabytes} PARENT_SCOPE)
 endfunction()
 
-# with_point(RESULT HUNDREDTHS): a number with two digits behind the point.
+# with_point(RESULT HUNDREDTHS): returns a number with two decimals.
 function(with_point result hundredths)
   math(EXPR whole "${hundredths} / 100")
   math(EXPR rest "${hundredths} % 100 + 100")
@@ -41,7 +42,7 @@ function(with_point result hundredths)
   set(${result} "${whole}.${rest}" PARENT_SCOPE)
 endfunction()
 
-# row(NAME GOAL MEGABYTES FILE OPTION...): a line of the table. The goal is a ratio in hundredths.
+# row(NAME GOAL MEGABYTES FILE OPTION...): adds a line to the table. The goal is a ratio in hundredths.
 function(row name goal goal_megabytes file)
   set(limit ${goal})
   set(limit_megabytes ${goal_megabytes})
@@ -58,7 +59,7 @@ function(row name goal goal_megabytes file)
     compile("${file}" ${ARGN})
     math(EXPR ratio "100 * ${hundredths} / ${plain}")
     list(APPEND ratios ${ratio})
-    if(GUARD AND ratio LESS_EQUAL most) # once is enough
+    if(GUARD AND ratio LESS_EQUAL most) # one run below the limit is enough
       set(ratios ${ratio} ${ratio})
       break()
     endif()
@@ -106,21 +107,8 @@ if(OUTPUT)
   get_property(table GLOBAL PROPERTY table)
   execute_process(COMMAND g++ -dumpfullversion OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE)
   string(TIMESTAMP today "%Y-%m-%d")
-  # What build_times.cmake prints stays below.
-  file(READ "${source}/${OUTPUT}" page)
-  string(FIND "${page}" "## README's two commands" begin)
-  string(SUBSTRING "${page}" ${begin} -1 after)
-  file(WRITE "${source}/${OUTPUT}" "# What the headers cost a compiler
-
-Written by `cmake -D OUTPUT=${OUTPUT} -P cmake/compile_times.cmake`, ${today}, g++ ${version}. User CPU seconds and the largest
-memory of one compiler. The plain program has one product and one Cholesky decomposition of Eigen matrices, at -O2: ${seconds} s and
-${megabytes} MB here; it was compiled again before each line.
-
-<!-- cmake -P cmake/compile_times.cmake -->
-
-${heading}
+  write_block("${source}/${OUTPUT}" "cmake -P cmake/compile_times.cmake" "end of compile_times.cmake" "${heading}
 ${table}
-<!-- end of cmake -->
-
-${after}")
+Printed on ${today} by `cmake -P cmake/compile_times.cmake`, g++ ${version}. The plain program took ${seconds} s and ${megabytes} MB.
+")
 endif()

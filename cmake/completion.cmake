@@ -1,9 +1,10 @@
-# cmake -D TOOL=build/.../bin/gonio -D OUTPUT=gonio -P cmake/completion.cmake: what lets bash (and zsh after `autoload
-# bashcompinit; bashcompinit`) complete the tool's subcommands, options, and values of which there are few.
+# cmake -D TOOL=build/.../bin/gonio -D OUTPUT=gonio -P cmake/completion.cmake: writes the script by which bash (and zsh
+# after `autoload bashcompinit; bashcompinit`) completes the tool's subcommands, its options, and the options' values if
+# these are words of a list.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/tool_help.cmake")
 
-# describe(WORD...): cases of the script for the tool or a subcommand, and for those that it has.
+# describe(WORD...): adds the script's cases for the tool or a subcommand, and for its own subcommands.
 function(describe)
   gonio_tool_help(help "${TOOL}" ${ARGN})
   gonio_subcommands(subcommands "${help}")

@@ -1,6 +1,6 @@
-# cmake [-D CHECK=ON] -P cmake/debian.cmake: Debian packages of this tree, into build/debian. CHECK: lintian must have
-# nothing to say, and the packages, unpacked into an empty root, must compile and run README's program by pkg-config
-# alone.
+# cmake [-D CHECK=ON] -P cmake/debian.cmake: builds Debian packages of this tree in build/debian. CHECK: fails if
+# lintian objects, or if the packages, unpacked into an empty root, do not compile and run README's program by
+# pkg-config alone.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 foreach(program IN ITEMS dpkg-buildpackage dh)
   find_program(found ${program} NO_CACHE)
@@ -25,7 +25,7 @@ if(NOT CHECK)
   return()
 endif()
 file(GLOB changes "${folder}/*.changes")
-# No bug of Debian's asks for the package.
+# Debian has no bug report that asks for the package.
 step("lintian" lintian --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs ${changes})
 
 set(root "${folder}/root")

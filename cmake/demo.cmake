@@ -1,22 +1,22 @@
-# cmake -P cmake/demo.cmake: builds a gonio tool of the subcommands that it runs, then measures a known material at 20 directions,
-# reconstructs it, and judges and shows the result.
+# cmake -P cmake/demo.cmake: builds a gonio tool with the subcommands needed here. Measures a known material in 20
+# directions, reconstructs it, draws the result and compares it with the truth.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 set(results "${source}/build/demo-results")
 
 gonio_set_up(${gonio_library_packages})
 
-# At -O1 it is built a tenth sooner, and runs as fast: what takes long is vectorised by hand.
+# With -O1 the tool builds in a tenth less time and runs as fast, because the slow loops are vectorised by hand.
 message("-- Building the gonio tool")
 execute_process(COMMAND "${CMAKE_COMMAND}" -S "${source}" -B "${source}/build/demo" -G Ninja
                         -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG" -D GONIO_NATIVE=ON
-                        -D GONIO_BUILD_TESTS=OFF -D GONIO_BUILD_BENCH=OFF
-                        "-DGONIO_TOOL_COMMANDS=expand;sample;reconstruct;report;render;compare"
+                        -D GONIO_BUILD_TESTS=OFF -D GONIO_BUILD_BENCH=OFF -D GONIO_UNITY_TOOL=ON
+                        "-DGONIO_TOOL_COMMANDS=expand;sample;reconstruct;render;compare"
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${source}/build/demo" --target gonio_tool
                         --parallel ${cores}
                 COMMAND_ERROR_IS_FATAL ANY)
 
-# gonio(LINE) shows a command line as it would be typed, and runs it.
+# gonio(LINE): prints a command line and runs it.
 function(gonio line)
   message("\n$ gonio ${line}")
   separate_arguments(arguments UNIX_COMMAND "${line}")

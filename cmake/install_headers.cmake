@@ -1,5 +1,5 @@
-# cmake -D PREFIX=/where -P cmake/install_headers.cmake: installs the headers, the prior and the directions, and compiles
-# nothing. It needs what the headers need (Eigen, xtensor, zlib), no test or tool library.
+# cmake -D PREFIX=/where -P cmake/install_headers.cmake: installs the headers, the prior and the directions, without
+# compiling. Needs the libraries of the headers (Eigen, xtensor, zlib), but no library of tests or tool.
 cmake_minimum_required(VERSION 3.25)
 if(NOT PREFIX)
   message(FATAL_ERROR "PREFIX is missing: cmake -D PREFIX=/usr/local -P cmake/install_headers.cmake")

@@ -10,13 +10,14 @@ string(REGEX REPLACE "^example_" "" name "${name}")
 execute_process(COMMAND "${PROGRAM}" WORKING_DIRECTORY "${FOLDER}" OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
 message("${printed}")
 
-# whole(RESULT NUMBER): 1.25 as 1125, which math() does not take for an octal number.
+# whole(RESULT NUMBER): returns the digits of a number after a 1, which keeps math() from reading an octal number: 1125
+# for 1.25.
 function(whole result number)
   string(REGEX REPLACE "[.-]" "" digits "${number}")
   set(${result} "1${digits}" PARENT_SCOPE)
 endfunction()
 
-# Are two words the same, or decimal numbers that differ by no more than rounding?
+# same(RESULT A B): returns whether two words are equal, or decimal numbers that differ only by rounding.
 function(same result a b)
   set(${result} NO PARENT_SCOPE)
   if(a STREQUAL b)

@@ -1,6 +1,7 @@
-# cmake [-D OUTPUT=DIR] [-D PREFIX=DIR] -P cmake/lessons.cmake: the pages of the lessons that compute, as files that ask no
-# network, in build/lessons or OUTPUT, of this library or the one installed in PREFIX (examples/lessons/README.md). The estimator is compiled to WebAssembly by Debian's clang and
-# wasi-libc; once these packages are there, no network is needed.
+# cmake [-D OUTPUT=DIR] [-D PREFIX=DIR] -P cmake/lessons.cmake: writes the interactive pages of the lessons to
+# build/lessons or OUTPUT, with this library or the one installed in PREFIX (examples/lessons/README.md). The pages need
+# no network. Debian's clang and wasi-libc compile the estimator to WebAssembly; once these packages are installed, no
+# network is needed for that either.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 gonio_set_up(libeigen3-dev clang-19 lld-19 wasi-libc libclang-rt-19-dev-wasm32 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32)
 if(NOT OUTPUT)
@@ -20,19 +21,19 @@ file(MAKE_DIRECTORY "${OUTPUT}")
 find_path(eigen Eigen/Core PATHS /usr/include /usr/local/include PATH_SUFFIXES eigen3 NO_CACHE REQUIRED)
 find_program(clang NAMES clang++-19 clang++ NO_CACHE REQUIRED)
 
-# An index has 32 bits there: that a cell's number fits into one is no news.
+# WebAssembly has 32-bit indices, so the warning that a cell's number fits into 32 bits is useless.
 set(estimator "${OUTPUT}/estimator.wasm")
 step("lessons: the estimator" "${clang}" --target=wasm32-wasi -mexec-model=reactor -msimd128 -std=c++20 -O2 -DNDEBUG
      -Wno-c++11-narrowing "-I${lessons}/single_threaded" "-I${include}" -isystem "${eigen}" -Wl,--strip-all
      "${lessons}/estimator.cpp" -o "${estimator}")
 
-# base64(RESULT FILE FIRST): the bytes of a file from the FIRST on, which is 1.
+# base64(RESULT FILE FIRST): encodes the bytes of a file from number FIRST on, counted from 1.
 function(base64 result file first)
   execute_process(COMMAND tail -c "+${first}" "${file}" COMMAND base64 -w 0 OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-# The payload of the prior follows a head of 25 bytes (docs/reference/formats.md).
+# The prior's payload follows a header of 25 bytes (docs/reference/formats.md).
 base64(module "${estimator}" 1)
 base64(prior "${materials}" 26)
 # theta_i, phi_i, theta_o and phi_o of each direction.
@@ -41,7 +42,7 @@ list(JOIN rows "], [" rows)
 set(data "{\"estimator\": \"${module}\", \"prior\": \"${prior}\", \"directions\": [[${rows}]]}")
 file(REMOVE "${estimator}")
 
-# The form and the style are those of gonio report's pages, whose policy allows no WebAssembly.
+# Template and style are those of gonio report's pages. Their content policy forbids WebAssembly; allow it here.
 file(READ "${report}/page.html" form)
 string(REPLACE "script-src 'unsafe-inline'" "script-src 'unsafe-inline' 'wasm-unsafe-eval'" form "${form}")
 function(text_of result)

@@ -1,9 +1,9 @@
-# cmake -D TOOL=build/.../bin/gonio -D VERSION=X.Y.Z -D OUTPUT=gonio.1 -P cmake/man_page.cmake: the
-# manual page of the tool, from its help.
+# cmake -D TOOL=build/.../bin/gonio -D VERSION=X.Y.Z -D OUTPUT=gonio.1 -P cmake/man_page.cmake: writes the tool's manual
+# page from its help.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/tool_help.cmake")
 
-# For roff: backslashes, hyphens that are minus signs, and no line that begins like a request.
+# escaped(RESULT TEXT): escapes backslashes, hyphens and the beginnings of requests for roff.
 function(escaped result text)
   string(REPLACE "\\" "\\e" text "${text}")
   string(REPLACE "-" "\\-" text "${text}")
@@ -11,7 +11,7 @@ function(escaped result text)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-# describe(WORD...): a section for the tool or a subcommand, and for those that it has.
+# describe(WORD...): adds a section for the tool or a subcommand, and for its own subcommands.
 function(describe)
   gonio_tool_help(help "${TOOL}" ${ARGN})
   string(JOIN " " name gonio ${ARGN})

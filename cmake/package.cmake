@@ -1,7 +1,7 @@
-# What is installed: headers, data, and the package gonio for CMake and pkg-config.
+# Installs headers, data, and the package gonio for CMake and pkg-config.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
-# Headers alone are for any machine, a compiled library is for one.
+# Headers suit any machine, a compiled library only one.
 set(gonio_package_dir "${CMAKE_INSTALL_DATADIR}/cmake/gonio")
 set(gonio_any_machine ARCH_INDEPENDENT)
 if(TARGET gonio_compiled)
@@ -14,7 +14,8 @@ install(FILES examples/data/materials.prior DESTINATION "${CMAKE_INSTALL_DATADIR
 install(DIRECTORY examples/data/directions examples/data/apparatus DESTINATION "${CMAKE_INSTALL_DATADIR}/gonio")
 install(FILES LICENSE TYPE DOC)
 
-# gonio_add_pkg_config(NAME FOLDER): for builds without CMake. The prefix is where the file is, so that it may be moved.
+# gonio_add_pkg_config(NAME FOLDER): installs NAME.pc, for builds without CMake. Its prefix is relative to the file: an
+# installation may be moved.
 function(gonio_add_pkg_config name folder)
   file(RELATIVE_PATH prefix "/${folder}/pkgconfig" "/")
   set(prefix "\${pcfiledir}/${prefix}")
@@ -26,7 +27,7 @@ if(TARGET gonio_compiled)
   gonio_add_pkg_config(gonio-compiled "${CMAKE_INSTALL_LIBDIR}")
 endif()
 
-# An export set for each target, so that who lacks what one needs finds the rest.
+# Each target has its own export set: a user without the libraries of one target can use the others.
 install(TARGETS gonio_render EXPORT gonioRenderTargets INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 set(gonio_exports gonioRenderTargets)
 if(TARGET gonio)

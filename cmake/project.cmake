@@ -1,28 +1,28 @@
-# What the library's build and the projects beside it share (shape/, mpi/, examples/papers/, examples/learn/). Such a project
-# is built within the library's build, or alone with an installed gonio (alone.cmake).
+# Shared by the library's build and the projects beside it (shape/, mpi/, examples/papers/, examples/learn/). Such a
+# project is built within the library's build, or alone with an installed gonio (alone.cmake).
 cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH gonio_source)
 
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
 endif()
-# Where ccache is there it is used.
+# Use ccache if it is installed.
 find_program(GONIO_CCACHE ccache)
 mark_as_advanced(GONIO_CCACHE)
 if(PROJECT_IS_TOP_LEVEL AND GONIO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # It may keep what was compiled with a precompiled header, whose time it then does not look at.
+  # Let ccache store files compiled with a precompiled header, and ignore the header's time.
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${GONIO_CCACHE}")
 endif()
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 
-# Shared libraries, as the Python module is one, may link ours; programs share their precompiled header. No function of
-# ours is exchanged when a program starts, so that compilers may inline them.
+# Position-independent code, because shared libraries such as the Python module may link ours, and programs share the
+# precompiled header. Functions of ours are never replaced when a program starts, so compilers may inline them.
 if(PROJECT_IS_TOP_LEVEL)
   add_compile_options(-fPIC -fno-semantic-interposition)
 endif()
 
-# gonio_add_part(NAME LIBRARY...): gonio::NAME, for the headers that need these libraries.
+# gonio_add_part(NAME LIBRARY...): adds gonio::NAME, for the headers that need these libraries.
 function(gonio_add_part name)
   add_library(gonio_${name} INTERFACE)
   add_library(gonio::${name} ALIAS gonio_${name})
@@ -30,8 +30,8 @@ function(gonio_add_part name)
   target_link_libraries(gonio_${name} INTERFACE gonio::gonio ${ARGN})
 endfunction()
 
-# gonio_add_compiled(NAME HEADER_ONLY SOURCE...): the bodies that HEADER_ONLY's headers include, as a library, static or
-# shared as BUILD_SHARED_LIBS says. Who links it sees declarations alone.
+# gonio_add_compiled(NAME HEADER_ONLY SOURCE...): adds a library of the bodies that HEADER_ONLY's headers otherwise
+# include, static or shared by BUILD_SHARED_LIBS. Its users see only declarations.
 function(gonio_add_compiled name header_only)
   add_library(gonio_${name} ${ARGN})
   add_library(gonio::${name} ALIAS gonio_${name})
@@ -45,7 +45,8 @@ function(gonio_add_compiled name header_only)
   gonio_precompile(gonio_${name})
 endfunction()
 
-# What nearly all of our sources parse, a second and a half in each, is parsed once: by the first target that asks.
+# gonio_precompile(TARGET): precompiles the headers that nearly all sources include, which would cost each source 1.5 s.
+# The first target that asks compiles them for all.
 function(gonio_precompile target)
   get_property(first GLOBAL PROPERTY gonio_precompiled)
   if(first AND NOT BUILD_SHARED_LIBS)
@@ -58,7 +59,8 @@ function(gonio_precompile target)
     <optional> <random> <span> <string> <utility> <vector>)
 endfunction()
 
-# gonio_install_part(NAME): an export set of its own for each target, so that who lacks what a part needs finds the rest.
+# gonio_install_part(NAME): installs each target in its own export set: a user without the libraries of one part can use
+# the others.
 include(GNUInstallDirs)
 function(gonio_install_part name)
   if(NOT gonio_package_dir) # GONIO_INSTALL is off
@@ -72,7 +74,7 @@ function(gonio_install_part name)
   endforeach()
 endfunction()
 
-# gonio_add_executables(): gonio_executables, what our own executables link: each part that is here.
+# gonio_add_executables(): adds gonio_executables, which our own executables link: the library and each part found.
 function(gonio_add_executables)
   add_library(gonio_executables INTERFACE)
   target_link_libraries(gonio_executables INTERFACE $<IF:$<TARGET_EXISTS:gonio::compiled>,gonio::compiled,gonio::gonio>)
@@ -83,7 +85,7 @@ function(gonio_add_executables)
   endforeach()
 endfunction()
 
-# gonio_link(TARGET PART...): links gonio::PART, compiled if it was.
+# gonio_link(TARGET PART...): links gonio::PART, in its compiled form if there is one.
 function(gonio_link target)
   foreach(part IN LISTS ARGN)
     if(TARGET gonio::compiled_${part})
@@ -99,9 +101,9 @@ function(gonio_link target)
 endfunction()
 
 add_library(gonio_warnings INTERFACE)
-# Those that are off for g++ 12 warn of joined strings and of Eigen's copies that are fine (gcc bug 105651 and
-# its kin), and of its own AVX-512 intrinsics (bug 105593), which GONIO_NATIVE may use; clang and the
-# sanitizers watch instead.
+# The warnings that are off for g++ are false in g++ 12: for joined strings and Eigen's copies (gcc bug 105651 and
+# similar), and for its own AVX-512 intrinsics (bug 105593), which GONIO_NATIVE may use. Clang and the sanitizers find
+# such errors instead.
 target_compile_options(gonio_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Werror
   -Wshadow -Wconversion -Wno-sign-conversion -Wold-style-cast -Wcast-align
@@ -109,7 +111,7 @@ target_compile_options(gonio_warnings INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op -Wno-restrict -Wno-array-bounds
     -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-uninitialized>)
 
-# Never on gonio::gonio: it would change the alignment, and so the ABI, of a user's Eigen types.
+# Never for gonio::gonio: -march=native would change the alignment, and so the ABI, of a user's Eigen types.
 option(GONIO_NATIVE "Compile our own executables for this machine's processor" OFF)
 add_library(gonio_native INTERFACE)
 if(GONIO_NATIVE)

@@ -1,8 +1,9 @@
-# cmake -P cmake/release.cmake: the whole tool as one static program for Linux, stripped, with what is shipped inside
-# (GONIO_EMBED_DATA), into build/release; then README's main job in an empty root, where nothing but that program is.
+# cmake -P cmake/release.cmake: compiles the whole tool as one static, stripped program for Linux, which contains the
+# shipped files (GONIO_EMBED_DATA), into build/release. Then runs README's main job in a root that contains only the
+# program, and packs the program with all licences.
 #
-# Debian has no static OpenEXR, and its libtiff.a needs JBIG-KIT, whose licence is the GPL: these and Imath are compiled
-# here, of Debian's source packages.
+# Debian has no static OpenEXR, and its libtiff.a needs JBIG-KIT, whose licence is the GPL. These and Imath are compiled
+# here from Debian's source packages.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} libexif-dev libtiff-dev dpkg-dev file)
 
@@ -15,11 +16,12 @@ set(name "gonio-${version}-linux-${machine}")
 
 # ---- libraries ------------------------------------------------------------------------------------------------------
 
-# gonio_fetch_sources(PACKAGE...): Debian's sources with its patches, from where this machine has Debian's packages from.
+# gonio_fetch_sources(PACKAGE...): downloads and unpacks Debian's sources with their patches, from this machine's
+# archive.
 function(gonio_fetch_sources)
   file(GLOB list /etc/apt/sources.list.d/debian.sources)
   if(NOT list)
-    message(FATAL_ERROR "${ARGN}: there is no /etc/apt/sources.list.d/debian.sources that says where Debian's sources are")
+    message(FATAL_ERROR "/etc/apt/sources.list.d/debian.sources does not say where Debian's sources of ${ARGN} are")
   endif()
   file(READ "${list}" text)
   string(REGEX REPLACE "(^|\n)Types:[^\n]*" "\\1Types: deb-src" text "${text}")
@@ -31,7 +33,7 @@ function(gonio_fetch_sources)
   step("sources of ${ARGN}" ${cmake} -E chdir "${folder}" ${apt_get} source ${ARGN})
 endfunction()
 
-# gonio_build_static(PACKAGE ARGUMENT...): a source package as a static library.
+# gonio_build_static(PACKAGE ARGUMENT...): compiles a source package as a static library.
 function(gonio_build_static package)
   file(GLOB from "${folder}/${package}-[0-9]*")
   step("${package}: configure" ${cmake} -S "${from}" -B "${folder}/${package}" -G Ninja -D CMAKE_BUILD_TYPE=Release
@@ -40,7 +42,7 @@ function(gonio_build_static package)
   step("${package}: build" ${cmake} --build "${folder}/${package}" --parallel ${cores} --target install)
 endfunction()
 
-# They stay, so that a second release compiles what has changed.
+# A second release uses the libraries of the first.
 if(NOT EXISTS "${libraries}/lib/libtiff.a")
   file(REMOVE_RECURSE "${folder}")
   gonio_fetch_sources(imath openexr tiff)
@@ -51,7 +53,7 @@ endif()
 
 # ---- the tool -------------------------------------------------------------------------------------------------------
 
-# What is looked for is static. Debian's dlib names shared libraries, of which the tool uses nothing.
+# Finds static libraries only. Debian's dlib names shared libraries, which the tool does not need.
 file(WRITE "${folder}/static.cmake" [=[
 set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
 file(WRITE "${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/dlib-config.cmake" "
@@ -69,7 +71,7 @@ step("build" ${cmake} --build "${folder}/build" --parallel ${cores} --target gon
 
 # ---- README's main job in an empty root -----------------------------------------------------------------------------
 
-# A user who is not root needs a namespace in which that user is.
+# Without root rights, change the root within a user namespace.
 execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
 set(root "${folder}/root")
 set(enter unshare --root=${root} --wd=/)
@@ -81,10 +83,10 @@ file(MAKE_DIRECTORY "${root}")
 file(COPY "${folder}/build/bin/gonio" DESTINATION "${root}")
 execute_process(COMMAND file --brief "${root}/gonio" OUTPUT_VARIABLE kind COMMAND_ERROR_IS_FATAL ANY)
 if(NOT kind MATCHES "statically linked, .*stripped" OR kind MATCHES "not stripped")
-  message(FATAL_ERROR "The program is no static one that is stripped: ${kind}")
+  message(FATAL_ERROR "gonio is not a stripped static program: ${kind}")
 endif()
 
-# run(LINE FILE): a command line of the tool, which writes a file that must not be empty.
+# run(LINE FILE): runs a command line of the tool. The file must not be empty afterwards.
 function(run line file)
   separate_arguments(arguments UNIX_COMMAND "${line}")
   step("gonio ${line}" ${enter} /gonio ${arguments})
@@ -101,4 +103,30 @@ run("render estimate.binary truth.binary --size 256 -o spheres.png" spheres.png)
 run("design --apparatus three-axis-goniometer -n 2 -o two.csv" two.csv)
 run("info shipped:materials.prior" gonio)
 
-# The same job by the same program where there are files, and by one that reads what is shipped from files.
+set(starts 20)
+string(TIMESTAMP begin "%s%f")
+foreach(start RANGE 1 ${starts})
+  execute_process(COMMAND "${root}/gonio" --version OUTPUT_VARIABLE shown COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+string(TIMESTAMP end "%s%f")
+math(EXPR milliseconds "(${end} - ${begin}) / ${starts} / 1000")
+
+# ---- the archive ----------------------------------------------------------------------------------------------------
+
+# The licences of all libraries in the program. Those of libexif and the C library require their sources to be offered.
+file(REMOVE_RECURSE "${folder}/${name}")
+file(MAKE_DIRECTORY "${folder}/${name}/licences")
+file(COPY "${root}/gonio" "${source}/LICENSE" DESTINATION "${folder}/${name}")
+foreach(package IN ITEMS libc6 gcc-12-base zlib1g libstb-dev libexif-dev libtiff-dev libopenexr-dev libimath-dev
+                         libwebp-dev libzstd-dev liblzma-dev liblerc-dev libjpeg62-turbo-dev libdeflate-dev
+                         libeigen3-dev libxtensor-dev xtl-dev libcli11-dev nlohmann-json3-dev libdlib-dev
+                         libnanoflann-dev)
+  file(COPY_FILE "/usr/share/doc/${package}/copyright" "${folder}/${name}/licences/${package}")
+endforeach()
+execute_process(COMMAND "${cmake}" -E tar czf "${name}.tar.gz" "${name}" WORKING_DIRECTORY "${folder}"
+                COMMAND_ERROR_IS_FATAL ANY)
+file(SIZE "${root}/gonio" size)
+file(SIZE "${folder}/${name}.tar.gz" packed)
+file(SHA256 "${folder}/${name}.tar.gz" checksum)
+message("${shown}${folder}/${name}.tar.gz: ${packed} bytes, the program in it ${size} bytes; it starts in"
+        " ${milliseconds} ms (mean of ${starts})\nsha256 ${checksum}")

@@ -1,8 +1,8 @@
-# gonio_set_up(PACKAGE...) makes sure that what these Debian packages bring is there. It looks for a
-# file of each, not for the package, so that any other source of the same thing is as good.
+# gonio_set_up(PACKAGE...) installs the Debian packages that are missing. It looks for one file of each package, not for
+# the package: the file may come from another source.
 
-# Debian's packages of what a build needs, and of what only shapes do: dlib's CMake configuration names BLAS and LAPACK,
-# which its package does not depend on.
+# Debian's packages for a build, and those that only shapes need. BLAS and LAPACK are listed, because dlib's CMake
+# configuration needs them but its package does not depend on them.
 set(gonio_library_packages
   g++ ninja-build libeigen3-dev libxtensor-dev zlib1g-dev libstb-dev libcli11-dev nlohmann-json3-dev)
 set(gonio_shape_packages libdlib-dev libblas-dev liblapack-dev libnanoflann-dev)
@@ -17,6 +17,7 @@ set(gonio_packages
   "time                program time"
   "clang-19            program clang++-19"
   "clang-format-14     program clang-format-14"
+  "codespell           program codespell"
   "libclang-rt-19-dev  header  sanitizer/asan_interface.h"
   "libc++-19-dev       header  c++/v1/vector"
   "libc++abi-19-dev    header  c++/v1/cxxabi.h"
@@ -48,6 +49,12 @@ set(gonio_packages
   "doctest-dev         header  doctest/doctest.h"
   "librapidcheck-dev   header  rapidcheck.h"
   "libbenchmark-dev    header  benchmark/benchmark.h"
+  "g++-mingw-w64-x86-64-posix program x86_64-w64-mingw32-g++-posix"
+  "libz-mingw-w64-dev  header  ../x86_64-w64-mingw32/include/zlib.h"
+  "wine                program wine"
+  "wine64              header  x86_64-linux-gnu/wine/x86_64-unix/ntdll.so"
+  "file                program file"
+  "dpkg-dev            program dpkg-source"
   "mkdocs              program mkdocs"
   "mkdocs-material     header  mkdocs/themes/material/main.html"
   "doxygen             program doxygen"
@@ -56,7 +63,7 @@ set(gonio_packages
   "nodejs              program node"
   "npm                 program npm")
 
-# The packages of ARGN that are not there.
+# gonio_find_missing(RESULT PACKAGE...): returns the packages whose file is missing.
 function(gonio_find_missing result)
   set(missing)
   foreach(entry IN LISTS gonio_packages)
@@ -90,7 +97,7 @@ function(gonio_set_up)
   endif()
   list(JOIN missing " " names)
 
-  # Root installs directly, others through sudo where that asks no password.
+  # Root installs directly, other users through sudo if it asks for no password.
   find_program(apt_get apt-get NO_CACHE)
   execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
   set(as_root)

@@ -1,7 +1,8 @@
-# cmake [-D TOOL=build/bin/gonio] -P cmake/site.cmake (or the target `site`): docs/ and README.md as a static site with
-# search, ten materials to turn under a light, lessons that compute, and the reference of all headers, in build/site. Builds the tool as
-# demo.cmake does where none is given or built. mkdocs-material, Doxygen, linkchecker and what lessons.cmake needs are Debian packages; once
-# they are there, no network is needed. A warning of any of them, or a dead link, is an error.
+# cmake [-D TOOL=build/bin/gonio] -P cmake/site.cmake (or the target `site`): writes a static site to build/site, from
+# docs/ and README.md, with search, ten materials to turn under a light, interactive lessons, and the reference of all
+# headers. Without a TOOL or a built one, builds the tool as demo.cmake does. Needs mkdocs-material, Doxygen,
+# linkchecker and the packages of lessons.cmake from Debian, and then no network. A warning of any of them, or a dead
+# link, is an error.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 gonio_set_up(${gonio_library_packages} mkdocs mkdocs-material doxygen linkchecker)
 
@@ -12,7 +13,7 @@ file(READ "${source}/CMakeLists.txt" lists)
 string(REGEX MATCH "VERSION ([0-9.]+)" found "${lists}")
 set(version "${CMAKE_MATCH_1}")
 
-# Copy what pages link to, in the layout of the repository, so that relative links stay as they are.
+# Copy the files that pages link to, in the repository's layout: relative links stay valid.
 file(COPY "${source}/README.md" "${source}/CHANGELOG.md" "${source}/CONTRIBUTING.md" "${source}/SECURITY.md" "${source}/docs"
      DESTINATION "${pages}")
 file(COPY "${source}/examples/data/directions/README.md" DESTINATION "${pages}/examples/data/directions")
@@ -26,7 +27,7 @@ foreach(program IN LISTS programs)
 endforeach()
 file(WRITE "${pages}/examples/learn/README.md" "${listing}")
 
-# Ten materials of the shipped prior, each as gonio report shows what 20 samples make of it.
+# Reports of ten materials of the shipped prior, each reconstructed from 20 samples.
 foreach(built IN ITEMS test demo release)
   if(NOT TOOL AND EXISTS "${source}/build/${built}/bin/gonio")
     set(TOOL "${source}/build/${built}/bin/gonio")
@@ -75,7 +76,7 @@ Three pages compute in the browser: [all materials of the prior to browse](libra
 file(WRITE "${pages}/viewer.md" "${viewer}")
 step("site: lessons that compute" ${cmake} -D "OUTPUT=${pages}/viewer" -P cmake/lessons.cmake)
 
-# Lessons have pages within them where a page of the repository says how to get one.
+# In the lessons, replace the text between the marks of a viewer by the interactive page.
 file(GLOB lessons "${pages}/docs/learn/*.md")
 foreach(lesson IN LISTS lessons)
   file(READ "${lesson}" text)
@@ -89,7 +90,7 @@ foreach(lesson IN LISTS lessons)
   endif()
 endforeach()
 
-# title_of(RESULT PAGE): its first heading.
+# title_of(RESULT PAGE): returns the first heading of a page.
 function(title_of result page)
   file(STRINGS "${pages}/${page}" heading REGEX "^# " LIMIT_COUNT 1)
   string(REGEX REPLACE "^# *|[`\"]" "" heading "${heading}")

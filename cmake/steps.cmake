@@ -1,4 +1,4 @@
-# What the scripts of this folder share: steps whose seconds are printed, and how many cores there are.
+# Shared by the scripts of this folder: timed steps, and the number of cores.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/setup.cmake")
 cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH source)
@@ -6,7 +6,7 @@ cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 set(cmake "${CMAKE_COMMAND}")
 set(ctest "${CMAKE_CTEST_COMMAND}" --output-on-failure --no-tests=error --parallel ${cores})
 
-# step(NAME COMMAND...) runs a command, tells the seconds it took, and stops everything if it fails.
+# step(NAME COMMAND...): runs a command and prints its seconds. If the command fails, the script fails.
 function(step name)
   message("\n== ${name}")
   string(TIMESTAMP start "%s")

@@ -1,10 +1,10 @@
-# cmake -P cmake/test.cmake: installs what is missing, then builds the library once, the tool and their tests with g++, and
-# passes them. `.ci/run` has the rest, the projects beside the library among it: cmake/checks.cmake.
+# cmake -P cmake/test.cmake: installs missing packages, builds the compiled library, the tool and their tests with g++,
+# and runs the tests. cmake/checks.cmake has the other checks, including the projects beside the library.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 
 gonio_set_up(${gonio_library_packages} ${gonio_test_packages})
 
-# The optimisation that runs soonest: tests compile longer than they run.
+# -O1 finishes first, because tests take longer to compile than to run.
 step("configure" ${cmake} -S . -B build/test -G Ninja
      -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
      -D GONIO_BUILD_BENCH=OFF -D GONIO_TEST_CONSUMERS=OFF)

@@ -1,13 +1,13 @@
-# What the tests of the library and of the projects beside it share: test_main and gonio_add_tests.
+# Shared by the tests of the library and of the projects beside it: test_main and gonio_add_tests.
 find_package(doctest REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
-# RapidCheck is a library that was compiled with libstdc++: with another standard library its tests cannot be linked.
+# RapidCheck is compiled with libstdc++. With another standard library, the tests that use it cannot be linked.
 option(GONIO_TEST_PROPERTIES "Build the tests that need RapidCheck" ON)
 if(GONIO_TEST_PROPERTIES)
   find_package(rapidcheck REQUIRED CONFIG)
 endif()
 
-# What every test program shares: doctest's main and what takes long to compile, each compiled once.
+# Sources that all test programs share: doctest's main, and files that take long to compile.
 set(tests "${gonio_source}/tests")
 add_library(test_main OBJECT "${tests}/doctest_main.cpp" "${tests}/dense_reference.cpp" "${tests}/golden.cpp")
 set_source_files_properties("${tests}/dense_reference.cpp" "${tests}/golden.cpp" PROPERTIES
@@ -27,8 +27,8 @@ target_precompile_headers(test_main PRIVATE
   <doctest/doctest.h> <Eigen/Core> <Eigen/Cholesky> <string> <vector>)
 
 set(GONIO_TESTS_APART io model render cli papers long crafted crafted_shapes shape_commands)
-# gonio_add_tests(MODULE LABEL TIMEOUT SOURCE...): the program test_MODULE. If first_cases is set it runs as two tests,
-# with the filter in `cases`.
+# gonio_add_tests(MODULE LABEL TIMEOUT SOURCE...): adds the program test_MODULE and its test. If the variable
+# first_cases is set, adds two tests: the first first_cases cases, and the others. `cases` is a filter.
 function(gonio_add_tests module label timeout)
   set(sources ${ARGN})
   foreach(file IN LISTS sources)
@@ -43,13 +43,13 @@ function(gonio_add_tests module label timeout)
   add_executable(test_${module} ${sources})
   target_link_libraries(test_${module} PRIVATE test_main)
   target_precompile_headers(test_${module} REUSE_FROM test_main)
-  # Files of a module share the templates that they instantiate. Where two have the same name in their unnamed
-  # namespaces they stay apart.
+  # Compile files of a module together, because they share templates. Modules in GONIO_TESTS_APART have files that use
+  # the same name in unnamed namespaces.
   if(NOT module IN_LIST GONIO_TESTS_APART)
     set_target_properties(test_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 7)
   endif()
   set(tests ${module})
-  if(first_cases) # and the others, beside one another
+  if(first_cases) # two tests, which may run in parallel
     math(EXPR next "${first_cases} + 1")
     add_test(NAME ${module} COMMAND test_${module} ${cases} --last=${first_cases})
     add_test(NAME ${module}_more COMMAND test_${module} ${cases} --first=${next})
@@ -60,7 +60,7 @@ function(gonio_add_tests module label timeout)
   set_tests_properties(${tests} PROPERTIES LABELS ${label} TIMEOUT ${timeout} COST ${timeout}) # the longest first
 endfunction()
 
-# gonio_skip(NAME REASON): a test that is not in this build; ctest lists it, with the reason, among those that did not run.
+# gonio_skip(NAME REASON): adds a test that this build lacks. ctest lists it as skipped, with the reason.
 function(gonio_skip name reason)
   add_test(NAME "${name}: ${reason}" COMMAND "${CMAKE_COMMAND}" -E echo skipped)
   set_tests_properties("${name}: ${reason}" PROPERTIES LABELS fast SKIP_REGULAR_EXPRESSION "^skipped")

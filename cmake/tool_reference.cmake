@@ -1,15 +1,15 @@
 # cmake -D TOOL=build/.../bin/gonio [-D CHECK=ON] -P cmake/tool_reference.cmake: writes docs/reference/tool.md, the help
-# of each subcommand as the tool prints it, with lines of at most 120 characters. CHECK: fails where the page differs; a
+# of each subcommand as the tool prints it, with lines of at most 120 characters. CHECK: fails if the page differs. A
 # tool without `gonio shape` is compared with the rest of the page.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/tool_help.cmake")
 cmake_path(SET source NORMALIZE "${CMAKE_CURRENT_LIST_DIR}/..")
 set(page "${source}/docs/reference/tool.md")
 set(width 120)
-set(indent "                              ") # of the descriptions, as the tool prints them
+set(indent "                              ") # indentation of the tool's descriptions
 string(LENGTH "${indent}" indent_length)
 
-# wrapped(RESULT TEXT): the text with its long lines broken between words.
+# wrapped(RESULT TEXT): breaks long lines between words.
 function(wrapped result text)
   set(out "")
   while(NOT text STREQUAL "")
@@ -33,7 +33,7 @@ function(wrapped result text)
   set(${result} "${out}" PARENT_SCOPE)
 endfunction()
 
-# describe(WORD...): the help of a subcommand, and of those that it has.
+# describe(WORD...): adds the help of a subcommand, and of its own subcommands.
 function(describe)
   gonio_tool_help(help "${TOOL}" ${ARGN})
   wrapped(text "${help}")
@@ -45,7 +45,7 @@ function(describe)
   endforeach()
 endfunction()
 
-# without_shape(TEXT): takes gonio shape and its subcommands off the text in a variable.
+# without_shape(TEXT): removes gonio shape and its subcommands from the text in a variable.
 function(without_shape variable)
   string(REGEX REPLACE "\n  shape  [^\n]*" "" text "${${variable}}")
   string(REGEX REPLACE "\n(## gonio shape[^#]*)+" "" text "${text}")

@@ -7,6 +7,7 @@
 #include <gonio/capture/impl/high_dynamic_range.ipp>
 #include <gonio/capture/impl/k_means.ipp>
 #include <gonio/capture/impl/known_surface.ipp>
+#include <gonio/capture/impl/light_probe.ipp>
 #include <gonio/capture/impl/merged_frames.ipp>
 #include <gonio/capture/impl/mirror_sphere.ipp>
 #include <gonio/capture/impl/near_field_image.ipp>

@@ -1,5 +1,6 @@
 // The bodies of estimate/ except those in estimate_iterations.cpp.
 
+#include <gonio/basis/measured.hpp>
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/impl/angular_error.ipp>
@@ -20,6 +21,7 @@
 #include <gonio/estimate/impl/soft_specular_decomposition.ipp>
 #include <gonio/estimate/impl/solve_rows.ipp>
 #include <gonio/estimate/impl/wrong_samples.ipp>
+#include <gonio/metric/log.hpp>
 
 namespace gonio {
 

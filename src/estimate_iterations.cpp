@@ -1,4 +1,3 @@
-// The bodies of estimate/ that iterate over products of their own. A separate file, compiled in parallel with
-// estimate.cpp.
+// The bodies of estimate/pose_refinement.hpp. A separate file, compiled in parallel with estimate.cpp.
 
 #include <gonio/estimate/impl/pose_refinement.ipp>

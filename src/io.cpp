@@ -22,6 +22,7 @@
 #include <gonio/io/materials/impl/soft_specular_prior.ipp>
 #include <gonio/io/materials/impl/svbrdf_map.ipp>
 #include <gonio/io/materials/impl/table_npy.ipp>
+#include <gonio/io/materials/impl/utia.ipp>
 #include <gonio/io/measurements/impl/alta.ipp>
 #include <gonio/io/measurements/impl/astm_e1392.ipp>
 #include <gonio/io/measurements/impl/bird.ipp>
@@ -46,6 +47,7 @@
 #include <gonio/io/measurements/impl/ssdd.ipp>
 #include <gonio/io/measurements/impl/tensor_tree_xml.ipp>
 #include <gonio/io/measurements/impl/zemax_bsdf.ipp>
+#include <gonio/io/measurements/impl/zemax_table.ipp>
 #include <gonio/io/setups/impl/apparatus.ipp>
 #include <gonio/io/setups/impl/camera_calibration.ipp>
 #include <gonio/io/setups/impl/near_field_setup.ipp>

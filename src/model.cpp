@@ -2,6 +2,7 @@
 
 #include <gonio/model/impl/adaptive_brdf.ipp>
 #include <gonio/model/impl/analytic_brdf.ipp>
+#include <gonio/model/impl/angle_grid_brdf.ipp>
 #include <gonio/model/impl/fit_model.ipp>
 #include <gonio/model/impl/fit_observations.ipp>
 #include <gonio/model/impl/formula_materials.ipp>

@@ -5,7 +5,7 @@
 #include <gonio/io/materials/merl.hpp>
 #include <gonio/render/lookup_table.hpp>
 
-// It prints messages about directions inside the loop.
+// By default dj_brdf prints messages about directions inside the loop.
 #define DJB_LOG(...)
 #define DJ_BRDF_IMPLEMENTATION 1
 #include <dj_brdf.h>

@@ -48,7 +48,7 @@ const pairs_of<Real>& pairs() {
   return all;
 }
 
-/// A material with varying values, so that nothing is predictable.
+/// A material with varying values: nothing is predictable.
 struct some_material {
   gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
     return gonio::rgb(0.1 + wi.z() * wo.z(), 0.2, 0.3 + std::pow((wi + wo).normalized().z(), 50));

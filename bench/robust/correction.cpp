@@ -32,7 +32,7 @@ const gonio::correction& corrections() {
   return functions;
 }
 
-/// Samples blue acrylic at one of `step` cells; a fifth of the measurements are outliers.
+/// Samples blue acrylic at 1 / step of the cells, chosen at random; a fifth of the measurements are outliers.
 gonio::located_samples samples(std::int64_t step) {
   const auto truth = materials().table(materials().find("blue-acrylic"));
   const std::size_t count = truth.cells().size() / step;
@@ -65,7 +65,7 @@ void one_round(benchmark::State& state, const Weighting& weighting) {
   run.step();
   const double samples_that_count = counted(run);
   for (auto _ : state) benchmark::DoNotOptimize(run.step());
-  // A round without normal equations reads the rows twice: for the right-hand sides, and for the correction there.
+  // A round without normal equations reads the rows twice: for the right-hand sides, and to evaluate the correction.
   constexpr bool assembles = !std::same_as<Weighting, gonio::trust_all>;
   if (assembles) count_operations(state, operations(samples_that_count));
   if (!assembles) count_bytes(state, 2.0 * 12.0 * static_cast<double>(measured.size() * corrections().size()));
@@ -133,8 +133,8 @@ void eigen_product(benchmark::State& state) {
 }
 BENCHMARK(eigen_product)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// The same for three channels, with newly allocated memory for each result, which the system clears. Corrections take
-/// 1.3 GB of it.
+/// Eigen's products for three channels, each time into newly allocated memory, which the system clears. Corrections
+/// take 1.3 GB.
 void product_into_new_memory(benchmark::State& state) {
   const gonio::measured<gonio::log>& basis = others();
   const Eigen::Index cells = materials().cells.size(), k = std::ssize(basis);
@@ -154,7 +154,7 @@ void product_into_new_memory(benchmark::State& state) {
 }
 BENCHMARK(product_into_new_memory)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// Reads the rows of all channels for one of `step` cells.
+/// Reads the rows of all channels at every `step`-th cell.
 void read_every(benchmark::State& state, Eigen::Index step) {
   const Eigen::Index count = materials().cells.size() / step, functions = std::ssize(corrections());
   const std::array channels{corrections().channel(0), corrections().channel(1), corrections().channel(2)};

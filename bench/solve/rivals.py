@@ -34,8 +34,8 @@ gram = np.load(folder + "/gram.npy")
 moment = np.load(folder + "/moment.npy").ravel()
 result = {}
 
-# To numpy, A'A of one array is a symmetric update. The faster of both layouts counts; in double, also the faster of one
-# product of a copy made before and of blocks converted on the way.
+# To numpy, A'A of one array is a symmetric update. The faster of both layouts counts. In double, so does the faster of
+# two ways: one product of a copy converted before, and products of blocks converted on the way.
 columns = np.ascontiguousarray(rows.T)
 result["gram_float"] = min(best_of(5, lambda: rows.T @ rows), best_of(5, lambda: columns @ columns.T))
 

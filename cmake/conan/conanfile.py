@@ -37,6 +37,7 @@ class Gonio(ConanFile):
         toolchain = CMakeToolchain(self)
         for part in ("COMPILED", "TESTS", "EXAMPLES", "BENCH"):
             toolchain.cache_variables[f"GONIO_BUILD_{part}"] = False
+        toolchain.cache_variables["GONIO_PARTS"] = ""
         toolchain.generate()
 
     def build(self):

@@ -1,6 +1,6 @@
 #pragma once
-/// A simulated laboratory: a flat sample in a dark room, a lamp, a camera, and their defects. The devices in the other
-/// files move lamp and camera. Lengths are in mm.
+/// A simulated laboratory: a flat sample in a dark room, a lamp, a camera, and their defects. The machines that move
+/// lamp and camera are in gantry.hpp and robot.hpp. Lengths are in mm.
 
 #include "random_turn.hpp"
 #include <gonio/capture/device.hpp>
@@ -29,7 +29,7 @@ struct defects {
   double vignetting = 0.0;    ///< fraction of the light that is lost in the image's corners
   double stray = 0.0;         ///< light from the room's walls, as a fraction of the light from a white sample
   double flicker = 0.0;       ///< relative standard deviation of each exposure, from lamp and shutter
-  double outliers = 0.0;      ///< fraction of the poses at which the light is wrong by a factor of up to 10
+  double outliers = 0.0;      ///< fraction of the poses at which the light is wrong by a factor from 0.1 to 10
 
   /// The defects of a well-kept laboratory.
   [[nodiscard]] static defects usual() {
@@ -64,8 +64,9 @@ struct sensor {
   response_curve curve = response_curve::linear;
   double full_well = std::numeric_limits<double>::infinity();  ///< electrons at saturation, for shot noise
   double read_noise = 0.0;                                     ///< electrons
-  double saturating = 0.04;  ///< exposure in seconds that saturates on white with a lamp at the normal
-  int side = 8;              ///< pixels in each direction that see the sample
+  /// Exposure in seconds at which a white sample saturates the sensor, with the lamp at the normal.
+  double saturating = 0.04;
+  int side = 8;  ///< pixels in each direction that see the sample
   double shortest_time = 10e-6, longest_time = 10.0;
 
   /// A 12-bit camera.
@@ -85,9 +86,23 @@ using surface = std::function<gonio::rgb(const gonio::direction& wi, const gonio
   };
 }
 
-/// The positions of all devices, and the camera's counts. All random numbers come from seeds: the room's for the
-/// misalignment of lamps and camera, the sample's for that of the sample, and the sample's seed and the pose for the
-/// noise of each pose. A resumed scan therefore reads the same counts as an uninterrupted one.
+/// The solid angle in sr of the machines' lamps, seen from the sample: a disc of this radius at this distance, in mm.
+[[nodiscard]] inline double lamp_solid_angle(double radius = 5.0, double distance = 1000.0) {
+  return std::numbers::pi * radius * radius / (distance * distance);
+}
+
+/// The lamp itself, for a camera that looks into it through a filter. The irradiance E cos(theta_i) of a lamp of this
+/// solid angle comes from the radiance E / solid_angle.
+[[nodiscard]] inline surface lamp_through(double transmittance, double solid_angle = lamp_solid_angle()) {
+  return [=](const gonio::direction& wi, const gonio::direction&) -> gonio::rgb {
+    if (wi.z() <= 0.0) return gonio::rgb::Zero();
+    return gonio::rgb::Constant(transmittance / (solid_angle * wi.z()));
+  };
+}
+
+/// The positions of all devices, and the camera's counts. All random numbers come from seeds: the room's seed gives the
+/// misalignment of lamps and camera, the sample's seed the misalignment of the sample, and the sample's seed with a
+/// pose the noise of that pose. A resumed scan therefore reads the same counts as an uninterrupted one.
 class dark_room {
  public:
   dark_room(surface sample, const sensor& chip, const defects& wrong, std::uint64_t room_seed = 0,
@@ -155,7 +170,7 @@ class dark_room {
     return factor_ * sum + wrong_.stray * white_sum * std::numbers::inv_pi;
   }
 
-  /// Returns the sample point that is seen at a position in the plane through the sample's centre across the view.
+  /// Returns the sample point behind a position in the plane through the sample's centre and perpendicular to the view.
   [[nodiscard]] static Eigen::Vector3d seen_point(const Eigen::Vector3d& camera, double x, double y) {
     if (x == 0.0 && y == 0.0) return Eigen::Vector3d::Zero();
     const Eigen::Vector3d right = camera.unitOrthogonal();
@@ -166,7 +181,8 @@ class dark_room {
 
   [[nodiscard]] double lamp_samples() const { return wrong_.lamp_radius > 0.0 ? 1.0 + ring : 1.0; }
 
-  /// Returns points that represent the lamp: its centre and a ring, with the disc's mean square distance.
+  /// Returns points that represent the lamp: its centre and a ring. Their mean squared distance from the centre is that
+  /// of the disc.
   [[nodiscard]] std::vector<Eigen::Vector3d> lamp_points(const Eigen::Vector3d& lamp) const {
     std::vector<Eigen::Vector3d> points{lamp};
     if (!(wrong_.lamp_radius > 0.0)) return points;
@@ -227,7 +243,7 @@ static_assert(gonio::capture::camera<room_camera>);
 struct carried_tool {
   std::string name;
   gonio::capture::camera_sphere sphere;                   ///< in the machine's axes
-  gonio::direction gonio::direction_pair::*towards = {};  ///< the direction of a pair at which it is
+  gonio::direction gonio::direction_pair::*towards = {};  ///< the direction that the tool follows, wi or wo
 };
 
 /// Switches a lamp on, and off again even after an exception.
@@ -243,8 +259,8 @@ class lit {
   Lights& lights_;
 };
 
-/// Returns the smallest angle between two directions at which the nearer object, with a radius and a distance from the
-/// sample, does not cover the farther one.
+/// Returns the smallest angle between two objects, seen from the sample, at which the nearer object does not cover the
+/// farther one, given the radius and the distance of each.
 [[nodiscard]] inline double smallest_separation(double near_radius, double near_distance, double far_radius,
                                                 double far_distance) {
   return std::asin(near_radius / near_distance) + std::asin(far_radius / far_distance);

@@ -17,7 +17,8 @@ class gantry_arm {
   [[nodiscard]] std::string obstacle(const gonio::direction& w) const {
     const double theta = gonio::polar_angle(w);
     if (theta <= largest_polar_angle_) return {};
-    return "the " + name_ + "'s arm ends at " + in_degrees(largest_polar_angle_) + ", this is " + in_degrees(theta);
+    return "the " + name_ + "'s arm reaches up to " + in_degrees(largest_polar_angle_) + ", but the direction is at " +
+           in_degrees(theta);
   }
   void move_to(const gonio::direction& w) { (room_->*carry_)(radius_ * w); }
 
@@ -56,10 +57,11 @@ class gantry {
     if (obstacle.empty()) obstacle = camera_arm_.obstacle(pair.wo);
     const double apart = gonio::angle_between(pair.wi, pair.wo);
     if (obstacle.empty() && apart < nearest())
-      obstacle = "the camera hides the lamp up to " + in_degrees(nearest()) + ", this is " + in_degrees(apart);
+      obstacle = "the camera hides the lamp if they are less than " + in_degrees(nearest()) +
+                 " apart, and here they are " + in_degrees(apart) + " apart";
     return {pair, obstacle};
   }
-  /// The arms move simultaneously.
+  /// The arms move simultaneously, so the larger angle counts.
   [[nodiscard]] double travel(const gonio::direction_pair& from, const gonio::direction_pair& to) const {
     return std::max(gonio::angle_between(from.wi, to.wi), gonio::angle_between(from.wo, to.wo));
   }
@@ -73,7 +75,7 @@ class gantry {
     return gonio::capture::expose_bracket(camera_);
   }
 
-  /// Both arms, in the sample's axes.
+  /// Returns the tools of both arms, in the sample's axes.
   [[nodiscard]] static std::vector<carried_tool> tools() {
     return {{"camera", {.radius = camera_distance, .arc_azimuth = 0.0}, &gonio::direction_pair::wo},
             {"lamp", {.radius = lamp_distance, .arc_azimuth = 0.0}, &gonio::direction_pair::wi}};

@@ -26,7 +26,7 @@ struct photograph_settings {
   double hot_current = 0.0;     ///< electrons per second of a hot pixel
   double vignetting = 0.0;      ///< fraction of the light that is lost in the image's corners
   double flicker = 0.0;         ///< relative standard deviation of each exposure, common to its pixels
-  std::uint64_t chip_seed = 1;  ///< for the currents and the positions of hot pixels
+  std::uint64_t chip_seed = 1;  ///< seed of the dark currents and of the positions of hot pixels
 
   /// A 12-bit camera on a tripod.
   [[nodiscard]] static photograph_settings usual(response_curve curve = response_curve::linear) {
@@ -140,7 +140,8 @@ namespace detail {
   return photograph_bracket(gonio::uniform_image(rows, columns), all, settings, seed + (std::uint64_t{1} << 40));
 }
 
-/// Returns the value that `merge_frames` gives for a radiance of 1: the middle count is at an exposure of 1 per second.
+/// Returns the value that `merge_frames` gives for a radiance of 1. In the unit of merged values, 1 is the radiance
+/// that gives the middle count in 1 second.
 [[nodiscard]] inline double merged_unit(const photograph_settings& settings) {
   double low = 0.0, high = 1.0;
   for (int halvings = 0; halvings < 60; ++halvings) {
@@ -150,7 +151,7 @@ namespace detail {
   return std::numbers::pi / (settings.chip.saturating * high);
 }
 
-/// Returns the noise of such a camera for merging: in counts of a linear one.
+/// Returns the camera's noise for merging, in counts of a linear camera.
 [[nodiscard]] inline gonio::capture::sensor_noise noise_of(const photograph_settings& settings) {
   const double counts = settings.chip.largest_count - settings.pedestal;
   if (!std::isfinite(settings.chip.full_well)) return {.read = 0.0, .shot = 0.0, .relative = settings.flicker};

@@ -47,14 +47,14 @@ class recorded_frames {
   }
 
   [[nodiscard]] gonio::capture::placement place(const gonio::direction_pair& pair) const {
-    return {pair, find(pair) ? "" : "no frame was recorded there"};
+    return {pair, find(pair) ? "" : "no frame was recorded for this pair of directions"};
   }
   [[nodiscard]] double travel(const gonio::direction_pair&, const gonio::direction_pair&) const { return 0.0; }
   [[nodiscard]] std::uint16_t largest_count() const { return largest_count_; }
 
   [[nodiscard]] gonio::capture::reading measure(const gonio::direction_pair& pair) {
     const recorded_pose* found = find(pair);
-    if (found == nullptr) throw gonio::capture::device_failure("no frame was recorded there");
+    if (found == nullptr) throw gonio::capture::device_failure("no frame was recorded for this pair of directions");
     gonio::capture::reading taken;
     for (const auto& [seconds, file] : found->frames) {
       taken.times.push_back(seconds);
@@ -105,7 +105,7 @@ class recorded_frames {
   }
 
   void add(const cli::json& frame) {
-    if (!frame.is_object()) gonio::refuse(name_ + ": " + shown(frame) + " is no frame");
+    if (!frame.is_object()) gonio::refuse(name_ + ": " + shown(frame) + " is not a frame");
     const gonio::direction_pair at{towards(frame, "theta_i", "phi_i"), towards(frame, "theta_o", "phi_o")};
     const double seconds = number(frame, "seconds");
     if (!(seconds > 0.0)) gonio::refuse(name_ + ": 'seconds' must be positive in " + shown(frame));
@@ -119,7 +119,7 @@ class recorded_frames {
     known->frames.emplace_back(seconds, frame["file"].text());
   }
 
-  /// Returns a search key. It differs between two pairs by less than twice the difference of their directions.
+  /// Returns a search key. It differs between two pairs by less than twice the larger difference of their directions.
   [[nodiscard]] static double key_of(const gonio::direction_pair& pair) {
     return pair.wi.dot(gonio::direction(0.61, 0.53, 0.59)) + pair.wo.dot(gonio::direction(0.37, 0.71, 0.43));
   }

@@ -7,7 +7,7 @@
 
 namespace lab {
 
-/// The arc: lamps every 7.5 degrees at 1000 mm, one of them on.
+/// The arc of lamps: one lamp every 7.5 degrees, at 1000 mm from the sample. One lamp at a time is on.
 class lamp_arc {
  public:
   explicit lamp_arc(dark_room& room) : room_(&room), towards_(gonio::capture::arc_lamps()) {}
@@ -19,7 +19,7 @@ class lamp_arc {
   }
   void switch_off() { room_->light(false); }
 
-  /// In the sample's axes; the arc lies above x.
+  /// Returns the direction towards a lamp, in the sample's axes. The arc lies above the x axis.
   [[nodiscard]] const gonio::direction& towards(Eigen::Index lamp) const { return towards_[lamp]; }
   [[nodiscard]] Eigen::Index nearest(const gonio::direction& w) const {
     const auto off = [&](const gonio::direction& lamp) { return gonio::angle_between(lamp, w); };
@@ -35,14 +35,14 @@ class lamp_arc {
 static_assert(gonio::capture::light_source<lamp_arc>);
 
 /// The six-axis robot with the camera in its hand. Its commands are positions and quaternions in its own axes, in which
-/// the arc lies above y.
+/// the arc lies above the y axis.
 class robot_arm {
  public:
   explicit robot_arm(dark_room& room) : room_(&room) {}
 
   [[nodiscard]] std::string obstacle(const gonio::direction& w) const {
     if (gonio::polar_angle(w) <= lowest) return {};
-    return "the robot would touch the table below " + in_degrees(lowest) + ", this is " +
+    return "the robot would touch the table below " + in_degrees(lowest) + ", and this direction is at " +
            in_degrees(gonio::polar_angle(w));
   }
   void move_to(const gonio::direction& w) { obey(sphere_.towards(w)); }
@@ -82,17 +82,18 @@ class robot {
     if (off > tolerance_ + 1e-9)
       return {at.at, "the nearest lamp is " + in_degrees(off) + " away, allowed are " + in_degrees(tolerance_)};
     if (apart < nearest())
-      return {at.at, "the camera hides the lamp up to " + in_degrees(nearest()) + ", this is " + in_degrees(apart)};
+      return {at.at, "the camera hides the lamp if they are less than " + in_degrees(nearest()) +
+                         " apart, and here they are " + in_degrees(apart) + " apart"};
     return at;
   }
-  /// Only the camera moves.
+  /// Only the camera moves, so the light does not count.
   [[nodiscard]] double travel(const gonio::direction_pair& from, const gonio::direction_pair& to) const {
     return gonio::angle_between(from.wo, to.wo);
   }
   [[nodiscard]] std::uint16_t largest_count() const { return camera_.largest_count(); }
   [[nodiscard]] const lamp_arc& arc() const { return arc_; }
 
-  /// The camera in the robot's hand, in the robot's axes.
+  /// Returns the camera in the robot's hand, in the robot's axes.
   [[nodiscard]] std::vector<carried_tool> tools() const {
     return {{"camera", arm_.sphere(), &gonio::direction_pair::wo}};
   }

@@ -33,5 +33,5 @@ int main() {
   show("truncated SVD, 90 %", gonio::truncated_svd{0.90});
   show("Lasso, lambda 1", gonio::lasso{1.0});
   show("Tikhonov, eta 40", gonio::tikhonov{40.0});
-  show("Tikhonov, eta by itself", gonio::automatic_tikhonov{});
+  show("Tikhonov, automatic eta", gonio::automatic_tikhonov{});
 }

@@ -14,8 +14,8 @@ int main() {
   // The measurements have 2 % noise. Samples that contradict all others are rejected.
   const auto paint = gonio::reconstruction{prior, {.noise = 0.02}}.fit(samples);
   for (const gonio::outlying_sample& out : paint.contradicted())
-    std::printf("sample %td is wrong with %.1f %%: measured %.3f, the others say %.3f\n", out.number + 1,
-                100.0 * out.probability, out.measured.y(), out.predicted.y());
+    std::printf("sample %td is wrong with a probability of %.1f %%: measured %.3f, the others say %.3f\n",
+                out.number + 1, 100.0 * out.probability, out.measured.y(), out.predicted.y());
 
   // Ask for the uncertainty in other directions.
   const auto show = [&](const char* name, double theta_h, double theta_d) {

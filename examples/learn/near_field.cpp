@@ -40,11 +40,11 @@ int main() {
     const gonio::comparison off = gonio::compare(paint.tabulate(cells), truth, prior.metric(), appearance);
     std::printf("%-28s mapped rms %.3f, Delta E %.2f\n", name, off.mapped_rms.mean(), off.delta_e_env);
   };
-  show("where they are said to be:", gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples));
+  show("at the stated positions:", gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples));
 
   gonio::pose_refinement refinement(prior, images, {.deviation = gonio::radians(0.5)});
   refinement.solve();
-  show("where they are found to be:", refinement.result());
+  show("at the corrected positions:", refinement.result());
   for (const gonio::pose_correction& found : refinement.turns())
     std::printf("light turned by %.2f degrees, camera by %.2f\n", gonio::degrees(found.light.norm()),
                 gonio::degrees(found.camera.norm()));

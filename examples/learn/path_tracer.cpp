@@ -1,6 +1,6 @@
 /// A path tracer on one page: ten materials reconstructed from 20 samples each (front row) and their true BRDFs (back
 /// row), as spheres on a floor in one environment. Like a renderer it uses gonio/render.hpp to evaluate and sample a
-/// BRDF. The true BRDFs are a prior's own materials; the reconstruction's prior is learned from its other materials.
+/// BRDF. The true BRDFs are ten materials of a prior; the reconstructions use a prior learned from its other materials.
 /// Usage: example_path_tracer materials.prior spheres.png [ENVIRONMENT.hdr] [SAMPLES]
 
 #include <gonio/basis/expand_materials.hpp>
@@ -80,7 +80,7 @@ gonio::sampled_direction draw(const hit& at, const direction& wo, double u1, dou
 }
 
 /// Returns the radiance from a direction. At each surface, one sample of the environment and one of the material are
-/// combined by the balance heuristic; the path continues along the latter.
+/// combined by the balance heuristic; the path continues along the material's sample.
 template <class Number>
 rgb radiance(const scene& world, direction from, direction towards, Number& number) {
   rgb sum = rgb::Zero(), carried = rgb::Ones();

@@ -18,10 +18,11 @@ int main() {
   const gonio::design::capture_plan greedy = gonio::design::grow_greedily(candidates, 5);
   const gonio::design::capture_plan best = gonio::design::exchange(candidates, greedy);
   const auto published = gonio::cells_at(cells, gonio::design::nielsen_directions(5));
-  // As fractions of the error expected without any measurement.
+  // Print errors in percent of the error that is expected without any measurement.
   const double nothing = candidates({}) / 100.0;
-  std::printf("expected error: %.1f %% after five chosen one by one, %.1f %% exchanged, %.1f %% of Nielsen et al.\n",
-              greedy.value / nothing, best.value / nothing, candidates(published) / nothing);
+  std::printf(
+      "expected error of five directions: chosen one by one %.1f %%, exchanged %.1f %%, by Nielsen et al. %.1f %%\n",
+      greedy.value / nothing, best.value / nothing, candidates(published) / nothing);
 
   std::printf("theta_i  phi_i  theta_o  phi_o, degrees\n");
   for (const Eigen::Index cell : best.candidates) {

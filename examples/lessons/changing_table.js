@@ -13,7 +13,7 @@ class changing_table {
     this.scale = 1;
   }
 
-  // As the viewer takes it.
+  // Returns the table in the viewer's form.
   get shown() { return { grid: this.cells.grid, shift: 0.5 - this.cells.offset, scale: 16384 * this.scale, texels: this.texels }; }
 
   take(values) {
@@ -26,7 +26,7 @@ class changing_table {
     }
   }
 
-  // In the place of the table that the view has in a texture: 0, or 1 where the truth has its own.
+  // Replaces the table in a texture of the view: unit 0, or 1 where the truth has its own.
   show_in(view, unit = 0) {
     const { gl } = view, [heights, rows, columns] = this.cells.grid;
     gl.activeTexture(gl.TEXTURE0 + unit);

@@ -101,7 +101,7 @@ PAGE_CALLS(take_prior) void take_prior(std::size_t bytes) {
   first_components = prior->truncated(shown_components);
 }
 
-/// Leaves: for each shown component, the standard deviation of its weights, then its fraction of the variance.
+/// Leaves: the standard deviations of the shown components' weights, then the components' fractions of the variance.
 PAGE_CALLS(describe_components) void describe_components() {
   const Eigen::VectorXd deviations = gonio::weight_deviations(prior->coefficients());
   const Eigen::VectorXd shares = gonio::variance_shares(*prior);
@@ -144,8 +144,9 @@ PAGE_CALLS(tabulate_material) const float* tabulate_material(Eigen::Index materi
   return table.values().data();
 }
 
-/// Finds: red, green and blue of the colour, which share of it is the highlight's (of metal all, of paint none), the
-/// reflectance of a paint's highlight at normal incidence, and the roughness alpha. Returns the same of this model.
+/// Finds: red, green and blue of the colour, the share of it that the highlight has (1 for metal, 0 for paint), the
+/// reflectance of a paint's highlight at normal incidence, and the roughness alpha. Returns the reflectance of each
+/// valid cell as `tabulate` does.
 PAGE_CALLS(tabulate_model) const float* tabulate_model() {
   static gonio::brdf_table table(prior->cells());
   table = gonio::tabulate(model_in_buffer(), table.cells());
@@ -158,16 +159,16 @@ PAGE_CALLS(material_curve) void material_curve(Eigen::Index material) {
   leave_curve(gonio::fitted_brdf(*prior, prior->weights_of(material)));
 }
 
-/// Finds: the model as `tabulate_model` does. Leaves: the same of it.
+/// Finds: the model as `tabulate_model` does. Leaves: red, green and blue of the model along the curve.
 PAGE_CALLS(model_curve) void model_curve() {
   const auto model = model_in_buffer();
   buffer.clear();
   leave_curve(model);
 }
 
-/// Finds: theta_i, phi_i, theta_o and phi_o of each direction. Delta E of a sphere of a formula material (0: red-paint,
-/// 1: blue-rubber), measured there and reconstructed by so many components as gonio reconstruct does it:
-/// examples/learn/why_twenty.cpp.
+/// Finds: theta_i, phi_i, theta_o and phi_o of each measurement. Returns Delta E of a sphere of a formula material (0:
+/// red-paint, 1: blue-rubber), measured in these directions and reconstructed with this number of components as gonio
+/// reconstruct does: examples/learn/why_twenty.cpp.
 PAGE_CALLS(delta_e) double delta_e(int material, Eigen::Index components) {
   static const gonio::appearance_metric appearance(gonio::valid_cells(gonio::grid({90, 30, 36})));
   static const std::array names{"red-paint", "blue-rubber"};

@@ -21,7 +21,7 @@ function tile(name, choose) {
   return { canvas, button };
 }
 
-// Draws every tile by one view, which a hidden canvas has.
+// Draws every tile through one view on a hidden canvas.
 async function fill_tiles(computed, tiles) {
   const table = new changing_table(computed.cells());
   const canvas = element("canvas", { width: 96, height: 96 });

@@ -1,4 +1,4 @@
-// The pictures of docs/learn that stand where the site has a page that computes: for paper, and for GitHub.
+// Draws the images of docs/learn that replace the site's interactive pages on paper and on GitHub:
 //   cmake -D OUTPUT=FOLDER -P cmake/lessons.cmake && node examples/lessons/pictures.mjs TOOL FOLDER
 // writes lesson-*.png to FOLDER. Needs chromium, and npm ci in examples/report.
 import { join } from "node:path";
@@ -7,7 +7,7 @@ import { folder, gonio, launch, open, ready, repository } from "../report/test/b
 const at = (name) => join(folder, name);
 const browser = await launch();
 
-// The page of a material, measured as the site has it.
+// Opens the report of a material, measured as on the site.
 async function open_report(name) {
   gonio("expand", "--name", name, "-o", at("truth.binary"));
   gonio("sample", at("truth.binary"), "--directions", join(repository, "examples/data/nielsen-20.csv"), "--noise", "0.02", "-o", at("samples.csv"));
@@ -17,7 +17,7 @@ async function open_report(name) {
   return page;
 }
 
-// The viewer's image, with its labels, as other controls would show it.
+// Returns the viewer's image with its labels, for another state of its controls.
 async function image_of(page, state) {
   await page.evaluate((state) => {
     Object.assign(viewer.state, state);
@@ -28,7 +28,7 @@ async function image_of(page, state) {
   return `data:image/png;base64,${(await page.locator(".viewer .image").screenshot()).toString("base64")}`;
 }
 
-// Images in a row, each with what it shows.
+// Writes images in a row, each with a caption.
 async function write_row(name, shown) {
   const page = await browser.newPage({ viewport: { width: 320 * shown.length, height: 600 }, colorScheme: "light" });
   const figures = shown.map(([image, text]) => `<figure><img src="${image}" width="300"><figcaption>${text}</figcaption></figure>`);
@@ -51,7 +51,7 @@ await write_row("lesson-twenty.png", [
   [await image_of(gold, { truth: 0, known: true }), "how well known: light to 2 %, dark to 100 %"],
 ]);
 
-// A part of a page that computes, once it has computed and something was changed.
+// Writes an image of a part of an interactive page, after its computation and a change.
 async function write_part(name, file, part, wait, change) {
   const { page } = await open(browser, at(file), { colorScheme: "light", viewport: { width: 900, height: 900 } });
   await wait(page);

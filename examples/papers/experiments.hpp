@@ -21,6 +21,7 @@ void add_components(command& app);
 void add_eta(command& app);
 void add_model_properties(command& app);
 void add_model_recovery(command& app);
+void add_anisotropic(command& app);
 void add_laboratory(command& app);
 void add_importance_sampling(command& app);
 void add_measured_intervals(command& app);
@@ -30,6 +31,7 @@ void add_scattered_samples(command& app);
 void add_spectra(command& app);
 void add_shape_poses(command& app);
 void add_shape_fields(command& app);
+void add_shape_causes(command& app);
 void add_svbrdf(command& app);
 void add_streamed_learning(command& app);
 void add_run(command& app);
@@ -48,7 +50,6 @@ void add_design_experiment(command& app, const team& processes);
 void add_in_plane(command& app, const team& processes);
 void add_near_field_photographs(command& app, const team& processes);
 void add_sphere_photograph(command& app, const team& processes);
-/// Adds all of these.
 void add_resumable(command& app, const team& processes);
 
 }  // namespace papers

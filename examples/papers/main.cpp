@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   papers::add_eta(app);
   papers::add_model_properties(app);
   papers::add_model_recovery(app);
+  papers::add_anisotropic(app);
   papers::add_laboratory(app);
   papers::add_importance_sampling(app);
   papers::add_measured_intervals(app);
@@ -30,6 +31,7 @@ int main(int argc, char** argv) {
   papers::add_spectra(app);
   papers::add_shape_poses(app);
   papers::add_shape_fields(app);
+  papers::add_shape_causes(app);
   papers::add_svbrdf(app);
   papers::add_streamed_learning(app);
   papers::add_resumable(app, cli::alone());

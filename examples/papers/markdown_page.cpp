@@ -20,6 +20,7 @@ namespace papers {
 namespace {
 
 constexpr std::size_t line_width = 120;
+constexpr std::size_t most_rows = 25;  // of a table that is not folded
 
 /// Returns whether an argument names an option that does not change the output.
 bool is_left_out(const std::string& argument) {
@@ -63,6 +64,47 @@ std::string wrapped(const std::string& text) {
     }
     all += line + '\n';
   }
+  return all;
+}
+
+/// Returns the first three columns of a table's first line: "method, data, outliers, ...".
+std::string column_names(const std::string& header) {
+  std::string names;
+  std::istringstream cells(header.substr(1));
+  std::size_t count = 0;
+  for (std::string cell; std::getline(cells, cell, '|') && count < 4;) {
+    const std::size_t first = cell.find_first_not_of(' ');
+    if (first == std::string::npos) continue;
+    const std::string name = cell.substr(first, cell.find_last_not_of(' ') + 1 - first);
+    names += (count == 0 ? "" : ", ") + (count < 3 ? name : "...");
+    ++count;
+  }
+  return names;
+}
+
+/// Folds long tables: GitHub and the site show a line to click on.
+std::string folded(const std::string& text) {
+  std::string all;
+  std::vector<std::string> table;
+  const auto end_table = [&] {
+    const bool is_long = table.size() > most_rows + 2;
+    if (is_long)
+      all += "<details markdown=\"1\">\n<summary>" + std::to_string(table.size() - 2) +
+             " rows: " + column_names(table.front()) + "</summary>\n\n";
+    for (const std::string& row : table) all += row + '\n';
+    if (is_long) all += "\n</details>\n";
+    table.clear();
+  };
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('|')) {
+      table.push_back(line);
+      continue;
+    }
+    end_table();
+    all += line + '\n';
+  }
+  end_table();
   return all;
 }
 
@@ -112,7 +154,7 @@ class keeping_buffer : public std::streambuf {
   std::string kept_;
 };
 
-/// Returns the text that the work prints to standard output, where it also appears.
+/// Runs the work, and returns the text that it prints to standard output. The text also appears there.
 std::string printed_by(const std::function<void()>& work) {
   keeping_buffer buffer(*std::cout.rdbuf());
   struct redirection {
@@ -165,7 +207,7 @@ markdown_page::markdown_page(int argc, char** argv, std::string version)
 
 void markdown_page::add_option(command& to) {
   to.add_output("--markdown", path_, {".md"},
-                "Page whose block for this command is replaced by what is printed (it starts with <!-- COMMAND -->)");
+                "Page in which the output replaces the block of this command (the block starts with <!-- COMMAND -->)");
 }
 
 std::string markdown_page::origin(double seconds) const {
@@ -188,7 +230,7 @@ void markdown_page::around(const std::function<void()>& work) const {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   // Read the page again: it may have changed in the meantime.
-  const std::string content = '\n' + wrapped(trimmed(printed)) + '\n' + wrapped(origin(seconds));
+  const std::string content = '\n' + folded(wrapped(trimmed(printed))) + '\n' + wrapped(origin(seconds));
   const std::string page = with_block(read_text(path_), path_, command, content);
   gonio::io::write_atomically(path_, std::as_bytes(std::span(page)));
 }

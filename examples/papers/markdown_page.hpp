@@ -5,8 +5,8 @@
 ///     ... what the command printed, and when ...
 ///     <!-- end of gonio-papers -->
 ///
-/// Its first line names the command: options in the order given, files without folders, and without `--markdown`,
-/// `--state` and `--threads`, which do not change the output.
+/// The first line names the command: options in the order given, files without folders, and without `--markdown`,
+/// `--state` and `--threads`, which do not change the output. Tables of more than 25 rows are folded.
 
 #include "papers/experiments.hpp"
 

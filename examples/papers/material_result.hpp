@@ -8,7 +8,6 @@
 
 namespace papers {
 
-/// The errors of one reconstructed material.
 struct material_result {
   std::string name;
   gonio::comparison errors;

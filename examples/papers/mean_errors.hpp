@@ -12,7 +12,6 @@ namespace papers {
 /// Returns the means of all measures over materials, with the keys of `gonio compare --json`.
 [[nodiscard]] json mean_errors(std::span<const material_result> results);
 
-/// Returns the errors of each material by its name.
 [[nodiscard]] json errors_by_name(std::span<const material_result> results);
 
 }  // namespace papers

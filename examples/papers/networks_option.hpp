@@ -10,7 +10,6 @@
 
 namespace papers {
 
-/// Adds the required option `--networks FILE`.
 inline void add_networks_option(command& to, std::filesystem::path& networks) {
   to.add_input("--networks", networks, "File of networks of the 100 materials (.npy)").required();
 }
@@ -24,13 +23,11 @@ struct studied_networks {
   [[nodiscard]] gonio::valid_cells cells() const { return thin.of(gonio::valid_cells()); }
 };
 
-/// Adds the required option `--networks FILE`, and `--thin N M`.
 inline void add_networks_option(command& to, studied_networks& networks) {
   add_networks_option(to, networks.file);
   add_thin_option(to, networks.thin);
 }
 
-/// Adds `-n,--counts N ...`.
 inline void add_counts_option(command& to, std::vector<Eigen::Index>& counts) {
   to.add_option("-n,--counts", counts, "Numbers of measurements").check(check::positive_number()).capture_default_str();
 }

@@ -22,7 +22,8 @@ std::string left_in(const std::filesystem::path& path) {
 }  // namespace
 
 void add_resumable_options(cli::command& to, resumable_options& options) {
-  to.add_output("--state", options.state, {}, "File that keeps what is done; an interrupted run goes on from it");
+  to.add_output("--state", options.state, {},
+                "File that keeps the results; a later run computes only those that are missing");
   cli::add_threads_option(to, options.threads);
 }
 

@@ -18,9 +18,9 @@ namespace papers {
 
 using cli::json;
 
-/// Options of experiments with such results.
+/// Options of experiments with resumable results.
 struct resumable_options {
-  std::filesystem::path state;  ///< the file; none if empty
+  std::filesystem::path state;  ///< the file that keeps results; none if empty
   gonio::thread_count threads;
   const cli::team* processes = &cli::alone();
 
@@ -28,7 +28,6 @@ struct resumable_options {
   [[nodiscard]] bool prints() const { return processes->writes(); }
 };
 
-/// Adds `--state` and `--threads`.
 void add_resumable_options(cli::command& to, resumable_options& options);
 
 /// Runs the same work in all processes, each with its share of the machine's cores.
@@ -53,12 +52,12 @@ void run_and_print(const Options& options, const Print& print) {
   print(found);
 }
 
-/// Results from earlier runs in a file, one JSON object per line, and new results, which are appended immediately.
-/// Without a file they are only kept in memory.
+/// Keeps results in a file, one JSON object per line: reads those of earlier runs, and appends new ones immediately.
+/// Without a file, keeps them only in memory.
 ///
 /// All processes of a team run the same loop over the same keys. Each computes only the work of its own turns. The
-/// process that writes has all results, in the order of the loop. The others have null for foreign turns, and print
-/// nothing.
+/// process that writes has all results, in the order of the loop. Each other process has null for the turns of others,
+/// and prints nothing.
 class resumable_results {
  public:
   /// The writing process opens the file. Throws gonio::error if it cannot.
@@ -68,7 +67,7 @@ class resumable_results {
   /// example a material. Throws gonio::error if that process worked on another key.
   const json& once(const json& key, std::size_t turn, const std::function<json()>& work);
 
-  /// Returns null if there is no such result in this process.
+  /// Returns the result for `key`, or null if this process does not have it.
   [[nodiscard]] const json* find(const json& key) const;
   /// Returns whether this process does the work of a turn.
   [[nodiscard]] bool is_own(std::size_t turn) const { return turn % processes_.size() == processes_.number(); }

@@ -44,7 +44,7 @@ def scene_of(bsdf, size):
 
 
 def error_of(prior, weights, truth):
-    """Returns the mean Delta E of a sphere in an environment, unlike the image's light."""
+    """Returns the mean Delta E of a sphere, in an environment other than the image's light."""
     return gonio.compare(prior.brdf(weights), truth)["delta_e_env"]
 
 
@@ -55,13 +55,13 @@ def display(image):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("truth", help="MERL file of the material")
-    parser.add_argument("--prior", help="learned without the material; by default the prior that ships")
-    parser.add_argument("--components", type=int, default=20)
-    parser.add_argument("--size", type=int, default=96, help="of the image, pixels")
-    parser.add_argument("--samples", type=int, default=16, help="of each pixel and step")
-    parser.add_argument("--steps", type=int, default=300)
-    parser.add_argument("--rate", type=float, default=0.005, help="Adam's")
-    parser.add_argument("--penalty", type=float, default=3.0, help="times the squared weights")
+    parser.add_argument("--prior", help="prior learned without the material (default: the prior that ships with gonio)")
+    parser.add_argument("--components", type=int, default=20, help="number of the prior's components to fit")
+    parser.add_argument("--size", type=int, default=96, help="width and height of the image in pixels")
+    parser.add_argument("--samples", type=int, default=16, help="samples per pixel in each step")
+    parser.add_argument("--steps", type=int, default=300, help="number of steps")
+    parser.add_argument("--rate", type=float, default=0.005, help="learning rate of Adam")
+    parser.add_argument("--penalty", type=float, default=3.0, help="factor of the mean squared weight in the loss")
     parser.add_argument("-o", "--output", required=True, help="image to write")
     arguments = parser.parse_args()
 

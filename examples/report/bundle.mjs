@@ -1,5 +1,5 @@
-// npm run bundle: writes bundle.js, what report.js draws with, and bundle.LICENSE.txt, the licences of what is in it,
-// which bundle.js begins with: they ask for it, and the bundle is copied into every page.
+// npm run bundle: writes bundle.js, the parts of Observable Plot and D3 that report.js needs, and bundle.LICENSE.txt,
+// their licences. bundle.js begins with the licences: they require it, and every page contains the bundle.
 import { build } from "esbuild";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 

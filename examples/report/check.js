@@ -4,7 +4,7 @@ const signed_percent = (share) => `${share >= 0 ? "+" : "\u2212"}${Number((100 *
 const probability = (value) => (value < 1e-4 ? "p < 0.0001" : `p = ${digits(value)}`);
 const relative = (mapped) => Math.expm1(mapped);
 
-// Each direction with the channel that is off most.
+// Returns each direction with its channel that differs most.
 function compared_directions() {
   return data.check.directions.map((each) => {
     const off_by = each.mapped_difference.map((difference, c) => difference / each.mapped_deviation[c]);

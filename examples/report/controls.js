@@ -1,5 +1,5 @@
 
-// What stands beside the viewer's image: sliders, choices and files, which set viewer.state and call changed().
+// The controls beside the viewer's image: sliders, choices and files, which set viewer.state and call changed().
 
 const in_degrees = (value) => `${Math.round(value)}\u00b0`;
 
@@ -11,14 +11,14 @@ function slider(label, key, [min, max, step], told, changed) {
   return { show, row: element("label", {}, element("span", {}, label), input, output) };
 }
 
-// `options` are pairs of a value of the state and what it is called.
+// `options` are pairs of a value of the state and its name.
 function choice(label, key, options, changed, state = viewer.state) {
   const select = element("select", {}, ...options.map(([value, name]) => element("option", { value }, name)));
   select.addEventListener("input", () => { state[key] = options[select.selectedIndex][0]; changed(); });
   return element("label", {}, element("span", {}, label), select);
 }
 
-// A file of the reader's own, and a slider that turns it; both are shown while a model is.
+// Returns the choice of a model's file and a slider that turns the model. Both are visible while the shape is a model.
 function model_rows(changed) {
   const input = element("input", { type: "file", accept: ".obj" }), problem = element("output");
   input.addEventListener("change", async () => {
@@ -34,7 +34,8 @@ function model_rows(changed) {
   return { rows: [element("label", {}, element("span", {}, "File (.obj)"), input, problem), turn.row], show: turn.show };
 }
 
-// A lamp, or an environment: a room, or a light probe of the reader's own. `surround` makes ready for the second.
+// Returns the choice of light: a lamp, or an environment, which is a room or a file with a light probe. `surround`
+// prepares the viewer for environments.
 function light_rows(changed, surround) {
   const input = element("input", { type: "file", accept: ".hdr" }), problem = element("output", { className: "problem" });
   const lights = choice("Light", "light", [["lamp", "lamp"], ["environment", "environment"]], () => {
@@ -70,14 +71,14 @@ function light_rows(changed, surround) {
   };
 }
 
-// How much of the truth is shown: on the right of a border, or mixed with the fit.
+// Returns the choice of the truth's share: on the right of a border, or mixed with the fit.
 function truth_rows(changed) {
   const share = slider("Truth", "truth", [0, 100, 1], (value) => `${value} %`, changed);
   const shown = choice("Truth is shown", "blends", [[false, "beside the fit"], [true, "blended with the fit"]], changed);
   return { rows: [shown, share.row], show: share.show };
 }
 
-// Uncertainty is that of one pair of directions: it needs the lamp.
+// Returns the switch of uncertainty. A pair of directions has an uncertainty: this needs the lamp.
 function known_rows(changed) {
   const known = element("input", { type: "checkbox" });
   known.addEventListener("input", () => { viewer.state.known = known.checked; changed(); });

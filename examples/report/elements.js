@@ -1,4 +1,4 @@
-// What every page is made of: elements, tables, and charts whose parts have no names.
+// The elements, tables and images of every page.
 
 const page = document.getElementById("page");
 
@@ -15,7 +15,7 @@ function table(head, rows, caption) {
     element("tbody", {}, ...rows.map((cells) => row(cells, "td"))));
 }
 
-// The parts of an image have no names of their own: what Plot calls its marks is kept, for style and tests.
+// Hides Plot's names of marks from screen readers; data-mark keeps them for style and tests.
 function without_names(image) {
   for (const mark of image.querySelectorAll("g[aria-label]")) {
     mark.dataset.mark = mark.getAttribute("aria-label");

@@ -1,5 +1,5 @@
 
-// Light from all around: latitude-longitude images as include/gonio/render/environment_map.hpp has them. Directions are
+// Light of an environment, a latitude-longitude image as in include/gonio/render/environment_map.hpp. Directions are
 // drawn by importance of the material and of the light and combined by the balance heuristic, as gonio render does
 // (include/gonio/render/sampled_sphere.hpp): E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte
 // Carlo Rendering", SIGGRAPH 1995.
@@ -8,15 +8,15 @@ const last_frame = 256, lobe_bins = 90;
 
 // ---- shaders ---------------------------------------------------------------------------------------------------
 const environment_shading = `
-uniform sampler2D surroundings;  // radiance, and the share of a row's light up to a pixel and with it
-uniform sampler2D rows;          // in w the share of all light up to a row and with it
-uniform sampler2D lobes;         // of fit and truth over theta_h: density in sr^-1 over cos theta_h, and in w shares
+uniform sampler2D surroundings;  // radiance; in w the share of the row's light up to and including a pixel
+uniform sampler2D rows;          // in w the share of all light up to and including a row
+uniform sampler2D lobes;         // fit and truth over theta_h: density in sr^-1 divided by cos theta_h; in w shares
 uniform float total_light, around;
 uniform int frame;
 
 vec3 turned(float by, vec3 v) { return vec3(cos(by) * v.x + sin(by) * v.z, v.y, cos(by) * v.z - sin(by) * v.x); }
 
-// From a direction: radiance, and the density in sr^-1 with which light_direction draws it.
+// Returns the radiance from a direction, and the density in sr^-1 with which light_direction draws it.
 vec4 light_from(vec3 towards) {
   vec3 d = turned(-around, towards);
   vec2 size = vec2(textureSize(surroundings, 0));
@@ -25,7 +25,7 @@ vec4 light_from(vec3 towards) {
   return vec4(radiance, dot(radiance, vec3(0.2126, 0.7152, 0.0722)) / total_light);
 }
 
-// Where a share falls in a line of rising shares, counted in texels.
+// Returns the position of a share in a line of increasing shares, in texels.
 float place_of(sampler2D shares, int line, float share) {
   int low = 0, high = textureSize(shares, 0).x - 1;
   while (low < high) {
@@ -41,7 +41,8 @@ float place_of(sampler2D shares, int line, float share) {
 vec3 light_direction(vec2 u) {
   float row = place_of(rows, 0, u.x), step = pi / float(textureSize(surroundings, 0).y);
   float column = place_of(surroundings, int(row), u.y), l = column * step - pi;
-  // Within a row all heights alike, as solid angle has it: cos a - fract (cos a - cos b), without cancellation.
+  // Within a row all heights are equally likely, as solid angles are: cos a - fract (cos a - cos b), without
+  // cancellation.
   float top = floor(row) * step, height = cos(top) - fract(row) * 2.0 * sin(top + 0.5 * step) * sin(0.5 * step);
   float across = sqrt(max(1.0 - height * height, 0.0));
   return turned(around, vec3(across * sin(l), height, -across * cos(l)));
@@ -52,7 +53,7 @@ float sine_of_bin(float bin) {
   return sin(0.5 * pi * share * share);
 }
 
-// A direction that light is reflected from, by a half vector where the material is bright.
+// Draws a direction of light by its half vector, more often where the material is bright.
 vec3 lobe_direction(float truth_share, vec3 n, vec3 wo, vec2 u) {
   int line = u.x < truth_share ? 1 : 0;
   u.x = line == 1 ? u.x / truth_share : (u.x - truth_share) / (1.0 - truth_share);
@@ -63,7 +64,7 @@ vec3 lobe_direction(float truth_share, vec3 n, vec3 wo, vec2 u) {
   return 2.0 * dot(wo, h) * h - wo;
 }
 
-// The density in sr^-1 with which lobe_direction draws wi.
+// Returns the density in sr^-1 with which lobe_direction draws wi.
 float lobe_density(float truth_share, vec3 n, vec3 wi, vec3 wo) {
   vec3 sum = wi + wo;
   float theta_h = atan(length(cross(n, sum)), dot(n, sum)), size = float(textureSize(lobes, 0).x);
@@ -80,8 +81,8 @@ uvec3 random(uvec3 v) {  // M. Jarzynski and M. Olano, "Hash Functions for GPU R
   return v;
 }
 
-// Steps by the powers of the root of t^5 = t + 1, which fill four dimensions evenly (M. Roberts, "The Unreasonable
-// Effectiveness of Quasirandom Sequences", 2018), from a place drawn at random for each pixel.
+// Returns a point of a sequence that fills four dimensions evenly (M. Roberts, "The Unreasonable Effectiveness of
+// Quasirandom Sequences", 2018): steps of t^-1 to t^-4 with t^5 = t + 1, from a random start for each pixel.
 vec4 even_numbers(int number) {
   uvec3 one = random(uvec3(gl_FragCoord.xy, 1)), other = random(uvec3(gl_FragCoord.xy, 2));
   vec4 first = vec4(one.xy >> 8, other.xy >> 8) / 16777216.0;
@@ -96,7 +97,7 @@ vec3 reflected(float truth_share, vec3 n, vec3 wi, vec3 wo) {
   return density > 0.0 ? reflectance(truth_share, n, wi, wo) * light.rgb * (cosine / density) : vec3(0.0);
 }
 
-// The mean of two directions by the material and two by the light.
+// Returns the radiance seen, estimated from two directions drawn by the material and two by the light.
 vec3 seen_all_around(float truth_share, vec3 n, vec3 wo) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 2; ++i) {
@@ -118,7 +119,7 @@ function direction_in(rows, row, column) {
   return [Math.sin(t) * Math.sin(l), Math.cos(t), -Math.sin(t) * Math.cos(l)];
 }
 
-// A room with six windows, and outside a sky with a sun, which stands in one of them.
+// Returns a room with six windows. Outside is a sky; the sun is in one of the windows.
 function room_with_windows(rows = 128) {
   const columns = 2 * rows, radiance = new Float32Array(3 * rows * columns), sun = [0.5, 0.6, 0.6245];
   const from_middle = (value, step) => Math.abs(value - step * Math.floor(value / step) - step / 2);
@@ -133,8 +134,8 @@ function room_with_windows(rows = 128) {
   return { rows, columns, radiance };
 }
 
-// Of a map as read_hdr returns it: what the shader draws directions by, and the mean luminance of a white Lambertian
-// sphere, by which gonio render exposes. O(pixels).
+// Returns the shares by which the shader draws directions, and the mean luminance of a white Lambertian sphere, by
+// which gonio render exposes, of a map as read_hdr returns it. O(pixels).
 function light_of({ rows, columns, radiance }) {
   const pixels = new Float32Array(4 * rows * columns), reached = new Float32Array(4 * rows), sums = [];
   let total = 0, white = 0;
@@ -153,7 +154,7 @@ function light_of({ rows, columns, radiance }) {
   return { rows, columns, pixels, reached, total, white };
 }
 
-// Of a table as read_table returns it, for equal steps of the root of theta_h: four numbers as the shader has them.
+// Returns the lobe of a table of read_table: four numbers, as the shader reads them, for equal steps of sqrt(theta_h).
 function lobe_of_halves({ grid: [heights, ...others], texels }) {
   const count = others[0] * others[1], line = new Float32Array(4 * lobe_bins), means = [];
   for (let row = 0; row < heights; ++row) {
@@ -175,7 +176,7 @@ function lobe_of_halves({ grid: [heights, ...others], texels }) {
 }
 
 // ---- accumulation ----------------------------------------------------------------------------------------------
-// A texture of four floats a pixel, which is read as it is.
+// Returns a texture of four floats per pixel, read without interpolation.
 function float_texture(gl, unit, width, height, values) {
   const texture = gl.createTexture();
   if (Math.max(width, height) > gl.getParameter(gl.MAX_TEXTURE_SIZE)) throw new Error(`${width} x ${height} pixels are too many for this browser`);
@@ -186,7 +187,7 @@ function float_texture(gl, unit, width, height, values) {
   return texture;
 }
 
-// Frames of a view in an environment, added in two textures by turns. Throws Error where the browser cannot.
+// Adds the frames of a view in an environment, in two textures by turns. Throws Error if the browser cannot.
 class surrounded_view {
   constructor(view, { table, truth }) {
     const { gl } = view;
@@ -200,7 +201,7 @@ class surrounded_view {
     this.take(room_with_windows());
   }
 
-  // `map` as read_hdr returns it.
+  // Changes the environment to `map`, as read_hdr returns it.
   take(map) {
     const { gl } = this, { rows, columns, pixels, reached, total, white } = light_of(map);
     const made = [float_texture(gl, 3, columns, rows, pixels), float_texture(gl, 4, rows, 1, reached)];

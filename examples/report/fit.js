@@ -1,6 +1,6 @@
 // The parts of the page of gonio fit --report: an analytic model of samples or of a table.
 
-// The median of the distances between measurement and model, relative to the model.
+// Returns the median difference of luminance between measurement and model, relative to the model.
 function median_distance() {
   const all = data.samples.map((each) => Math.abs(luminance(each.measured) / luminance(each.fit) - 1)).filter(Number.isFinite).sort((a, b) => a - b);
   return all.length ? all[Math.floor(all.length / 2)] : NaN;

@@ -1,20 +1,23 @@
 
-// Light probes of the reader: Radiance pictures (.hdr), which have a shared exponent in the fourth byte of a pixel.
+// Reads light probes: Radiance images (.hdr), whose pixels have a shared exponent in the fourth byte.
 
 const most_hdr_pixels = 2 ** 23;
 
-// The rows and columns that the header tells, and where the pixels begin.
+// Returns the rows and columns that the header states, and the position of the first pixel. Ignores EXPOSURE: the viewer
+// chooses its own exposure.
 function read_hdr_header(bytes) {
   const text = new TextDecoder("latin1").decode(bytes.subarray(0, 4096));
   const found = /^#\?[^]*?\n\n-Y (\d{1,5}) \+X (\d{1,5})\n/.exec(text);
   if (!found) throw new Error("it does not begin as a Radiance picture, from top to bottom");
+  const colour = /^(FORMAT=32-bit_rle_xyze|COLORCORR=.*|PRIMARIES=.*[1-9].*)$/m.exec(found[0]);
+  if (colour) throw new Error(`its header says ${colour[1]}: expected RGB in the standard primaries`);
   const rows = Number(found[1]), columns = Number(found[2]);
   if (columns !== 2 * rows || rows < 1) throw new Error(`${columns} x ${rows} pixels are not twice as wide as high`);
   if (rows * columns > most_hdr_pixels) throw new Error(`more than ${most_hdr_pixels} pixels`);
   return { rows, columns, start: found[0].length };
 }
 
-// Bytes of all pixels, which are packed row by row, or not at all.
+// Returns the four bytes of each pixel. The file packs them row by row, or not at all.
 function unpacked_hdr(bytes, { rows, columns, start }) {
   const rgbe = new Uint8Array(4 * rows * columns);
   let at = start;
@@ -37,7 +40,7 @@ function unpacked_hdr(bytes, { rows, columns, start }) {
   return rgbe;
 }
 
-// Radiance, three numbers a pixel from the top left on. Throws Error where the bytes are not those of a light probe.
+// Returns radiance, three numbers per pixel from the top left on. Throws Error if the bytes are no light probe.
 function read_hdr(bytes) {
   const header = read_hdr_header(bytes), rgbe = unpacked_hdr(bytes, header);
   const radiance = new Float32Array(3 * header.rows * header.columns);

@@ -1,6 +1,6 @@
-// The lobe of the viewer: reflectance over all directions for one of incidence, as a surface in space.
+// The viewer's lobe: reflectance in all directions for one direction of the light, as a surface in space.
 
-// Where a direction is drawn: seen from 22 degrees above the surface, turned about the normal. The last is how near.
+// Projects a point, seen from 22 degrees above the surface and turned about the normal: right, up and nearness.
 function projected([x, y, z], turn) {
   const ahead = radians(22), right = x * Math.cos(turn) - y * Math.sin(turn), back = x * Math.sin(turn) + y * Math.cos(turn);
   return [right, z * Math.cos(ahead) + back * Math.sin(ahead), z * Math.sin(ahead) - back * Math.cos(ahead)];
@@ -8,8 +8,8 @@ function projected([x, y, z], turn) {
 
 const spherical = (theta, phi) => [Math.sin(theta) * Math.cos(phi), Math.sin(theta) * Math.sin(phi), Math.cos(theta)];
 
-// Rows of directions from the normal to 88 degrees, with what is reflected there of light at theta_i, or from there to
-// a view at theta_i.
+// Returns rows of directions from the normal to 88 degrees with the reflectance for light at theta_i. For a view at
+// theta_i, it is the same by reciprocity.
 function lobe_of(reflects, uncertainty, theta_i) {
   const n = [0, 0, 1], wi = spherical(theta_i, 0), rows = 44, columns = 72;
   return Array.from({ length: rows + 1 }, (_, row) => Array.from({ length: columns + 1 }, (_, column) => {
@@ -18,7 +18,7 @@ function lobe_of(reflects, uncertainty, theta_i) {
   }));
 }
 
-// The fields between the directions, those in the back first.
+// Returns the fields between the directions, from back to front.
 function lobe_fields(lobe, radius, turn) {
   const points = lobe.map((row) => row.map((each) => ({ known: each.known, at: each.wo.map((x) => radius(each.value) * x) })));
   const fields = [];
@@ -33,7 +33,7 @@ function lobe_fields(lobe, radius, turn) {
   return fields.sort((a, b) => a.near - b.near);
 }
 
-// As the map of the page has it, and the shader.
+// Returns the colour of an uncertainty, the same as in the page's map and in the shader.
 function colour_of_known(share) {
   const t = Math.min(Math.max(Math.log(share / 0.02) / Math.log(50), 0), 1);
   return [243, 236, 210].map((each, i) => each + t * ([18, 58, 99][i] - each));
@@ -56,7 +56,7 @@ function draw_lobe(canvas, reflects, uncertainty, { theta_i, turn, known }) {
     context.setLineDash([]);
   };
   context.clearRect(0, 0, canvas.width, canvas.height);
-  // The surface, and a circle of largest radius.
+  // The plane of the surface as a circle of largest radius, the normal, and the lobe.
   line(Array.from({ length: 73 }, (_, i) => spherical(Math.PI / 2, radians(5 * i))), colour("--line"));
   line([[0, 0, 0], [0, 0, 1]], colour("--line"));
   for (const { drawn, known: share, shade } of lobe_fields(lobe, (value) => radius(value) / largest, turn)) {
@@ -74,7 +74,7 @@ function draw_lobe(canvas, reflects, uncertainty, { theta_i, turn, known }) {
   return kind;
 }
 
-// A figure of the lobe, which is turned by dragging or arrow keys, and what draws it again for another theta_i.
+// Returns a figure of the lobe, which dragging and arrow keys turn, and a function that draws it again with changes.
 function lobe_figure(reflects, uncertainty) {
   const canvas = element("canvas", { width: 600, height: 460, tabIndex: 0, className: "lobe" }), caption = element("figcaption");
   const state = { theta_i: radians(45), turn: radians(-62), known: false, is_view: false };

@@ -1,15 +1,16 @@
-// Models of the viewer: Wavefront OBJ files, which the reader of the page has on his own disk.
+// Reads models for the viewer: Wavefront OBJ files on the reader's disk.
 
 const most_triangles = 1e6;
 
-// Index of a field such as 3 or -1, from 0; the file's own count from 1, or back from the last.
+// Returns the index, from 0, of a field such as 3, counted from 1, or -1, counted back from the last.
 function obj_index(field, count) {
   const index = Number(field) > 0 ? Number(field) - 1 : count + Number(field);
   if (!Number.isInteger(index) || index < 0 || index >= count) throw new Error(`there is no vertex ${field}`);
   return index;
 }
 
-// Corners of triangles, as indices of a place and of a normal, which may be absent: polygons are fans.
+// Returns places, normals, and the corners of triangles: indices of a place and of a normal, or null without a normal.
+// Polygons become fans of triangles.
 function obj_triangles(text) {
   const places = [], normals = [], corners = [];
   const numbers = (fields) => {
@@ -33,7 +34,7 @@ function obj_triangles(text) {
   return { places, normals, corners };
 }
 
-// Normals of places: the sum of those of their triangles, by area.
+// Returns a normal for each place: the sum of the normals of its triangles, weighted by area.
 function smooth_normals({ places, corners }) {
   const sums = places.map(() => [0, 0, 0]);
   for (let i = 0; i < corners.length; i += 3) {
@@ -44,8 +45,8 @@ function smooth_normals({ places, corners }) {
   return sums;
 }
 
-// Places within the unit sphere and normals of triangles' corners, one after the other. Throws Error where the text is
-// not that of a model.
+// Returns the place, within the unit sphere, and the normal of each corner of the triangles: six numbers per corner.
+// Throws Error if the text is no model.
 function read_obj(text) {
   const model = obj_triangles(text), smooth = smooth_normals(model);
   const used = model.corners.map(([place]) => model.places[place]);
@@ -73,7 +74,7 @@ void main() {
   gl_Position = vec4(at.xy + (1.0 - 2.0 * within_pixel) / size, -0.99 * at.z, 1.0);
 }`;
 
-// Both sides of a triangle are drawn, as the one that the camera sees.
+// Draws both sides of a triangle: seen from behind, its normal is reversed.
 const mesh_main = `
 in vec3 normal;
 void main() {

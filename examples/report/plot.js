@@ -1,2 +1,2 @@
-// What report.js draws with: the marks that it names, so that the bundle holds no others.
+// The functions of Observable Plot that report.js uses: the bundle contains no others.
 export { areaY, axisX, axisY, dot, gridX, gridY, line, plot, rect, ruleX, ruleY, text, tip, pointer, legend } from "@observablehq/plot";

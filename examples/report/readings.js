@@ -1,8 +1,8 @@
-// What a gloss meter, an integrating sphere and a multi-angle instrument would read, and how the measurements of a page
-// are told apart.
+// The readings of a gloss meter, an integrating sphere and a multi-angle instrument, and the lines and dots of a page's
+// measurements.
 
 // ---- measurements ----------------------------------------------------------------------------------------------
-// The page's own, and those that were given beside it, each with its line and its dots.
+// The page's own measurement and those given beside it, each with its own line and dots.
 const others = data.others ?? [];
 const looks = [
   { stroke: "var(--fit)", dot: "var(--ink)", dashes: "none", symbol: "circle" },
@@ -14,7 +14,7 @@ const looks = [
 ];
 const measurements = [{ ...data, name: data.subject ?? data.name }, ...others].map((each, i) => ({ ...each, look: looks[i] }));
 
-// The name of a measurement behind a piece of its line and one of its dots.
+// Returns the name of a measurement after a piece of its line with a dot.
 function named_line({ name, look }) {
   const image = Plot.plot({ width: 38, height: 12, margin: 0, axis: null, x: { domain: [0, 2] }, y: { domain: [-1, 1] }, marks: [
     Plot.line([[0, 0], [2, 0]], { stroke: look.stroke, strokeWidth: 2, strokeDasharray: look.dashes }),
@@ -25,12 +25,12 @@ function named_line({ name, look }) {
 const key_of_measurements = () => (others.length ? [element("p", { className: "key" }, ...measurements.map(named_line))] : []);
 
 // ---- readings --------------------------------------------------------------------------------------------------
-const largest_known = 2; // of a relative deviation: at a factor of 3 a reading is not known
+const largest_known = 2; // relative deviation, a factor of 3, from which on a reading is not known
 
 const one_digit = (value) => value.toFixed(1).replace(/^-0\.0$/, "0.0");
 const share = (value) => `${digits(100 * value)} %`;
 
-// Rows of a name, a value as text, and a relative deviation if that is known.
+// Returns rows of a name, a value as text, and its relative deviation, if known.
 function reading_rows({ gloss, haze_20, luminous_reflectance_8, luminous_reflectance_8_specular_excluded, reflectance_8, colours, known_to }) {
   const known = known_to ?? {}, grey = is_grey(reflectance_8);
   return [
@@ -46,7 +46,8 @@ function reading_rows({ gloss, haze_20, luminous_reflectance_8, luminous_reflect
 const reading_of = ([, value, known]) => (known >= largest_known ? "not known" : value);
 const certainty_of = ([, , known]) => (known === undefined ? "" : known === null ? "-" : percent(known));
 
-// Of one measurement in columns of readings and certainties, of several a column each with both.
+// Returns a table of readings: for one measurement, a column of values and one of certainties; for several, a column
+// with both for each.
 function readings_table() {
   const all = measurements.map((each) => reading_rows(each.readings)), has_certainty = all[0].some(([, , known]) => known !== undefined);
   const both = (row) => element("span", {}, reading_of(row), " ", element("span", { className: "certainty" }, `(${certainty_of(row)})`));

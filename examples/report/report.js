@@ -1,5 +1,5 @@
-// The pages of gonio report, and of --report of other commands: draws their data. Text of files becomes text nodes,
-// never HTML. check.js and design.js have the parts that are theirs alone; readings.js and scans.js those of fits.
+// Draws the pages of gonio report and of --report of other commands. Text of files becomes text nodes, never HTML.
+// check.js, design.js and fit.js have the parts of their own pages, readings.js and scans.js the parts of fits.
 
 // ---- numbers --------------------------------------------------------------------------------------
 const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -11,7 +11,7 @@ const is_grey = (value) => value[0] === value[1] && value[1] === value[2];
 
 const add = (...children) => page.append(...children);
 
-// A chart that tells what it shows.
+// Gives a chart a description for screen readers.
 function described(chart, description) {
   const image = chart.tagName === "svg" ? chart : chart.querySelector("svg:last-of-type");
   image.setAttribute("role", "img");
@@ -19,7 +19,7 @@ function described(chart, description) {
   without_names(image);
   return chart;
 }
-// Charts with a caption, and their values as a table: whoever cannot see the ones reads the other.
+// Returns charts with a caption and with a table of their values, for those who cannot see the charts.
 function captioned(charts, caption, head, rows) {
   return element("figure", {}, charts, element("figcaption", {}, caption),
     element("details", {}, element("summary", {}, "Values"), element("div", { className: "scroll" }, table(head, rows))));
@@ -39,7 +39,8 @@ function told(each) {
   if (each.disagrees) lines.push("disagrees with the others");
   return lines.join("\n");
 }
-// Samples as dots, and those that disagree as crosses with their numbers; `others` have a tip as well.
+// Draws samples as dots, and those that disagree as crosses, with numbers if there are at most four. Samples and
+// `others` have tips.
 function samples_as_marks(samples, x, y, others = []) {
   const wrong = samples.filter(is_off);
   return [
@@ -78,26 +79,27 @@ function answer() {
   const { details, count } = data;
   const words = element("div", {},
     paragraph(`Half of all directions are known to ${percent(details.known_to)}.`, "headline"),
-    paragraph(`Half of those beyond 80\u00b0 are known to ${percent(details.known_to_beyond_80_degrees)}; the highlight ` +
+    paragraph(`Half of the directions more than 80\u00b0 from the normal are known to ${percent(details.known_to_beyond_80_degrees)}; the highlight ` +
       (details.highlight_known_to_factor > 100 ? "is not known." : `to a factor of ${digits(details.highlight_known_to_factor)} (95 of 100 cases).`)),
     verdict(),
     paragraph(`From ${count} ${count === 1 ? "sample" : "samples"}. \u201cKnown to 6 %\u201d: in 68 of 100 cases the true value is ` +
-      "within 6 % of the fit, for materials like those that the prior knows. Of a reading it is the certainty in the direction of the receptor\u2019s " +
-      "centre, of reflectance that of all directions together; \u201cnot known\u201d is a factor of 3 or more.", "soft"));
-  const repeats = /^sample \d+ disagrees/; // which the verdict says
+      "within 6 % of the fit, for materials like those of the prior. Gloss, haze and colours are as certain as the fit in the direction of the " +
+      "receptor\u2019s centre; the certainty of reflectance assumes that all directions are off together. \u201cNot known\u201d is a factor of 3 or more.", "soft"));
+  const repeats = /^sample \d+ disagrees/; // the verdict has these
   for (const sentence of data.warnings.filter((each) => !repeats.test(each))) words.append(paragraph("Note: " + sentence, "soft"));
   add(element("h1", {}, data.name), sphere_and_readings("A sphere of the reconstructed material under two lights"), words);
 }
 
 // ---- where ----------------------------------------------------------------------------------------------------
-// The axes of maps over half and difference angles: the square root, so that the highlight is not a line.
+// The axes of maps over half and difference angle. theta_h has the scale of its square root, which widens the
+// highlight.
 const angle_axes = {
   width: 1040, height: 430, marginLeft: 50, marginBottom: 42,
   x: { type: "sqrt", domain: [0, 90], ticks: [0, 1, 2, 5, 10, 20, 30, 45, 60, 75, 90], label: "half angle theta_h, degrees from the normal" },
   y: { domain: [0, 90], ticks: [0, 15, 30, 45, 60, 75, 90], label: "difference angle theta_d, degrees" },
 };
 
-// Fields of a map of how well directions are known, each with its number.
+// Returns the fields of a map of uncertainty, each with its number.
 function fields_of_map(map) {
   const cells = map.map((each) => ({ ...each, percent: 100 * each.known_to }));
   return { cells, scale: { type: "log", domain: [2, 100], clamp: true, range: ["#f3ecd2", "#123a63"], interpolate: "rgb" }, marks: [
@@ -141,15 +143,15 @@ function residuals() {
   const shown = data.samples.map((each) => ({ ...each, residual: residual(each), grazing: Math.max(each.theta_i, each.theta_o) }))
     .filter((each) => Number.isFinite(each.residual));
   add(element("h2", {}, "Residuals by direction"),
-    paragraph(of_the_first() + (has_others ? "By how many deviations each sample is above or below what all others say of it. 95 of 100 should be in the band."
+    paragraph(of_the_first() + (has_others ? "By how many deviations each sample is above or below its prediction from all others. 95 of 100 should be in the band."
       : `By how many percent each ${data.of_table ? "value of the table in these planes" : "sample"} is above or below the fit` +
         (data.samples.length < data.count ? `; ${data.samples.length} of ${data.count} samples: 1000 at random${data.kind === "fit" ? "." : ", and the worst."}` : "."))));
   residual_charts(shown, { title: "Residuals", unit: has_others ? "deviations" : "percent", has_band: has_others, tip: told,
     head: ["measured", has_others ? "the others" : "fit"], values: (each) => [each.measured, has_others ? each.others : each.fit] });
 }
 
-// What directions are off, against the half angle and against the larger angle from the normal. `shown` has a residual
-// and `grazing` for each; the table has its values below `head`.
+// Draws residuals against the half angle and against the larger angle from the normal: `residual` and `grazing` of each
+// of `shown`. The table has `values(each)` below `head`.
 function residual_charts(shown, { title, unit, has_band, tip, head, values }) {
   const largest = Math.max(3, ...shown.map((each) => Math.abs(each.residual)));
   const tipped = shown.map((each) => ({ ...each, tip: tip(each) }));
@@ -184,7 +186,7 @@ function albedo() {
   const bands = data.albedo.filter((each) => each.known_to !== null);
   const beside = measurements.slice(1), highest = Math.max(...[data, ...beside].flatMap((each) => each.albedo.flatMap(({ albedo }) => albedo)));
   const top = Math.max(1.05, Math.min(1.1 * highest, 20));
-  // The lines' names at their ends, kept apart.
+  // Put the lines' names at their ends, without overlaps.
   const ends = names.map((name, c) => ({ name, y: last.albedo[c] })).sort((a, b) => a.y - b.y);
   for (let i = 1; i < ends.length; ++i) ends[i].y = Math.max(ends[i].y, ends[i - 1].y + 0.06 * top);
   const chart = Plot.plot({

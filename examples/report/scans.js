@@ -1,9 +1,9 @@
-// In-plane scans of a page: the fit and the samples in the plane of a light, in polar and in Cartesian axes.
+// In-plane scans of a page: the fit and the samples in the plane of incidence, in polar and in Cartesian axes.
 
 const scan_choices = { scale: "auto", axes: "both" };
 
-// Radius of a reflectance: logarithmic if it varies much, so that a highlight does not hide all else, or as is `wanted`.
-// Rings are at round values.
+// Returns the radius of a reflectance: linear or logarithmic as `wanted`, or by default logarithmic if the values vary
+// by a factor of 6 or more, so a highlight does not hide all else. Rings are at round values.
 function radius_of(values, wanted = "auto") {
   const largest = Math.max(...values), smallest = Math.min(...values.filter((value) => value > 0));
   if (!(largest > 0)) return { rings: [], radius: () => 0, kind: "of no meaning: nothing is reflected", type: "linear", domain: [0, 1] };
@@ -20,13 +20,13 @@ function radius_of(values, wanted = "auto") {
     kind: `logarithmic, ${digits(10 ** low)} in the middle`, type: "log", domain: [10 ** low, 10 ** high] };
 }
 
-const curve_start = -87, curve_step = 0.5; // degrees, of the curves of other measurements
+const curve_start = -87, curve_step = 0.5; // degrees, of all curves
 
-// The luminances of a plane by the viewer's angle, of the page's measurement and of the others.
+// Returns the luminances in a plane by the viewer's angle, of the page's measurement and of the others.
 function plane_of(scan, number) {
   const samples = scan.samples.map((sample) => by_number.get(sample)).map((each) => ({ ...each, angle: each.in_plane, y: luminance(each.measured) }));
   const fit = scan.curve.map((each) => ({ ...each, y: luminance(each.fit) }));
-  // The fit has tips of its own where no sample is.
+  // Where there is no sample, the fit has tips.
   const between = fit.filter((each) => samples.every((point) => Math.abs(point.angle - each.angle) > 1.5))
     .map((each) => ({ ...each, tip: `viewer ${angle(each.angle)}\nfit ${channels(each.fit)}${known_suffix(each)}` }));
   const beside = measurements.slice(1).map(({ name, look, scans }) => ({
@@ -39,7 +39,7 @@ function plane_of(scan, number) {
   return { theta_i: scan.theta_i, samples, fit, between, beside, values: all.map((each) => each.y) };
 }
 
-// Band, lines and dots, where `project(angle, value)` puts them.
+// Returns band, lines and dots at the points `project(angle, value)`.
 function marks_of_plane({ samples, fit, between, beside }, project) {
   const placed = (all) => all.map((each) => ({ ...each, at: project(each.angle, each.y) }));
   const x = (each) => each.at.x, y = (each) => each.at.y;
@@ -54,7 +54,7 @@ function marks_of_plane({ samples, fit, between, beside }, project) {
   ];
 }
 
-// Light and, where the two are apart, the mirror direction, with their lines.
+// Returns the light and, if it is more than 8 degrees from the normal, the mirror direction, with their dashes.
 const named_directions = (theta_i) => [{ at: -theta_i, name: "light", dashes: "7 4" }, { at: theta_i, name: "mirror", dashes: "2 4" }]
   .slice(0, theta_i > 8 ? 2 : 1);
 
@@ -62,7 +62,7 @@ function polar_plot(plane, { rings, radius }) {
   const ray = (degrees, r) => ({ x: r * Math.sin(radians(degrees)), y: r * Math.cos(radians(degrees)) });
   const ring = (r) => Array.from({ length: 181 }, (_, i) => ray(i - 90, r));
   const spoke = (degrees, options) => Plot.line([ray(degrees, 0), ray(degrees, 1.04)], { x: "x", y: "y", ...options });
-  // Beyond the last ring, so that no name hides a curve. A name takes the place of an angle.
+  // Names are outside the last ring, where they hide no curve. A name replaces the angle of a spoke near it.
   const named = named_directions(plane.theta_i);
   const angles = [-60, -30, 0, 30, 60].filter((at) => named.every((each) => Math.abs(each.at - at) > 9));
   const beyond = ({ at }) => ray(at, 1.09 + 0.04 * Math.abs(Math.sin(radians(at))));
@@ -95,14 +95,14 @@ function cartesian_plot(plane, { type, domain, rings }) {
   });
 }
 
-// What the dots of the plots are.
+// Returns a sentence that explains the dots.
 function told_of_dots(measured, has_band) {
   if (data.of_table) return "Dots: the table. ";
   if (!measured) return "No three samples lie in the plane of one light: this is the fit alone. ";
   return has_band ? "Dots: samples; crosses: those that disagree. " : "Dots: samples. ";
 }
 
-// The values of a plane, by the viewer's angle: samples or, where none is, the fit every five degrees.
+// Returns the values of a plane by the viewer's angle: of samples or, if there are none, of the fit every five degrees.
 function values_of_plane({ samples, fit, beside }, has_band) {
   const known = (each) => (has_band ? [percent(each.known_to)] : []);
   const of_others = (degrees) => beside.map(({ curve }) => digits(curve[Math.round((degrees - curve_start) / curve_step)]?.y ?? NaN));
@@ -116,7 +116,7 @@ function values_of_plane({ samples, fit, beside }, has_band) {
     rows: rows.sort((a, b) => a[0] - b[0]).map(([degrees, ...cells]) => [angle(degrees), ...cells, ...of_others(degrees)]) };
 }
 
-// A figure of a plane, and what draws it again by the choices.
+// Returns a figure of a plane, and a function that draws it again as chosen.
 function plane_figure(plane, has_band) {
   const { theta_i, samples, fit, values } = plane, light = `Light at ${angle(theta_i)}`;
   const peak = fit.reduce((best, each) => (each.y > best.y ? each : best));

@@ -1,11 +1,11 @@
 
-// What the viewer's shaders have in common. A table is a texture over theta_h, theta_d and phi_d, read as gonio render
-// reads one (include/gonio/render/horizon_lookup.hpp).
+// The common code of the viewer's shaders. A table is a texture over theta_h, theta_d and phi_d, read as gonio render
+// reads it (include/gonio/render/horizon_lookup.hpp).
 const look_up = `
 const float pi = 3.14159265358979;
 
-// Shares of the way along phi_d, theta_d and theta_h's axes, of directions above a surface with normal n: the same as
-// include/gonio/render/grid_coordinates.hpp has, in any frame.
+// Returns the coordinates from 0 to 1 along phi_d, theta_d and theta_h of directions above a surface with normal n, as
+// in include/gonio/render/grid_coordinates.hpp but in any frame.
 vec3 grid_coordinates(vec3 n, vec3 wi, vec3 wo) {
   vec3 sum = wi + wo, difference = wi - wo;
   float size = length(sum), x = -dot(n, difference) * size, y = dot(n, cross(sum, difference));
@@ -14,7 +14,8 @@ vec3 grid_coordinates(vec3 n, vec3 wi, vec3 wo) {
   return vec3(phi_d, theta_d * 2.0 / pi, sqrt(theta_h * 2.0 / pi));
 }
 
-// sr^-1, of directions above the horizon: of the fit (0), the truth (1), or between, of both mixed by logarithms.
+// Returns reflectance in sr^-1 for directions above the horizon: of the fit for a truth_share of 0, of the truth for 1,
+// between them of both, mixed by their logarithms.
 vec3 reflectance(float truth_share, vec3 n, vec3 wi, vec3 wo) {
   vec3 at = grid_coordinates(n, wi, wo), fitted, true_one;
   if (truth_share < 1.0) {
@@ -33,7 +34,8 @@ in vec2 corner;
 void main() { gl_Position = vec4(corner, 0.0, 1.0); }`;
 const whole_image = new Float32Array([-1, -1, 3, -1, -1, 3]);
 
-// What is seen of a lit point, in an environment or under the lamp: two programs, since one that asks is slower for both.
+// Returns the shader of lit points, for an environment or for the lamp. One program with a branch would be slower for
+// both.
 const shading = (surrounded) => `#version 300 es
 precision highp float;
 precision highp sampler3D;
@@ -41,17 +43,17 @@ uniform sampler3D values, truth, known;
 uniform vec3 values_shift, truth_shift, light;
 uniform vec4 values_scale, truth_scale;
 uniform float exposure, size;
-uniform float border, blend;  // right of the border the truth is shown; everywhere a share of it
+uniform float border, blend;  // shares of the truth: 1 right of the border, blend left of it
 uniform bool shows_known;
 const bool surrounded = ${surrounded};
-uniform sampler2D added;  // in an environment: the frames so far
+uniform sampler2D added;  // in an environment: the sum of the frames so far
 out vec4 colour;
 ${look_up}
 ${environment_shading}
 
 struct lit_point { bool hit; vec3 n, wi, wo; float irradiance; };
 
-// As the map of the page: light is 2 %, dark 100 %.
+// Returns the colour of an uncertainty, as in the page's map: light is 2 %, dark 100 %.
 vec3 colour_of_known(float share) {
   float t = clamp(log(max(share, 1e-6) / 0.02) / log(50.0), 0.0, 1.0);
   return mix(vec3(243.0, 236.0, 210.0), vec3(18.0, 58.0, 99.0), t) / 255.0;
@@ -62,7 +64,7 @@ vec3 display_value(vec3 v) {
   return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, v));
 }
 
-// From -1 to 1.
+// Returns the pixel's column, from -1 to 1.
 float right_of_middle() { return gl_FragCoord.x / size * 2.0 - 1.0; }
 vec4 on_display(vec3 v) {
   return vec4(abs(right_of_middle() - border) < 1.5 / size ? vec3(0.6) : display_value(v), 1.0);
@@ -72,7 +74,7 @@ vec4 added_or_shown(vec3 v) {
   return vec4(frame > 0 ? v + texelFetch(added, ivec2(gl_FragCoord.xy), 0).rgb : v, 1.0);
 }
 
-// A white Lambertian surface that faces the light is 1, times the exposure.
+// Returns the colour of a point. A white Lambertian surface that faces the light has the value of exposure.
 vec3 seen(lit_point point, float x) {
   float truth_share = x > border ? 1.0 : blend;
   if (!point.hit || dot(point.n, point.wo) <= 0.0) return vec3(0.0);
@@ -87,7 +89,7 @@ vec3 seen(lit_point point, float x) {
 }`;
 
 // The sphere fills the square and is seen by a camera at infinity, as gonio render draws it. The flat sample is seen
-// from 50 degrees off its normal, under a lamp at three times half its width.
+// from 50 degrees off its normal, under a lamp at a distance of three times half its width.
 const image_main = `
 uniform int samples, shape;  // 0: a sphere, 1: a flat sample, 2: nothing but the environment
 uniform vec2 within_pixel;

@@ -1,22 +1,22 @@
-// The data of the page, and what its tables (docs/reference/formats.md, examples/tool/pages/viewer_table.cpp) say of a pair of
-// directions above a surface.
+// The data of the page, and the values of its tables (docs/reference/formats.md, examples/tool/pages/viewer_table.cpp)
+// for a pair of directions above a surface.
 "use strict";
 const data = JSON.parse(document.getElementById("data").textContent);
 
-// Bytes of base64 text that were deflated.
+// Returns the inflated bytes of base64 text.
 async function inflated(text) {
   const bytes = Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
 }
 
-// A half float of which two bits were dropped.
+// Returns the value of a half float without its last two bits.
 function half_of(code) {
   const exponent = code >> 8, fraction = (code & 255) / 256;
   return exponent === 0 ? fraction * 2 ** -14 : (1 + fraction) * 2 ** (exponent - 15);
 }
 
-// Calls visit(cell of the grid, its valid cell, cos theta_i cos theta_o there) for all cells: beyond the horizon the
-// valid cell is that of the largest theta_h. Returns how many cells are valid.
+// Calls visit(cell of the grid, its valid cell, cos theta_i cos theta_o there) for all cells. Below the horizon, the
+// valid cell is the last one above it, with the largest theta_h. Returns the number of valid cells.
 function for_each_cell({ grid: [heights, rows, columns], offset, minimum_cosine }, visit) {
   const angle = (i, count, end) => ((i + offset) / count) * end, quarter = Math.PI / 2;
   const cos_phi = Array.from({ length: columns }, (_, i) => Math.cos(angle(i, columns, Math.PI)));
@@ -38,8 +38,9 @@ function for_each_cell({ grid: [heights, rows, columns], offset, minimum_cosine 
   return valid;
 }
 
-// Red, green, blue and one, times both cosines: a look-up interpolates these and divides by the last, so that a cell
-// near the horizon counts by what it reflects. The one is times 2^14, so that half floats can hold it.
+// Returns a table whose texels are red, green, blue and 1, times both cosines. A look-up interpolates them and divides
+// by the last one: a cell near the horizon counts by the light it reflects. The last one is times 2^14, to fit half
+// floats.
 async function read_table(packed) {
   const bytes = await inflated(packed.codes), count = 3 * packed.cells;
   const values = new Float32Array(count), halves = Float32Array.from({ length: 8192 }, (_, code) => half_of(code));
@@ -66,14 +67,14 @@ const length = (a) => Math.sqrt(dot(a, a));
 const radians = (degrees) => degrees * Math.PI / 180;
 const angle_between = (a, b) => Math.atan2(length(cross(a, b)), dot(a, b));
 
-// Shares of the way along the axes of theta_h, theta_d and phi_d.
+// Returns coordinates from 0 to 1 along theta_h, theta_d and phi_d.
 function grid_coordinates(n, wi, wo) {
   const sum = along(wi, wo, 1), difference = along(wi, wo, -1), size = length(sum);
   const phi_d = Math.atan2(dot(n, cross(sum, difference)), -dot(n, difference) * size) / Math.PI;
   return [Math.sqrt(angle_between(n, sum) * 2 / Math.PI), Math.atan2(length(difference), size) * 2 / Math.PI, phi_d - Math.floor(phi_d)];
 }
 
-// Red, green and blue in sr^-1: the mean of the eight cells around.
+// Returns red, green and blue in sr^-1, interpolated between the eight nearest cells.
 function reflectance_at({ grid, shift, scale, texels }, n, wi, wo) {
   if (!(dot(n, wi) > 0 && dot(n, wo) > 0)) return [0, 0, 0];
   const places = grid_coordinates(n, wi, wo).map((share, i) => share * grid[i] + shift - 0.5);
@@ -90,14 +91,14 @@ function reflectance_at({ grid, shift, scale, texels }, n, wi, wo) {
   return sum.slice(0, 3).map((each) => each / sum[3] * scale);
 }
 
-// What values(false) and values(true) are mixed to by their logarithms, as the shader does.
+// Mixes values(false) and values(true) by their logarithms, as the shader does.
 function blended(share, values) {
   if (share <= 0 || share >= 1) return values(share >= 1);
   const [a, b] = [values(false), values(true)].map((each) => each.map((value) => Math.log(Math.max(value, 1e-6))));
   return a.map((each, i) => Math.exp(each + share * (b[i] - each)));
 }
 
-// Of a share from 0.001 to 10, as the tool wrote it.
+// Returns the uncertainty, from 0.001 to 10, of a stored level from 0 to 1.
 const uncertainty_of = (level) => 0.001 * 10 ** (4 * level);
 function uncertainty_at({ grid, levels }, n, wi, wo) {
   const [h, d, p] = grid_coordinates(n, wi, wo).map((share, i) => Math.min(Math.floor(share * grid[i]), grid[i] - 1));

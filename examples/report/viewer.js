@@ -1,6 +1,6 @@
 
-// The viewer of the page: the material on a sphere, a flat sample or a model under a light that is moved, in WebGL 2, and
-// what a pointer over it reads. shading.js and environment.js have the shaders, controls.js what stands beside the image.
+// The viewer of the page: draws the material on a sphere, a flat sample or a model under a movable light, in WebGL 2,
+// and reads the BRDF under the pointer. shading.js and environment.js have the shaders, controls.js has the controls.
 
 // ---- WebGL -----------------------------------------------------------------------------------------------------
 function program_of(gl, vertex, fragment, attributes) {
@@ -18,7 +18,7 @@ function program_of(gl, vertex, fragment, attributes) {
   return program;
 }
 
-// Over phi_d, which wraps, theta_d and theta_h, which end with their first and last nodes.
+// Makes a texture over phi_d, which wraps, and theta_d and theta_h, which end with their first and last nodes.
 function texture_of(gl, unit, [heights, rows, columns], internal, format, type, values) {
   if (Math.max(heights, rows, columns) > gl.getParameter(gl.MAX_3D_TEXTURE_SIZE)) throw new Error("the table is too large for WebGL");
   gl.activeTexture(gl.TEXTURE0 + unit);
@@ -30,11 +30,11 @@ function texture_of(gl, unit, [heights, rows, columns], internal, format, type, 
   gl.texParameteri(gl.TEXTURE_3D, gl.TEXTURE_WRAP_R, gl.CLAMP_TO_EDGE);
 }
 
-// The mean of what a white Lambertian sphere shows, by the angle between light and camera, if a surface that faces the
-// light shows 1: by it gonio render exposes.
+// Returns the mean luminance of a white Lambertian sphere by the angle between light and camera, if a surface that
+// faces the light has luminance 1. gonio render exposes by this mean.
 const white_mean = (angle) => (2 / (3 * Math.PI)) * (Math.sin(angle) + (Math.PI - angle) * Math.cos(angle));
 
-// In the axes of the picture: x to the right, y up, z towards the viewer.
+// Returns a direction in the axes of the image: x to the right, y up, z towards the viewer.
 const light_direction = ({ longitude, latitude }) => [Math.sin(radians(longitude)) * Math.cos(radians(latitude)),
   Math.sin(radians(latitude)), Math.cos(radians(longitude)) * Math.cos(radians(latitude))];
 
@@ -43,7 +43,7 @@ class material_view {
     const gl = this.gl = canvas.getContext("webgl2");
     this.canvas = canvas;
     this.image = this.made_of(vertex_shader, image_main, [["corner", 2]], whole_image);
-    this.image.program(false); // throws Error where the browser cannot
+    this.image.program(false); // throws Error if the browser cannot compile it
     this.mesh = null;
     this.textures = [["values", table], ["truth", truth ?? table]].map(([name, { grid, shift, scale, texels }], unit) => {
       if (unit === 0 || truth) texture_of(gl, unit, grid, gl.RGBA16F, gl.RGBA, gl.FLOAT, texels);
@@ -53,7 +53,8 @@ class material_view {
     texture_of(gl, 2, uncertainty.grid, gl.R8, gl.RED, gl.UNSIGNED_BYTE, uncertainty.levels);
   }
 
-  // Corners of triangles with attributes of so many numbers, and the programs that draw them, made when first used.
+  // Returns corners of triangles and the programs that draw them, made at first use. `attributes` are pairs of a name
+  // and a count of numbers per corner.
   made_of(vertex, main, attributes, numbers) {
     const { gl } = this, programs = {}, corners = gl.createVertexArray();
     const program = (surrounded) => programs[surrounded] ??= program_of(gl, vertex, shading(surrounded) + main, attributes);
@@ -69,14 +70,14 @@ class material_view {
     return { program, corners, count: numbers.length / size };
   }
 
-  // `vertices` as read_obj returns them.
+  // Changes the model to `vertices`, as read_obj returns them.
   take_mesh(vertices) { this.mesh = this.made_of(mesh_vertex_shader, mesh_main, [["place", 3], ["towards", 3]], vertices); }
 
   drawn_as(shape) { return shape === "mesh" && this.mesh ? this.mesh : this.image; }
 
-  // `samples` of a pixel along each axis; `truth` is the share of the image that shows it, in percent, or if it
-  // `blends` its share in all of the image. With `total`, the light of an environment, a frame is added to others; with
-  // `keeps` what is drawn already stays behind.
+  // Draws a state with `samples` along each axis of a pixel. `truth` is the percentage of the image that shows the
+  // truth or, if the state `blends`, the truth's share in the whole image. With `total`, the light of an environment,
+  // adds a frame to the others. With `keeps`, draws over the present image.
   draw(state, drawn = this.drawn_as(state.shape), keeps = false) {
     const { gl, canvas } = this, { truth = 0, blends = false, frame = 0, total = 0 } = state;
     const program = drawn.program(total > 0);
@@ -109,7 +110,8 @@ class material_view {
   }
 }
 // ---- the section of the page -----------------------------------------------------------------------------------
-// What the controls say, what is drawn by it, and the drawing of one image with so many samples a pixel.
+// The state of the controls, the views under the lamp and in an environment, and a function that draws one image with
+// `samples` along each axis of a pixel.
 const viewer = {
   state: { light: "lamp", longitude: 45, latitude: 35.26, around: 0, stops: 0, shape: "sphere", known: false, turn: 0,
     truth: data.viewer?.truth ? 50 : 0, blends: false },
@@ -120,8 +122,8 @@ const viewer = {
 const is_surrounded = () => viewer.state.light === "environment";
 const exposure_in_environment = 0.4;  // as gonio render has it
 
-// Under the lamp draws now with one sample a pixel, and with nine when nothing has moved for a while; in an environment
-// adds frames.
+// Returns a function that draws again: under the lamp now with one sample per pixel, and with nine after 150 ms without
+// a change; in an environment by adding frames.
 function redraw_with(view, base) {
   let waiting = 0, change = 0;
   const exposed = (base) => ({ ...viewer.state, exposure: base * 2 ** viewer.state.stops });
@@ -165,21 +167,21 @@ function moved_by_hand(canvas, move) {
   });
 }
 
-// The normal that the pointer is over, of the sphere; nothing beside it.
+// Returns the sphere's normal under the pointer; null beside the sphere.
 function normal_at(event, canvas) {
   const box = canvas.getBoundingClientRect();
   const x = 2 * (event.clientX - box.left) / box.width - 1, y = 1 - 2 * (event.clientY - box.top) / box.height;
   return viewer.state.shape === "sphere" && x * x + y * y < 1 ? [x, y, Math.sqrt(1 - x * x - y * y)] : null;
 }
 
-// How much of the truth is seen there, from 0 to 1.
+// Returns the truth's share at a point of the image, from 0 to 1.
 function truth_share_at([x]) {
   const { truth, blends } = viewer.state;
   if (blends) return truth / 100;
   return truth > 0 && x > 1 - 0.02 * truth ? 1 : 0;
 }
 
-// What the material reflects there, and how sure that is.
+// Returns a text on the reflectance at a point of the image and its uncertainty.
 function told_at(n, reflects, uncertainty) {
   const wi = light_direction(viewer.state), wo = [0, 0, 1], degrees = (a) => angle(angle_between(n, a) * 180 / Math.PI);
   if (is_surrounded()) return `theta_o ${degrees(wo)}: light from all around, by the lobe`;
@@ -189,7 +191,7 @@ function told_at(n, reflects, uncertainty) {
     (share === 0 ? known : share === 1 ? "the truth" : `${percent(share)} the truth`);
 }
 
-// Throws Error where the browser cannot draw on it.
+// Returns a canvas for the viewer. Throws Error if the browser has no WebGL 2.
 function lit_canvas(description) {
   const canvas = element("canvas", { width: 512, height: 512, tabIndex: 0 });
   canvas.setAttribute("role", "img");
@@ -198,7 +200,7 @@ function lit_canvas(description) {
   return canvas;
 }
 
-// What the halves of the image show, where a border parts them.
+// Returns the names of both halves of the image, and a function that hides the names of halves that are not shown.
 function half_labels(names) {
   const halves = names.map((name) => element("span", {}, name)), box = element("div", { className: "halves" }, ...halves);
   return {

@@ -9,9 +9,11 @@
 #include <gonio/capture/high_dynamic_range.hpp>
 #include <gonio/capture/k_means.hpp>
 #include <gonio/capture/known_surface.hpp>
+#include <gonio/capture/light_probe.hpp>
 #include <gonio/capture/merged_frames.hpp>
 #include <gonio/capture/mirror_sphere.hpp>
 #include <gonio/capture/near_field_image.hpp>
+#include <gonio/capture/outline_circle.hpp>
 #include <gonio/capture/reference_reflectance.hpp>
 #include <gonio/capture/relative_reflectance.hpp>
 #include <gonio/capture/scan.hpp>

@@ -1,6 +1,6 @@
 #pragma once
-/// All of `interpolate/` except scattered_brdf.hpp, which needs nanoflann: BRDFs without a basis, by pull-push or
-/// between nearest neighbours.
+/// Includes all of `interpolate/` except scattered_brdf.hpp, which needs nanoflann. Contains pull-push, which
+/// reconstructs BRDFs without a basis, and the options of scattered interpolation.
 
 #include <gonio/interpolate/completed_table.hpp>
 #include <gonio/interpolate/pull_push.hpp>

@@ -27,6 +27,7 @@
 #include <gonio/io/materials/soft_specular_prior.hpp>
 #include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/io/materials/table_npy.hpp>
+#include <gonio/io/materials/utia.hpp>
 #include <gonio/io/measurements/alta.hpp>
 #include <gonio/io/measurements/astm_e1392.hpp>
 #include <gonio/io/measurements/bird.hpp>
@@ -50,6 +51,7 @@
 #include <gonio/io/measurements/ssdd.hpp>
 #include <gonio/io/measurements/tensor_tree_xml.hpp>
 #include <gonio/io/measurements/zemax_bsdf.hpp>
+#include <gonio/io/measurements/zemax_table.hpp>
 #include <gonio/io/setups/apparatus.hpp>
 #include <gonio/io/setups/camera_calibration.hpp>
 #include <gonio/io/setups/near_field_setup.hpp>

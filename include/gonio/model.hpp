@@ -3,6 +3,7 @@
 
 #include <gonio/model/adaptive_brdf.hpp>
 #include <gonio/model/analytic_brdf.hpp>
+#include <gonio/model/angle_grid_brdf.hpp>
 #include <gonio/model/clipped_brdf.hpp>
 #include <gonio/model/fit_model.hpp>
 #include <gonio/model/fit_observations.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-/// All of `robust/`: Noell et al. 2014's correction functions, their iteration and its weights.
+/// All of `robust/`: the correction functions of Noell et al. 2014, their iteration, and its outlier weights.
 
 #include <gonio/robust/corrected_brdf.hpp>
 #include <gonio/robust/correction.hpp>

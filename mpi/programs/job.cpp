@@ -22,7 +22,7 @@ namespace cli {
 
 namespace {
 
-/// Captures what this process prints during its lifetime.
+/// During its lifetime, discards this process's standard output and captures its standard error.
 class silence {
  public:
   silence() : out_(std::cout.rdbuf(nullptr)), error_(std::cerr.rdbuf(unsaid_.rdbuf())) {}
@@ -50,7 +50,7 @@ std::string last_words;  // the program's message if a signal ends it
 extern "C" void end_with_the_job(int signal) {
   static_cast<void>(!::write(STDERR_FILENO, last_words.data(), last_words.size()));
   gonio::io::remove_unfinished_files();
-  ::raise(signal);  // its handler is the system's again
+  ::raise(signal);  // its handler is again the default of the system
 }
 
 void end_with_a_sentence_on_signals(const std::string& program) {

@@ -16,7 +16,7 @@ namespace cli {
 
 class ranks_team : public team {
  public:
-  /// The ranks must outlive it.
+  /// `ranks` must outlive this object.
   explicit ranks_team(const gonio::mpi::ranks& ranks) : ranks_(ranks) {}
 
   [[nodiscard]] std::size_t size() const override { return static_cast<std::size_t>(ranks_.size()); }
@@ -42,7 +42,7 @@ class ranks_team : public team {
   /// Returns the number of equal subtrees of the groups, a power of two: as many ranks as possible own one each.
   [[nodiscard]] Eigen::Index subtrees() const;
   [[nodiscard]] gonio::block groups_of(int rank) const;
-  /// Returns the numbers of a rank's groups, from numbers for each of some rows.
+  /// Returns the part of `numbers` that belongs to the rows of a rank's groups. Each row has the same count of numbers.
   [[nodiscard]] std::span<float> part_of(int rank, std::span<float> numbers, Eigen::Index rows) const;
 
   const gonio::mpi::ranks& ranks_;

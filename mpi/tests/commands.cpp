@@ -43,7 +43,7 @@ std::string run_in(int ranks, const std::string& arguments) {
   return result.output;
 }
 
-/// Checks for exit code 2 and a single line of the program with these words, among those of mpirun.
+/// Checks for exit code 2, and that the program printed a single line, with these words; mpirun prints other lines.
 void check_refused_by_all(const tool_result& result, std::initializer_list<const char*> words) {
   CAPTURE(result.output);
   CHECK(result.exit_code == 2);
@@ -275,7 +275,9 @@ TEST_CASE("gonio-mpi learn: the prior of gonio learn, bad files are refused") {
   CHECK(!scratch::fs::exists(folder / "none.prior"));
 }
 
-TEST_CASE("gonio-mpi learn: spectra, too, whose wavelengths must be alike in all ranks' folders") {
+TEST_CASE(
+    "gonio-mpi learn: learns from spectra, too, and refuses folders whose wavelengths differ, even if different ranks "
+    "read them") {
   const scratch::folder folder;
   const auto file = [&](const char* name) { return '\'' + (folder / name).string() + '\''; };
   write_synthetic_spectra(folder / "paints", 0, 2, 4);

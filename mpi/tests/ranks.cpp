@@ -38,7 +38,7 @@ std::string last_rank() { return "rank " + std::to_string(all().size() - 1); }
 
 }  // namespace
 
-TEST_CASE("ranks: what rank 0 has is told to all, and what all have is gathered by rank 0") {
+TEST_CASE("ranks: rank 0 broadcasts its bytes to all ranks, and gathers the bytes of all ranks") {
   const std::string own(static_cast<std::size_t>(1000 * all().rank()), 'a');
   const auto gathered = all().gather(bytes_of(own));
   REQUIRE(std::ssize(gathered) == (all().is_first() ? all().size() : 0));
@@ -47,7 +47,7 @@ TEST_CASE("ranks: what rank 0 has is told to all, and what all have is gathered 
     CHECK(all().broadcast(bytes_of(all().is_first() ? text : "?")) == bytes_of(text));
 }
 
-TEST_CASE("ranks: what was sent is counted") {
+TEST_CASE("ranks: sent messages and bytes are counted") {
   const auto sent = [](const mpi::traffic& before) {
     const mpi::traffic now = all().sent();
     return mpi::traffic{now.messages - before.messages, now.bytes - before.bytes};
@@ -69,7 +69,7 @@ TEST_CASE("ranks: what was sent is counted") {
   CHECK(bytes == 9 * messages);
 }
 
-TEST_CASE("ranks: what one throws, all throw, and which it was") {
+TEST_CASE("ranks: if one rank throws, all ranks throw, and the message names that rank") {
   const int last = all().size() - 1;
   CHECK_NOTHROW(all().together([] {}));
   const std::string who = last == 0 ? "" : last_rank() + ": ";
@@ -94,7 +94,7 @@ TEST_CASE("ranks: what one throws, all throw, and which it was") {
         }) == who + "no table");
 }
 
-TEST_CASE("ranks: other inputs are refused by all, with one sentence") {
+TEST_CASE("ranks: if the ranks read different inputs, all refuse them with the same sentence") {
   CHECK_NOTHROW(all().agree_on(7, "prior"));
   const auto own = static_cast<std::uint32_t>(all().rank() == all().size() - 1 ? 1 : 0);
   const std::string expected =
@@ -148,7 +148,7 @@ TEST_CASE("ranks: a part that fails, computed or taken, ends the gathering in al
   CHECK_NOTHROW(mpi::gather_in_order(all(), {0, 5}, part, take));  // the failures leave nothing behind
 }
 
-TEST_CASE("ranks: a sum of groups has the bytes of one rank's") {
+TEST_CASE("ranks: a sum of groups has the same bytes for any number of ranks") {
   const auto partial = [](Eigen::Index group) {
     return Eigen::MatrixXd::NullaryExpr(5, 3,
                                         [&](Eigen::Index i, Eigen::Index j) {
@@ -175,7 +175,7 @@ TEST_CASE("ranks: a sum of groups has the bytes of one rank's") {
         std::string::npos);
 }
 
-TEST_CASE("ranks: a sum needs a message for each rank but the first, and as many tell it") {
+TEST_CASE("ranks: a sum takes a message from each rank but the first, and its result as many") {
   if (16 % all().size() != 0) return;
   const mpi::traffic before = all().sent();
   static_cast<void>(mpi::sum_of_groups(all(), 16, [](Eigen::Index) { return Eigen::MatrixXd::Ones(100, 100).eval(); }));
@@ -185,7 +185,7 @@ TEST_CASE("ranks: a sum needs a message for each rank but the first, and as many
   CHECK(bytes(0, 0) == 2.0 * (all().size() - 1) * 80008.0);
 }
 
-TEST_CASE("ranks: the best of all, of equal ones the lowest") {
+TEST_CASE("ranks: the best candidate of all ranks, of equal ones the lowest number") {
   const auto best = [](double value, Eigen::Index number) { return mpi::best_of_ranks(all(), {value, number}).number; };
   const int rank = all().rank(), last = all().size() - 1;
   CHECK(best(rank == last ? -1.0 : 1.0, rank) == last);

@@ -1,14 +1,15 @@
-/// gonio shape demo: recovers synthetic ear canals, held out from the model, with holes between the bends, and compares
-/// with smooth filling of the holes. After section 4 of "Anatomically correct surface recovery".
+/// gonio shape demo: recovers scans of synthetic ear canals that the model has not learned, with holes between the
+/// bends, and compares the result with smooth filling of the holes and Algorithm 1. After section 4 of "Anatomically
+/// correct surface recovery".
 
 #include "shape.hpp"
 #include "synthetic/ear_study.hpp"
 #include "tool/files/json.hpp"
 #include "tool/options/threads_option.hpp"
+#include "tool/pages/contact_sheet.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/progress_bar.hpp"
 #include <gonio/io/images/image.hpp>
-#include <gonio/render/image.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
 #include <gonio/shape/hole_filling.hpp>
 #include <gonio/shape/io/mesh.hpp>
@@ -38,14 +39,14 @@ struct shape_demo_command {
   gonio::thread_count threads;
 };
 
-/// A method of recovery, and its error in the hole.
+/// A surface recovered by one method, and its error in the hole.
 struct judged_surface {
   std::string name;
   gonio::shape::point_columns vertices;  ///< in the scan's space
   gonio::shape::surface_distance hole;
 };
 
-/// All methods, and the uncertainty of ours.
+/// The results of all methods for one ear, and the uncertainty of `recover`.
 struct judged_ear {
   std::vector<judged_surface> ways;
   Eigen::Index missing = 0;      ///< vertices in the hole
@@ -150,18 +151,22 @@ json json_of(const judged_ear& ear) {
   return all;
 }
 
-/// Returns the scan next to the result of each method.
-gonio::image demo_image(const gonio::shape::shape_model& model, const synthetic::ear_scan& scan,
-                        const std::vector<judged_surface>& ways) {
+/// Adds the scan and the result of each method to the images of a sheet.
+void add_row(std::vector<gonio::image>& images, sheet_text& text, const gonio::shape::shape_model& model,
+             const synthetic::ear_scan& scan, const std::vector<judged_surface>& ways) {
   const auto upright = [&](gonio::shape::point_columns vertices) {
     return gonio::shape::point_columns(scan.placement.inverse() * vertices);
   };
+  constexpr double largest = 0.5;
+  constexpr std::size_t pixels = 160;
   const gonio::shape::surface_index complete(scan.complete);
-  std::vector<gonio::image> row{shape_image({upright(scan.mesh.vertices), scan.mesh.triangles}, {}, 0.5)};
-  for (const judged_surface& way : ways)
-    row.push_back(
-        shape_image(model.mesh(upright(way.vertices)), gonio::shape::signed_distances(complete, way.vertices), 0.5));
-  return gonio::render::side_by_side(row, 4);
+  images.push_back(shape_image({upright(scan.mesh.vertices), scan.mesh.triangles}, {}, largest, pixels));
+  text.labels.emplace_back("scan");
+  for (const judged_surface& way : ways) {
+    const Eigen::VectorXd distances = gonio::shape::signed_distances(complete, way.vertices);
+    images.push_back(shape_image(model.mesh(upright(way.vertices)), distances, largest, pixels));
+    text.labels.push_back(way.name);
+  }
 }
 
 void write_example(const std::filesystem::path& folder, const gonio::shape::shape_model& model,
@@ -177,7 +182,8 @@ void show_shapes(const shape_demo_command& options) {
   const synthetic::ear_study study(options.seed);
   const gonio::shape::shape_model model = study.learn(options.shapes, options.threads);
   json report = {{"shapes", model.shapes()}, {"vertices", model.vertices()}, {"held_out", json::array()}};
-  std::vector<gonio::image> rows;
+  std::vector<gonio::image> images;
+  sheet_text text{{}, "signed distance from the truth: blue -0.5 mm or less, white 0, red 0.5 mm or more"};
   std::vector<judged_ear> ears;
   for (Eigen::Index i = 0; i < options.held_out; ++i) {
     const synthetic::ear_scan scan = scan_held_out(study, options, i);
@@ -186,7 +192,7 @@ void show_shapes(const shape_demo_command& options) {
     report["held_out"].push_back(json_of(ear));
     if (!options.folder.empty()) {
       if (i == 0) write_example(options.folder, model, scan, ear.ways);
-      if (i < 3) rows.push_back(demo_image(model, scan, ear.ways));
+      if (i < 3) add_row(images, text, model, scan, ear.ways);
     }
     for (judged_surface& way : ear.ways) way.vertices.resize(3, 0);  // saves memory for many ears
     ears.push_back(std::move(ear));
@@ -195,32 +201,37 @@ void show_shapes(const shape_demo_command& options) {
     std::cout << report.dump(2) << '\n';
   else
     print_means(ears);
-  if (rows.empty()) return;
-  gonio::io::write_png(options.folder / "recovered.png", gonio::render::stacked(rows, 4));
+  if (images.empty()) return;
+  gonio::io::write_png(options.folder / "recovered.png", contact_sheet(images, 1 + ears.front().ways.size(), text));
   if (!options.as_json)
     std::cout << "In " << options.folder.string()
-              << ": recovered.png (scan, then each way, coloured by the distance from the truth: -0.5 mm is blue, 0 "
-                 "green, 0.5 mm red), and of the first ear ears.shapes, scan.ply, truth.ply, recovered.ply\n";
+              << ": recovered.png (the scan, then the result of each method, coloured by the distance from the truth: "
+                 "-0.5 mm is blue, 0 white, 0.5 mm red), ears.shapes (the model), and scan.ply, truth.ply and "
+                 "recovered.ply of the first ear\n";
 }
 
 }  // namespace
 
 void add_shape_demo(command& shape) {
-  auto command = shape.add_subcommand("demo", "Recover synthetic ear canals, beside filling holes smoothly");
+  auto command = shape.add_subcommand("demo", "Recover synthetic ear canals, and compare with smooth filling of holes");
   const auto options = std::make_shared<shape_demo_command>();
-  command.add_option("--shapes", options->shapes, "To learn from").check(check::range(3, 100000)).capture_default_str();
-  command.add_option("--held-out", options->held_out, "To recover").check(check::range(1, 10000)).capture_default_str();
-  command.add_option("--seed", options->seed, "Of all that is random").capture_default_str();
-  command.add_option("--hole", options->hole, "Between the bends")
+  command.add_option("--shapes", options->shapes, "Number of shapes to learn from")
+      .check(check::range(3, 100000))
+      .capture_default_str();
+  command.add_option("--held-out", options->held_out, "Number of shapes to recover")
+      .check(check::range(1, 10000))
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of all random numbers").capture_default_str();
+  command.add_option("--hole", options->hole, "Size of the hole between the bends: large or small")
       .check(check::one_of({"large", "small"}))
       .capture_default_str();
-  command.add_option("--edge-noise", options->edge_noise, "Within 1.5 mm of the hole, mm")
+  command.add_option("--edge-noise", options->edge_noise, "Noise of the scan within 1.5 mm of the hole, mm")
       .check(check::range(0.0, 5.0))
       .capture_default_str();
   command
-      .add_option("--trials", options->trials,
-                  "Shapes left out for each ear, to see how sure it is and whether that is so; 0 for none, else 10 or "
-                  "more")
+      .add_option(
+          "--trials", options->trials,
+          "Number of shapes to leave out for each ear, to measure the uncertainty and test it: 0, or at least 10")
       .check(check::range(0, 100000))
       .capture_default_str();
   add_threads_option(command, options->threads);

@@ -1,5 +1,6 @@
-/// gonio shape grow: grows a model of synthetic ear canals from a few annotated ones with scans of others, some of them
-/// defective. Prints how many it accepts and their errors. After section 2 of "Anatomically correct surface recovery".
+/// gonio shape grow: grows a model from a few annotated synthetic ear canals, and from scans of other ear canals, some
+/// of them defective. Prints how many scans it accepts and their errors. After section 2 of "Anatomically correct
+/// surface recovery".
 
 #include "shape.hpp"
 #include "synthetic/ear_canal_scans.hpp"
@@ -31,13 +32,13 @@ struct shape_grow_command {
 struct judged_bootstrap {
   Eigen::Index good = 0, defective = 0, accepted_good = 0, accepted_defective = 0;
   std::vector<double> off;            ///< mean distance from the true vertices, for each accepted good scan, ascending
-  std::vector<std::string> refusals;  ///< of the good ones
-  std::vector<std::string> rightly;   ///< of the defective ones
+  std::vector<std::string> refusals;  ///< reasons why good scans were refused
+  std::vector<std::string> rightly;   ///< reasons why defective scans were refused
 
   [[nodiscard]] std::size_t farther_than(double distance) const {
     return std::ranges::count_if(off, [=](double one) { return one > distance; });
   }
-  /// Returns a quantile: 0 is the smallest, 1 the largest.
+  /// Returns the quantile `share` of `off`, mm; 0 if it is empty.
   [[nodiscard]] double off_at(double share) const {
     return off.empty() ? 0.0 : off[static_cast<std::size_t>(share * static_cast<double>(off.size() - 1))];
   }
@@ -113,24 +114,29 @@ void grow_shapes(const shape_grow_command& options) {
 }  // namespace
 
 void add_shape_grow(command& shape) {
-  auto command = shape.add_subcommand("grow", "Grow a model of synthetic ear canals by scans, and see what it accepts");
+  auto command =
+      shape.add_subcommand("grow", "Grow a model of synthetic ear canals by scans, and print how many it accepts");
   const auto options = std::make_shared<shape_grow_command>();
-  command.add_option("--annotated", options->annotated, "Shapes to begin with")
+  command.add_option("--annotated", options->annotated, "Number of annotated shapes to begin with")
       .check(check::range(2, 100000))
       .capture_default_str();
-  command.add_option("--scans", options->scans, "To grow by").check(check::range(1, 100000)).capture_default_str();
-  command.add_option("--defects", options->defects, "Share of them that must be refused")
+  command.add_option("--scans", options->scans, "Number of scans to add")
+      .check(check::range(1, 100000))
+      .capture_default_str();
+  command.add_option("--defects", options->defects, "Share of the scans that have defects and must be refused")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
   command
       .add_option("--most-missing", options->how.registration.most_missing,
-                  "Share of the vertices that a scan may not show")
+                  "Largest share of the vertices that a scan may miss")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
-  command.add_option("--wrong", options->wrong, "Mean distance from the true vertices that is told as too far, mm")
+  command
+      .add_option("--wrong", options->wrong,
+                  "Mean distance from the true vertices above which a shape counts as wrong, mm")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--seed", options->seed, "Of all that is random").capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of all random numbers").capture_default_str();
   add_threads_option(command, options->threads);
   command.add_flag("--json", options->as_json, "Print figures as JSON");
   command.callback([options] { grow_shapes(*options); });

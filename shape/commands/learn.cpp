@@ -68,7 +68,9 @@ void learn_shapes(const shape_learn_command& options) {
 void add_shape_learn(command& shape) {
   auto command = shape.add_subcommand("learn", "Learn a model of shapes in correspondence, and grow it by scans");
   const auto options = std::make_shared<shape_learn_command>();
-  command.add_input("shapes", options->shapes, "Meshes of the same vertices and triangles, in mm (.ply, .obj)")
+  command
+      .add_input("shapes", options->shapes,
+                 "Meshes in mm whose vertices correspond and whose triangles are the same (.ply, .obj)")
       .required();
   command.add_input("--scans", options->scans, "Scans of any triangulation, to register and learn from");
   add_threads_option(command, options->threads);

@@ -49,7 +49,7 @@ void print_how_sure(const gonio::shape::cross_validated_uncertainty& uncertainty
     all += covariance.trace();
   }
   const auto count = static_cast<double>(vertices.size());
-  std::cout << "expected error of these (root mean square, " << uncertainty.trials()
+  std::cout << "expected error of the recovered vertices (root mean square, " << uncertainty.trials()
             << " shapes left out): " << fixed(std::sqrt(across / count), 3) << " mm across the surface, "
             << fixed(std::sqrt(all / count), 3) << " mm including sliding along it\n";
 }
@@ -69,7 +69,7 @@ void recover_shape(const shape_recover_command& options) {
   gonio::shape::recovery_options how;
   how.fine.position_error = options.noise;
   how.coarse.holds_pose = how.fine.holds_pose = options.holds_pose;
-  // Recover the shape, and bring it into the frame of the model.
+  // Recover the shape in the scan's coordinates.
   const gonio::shape::surface_index index = in_file(options.scan, [&] { return gonio::shape::surface_index(scan); });
   const gonio::shape::similarity_transform pose = begin_pose(options, model, scan);
   const gonio::shape::recovered_shape found =
@@ -82,25 +82,26 @@ void recover_shape(const shape_recover_command& options) {
   for (Eigen::Index v = 0; v < model.vertices(); ++v)
     if (!known[v]) missing.push_back(v);
   std::cout << missing.size() << " of " << model.vertices() << " vertices are recovered\n";
-  // Estimate their uncertainty by trials.
+  // Estimate the uncertainty of the missing vertices by trials.
   if (options.trials > 0 && !missing.empty())
     print_how_sure({model, index, found, {.trials = options.trials, .recovery = how}, options.threads}, found.surface,
                    missing);
-  // Compare them with the truth, if there is one.
+  // Compare with the truth, if there is one.
   Eigen::VectorXd distances;
   std::vector<gonio::rgb> colours;
   if (!options.truth.empty()) {
     gonio::shape::triangle_mesh whole = gonio::io::read_mesh(options.truth);
     const auto truth = in_file(options.truth, [&] { return gonio::shape::surface_index(std::move(whole)); });
     distances = gonio::shape::signed_distances(truth, recovered.vertices, options.threads);
-    for (const double distance : distances) colours.push_back(gonio::render::false_colour(distance, {-0.5, 0.5}));
+    for (const double distance : distances) colours.push_back(gonio::render::diverging_colour(distance, 0.5));
     if (!missing.empty()) {
       const auto off = gonio::shape::surface_distance::of(distances(missing));
-      std::cout << "distance of these from the truth: signed mean " << fixed(off.signed_mean, 3) << " mm, absolute "
-                << fixed(off.absolute_mean, 3) << " mm, largest " << fixed(off.largest, 3) << " mm\n";
+      std::cout << "distance of the recovered vertices from the truth: signed mean " << fixed(off.signed_mean, 3)
+                << " mm, absolute " << fixed(off.absolute_mean, 3) << " mm, largest " << fixed(off.largest, 3)
+                << " mm\n";
     }
   }
-  // Write the pose, the mesh coloured by its distance from the truth, and the image.
+  // Write the pose, the mesh (coloured by its distance from the truth, if there is one), and the image.
   if (!options.found_pose.empty()) gonio::io::write_pose(options.found_pose, found.pose);
   if (colours.empty())
     gonio::io::write_mesh(options.output, recovered);
@@ -112,34 +113,38 @@ void recover_shape(const shape_recover_command& options) {
 }  // namespace
 
 void add_shape_recover(command& shape) {
-  auto command = shape.add_subcommand("recover", "Recover what a scan does not show");
+  auto command = shape.add_subcommand("recover", "Recover the missing parts of a scan");
   const auto options = std::make_shared<shape_recover_command>();
-  command.add_input("scan", options->scan, "In mm, its vertical axis y (.ply, .obj)").required();
-  command.add_input("--model", options->model, "From gonio shape learn").required();
-  command.add_option("--noise", options->noise, "Of the scan, mm")
+  command.add_input("scan", options->scan, "Scan in mm, with y as its vertical axis (.ply, .obj)").required();
+  command.add_input("--model", options->model, "Model that gonio shape learn wrote (.shapes)").required();
+  command.add_option("--noise", options->noise, "Noise of the scan, mm")
       .check(check::range(1e-4, 10.0))
       .capture_default_str();
-  auto pose = command.add_input("--pose", options->pose,
-                                "Where the scan lies, from it to the model, instead of finding it by its shape (.txt, "
-                                "docs/reference/formats.md)");
+  auto pose =
+      command.add_input("--pose", options->pose,
+                        "File of the initial pose, from scan to model (.txt, docs/reference/formats.md). Default: "
+                        "found by shape context");
   auto hold = command
                   .add_flag("--hold-pose", options->holds_pose,
-                            "The pose is right as it is: it is not fitted together with the shape")
+                            "Keep the initial pose instead of fitting it together with the shape")
                   .needs(pose);
   command
-      .add_option("--trials", options->trials,
-                  "Shapes of the model to leave out and recover, to tell how sure this is; 0 for none, else 10 or more")
+      .add_option(
+          "--trials", options->trials,
+          "Number of the model's shapes to leave out and recover, to measure the uncertainty: 0, or at least 10")
       .check(check::range(0, 100000))
       .excludes(hold)
       .capture_default_str();
-  command.add_input("--truth", options->truth, "The whole surface, to compare with");
-  command.add_output("--image", options->image, {".png"}, "The recovered surface from two sides (.png)");
+  command.add_input("--truth", options->truth, "True whole surface, to compare with");
+  command.add_output("--image", options->image, {".png"},
+                     "Image to write: the recovered surface from two sides (.png)");
   command.add_output("--found-pose", options->found_pose, {".txt"},
-                     "The pose that was found, from the scan to the model, to write (.txt)");
+                     "File to write: the pose that was found, from scan to model (.txt)");
   add_threads_option(command, options->threads);
   command
       .add_output("-o,--output", options->output, {".ply", ".obj"},
-                  "Recovered surface to write (.ply, or without --truth .obj), coloured by its distance from the truth")
+                  "Recovered surface to write (.ply; without --truth, also .obj). With --truth, it is coloured by its "
+                  "distance from the truth")
       .required();
   command.callback([options] { recover_shape(*options); });
 }

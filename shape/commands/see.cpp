@@ -1,4 +1,4 @@
-/// gonio shape see: maps of a mesh as seen by a camera, for `gonio sphere --normals`.
+/// gonio shape see: maps of the normals and positions of a mesh that a camera sees, for `gonio sphere --normals`.
 
 #include "shape.hpp"
 #include <gonio/io/bytes/npy.hpp>
@@ -43,16 +43,18 @@ void run(const see_command& options) {
 }  // namespace
 
 void add_shape_see(command& shape) {
-  auto command = shape.add_subcommand("see", "What a camera sees of a mesh, as maps for gonio sphere --normals");
+  auto command = shape.add_subcommand("see", "Write maps of the mesh that a camera sees, for gonio sphere --normals");
   const auto options = std::make_shared<see_command>();
   command.add_input("mesh", options->mesh, "The surface in the camera's world (.ply or .obj)").required();
-  command.add_input("setup", options->setup, "How it was photographed: a set-up of gonio sphere without 'sphere'")
+  command
+      .add_input("setup", options->setup,
+                 "Set-up of the photograph, as for gonio sphere but without the entry 'sphere'")
       .required();
   command.add_input("--calibration", options->calibration,
                     "Camera and lens distortion as OpenCV writes them (.yml or .xml), instead of those in the set-up");
-  command.add_output("--normals", options->normals, {".npy"}, "Normals that the pixels see, to write (.npy)")
+  command.add_output("--normals", options->normals, {".npy"}, "File to write: the normal at each pixel (.npy)")
       .required();
-  command.add_output("--positions", options->positions, {".npy"}, "Places that the pixels see, to write (.npy)")
+  command.add_output("--positions", options->positions, {".npy"}, "File to write: the position at each pixel (.npy)")
       .required();
   command.callback([options] { run(*options); });
 }

@@ -11,14 +11,15 @@
 
 namespace cli {
 
-gonio::image shape_image(const gonio::shape::triangle_mesh& mesh, const Eigen::VectorXd& distances, double largest) {
+gonio::image shape_image(const gonio::shape::triangle_mesh& mesh, const Eigen::VectorXd& distances, double largest,
+                         std::size_t pixels) {
   std::vector<gonio::rgb> colours(mesh.vertices.cols(), gonio::rgb::Constant(0.5));
   for (Eigen::Index v = 0; v < distances.size(); ++v)
-    colours[v] = gonio::render::false_colour(distances[v], {-largest, largest});
+    colours[v] = gonio::render::diverging_colour(distances[v], largest);
   const auto from = [&](const Eigen::Vector3d& towards) {
     gonio::shape::mesh_view view = gonio::shape::mesh_view::of(mesh, towards);
     view.radius = 18.0;  // mm: the same scale for all ears
-    view.pixels = 240;
+    view.pixels = pixels;
     return gonio::shape::image_of(mesh, colours, view);
   };
   const std::array both{from({0.0, -0.2, -1.0}), from({0.3, -1.0, 0.2})};
@@ -28,10 +29,10 @@ gonio::image shape_image(const gonio::shape::triangle_mesh& mesh, const Eigen::V
 gonio::shape::similarity_transform find_pose(const gonio::shape::shape_model& model,
                                              const gonio::shape::triangle_mesh& scan, gonio::thread_count threads) {
   const gonio::shape::pre_alignment found = gonio::shape::align_by_shape_context(scan, model.mean(), {}, threads);
-  // Missing parts of the scan are far from the model, so measure from the scan to the model.
+  // The model's vertices in missing parts are far from the scan, so measure from the scan to the model.
   constexpr double largest = 5.0;
   if (found.mean_scan_distance > largest)
-    gonio::refuse("the scan matches the model nowhere: it is " + fixed(found.mean_scan_distance, 1) +
+    gonio::refuse("the scan does not match the model: it is " + fixed(found.mean_scan_distance, 1) +
                   " mm away on average, expected at most " + fixed(largest, 1));
   return found.transform;
 }

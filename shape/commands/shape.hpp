@@ -1,5 +1,5 @@
 #pragma once
-/// The steps of `gonio shape`, and their shared functions.
+/// The subcommands of `gonio shape`, and their shared functions.
 
 #include "tool/options/command.hpp"
 #include <gonio/shape/mesh_image.hpp>
@@ -16,10 +16,11 @@ void add_shape_demo(command& shape);
 void add_shape_grow(command& shape);
 void add_shape_see(command& shape);
 
-/// Renders a surface from two sides, coloured by signed distances from a reference: blue inside, green on it, red
-/// outside; grey without distances. Pure blue and red are at `largest` mm.
+/// Renders a surface from two sides, coloured by signed distances from a reference: blue inside, white on it, red
+/// outside; grey without distances. The colour is pure blue at -`largest` mm and pure red at `largest` mm. The image of
+/// each side has `pixels` x `pixels`.
 [[nodiscard]] gonio::image shape_image(const gonio::shape::triangle_mesh& mesh, const Eigen::VectorXd& distances,
-                                       double largest);
+                                       double largest, std::size_t pixels = 240);
 
 /// Returns the pose from a scan to the model by shape context. Throws gonio::error if the scan matches nowhere.
 [[nodiscard]] gonio::shape::similarity_transform find_pose(const gonio::shape::shape_model& model,

@@ -1,4 +1,4 @@
-// The implementations of shape/ that use the model; src/shape_mesh.cpp has the others.
+// The implementations of shape/ that use the model; src/shape_mesh.cpp has all other implementations.
 
 #include <gonio/shape/impl/bootstrap.ipp>
 #include <gonio/shape/impl/correspondence.ipp>

@@ -23,16 +23,16 @@
 
 namespace synthetic {
 
-/// An elliptic hole in (u, v). Millimetres.
+/// An elliptic hole in (u, v). Lengths are in mm.
 struct hole_options {
   double u = 0.5;           ///< of the centre: between the bends
   std::optional<double> v;  ///< of the centre; empty: random
   double length = 4.0;      ///< along the canal
   double share =
       0.3;  ///< of the circumference; at 1 or more, the hole may split the scan, and the smaller part is dropped
-  double ragged = 0.15;     ///< amplitude of the edge's waves relative to its radius; below 0.5
-  double edge_noise = 0.0;  ///< standard deviation along the normals of vertices near the edge
-  double edge_reach = 1.5;  ///< distance from the edge up to which these are
+  double ragged = 0.15;     ///< amplitude of the edge's waves relative to the edge's radius; below 0.5
+  double edge_noise = 0.0;  ///< standard deviation of noise along the normals of vertices near the edge
+  double edge_reach = 1.5;  ///< largest distance from the edge of the noisy vertices
   double flaps = 0.0;       ///< probability of a spurious triangle at an edge of the border
 
   [[nodiscard]] static hole_options large() {
@@ -55,9 +55,9 @@ struct sampled_surface {
   parameter_columns places;
   gonio::shape::point_columns normals;
 
-  /// Removes the triangles that have a vertex without a property. Then removes parts joined only at a point, all but
-  /// the largest part, and unused vertices. Returns the former indices of the remaining vertices. Throws gonio::error
-  /// if nothing remains.
+  /// Removes the triangles that have a vertex for which `property` is false. Then removes parts joined only at a point,
+  /// all but the largest part, and unused vertices. Returns the former indices of the remaining vertices. Throws
+  /// gonio::error if nothing remains.
   template <class Property>
   std::vector<Eigen::Index> keep_where(Property&& property) {
     std::vector<Eigen::Vector3i> kept;
@@ -72,13 +72,13 @@ struct sampled_surface {
   }
 
  private:
-  /// Returns the first triangle of a group of triangles joined by `parent`.
+  /// Returns the root of an element's group in the union-find array `parent`.
   [[nodiscard]] static Eigen::Index root(std::vector<Eigen::Index>& parent, Eigen::Index one) {
     while (parent[one] != one) one = parent[one] = parent[parent[one]];
     return one;
   }
 
-  /// Keeps the largest fan of triangles at each vertex. Returns whether there were others.
+  /// Keeps only the largest fan of triangles at each vertex. Returns whether triangles were removed.
   bool remove_small_fans(std::vector<Eigen::Vector3i>& triangles) const {
     std::vector<std::vector<Eigen::Index>> around(mesh.vertices.cols());
     for (Eigen::Index t = 0; t < std::ssize(triangles); ++t)
@@ -96,7 +96,7 @@ struct sampled_surface {
                                                             const std::vector<Eigen::Index>& around, int vertex) {
     std::vector<Eigen::Index> parent(around.size()), sizes(around.size(), 0), small;
     std::iota(parent.begin(), parent.end(), Eigen::Index{0});
-    std::map<int, Eigen::Index> first_with;  // another vertex, which defines an edge
+    std::map<int, Eigen::Index> first_with;  // the first triangle with each edge, by the edge's other vertex
     for (Eigen::Index i = 0; i < std::ssize(around); ++i)
       for (const int other : triangles[around[i]]) {
         if (other == vertex) continue;
@@ -143,7 +143,6 @@ struct sampled_surface {
   }
 };
 
-/// A hole in one individual's canal.
 class ear_hole {
  public:
   /// Throws gonio::error for a hole without size, an edge that is too ragged, or a negative probability or length.

@@ -1,6 +1,6 @@
 #pragma once
-/// Triangulates a surface that is a map from (u, v), with v around it and u from an open end to a tip, into rings of
-/// near-equal triangles: regular for a template, or irregular like a scanner's.
+/// Triangulates a surface in rings of near-equal triangles: regular for a template, or irregular like a scanner's. The
+/// surface is a map from (u, v): v goes around it, u from an open end to a tip.
 
 #include "ear_canals.hpp"
 #include <gonio/core/error.hpp>
@@ -26,26 +26,25 @@ namespace synthetic {
 /// (u, v) of a vertex per column.
 using parameter_columns = Eigen::Matrix2Xd;
 
-/// A surface as a map from u, up to 1 where all v give one point, and v, in radians. d/dv x d/du points outwards.
+/// A surface as a map from u and an angle v in radians. At u = 1 all v give one point, the tip. d/dv x d/du points
+/// outwards.
 using parametric_surface = std::function<Eigen::Vector3d(double u, double v)>;
 
-/// A mesh with the parameters of its vertices.
 struct parametric_mesh {
   gonio::shape::triangle_mesh mesh;
   parameter_columns places;
 };
 
-/// Makes a mesh look like a scanner's.
 struct irregularity {
   std::uint64_t seed = 0;
-  double jitter = 0.16;         ///< of the parameters, in steps between neighbours; above 0.2 triangles might fold
+  double jitter = 0.16;  ///< largest shift of a vertex, in steps to its neighbours; above 0.2 triangles might fold
   double long_diagonals = 0.2;  ///< probability of choosing the longer diagonal if both are similar
   double skew = 0.02;           ///< variation of u around a ring
 };
 
 namespace detail {
 
-/// Makes rings around a parametric surface. The distance between rings matches that of their vertices.
+/// Makes rings of vertices around a parametric surface, at distances for near-equilateral triangles.
 class ring_mesher {
  public:
   ring_mesher(const parametric_surface& surface, double from, std::size_t vertices,
@@ -118,7 +117,7 @@ class ring_mesher {
     return counts;
   }
 
-  /// Chooses the spacing closest to a number of vertices. Some rings get one more vertex to match it exactly.
+  /// Finds the smallest spacing that needs at most `vertices` vertices, then adds one to some rings to reach it.
   void choose_counts(std::size_t vertices) {
     const auto total = [](const std::vector<Eigen::Index>& counts) {
       return std::accumulate(counts.begin(), counts.end(), std::size_t{1});
@@ -138,7 +137,7 @@ class ring_mesher {
     const double gap = distances_.back() / static_cast<double>(counts_.size());
     const double level = level_at(gap * static_cast<double>(ring)), u = from_ + (1.0 - from_) * level / levels;
     const std::vector<double> lengths = lengths_round(u);
-    // The steps in u to the next ring, for the jitter.
+    // The step in u to the next ring, for the jitter.
     const double step = (1.0 - from_) * (level_at(gap * static_cast<double>(ring + 1)) - level) / levels;
     const double start = irregular_ ? numbers_.uniform() : 0.5 * static_cast<double>(ring % 2);
     firsts_.push_back(places_.size());
@@ -146,7 +145,7 @@ class ring_mesher {
       double place = static_cast<double>(i) + start, height = u;
       if (irregular_) {
         place += irregular_->jitter * numbers_.uniform(-1.0, 1.0);
-        // The last ring must not reach the tip.
+        // A jitter below one step keeps the last ring from the tip.
         height += step * irregular_->jitter * numbers_.uniform(-1.0, 1.0);
       }
       const double v = angle_at(lengths, place / static_cast<double>(count));
@@ -156,7 +155,7 @@ class ring_mesher {
     }
   }
 
-  /// Returns a shift of a ring along the canal that varies around it and fades at both ends.
+  /// Returns the shift in u of a vertex at v. It fades at both ends of the canal.
   [[nodiscard]] double skew_at(double u, double v) const {
     const double place = (u - from_) / (1.0 - from_);
     return irregular_->skew * 4.0 * place * (1.0 - place) * std::sin(v + skew_phase_);
@@ -244,7 +243,7 @@ class ring_mesher {
   return detail::ring_mesher(surface, from, vertices, irregular).mesh();
 }
 
-/// Returns the surface of an ear canal, which must outlive it.
+/// Returns the surface of an ear canal. The canal must outlive it.
 [[nodiscard]] inline parametric_surface surface_of(const ear_canal& individual) {
   return [&individual](double u, double v) { return individual.at(u, v); };
 }
@@ -259,7 +258,7 @@ parametric_surface surface_of(ear_canal&&) = delete;
   return points;
 }
 
-/// Near-equilateral triangles on the family's mean, which give the true correspondences of all individuals.
+/// Near-equilateral triangles on the family's mean. Their vertices give the true correspondences of all individuals.
 class ear_canal_template {
  public:
   /// The default is the published number of vertices. Throws gonio::error for fewer than 50.

@@ -51,10 +51,10 @@ struct ear_scan {
   gonio::shape::triangle_mesh mesh;
   parameter_columns places;           ///< (u, v) of each vertex of `mesh`; for spurious flaps, that of a neighbour
   gonio::shape::point_columns truth;  ///< the template's vertices, in the scan's coordinates; empty for another object
-  /// Whether each of them is on the scanned part of the surface, up to a triangle's size.
+  /// Whether each vertex of the template is on the scanned part of the surface, up to a triangle's size.
   std::vector<bool> covered;
   gonio::shape::triangle_mesh
-      complete;               ///< without holes and noise, in the scan's coordinates, from `ear_canal::outermost`
+      complete;  ///< without holes and noise, in the scan's coordinates; begins at u = `ear_canal::outermost`
   Eigen::Affine3d placement;  ///< from the family's coordinates to the scan's; reflects if mirrored
   scan_defect defect = scan_defect::none;
   ear_canal individual;  ///< for another object, the individual that it replaces
@@ -76,7 +76,7 @@ inline void require_options(const scan_options& options) {
       gonio::refuse(std::string("a scan's ") + name + " must be finite and not negative, not " + std::to_string(value));
 }
 
-/// Returns a smooth closed object of the size of an ear canal, cut open at u = 0. It owns its shape.
+/// Returns a smooth closed object of the size of an ear canal, cut open at u = 0.
 [[nodiscard]] inline parametric_surface blob(std::uint64_t seed) {
   number_source numbers(seed);
   std::array<double, 3> axes{}, bumps{}, phases{};
@@ -102,7 +102,7 @@ inline void require_options(const scan_options& options) {
   return round.cross(along).normalized();
 }
 
-/// Makes one scan. Each step has its own random source, so that an option does not change the others.
+/// Makes one scan. Each step has its own random source, so the options of one step do not change the other steps.
 class scanner {
  public:
   scanner(const ear_canal& individual, std::uint64_t seed, const scan_options& options)
@@ -174,7 +174,7 @@ class scanner {
     return {std::move(made.mesh), std::move(made.places), std::move(normals)};
   }
 
-  /// The outer end is cut at a slant, which fades inwards.
+  /// Returns the shift in u of the slanted cut at the outer end. It fades inwards.
   [[nodiscard]] double slant_at(double u, double v) const {
     return slant_ * std::pow(1.0 - std::max(0.0, u), 4) * std::sin(v + slant_phase_);
   }
@@ -220,8 +220,8 @@ class scanner {
 
 }  // namespace detail
 
-/// Returns a scan of an individual. Equal arguments give equal scans; `hole` and `noise` change nothing else. Throws
-/// gonio::error for invalid options. O(vertices): 10,000 with the complete surface take about 0.03 s.
+/// Returns a scan of an individual. Equal arguments give equal scans; `hole` and `noise` do not change the rest of the
+/// scan. Throws gonio::error for invalid options. O(vertices): 10,000 with the complete surface take about 0.03 s.
 [[nodiscard]] inline ear_scan scan_of(const ear_canal& individual, const ear_canal_template& common, std::uint64_t seed,
                                       const scan_options& options = {}) {
   return detail::scanner(individual, seed, options).scan(common);

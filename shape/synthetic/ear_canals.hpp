@@ -123,9 +123,9 @@ class ear_canal {
     return here.centre + here.frame * Eigen::Vector3d(cap_length_ * std::sin(turn), 0.0, 0.0);
   }
 
-  /// Returns the distance from folding: the smallest stretch of the surface along the canal relative to the centre
-  /// line, 1 in a straight tube and 0 where the wall reaches the centre of a bend; at most the smallest radius in mm
-  /// minus 1.
+  /// Returns a margin against folding, the smaller of two numbers: the smallest stretch of the surface along the canal
+  /// relative to the centre line (1 in a straight tube, 0 if the wall reaches the centre of a bend), and the smallest
+  /// radius in mm minus 1.
   [[nodiscard]] double regularity() const {
     double least = 1.0;
     for (int ring = 0; ring <= 60; ++ring) {
@@ -133,7 +133,7 @@ class ear_canal {
       const Eigen::Vector3d turning = turning_at(u) / speed_at(u);
       for (int sector = 0; sector < 24; ++sector) {
         const double v = 2.0 * std::numbers::pi * sector / 24.0, radius = radius_at(u, v, 1.0);
-        // The component of turning x arm along the canal.
+        // The second term is the component along the canal of the cross product of `turning` and the radius.
         const double stretch = 1.0 + radius * (turning[1] * std::sin(v) - turning[2] * std::cos(v));
         least = std::min({least, stretch, radius - 1.0});
       }
@@ -200,7 +200,7 @@ class ear_canal {
     for (double& slope : tilt_) slope = read.next(0.1, 0.10);
   }
 
-  /// Small-scale anatomy. The common part makes places on the wall distinguishable.
+  /// Small-scale anatomy. The common part makes locations on the wall distinguishable.
   void read_waves(latent_reader& read) {
     const std::array<wave, 9> common{{{0, 3, 0.10, -0.16},
                                       {1, 3, -0.14, 0.08},
@@ -233,7 +233,7 @@ class ear_canal {
     return sum;
   }
 
-  /// Returns the rotation of the frame per u, in its own axes.
+  /// Returns the rotation of the frame per unit of u, as a vector in the frame's axes.
   [[nodiscard]] Eigen::Vector3d turning_at(double u) const {
     Eigen::Vector3d turning(twist_, cosine_sum(wander_[0], u), cosine_sum(wander_[1], u));
     for (const bend& one : bends_) {
@@ -359,7 +359,7 @@ class ear_canal_family {
     }
   }
 
-  /// Returns the individual with zero latent numbers. It is not the mean: points are not linear in these.
+  /// Returns the individual with zero latent numbers. It is not the mean shape: points are not linear in the numbers.
   [[nodiscard]] static ear_canal mean() { return ear_canal(std::vector<double>(ear_canal::latent_count, 0.0)); }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Ears to learn a model from, and others with holes to recover: the study of "Anatomically correct surface recovery"
-/// (Nielsen, doctoral thesis, DTU 2016, contribution C.V, section 4), with synthetic ears.
+/// Ears from which a model is learned, and other ears with holes to recover: the study of "Anatomically correct surface
+/// recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V, section 4), with synthetic ears.
 
 #include "ear_canal_scans.hpp"
 #include <gonio/core/parallel.hpp>
@@ -15,7 +15,7 @@
 
 namespace synthetic {
 
-/// All random numbers derive from the seed.
+/// The ears of a study. All random numbers derive from the seed.
 class ear_study {
  public:
   explicit ear_study(std::uint64_t seed) : seed_(seed) {}
@@ -34,8 +34,8 @@ class ear_study {
     return gonio::shape::learn_shape_model(all, std::move(names), common_.mesh().triangles, threads);
   }
 
-  /// Returns a scan of an ear that is in no model. It has its own random source, so the held-out ears do not depend on
-  /// the number of learned ones.
+  /// Returns a scan of an ear that is in no model. Each has its own random source, so the held-out ears do not depend
+  /// on the number of learned ones.
   [[nodiscard]] ear_scan held_out(Eigen::Index number, const scan_options& how) const {
     number_source seeds(seed_ + 1'000'003 * (number + 1));
     const std::uint64_t individual = seeds.seed(), scanner = seeds.seed();

@@ -65,7 +65,7 @@ TEST_CASE("no assignment of all is cheaper") {
 }
 
 TEST_CASE("many rows find their own columns") {
-  // A permutation is optimal if all other costs are at least the sum of their dual prices: row + column + 1.
+  // The expected pairs are optimal: each costs the price of its row (or column), and all other costs are higher.
   for (const auto& [rows, columns] : {std::pair(200, 200), std::pair(150, 220), std::pair(220, 150)}) {
     std::mt19937_64 generator(static_cast<std::uint64_t>(rows));
     const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };

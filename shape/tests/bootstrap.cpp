@@ -32,7 +32,7 @@ TEST_CASE("a model of twelve learns from scans of its kind, and from no others")
     if (!grown.outcomes[i].accepted()) continue;
     const gonio::shape::registration& found = *grown.outcomes[i].registered;
     const gonio::shape::point_columns truth = found.pose(truths[i].truth);
-    // Twelve shapes do not keep vertices from sliding. `gonio shape grow` counts more than this as too far.
+    // A model of twelve shapes does not keep vertices from sliding.
     CHECK((found.vertices - truth).colwise().norm().mean() < 2.0);
     CHECK(found.angle > 15.0);
     CHECK(found.normal_agreement > 0.75);

@@ -55,7 +55,7 @@ TEST_CASE("distances on a grid of squares cut in two are those of steps and diag
     }
 }
 
-TEST_CASE("paths on equilateral triangles are longer than straight lines by 10% in the mean and by 15.5% at most") {
+TEST_CASE("paths on equilateral triangles are longer than straight lines by 10% on average and at most by 15.5%") {
   const gonio::shape::triangle_mesh mesh = flat_grid(121, 121, 1.0, std::sqrt(0.75), -0.5);
   const Eigen::Index source = 60 * 121 + 60;
   const Eigen::VectorXd distances = geodesic_distances(mesh, mesh_topology(mesh), source);

@@ -18,7 +18,8 @@ gonio::lens_camera distorting_camera() {
           {.k1 = -0.25, .k2 = 0.1, .p1 = 0.002, .p2 = -0.001}};
 }
 
-/// Returns a sphere of rings of squares, each of two triangles. Many vertices coincide at its poles, on the outline.
+/// Returns a sphere made of rings of quads, each split into two triangles. Its poles, where many vertices coincide, lie
+/// on the outline that the camera sees.
 triangle_mesh meshed_sphere(const gonio::capture::placed_sphere& sphere, int rings) {
   const int around = 2 * rings;
   triangle_mesh mesh;

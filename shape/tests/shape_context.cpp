@@ -93,7 +93,7 @@ TEST_CASE("a descriptor is the area around a point by hand") {
   REQUIRE(found.vertex == std::vector<Eigen::Index>{middle});
   REQUIRE(found.histograms.rows() == options.bins());
   // b1 is y and b2 is b3 x b1 = -x. The azimuths of the neighbours from y are 30, 90, 150, -150, -90 and -30 degrees.
-  // Those at +-90 are at a border of bins, and rounding puts them on either side.
+  // The azimuths +-90 are at a border of bins, and rounding puts them on either side.
   const auto sector = [&](Eigen::Index azimuthal) { return found.histograms((13 + 6) * 4 + azimuthal, 0); };
   CHECK(sector(0) + sector(1) + sector(2) + sector(3) == doctest::Approx(1.0));
   for (Eigen::Index i = 0; i < 4; ++i) CHECK(std::round(6.0F * sector(i)) >= 1.0F);

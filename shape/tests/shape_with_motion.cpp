@@ -21,7 +21,7 @@ point_columns combined(const shape_with_motion& functions, const Eigen::VectorXd
   return shape;
 }
 
-/// A shape of the family, its weights, and the weights of a motion.
+/// A shape of a basis, its weights, and the weights of a motion.
 struct moving_shape {
   gonio::shape::shape_basis basis = synthetic_basis(synthetic_shapes(8, 6, 3, 6));
   Eigen::VectorXd weights = basis.weights_of(4).col(0).cast<double>();

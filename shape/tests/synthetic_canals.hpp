@@ -24,8 +24,8 @@ inline canal_traits synthetic_traits(std::uint64_t seed) {
   return traits;
 }
 
-/// Returns a canal 25 mm high along the y axis and open at both ends: `rings` rings of `around` vertices, numbered as
-/// in `tube_mesh`.
+/// Returns a canal along the y axis, open at both ends and (25 + length) mm high (25 mm for the mean canal): `rings`
+/// rings of `around` vertices, numbered as in `tube_mesh`.
 inline gonio::shape::triangle_mesh canal_mesh(int rings, int around, const canal_traits& traits = {}) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;

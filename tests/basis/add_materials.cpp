@@ -10,14 +10,14 @@ const gonio::valid_cells& grid_of_test() {
   return cells;
 }
 
-/// Some of thirty materials.
+/// Returns `count` of thirty materials, starting at `first`.
 gonio::material_set materials(Eigen::Index first, Eigen::Index count) {
   std::vector<Eigen::Index> positions;
   for (Eigen::Index i = 0; i < count; ++i) positions.push_back(first + i);
   return synthetic_materials(grid_of_test(), 30).subset(positions);
 }
 
-/// The largest difference of mapped values that two priors remember, over some materials.
+/// Returns the largest difference between the mapped values of the materials stored in two priors.
 double largest_difference(const gonio::log_relative_pca& a, const gonio::log_relative_pca& b) {
   const auto mapped = [](const gonio::log_relative_pca& prior) {
     Eigen::MatrixXd all = prior.components().cast<double>() * prior.coefficients().cast<double>().transpose();

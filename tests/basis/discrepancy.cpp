@@ -36,7 +36,7 @@ double product_of(const std::vector<double>& a, const std::vector<double>& b) {
   return sum;
 }
 
-/// As the header says it.
+/// The covariance as basis/discrepancy.hpp documents it.
 double covariance(const half_difference& a, const half_difference& b) {
   const auto place = [](const half_difference& at) {
     const double degrees = 180.0 / std::numbers::pi;

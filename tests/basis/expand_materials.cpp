@@ -11,7 +11,7 @@
 
 namespace {
 
-/// The spectrum that a prior has of a material at a cell.
+/// Returns a material's spectrum at a cell as the prior stores it.
 std::vector<double> spectrum_of(const gonio::log_relative_pca& prior, Eigen::Index material, Eigen::Index cell) {
   const Eigen::MatrixXd weights = prior.weights_of(material);
   std::vector<double> values;

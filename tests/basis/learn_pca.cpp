@@ -18,7 +18,7 @@ TEST_CASE("components are those of a dense singular value decomposition") {
   x.colwise() -= mean;
   const auto svd = dense_reference::svd(x);
 
-  CHECK(prior.size() < 18);  // centring takes one away, and colours of one lobe are related
+  CHECK(prior.size() < 18);  // centring removes one, and the channels of one lobe are linearly dependent
   for (std::size_t k = 0; k < 5; ++k) {
     CAPTURE(k);
     const Eigen::Index i = k;
@@ -38,7 +38,7 @@ TEST_CASE("the stored coefficients expand to the materials, and projection finds
   for (std::size_t m = 0; m < 6; ++m) {
     const Eigen::MatrixXd weights = prior.weights_of(m);
     const gonio::brdf_table truth = set.table(m);
-    // A component matters as far as it moves the field; those below 1e-5 of the first are left out.
+    // Errors in a component count in proportion to its singular value; components below 1e-5 of the first are dropped.
     const Eigen::MatrixXd moved = prior.singular_values().asDiagonal() * (gonio::project(prior, truth) - weights);
     CHECK(moved.cwiseAbs().maxCoeff() < 3e-5 * prior.singular_values()[0]);
     for (Eigen::Index cell = 0; cell < small_cells().size(); cell += 17)
@@ -60,7 +60,7 @@ TEST_CASE("learning gives the same bytes for any number of threads") {
 }
 
 TEST_CASE("a thinned prior keeps its values where nodes coincide and stays close between them") {
-  // Three cells of the fine grid make one of the coarse: the middle one's node is the coarse cell's.
+  // Three cells of the fine grid make one coarse cell; the node of the middle one is that of the coarse cell.
   const valid_cells fine(gonio::grid({18, 27, 36})), coarse(gonio::grid({18, 9, 12}));
   const auto prior = learn(synthetic_materials(fine, 6), 6);
   const auto thinned = gonio::thin(prior, coarse);
@@ -92,7 +92,7 @@ TEST_CASE("unusable material sets are refused") {
   set.values(5, 2) = std::nanf("");
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::learn_pca(set, metric, 3)),
                        doctest::Contains("'material-0' is not finite at cell 5"), gonio::error);
-  set.values(5, 2) = -std::numeric_limits<float>::infinity();  // which the metric would count as zero
+  set.values(5, 2) = -std::numeric_limits<float>::infinity();  // the metric would count it as zero
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::learn_pca(set, metric, 3)),
                        doctest::Contains("'material-0' is not finite at cell 5"), gonio::error);
   CHECK_THROWS_AS(static_cast<void>(learn({small_cells(), {}, gonio::cell_matrix()}, 3)), gonio::error);

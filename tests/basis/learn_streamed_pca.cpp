@@ -5,7 +5,7 @@
 
 namespace {
 
-/// The largest difference of two priors, relative to the larger one's size: of components, mean and reference.
+/// Returns the largest relative difference between two priors' components, means and references.
 double difference(const gonio::log_relative_pca& a, const gonio::log_relative_pca& b) {
   REQUIRE(a.size() == b.size());
   REQUIRE(a.names() == b.names());
@@ -123,7 +123,7 @@ TEST_CASE("materials that cannot be streamed are refused") {
   missing.values(5, 4) = std::nanf("");
   CHECK_THROWS_WITH_AS(learn_streamed(missing, 3), doctest::Contains("'material-1' is not finite at cell 5"),
                        gonio::error);
-  missing.values(5, 4) = -std::numeric_limits<float>::infinity();  // which the metric would count as zero
+  missing.values(5, 4) = -std::numeric_limits<float>::infinity();  // the metric would count it as zero
   CHECK_THROWS_AS(learn_streamed(missing, 3), gonio::error);
   CHECK_THROWS_WITH_AS(gonio::learn_streamed_pca({small_cells(), set.names,
                                                   [](gonio::block range, gonio::cell_rows out) {

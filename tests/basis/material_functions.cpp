@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Gives tests what a derived class has.
+/// A derived class that gives the tests access to the base class.
 struct some_functions : gonio::material_functions<gonio::lin> {
   using gonio::material_functions<gonio::lin>::material_functions;
   using gonio::material_functions<gonio::lin>::leave_out;
@@ -61,7 +61,7 @@ TEST_CASE("the products of a channel are the Gram matrix of all functions, those
   REQUIRE(products.rows() == 4);
   // Integers: exact.
   CHECK(products == values.transpose() * values);
-  // Computed once, for all copies.
+  // Computed once and shared by all copies.
   CHECK(&channel.products() == &functions.channel(1).products());
   CHECK(&channel.products() != &functions.channel(0).products());
   functions.leave_out({"a"});
@@ -80,11 +80,11 @@ TEST_CASE("leaving out: names count, functions without a name stay, and copies a
       else
         expected.push_back(i);
     }
-    if (!out.empty() && *rc::gen::arbitrary<bool>()) out.push_back(out.front());  // twice does no harm
+    if (!out.empty() && *rc::gen::arbitrary<bool>()) out.push_back(out.front());  // naming it twice is allowed
     auto fewer = all;
     if (expected.empty()) {
       RC_ASSERT_THROWS_AS(fewer.leave_out(out), gonio::error);
-      RC_ASSERT(fewer.columns().size() == 4u);  // nothing happened
+      RC_ASSERT(fewer.columns().size() == 4u);  // unchanged
       return;
     }
     fewer.leave_out(out);
@@ -113,8 +113,8 @@ TEST_CASE("sizes that do not match are refused") {
   };
   CHECK_NOTHROW(make({"a", "b"}, rows, 6));
   CHECK_NOTHROW(make({"a", "b"}, rows, 9));
-  CHECK_THROWS_AS(make({"a", "b"}, rows, 7), gonio::error);      // not the same for each channel
-  CHECK_THROWS_AS(make({"a", "b"}, rows, 3), gonio::error);      // fewer than names
-  CHECK_THROWS_AS(make({"a", "b"}, rows - 1, 6), gonio::error);  // not all cells
+  CHECK_THROWS_AS(make({"a", "b"}, rows, 7), gonio::error);      // not a multiple of the channels
+  CHECK_THROWS_AS(make({"a", "b"}, rows, 3), gonio::error);      // fewer columns than names
+  CHECK_THROWS_AS(make({"a", "b"}, rows - 1, 6), gonio::error);  // a cell is missing
   CHECK_THROWS_AS(make({}, rows, 0), gonio::error);
 }

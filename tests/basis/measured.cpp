@@ -10,7 +10,7 @@ using gonio::measured;
 
 namespace {
 
-/// Leaves the range of double.
+/// Its mapped values overflow double.
 struct overflowing_metric {
   double forward(double rho, const auto&) const noexcept { return std::exp(1e3 * (1.0 + rho)); }
   double inverse(double y, const auto&) const noexcept { return 1e-3 * std::log(y) - 1.0; }
@@ -80,7 +80,7 @@ TEST_CASE("materials that cannot be used are refused by name") {
   CHECK_THROWS_WITH_AS((measured{broken, gonio::log{}}), doctest::Contains("'material-2' is not finite at cell 5"),
                        gonio::error);
   const auto reference = gonio::log_relative::to_median_of(synthetic_materials(small_cells(), 3));
-  broken.values(5, 7) = -std::numeric_limits<float>::infinity();  // which counts as zero there
+  broken.values(5, 7) = -std::numeric_limits<float>::infinity();  // the metric would count it as zero
   CHECK_THROWS_WITH_AS((measured{broken, reference}), doctest::Contains("'material-2' is not finite at cell 5"),
                        gonio::error);
   CHECK_THROWS_WITH_AS((measured{synthetic_materials(small_cells(), 3), overflowing_metric{}}),

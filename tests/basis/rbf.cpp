@@ -40,12 +40,12 @@ gonio::sample_set fifteen_samples() {
   return samples;
 }
 
-/// The cube of the distance: smoother, and worse conditioned.
+/// The cube of the distance: a smoother kernel with a larger condition number.
 struct cubic_kernel {
   static void apply(gonio::kernel_row squares) noexcept { squares *= squares.sqrt(); }
 };
 
-/// exp(-(r / width)^2), of local support in effect.
+/// exp(-(r / width)^2): its support is local in practice.
 class gaussian_kernel {
  public:
   explicit gaussian_kernel(double width) : width_(width) {}
@@ -65,7 +65,7 @@ struct thin_plate_kernel {
 };
 static_assert(gonio::radial_kernel<thin_plate_kernel>);
 
-/// The value of a fit at a location above the horizon.
+/// Returns the fit's value at a location above the horizon.
 template <class Fit>
 gonio::rgb value_at(const Fit& fit, const gonio::half_difference& angles) {
   const auto [wi, wo] = to_directions(angles);
@@ -241,7 +241,7 @@ TEST_CASE("radial basis functions that cannot be are refused") {
   CHECK_THROWS_WITH_AS((rbf{small_cells(), gonio::lin{}, centres}), doctest::Contains("centre 4"), gonio::error);
   CHECK_THROWS_WITH_AS(gonio::farthest_point_centres(small_cells(), 100'000), doctest::Contains("100000"),
                        gonio::error);
-  // Where theta_d = 0 all phi_d are one location.
+  // At theta_d = 0 all phi_d are the same location.
   const gonio::valid_cells corners(gonio::grid({4, 1, 30}, gonio::cell_anchor::lower_corner));
   CHECK(gonio::farthest_point_centres(corners, 4).size() == 4);
   CHECK_THROWS_WITH_AS(gonio::farthest_point_centres(corners, 5), doctest::Contains("among 4 locations"), gonio::error);

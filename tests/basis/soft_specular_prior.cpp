@@ -7,7 +7,7 @@
 
 namespace {
 
-/// The first and the last materials of a set, each with a prior relative to the median of all.
+/// Learns one prior from the first and one from the last materials of a set, both relative to the median of all.
 gonio::soft_specular_prior two_of(const gonio::material_set& set) {
   const auto metric = gonio::log_relative::to_median_of(set);
   const auto half = [&](std::vector<Eigen::Index> chosen) { return gonio::learn_pca(set.subset(chosen), metric, 4); };

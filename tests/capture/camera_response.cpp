@@ -14,15 +14,15 @@ using gonio::capture::exposure_counts;
 
 namespace {
 
-/// The share of the largest count that an exposure from 0 to 1 gives.
+/// The count, as a fraction of the largest, for an exposure from 0 to 1.
 using curve = std::function<double(double)>;
 
 double linear(double exposure) { return exposure; }
 double gamma_curve(double exposure) { return std::pow(exposure, 1.0 / 2.2); }
-/// A toe and a shoulder on a logarithmic scale.
+/// A response with a toe and a shoulder on a logarithmic scale.
 double s_shaped(double exposure) { return 1.25 * std::pow(exposure, 1.2) / (std::pow(exposure, 1.2) + 0.25); }
 
-/// Pixels of many radiances, with relative noise, as a camera of this curve counts them.
+/// Simulates a camera of this response: counts of pixels of many radiances, with relative noise.
 exposure_counts expose(const curve& response, std::uint16_t largest, double noise, int pixels, unsigned seed) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
@@ -38,8 +38,8 @@ exposure_counts expose(const curve& response, std::uint16_t largest, double nois
   return counts;
 }
 
-/// The largest relative error of the exposure over the counts from one share of the largest to 0.98, both relative to
-/// the middle count.
+/// Returns the largest relative error of the exposure, relative to that of the middle count, over counts between `from`
+/// and 0.98 of the largest.
 double worst_error(const camera_response& found, const curve& response, double from) {
   const auto exposure_of = [&](double share) {  // by bisection
     double low = 0.0, high = 1.0;
@@ -64,7 +64,7 @@ TEST_CASE("camera response: within 1 % for linear, gamma 2.2 and S-shaped camera
       for (const std::uint16_t largest : {std::uint16_t(255), std::uint16_t(4095), std::uint16_t(65535)}) {
         const auto found = estimate_response(expose(response, largest, 0.01, 2000, seed),
                                              gonio::capture::note_exposure_times, largest);
-        // Below 13 of 255 counts, rounding to whole ones is more than the noise.
+        // Below 13 of 255 counts, rounding to integers exceeds the noise.
         CHECK(worst_error(found, response, largest == 255 ? 0.05 : 0.02) < 0.01);
       }
 }
@@ -109,7 +109,7 @@ TEST_CASE("camera response: bad input is refused") {
   using doctest::Contains;
   const exposure_counts counts = exposure_counts::Constant(3, 2, 100);
   const std::vector two{0.1, 0.2}, three{0.1, 0.2, 0.4}, negative{0.1, -0.2};
-  CHECK_THROWS_WITH_AS(estimate_response(counts, three, 255), Contains("not 3 and 2"), gonio::error);
+  CHECK_THROWS_WITH_AS(estimate_response(counts, three, 255), Contains("not 3 times and 2 columns"), gonio::error);
   CHECK_THROWS_WITH_AS(estimate_response(counts, negative, 255), Contains("must be positive"), gonio::error);
   CHECK_THROWS_WITH_AS(estimate_response(counts, two, 99), Contains("count is 100"), gonio::error);
   CHECK_THROWS_WITH_AS(estimate_response(counts, two, 2), Contains("a camera of 2 counts"), gonio::error);

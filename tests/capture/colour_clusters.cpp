@@ -14,13 +14,13 @@ namespace {
 
 const std::array<rgb, 3> paints{rgb(0.6, 0.6, 0.55), rgb(0.1, 0.4, 0.1), rgb(0.5, 0.1, 0.05)};
 
-/// Which paint a synthetic greeting card has at a pixel: half, a third and a sixth of it.
+/// Returns the paint at a pixel of a synthetic greeting card. The paints cover a half, a third and a sixth of it.
 int paint_at(Eigen::Index pixel) {
   constexpr std::array<int, 6> pattern{0, 1, 0, 2, 0, 1};
   return pattern[pixel % 6];
 }
 
-/// Pixels coloured by `colour(i, normal, uniform)`, random numbers at hand.
+/// Returns pixels with the colours `colour(i, normal, uniform)`; the last two arguments are random distributions.
 template <class Colour>
 point_matrix synthetic_image(Eigen::Index pixels, unsigned seed, Colour&& colour) {
   std::mt19937_64 generator(seed);
@@ -34,7 +34,7 @@ point_matrix synthetic_image(Eigen::Index pixels, unsigned seed, Colour&& colour
   return colours;
 }
 
-/// The card in uneven light, with noise.
+/// A greeting card under uneven light, with noise.
 point_matrix greeting_card(Eigen::Index pixels, unsigned seed) {
   return synthetic_image(pixels, seed, [](Eigen::Index i, auto&& normal, auto&& uniform) {
     const rgb noise(normal(), normal(), normal());
@@ -110,7 +110,7 @@ TEST_CASE("two clouds eight deviations apart are two clusters, by their lightnes
   // L* is 116 cbrt(Y) - 16.
   const auto grey = [](double lightness) { return rgb(rgb::Constant(std::pow((lightness + 16.0) / 116.0, 3))); };
   const auto colours = synthetic_image(6000, 9, [&](Eigen::Index i, auto&& normal, auto&&) {
-    if (i % 50 == 0) return grey(100.0);  // which sets the exposure
+    if (i % 50 == 0) return grey(100.0);  // sets the exposure
     return grey((i % 3 == 0 ? 30.0 : 54.0) + 3.0 * normal());
   });
   const auto found = cluster_colours(colours, cluster_count_choice{.most = 3}, 4);

@@ -10,7 +10,7 @@ using gonio::capture::exposed_frame;
 
 namespace {
 
-/// A row of pixels that count 100 and 10 each second, but for the last one, which is hot in green.
+/// Returns a row of pixels that count 100 plus 10 per second. The last pixel is hot in green.
 exposed_frame dark_row(double seconds, std::size_t pixels = 50) {
   exposed_frame frame{seconds, {1, pixels, 4095, std::vector<std::uint16_t>(3 * pixels)}};
   for (auto& count : frame.codes.values) count = static_cast<std::uint16_t>(100 + 10 * seconds);
@@ -28,7 +28,7 @@ TEST_CASE("dark signal: a line through dark frames tells all times") {
   CHECK(dark.count(0, 2.5) == doctest::Approx(125.0));
   CHECK(dark.count(148, 2.0) == doctest::Approx(1100.0));
   CHECK(dark.hot_pixels() == std::vector<Eigen::Index>{49});
-  // Of four frames, in the middle and at an end: 1/4 and 1/4 + 1.5^2 / (4 * 1.5^2).
+  // The variance with four frames, at the middle exposure and at an end: 1/4 and 1/4 + 1.5^2 / (4 * 1.5^2).
   CHECK(dark.relative_variance(2.5) == doctest::Approx(0.25));
   CHECK(dark.relative_variance(4.0) == doctest::Approx(0.5));
   dark.require_known(100.0);
@@ -65,7 +65,7 @@ TEST_CASE("dark signal: frames that differ are refused") {
     CHECK_THROWS_WITH_AS(dark_signal{frames}, Contains(words), gonio::error);
   };
   refuses({}, "no frame");
-  refuses({dark_row(1.0), dark_row(1.0, 4)}, "4 x 1 pixels, the first one 50 x 1");
+  refuses({dark_row(1.0), dark_row(1.0, 4)}, "4 x 1 pixels, but the first has 50 x 1");
   exposed_frame deeper = dark_row(1.0), cut = dark_row(1.0);
   deeper.codes.largest = 65535;
   cut.codes.values.pop_back();

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-// The smallest models, as the concepts' documentation has them.
+// The smallest models of the concepts, as in their documentation.
 namespace {
 
 struct torch {
@@ -22,7 +22,7 @@ struct bent_wire {
 };
 static_assert(gonio::capture::positioner<bent_wire>);
 
-/// A colour that sends a third of red's light as green, and none as blue.
+/// A filter whose green is a third of its red, and whose blue is zero.
 struct photodiode {
   double red_per_second = 255.0;
   [[nodiscard]] std::uint16_t largest_count() const { return 255; }
@@ -98,7 +98,7 @@ TEST_CASE("device: a bracket takes the note's times first, and others where thes
   CHECK(gonio::capture::expose_bracket(eye).times.back() == doctest::Approx(0.003125));
 
   eye.red_per_second = 1000.0;
-  eye.blue = 0.05;  // 10 counts in 0.2 s: a colour of its own
+  eye.blue = 0.05;  // 10 counts in 0.2 s: this channel needs its own times
   const gonio::capture::reading dim = gonio::capture::expose_bracket(eye);
   CHECK(dim.times.size() == 6u);
   CHECK(dim.times.back() == doctest::Approx(0.8));

@@ -13,7 +13,7 @@ using gonio::capture::sensor_noise;
 
 namespace {
 
-/// What a camera of a power law counts of a radiance at the note's times.
+/// Simulates a camera with a power-law response: the counts of a radiance at the note's exposure times.
 std::vector<std::uint16_t> expose(double radiance, double gamma, double largest, const sensor_noise& noise,
                                   std::mt19937_64& generator) {
   std::normal_distribution<double> normal;
@@ -80,7 +80,7 @@ TEST_CASE("high dynamic range: what no exposure shows is told apart") {
   CHECK(white.value == doctest::Approx(camera.exposure(255.0) / 0.0125));
   CHECK(std::isinf(white.deviation));
   CHECK(merge_exposures(both, gonio::capture::note_exposure_times, camera).saturated);
-  // A limit below the largest count takes part in that.
+  // A limit below the largest count also bounds the usable counts.
   const std::vector<std::uint16_t> nearly(5, 251);
   CHECK(merge_exposures(nearly, gonio::capture::note_exposure_times, camera).usable());
   CHECK(merge_exposures(nearly, gonio::capture::note_exposure_times, camera, {}, 250).saturated);

@@ -9,7 +9,7 @@ using gonio::capture::point_matrix;
 
 namespace {
 
-/// Normal noise of this width around centres, one after the other.
+/// Returns points with normal noise of this width around each centre, in the order of the centres.
 point_matrix blobs(const point_matrix& centres, Eigen::Index each, double width, unsigned seed) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
@@ -34,12 +34,12 @@ TEST_CASE("k-means: numbers on a line, by hand") {
 TEST_CASE("k-means: clusters far apart are found from any seed, the largest first") {
   const point_matrix centres{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {9, 9, 9}};
   auto points = blobs(centres, 50, 0.3, 3);
-  points.conservativeResize(260, 3);  // sixty more around the last
+  points.conservativeResize(260, 3);  // sixty more points around the last centre
   points.bottomRows(60) = blobs(centres.bottomRows(1), 60, 0.3, 4);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto found = k_means(points, 4, seed);
     CHECK(found.sizes == std::vector<Eigen::Index>{110, 50, 50, 50});
-    // Of the three of equal size the order is that of their centres.
+    // The three clusters of equal size are ordered by their centres.
     const point_matrix expected{{9, 9, 9}, {0, 9, 0}, {0, 0, 0}, {9, 0, 0}};
     CHECK((found.centres - expected).row(0).norm() < 0.2);
     for (Eigen::Index c = 1; c < 4; ++c)

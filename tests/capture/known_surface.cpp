@@ -25,7 +25,7 @@ TEST_CASE("what is seen of a sphere lies on it, and faces the camera") {
     REQUIRE((position - sphere.centre - 0.8 * normal).norm() < 1e-12);
     REQUIRE(normal.dot(surface_camera().position() - position) > 0.0);
   }
-  // A disc of radius 200 x tan(asin(0.8 / 9.5)) = 17 pixels, a little larger off the axis.
+  // A disc of radius 200 x tan(asin(0.8 / 9.5)) = 17 pixels, slightly larger off the axis.
   CHECK(count > 870);
   CHECK(count < 950);
   CHECK_THROWS_AS(gonio::capture::surface_of(gonio::capture::placed_sphere{{0, 0, 0}, -1.0}, surface_camera()),

@@ -30,7 +30,7 @@ gonio::image ramp(std::size_t rows, std::size_t columns) {
 
 std::array<camera_response, 3> same_responses(const camera_response& each) { return {each, each, each}; }
 
-/// What merging makes of a bracket of the ramp, with the truth in its unit.
+/// The merged bracket of the ramp, and the true radiance in the same unit.
 struct merged_ramp {
   explicit merged_ramp(const lab::photograph_settings& settings, std::uint64_t seed = 1)
       : truth(lab::through_lens(ramp(40, 200), settings)),
@@ -45,7 +45,7 @@ struct merged_ramp {
                      dark, {.noise = lab::noise_of(settings), .saturation = saturation});
   }
 
-  /// The deviations by which values of a state are off.
+  /// Returns the errors of the values in a given state, in units of their deviations.
   [[nodiscard]] std::vector<double> errors(value_state state) const {
     std::vector<double> all;
     for (std::size_t i = 0; i < merged.states.size(); ++i)
@@ -74,7 +74,7 @@ exposed_frame pixel_of(double seconds, std::uint16_t count, std::uint16_t larges
 
 TEST_CASE("merged frames: 95 % intervals hold 92 to 98 % of the values") {
   lab::photograph_settings settings = lab::photograph_settings::usual();
-  settings.flicker = 0.0;  // it is common to the pixels of a frame
+  settings.flicker = 0.0;  // flicker is the same for all pixels of a frame
   const merged_ramp whole(settings);
   const auto usable = whole.errors(value_state::usable), dark = whole.errors(value_state::dark);
   REQUIRE(usable.size() > 15000);
@@ -83,7 +83,7 @@ TEST_CASE("merged frames: 95 % intervals hold 92 to 98 % of the values") {
   double bias = 0.0;
   for (const double each : usable) bias += each / static_cast<double>(usable.size());
   CHECK(std::abs(bias) < 0.05);
-  // Deviations that are half or twice as large would not.
+  // Deviations half or twice as large fail the test.
   const auto scaled = [&](double factor) {
     std::vector<double> all = usable;
     for (double& each : all) each *= factor;
@@ -131,7 +131,7 @@ TEST_CASE("merged frames: a pixel is what the worst of its channels is") {
 }
 
 TEST_CASE("merged frames: the noise of the dark frames adds to that of the photograph") {
-  // Two dark frames know their mean to half of the variance of one: reading noise, and that counts are whole.
+  // The mean of two dark frames has half the variance of one: read noise and rounding to integers.
   const std::vector dark_frames{pixel_of(0.5, 0), pixel_of(0.5, 0)};
   const std::vector photograph{pixel_of(0.5, 1000)};
   const auto responses = same_responses(camera_response::power_law(4095));
@@ -189,7 +189,7 @@ TEST_CASE("merged frames: the same bytes for any number of threads") {
 
 TEST_CASE("merged frames: what no exposure shows is told apart") {
   const auto responses = same_responses(camera_response::power_law(4095));
-  // Two pixels: the first is what is looked at, the second is usable.
+  // Two pixels: the first is the one tested, the second is always usable.
   const auto merged = [&](std::vector<std::uint16_t> counts) {
     std::vector<exposed_frame> frames;
     double seconds = 0.01;

@@ -23,8 +23,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Light and camera at polar angles and an azimuth between them in degrees, the camera at distance 1 from the middle of
-/// a disc that spans 25 degrees, which it looks at with 60 x 80 pixels.
+/// Light and camera at these polar angles, and the azimuth between them, in degrees. The camera looks at the middle of
+/// a disc that spans 25 degrees from distance 1, with 60 x 80 pixels.
 near_field_setup setup_at(double light, double camera, double azimuth) {
   const double radius = std::tan(radians(12.5));
   const gonio::camera_intrinsics intrinsics{60, 80, 120.0, 125.0, 41.0, 29.0};
@@ -35,10 +35,10 @@ near_field_setup setup_at(double light, double camera, double azimuth) {
           .disc = gonio::capture::sample_disc{radius}};
 }
 
-/// The same in the middle of the range, for what does not depend on the directions.
+/// A set-up with moderate angles, for tests that do not depend on the directions.
 near_field_setup ordinary_setup() { return setup_at(50.0, 40.0, 180.0); }
 
-/// The distant light of a set-up.
+/// Returns the distant light of a set-up.
 auto& light_of(auto& setup) { return std::get<gonio::directional_light>(setup.light); }
 
 const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
@@ -48,7 +48,7 @@ rgb truth_at(const gonio::half_difference& angles) {
   return paint(wi, wo);
 }
 
-/// The largest relative deviation of a sample from the paint.
+/// Returns the largest relative error of the samples.
 double largest_error(const gonio::sample_set& samples) {
   double largest = 0.0;
   for (const gonio::sample& s : samples)
@@ -69,7 +69,7 @@ TEST_CASE("without noise the paint's values come back, whatever the pose") {
     const auto setup = setup_at(*rc::gen::inRange(0, 86), *rc::gen::inRange(0, 76), *rc::gen::inRange(-180, 181));
     const auto samples = near_field_samples(lab::photograph(paint, *setup.disc, setup), setup);
     RC_ASSERT_FALSE(samples.empty());
-    RC_ASSERT(largest_error(samples) < 1e-6);  // pixels are float
+    RC_ASSERT(largest_error(samples) < 1e-6);  // pixels are floats
     RC_ASSERT(std::ranges::all_of(samples, [](const auto& s) { return s.weight == 1.0; }));
   }));
 }
@@ -92,7 +92,7 @@ TEST_CASE("samples are the disc's pixels in their order, with the light that was
       REQUIRE(angles.phi_d == doctest::Approx(expected.phi_d));
     }
   CHECK(next == samples.size());
-  // As many as the ellipse of the disc covers: its radius is 120 x 125 tan(12.5) tan(12.5) cos(40) pi pixels.
+  // The pixels that the ellipse of the disc covers: 120 x 125 tan(12.5) tan(12.5) cos(40) pi.
   CHECK(static_cast<double>(next) == doctest::Approx(1774.0).epsilon(0.06));
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("a mask leaves pixels out, and the region's pixels are those that brin
 }
 
 TEST_CASE("a sample's cones are the light's, and a receiver's that blurs half vectors as its block does") {
-  // Light and camera straight above: half vectors turn by half of what the view does.
+  // Light and camera directly above: half vectors turn by half the angle by which the view turns.
   constexpr double focal_length = 2000.0;
   const gonio::lens_camera camera(gonio::pinhole_camera::look_at({100, 100, focal_length, focal_length, 50.0, 50.0},
                                                                  {0.0, 0.0, 8.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}));
@@ -153,7 +153,7 @@ TEST_CASE("a sample's cones are the light's, and a receiver's that blurs half ve
       CHECK(s.aperture.receiver == doctest::Approx(expected).epsilon(0.01));
     }
   }
-  // A lamp as far away as the camera: they turn together.
+  // A lamp as far away as the camera: the half vectors turn by the same angle as the view.
   setup.light = gonio::capture::point_lamp{{0.0, 0.0, 8.0}, rgb::Ones(), 0.4};
   const auto samples = near_field_samples(lab::photograph(paint, *setup.disc, setup), setup);
   CHECK(samples[0].aperture.receiver == doctest::Approx(2.0 * 10.0 / focal_length / std::sqrt(3.0)).epsilon(0.01));
@@ -164,7 +164,7 @@ TEST_CASE("blocks average their pixels, and count by their share") {
   auto setup = ordinary_setup();
   const image picture = lab::photograph(paint, *setup.disc, setup);
   const auto pixels = near_field_samples(picture, setup);
-  setup.block = 7;  // does not divide the image
+  setup.block = 7;  // does not divide the image size
   const auto blocks = near_field_samples(picture, setup);
   CHECK(blocks.size() < pixels.size() / 30);
   rgb sum_of_pixels = rgb::Zero(), sum_of_blocks = rgb::Zero();
@@ -179,7 +179,7 @@ TEST_CASE("blocks average their pixels, and count by their share") {
   }
   CHECK(weights == doctest::Approx(static_cast<double>(pixels.size())));
   CHECK((sum_of_blocks / sum_of_pixels - 1.0).abs().maxCoeff() < 1e-6);
-  // The paint is curved inside a block of 3 degrees, most of all where its highlight is.
+  // The BRDF is not linear within a block of 3 degrees, least of all in the highlight.
   CHECK(root_mean_square_error(blocks) < 0.006);  // measured: 0.0041
 }
 
@@ -199,10 +199,10 @@ TEST_CASE("a slight misalignment of light and camera costs what the paint's slop
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
     const lab::near_field_defects shifted{.misalignment = radians(1.0)};
-    // The rim of the disc may move out of what is believed to be the disc: the material is larger.
+    // With shifted angles, the rim may leave the assumed disc, so the material is made larger.
     const image picture = lab::photograph(paint, {.radius = 0.4}, setup, shifted, seed);
     CHECK(root_mean_square_error(near_field_samples(picture, setup)) < 0.2);  // measured: up to 0.135
-    // A Lambertian knows the light's cosine alone: cos(theta + 1 degree) / cos(theta).
+    // For a Lambertian only the light's cosine matters: cos(theta + 1 degree) / cos(theta).
     const gonio::model::lambertian grey{rgb::Constant(0.18)};
     const double bound = std::tan(radians(50.0)) * radians(1.0) * 1.02;
     for (const gonio::sample& s :
@@ -217,7 +217,7 @@ TEST_CASE("saturated pixels are skipped with their blocks, and infinite ones if 
   const std::size_t all = near_field_samples(picture, setup).size();
   gonio::set_pixel(picture, 29, 41, {0.1, 0.9, 0.1});
   gonio::set_pixel(picture, 29, 42, {0.1, 0.1, infinity});
-  setup.saturation = 0.9;  // which is more than what the image holds, 0.9f
+  setup.saturation = 0.9;  // larger than the value in the image, 0.9f
   const auto is_saturated = [&](std::size_t row, std::size_t column) -> std::size_t {
     return (gonio::pixel(picture, row, column) > 0.8999999).any() ? 1 : 0;
   };
@@ -227,7 +227,7 @@ TEST_CASE("saturated pixels are skipped with their blocks, and infinite ones if 
   CHECK(saturated >= 2);
   CHECK(saturated < all / 10);
   CHECK(near_field_samples(picture, setup).size() == all - saturated);
-  // Of a block of three by three whose middle is saturated nothing is left.
+  // A block of three by three with a saturated middle pixel gives no sample.
   setup.window = gonio::capture::pixel_window{40, 28, 3, 3};
   CHECK(near_field_samples(picture, setup).size() < 9);
   setup.block = 3;
@@ -283,7 +283,7 @@ TEST_CASE("what cannot be measured is refused") {
   refused([](auto& s) { s.light = gonio::capture::point_lamp{{0.0, 0.0, -1.0}}; }, "at or below the sample's horizon");
   const auto setup = ordinary_setup();
   CHECK_THROWS_WITH_AS(near_field_samples(gonio::uniform_image(80, 60), setup),
-                       doctest::Contains("the image has 60 x 80 pixels, its camera 80 x 60"), gonio::error);
+                       doctest::Contains("the image has 60 x 80 pixels, but its camera 80 x 60"), gonio::error);
   CHECK_THROWS_WITH_AS(near_field_samples(image({60, 80, 4}, 0.0f), setup), doctest::Contains("4 channels"),
                        gonio::error);
 }
@@ -292,7 +292,7 @@ TEST_CASE("what cannot be measured is refused") {
 
 namespace {
 
-/// A lens that distorts, and a lamp at a finite distance.
+/// A lens with distortion, and a lamp at a finite distance.
 near_field_setup lamp_setup() {
   near_field_setup setup = ordinary_setup();
   const gonio::direction light = light_of(setup).towards;
@@ -316,9 +316,9 @@ TEST_CASE("the paint's values come back through a lens that distorts, under a la
   const auto setup = lamp_setup();
   const auto samples = near_field_samples(lab::photograph(paint, {.radius = 0.5}, setup), setup);
   CHECK(largest_error(samples) < 1e-6);
-  // The light's direction is each pixel's own.
+  // Each pixel has its own direction of the light.
   CHECK((samples.front().directions.pair().wi - samples.back().directions.pair().wi).norm() > 0.05);
-  // A pinhole at the same place would take them for other directions.
+  // A pinhole at the same position would assign other directions.
   near_field_setup straight = setup;
   straight.camera = setup.camera.pinhole();
   CHECK(largest_error(near_field_samples(lab::photograph(paint, {.radius = 0.5}, setup), straight)) > 0.001);
@@ -338,7 +338,7 @@ TEST_CASE("a white image takes away vignetting, the lamp's intensity and its fal
   unknown.block = 1;
 
   const std::size_t all = near_field_samples(picture, unknown, white).size();
-  gonio::set_pixel(white.photograph, 28, 40, {0.1, 0.0, 0.1});  // what is dark in the white image says nothing
+  gonio::set_pixel(white.photograph, 28, 40, {0.1, 0.0, 0.1});  // a dark pixel of the white image gives no value
   CHECK(near_field_samples(picture, unknown, white).size() == all - 1);
   const auto values = gonio::capture::region_reflectance(picture, unknown, white);
   CHECK(values.size() == all);

@@ -78,7 +78,7 @@ TEST_CASE("reference reflectance: between its angles a table lies between its fa
 TEST_CASE("reference reflectance: nothing is extrapolated") {
   const reference_reflectance table(reference_angles({10, 60}), reference_angles({45}),
                                     {uniform_factor(0.9), uniform_factor(0.8)});
-  CHECK(table.at(reference_pair(60, 45)).x() == doctest::Approx(0.8));  // but for rounding
+  CHECK(table.at(reference_pair(60, 45)).x() == doctest::Approx(0.8));  // up to rounding
   const auto look_up = [&](double theta_i, double theta_o) { return table.at(reference_pair(theta_i, theta_o)); };
   CHECK_THROWS_WITH_AS(look_up(61, 45),
                        "the white reference's table covers theta_i from 10.000000 to 60.000000 degrees, not 61.000000",

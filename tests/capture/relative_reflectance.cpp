@@ -15,6 +15,7 @@ TEST_CASE("solid angle of a pixel: Eq. 4 and 5, and a sphere seen from its centr
   const double half = std::atan(25.0 / 700.0);
   CHECK(gonio::capture::pixel_solid_angle(50.0, 2.0, 350.0) ==
         doctest::Approx(2.0 * std::numbers::pi * (1.0 - std::cos(half))).epsilon(1e-9));
+  CHECK(gonio::capture::pixel_half_angle(50.0, 2.0, 350.0) == doctest::Approx(half));
   CHECK(gonio::capture::pixel_solid_angle(1.0, 1.0, 1e9) == doctest::Approx(std::numbers::pi / 4.0 * 1e-18));
   CHECK(gonio::capture::pixel_solid_angle(1e9, 1.0, 1e-9) == doctest::Approx(2.0 * std::numbers::pi));
   CHECK_THROWS_WITH_AS(gonio::capture::pixel_solid_angle(0.0, 1.0, 1.0), doctest::Contains("must be positive"),
@@ -27,7 +28,7 @@ TEST_CASE("relative reflectance: f = dL / dE wherever lamp, reference and materi
     const double f = number(1, 300), lamp = number(10, 1000), rho = number(50, 101), camera = number(10, 1000);
     const illumination at_reference{number(5, 101), number(50, 200)}, at_material{number(5, 101), number(50, 200)};
     const auto irradiance = [&](const illumination& at) { return lamp * at.cosine / (at.distance * at.distance); };
-    // What a camera receives is proportional to radiance.
+    // The camera's signal is proportional to radiance.
     const uncertain reference{camera * rho / std::numbers::pi * irradiance(at_reference), 0.0};
     const uncertain material{camera * f * irradiance(at_material), 0.0};
     const auto found = reference_light(reference, rho, at_reference).brdf(material, at_material);
@@ -37,7 +38,7 @@ TEST_CASE("relative reflectance: f = dL / dE wherever lamp, reference and materi
 }
 
 TEST_CASE("relative reflectance: by hand") {
-  // The reference's irradiance is 0.5 / 4 of the lamp's power, the material's 0.8 / 9.
+  // The reference receives 0.5 / 4 of the lamp's intensity, the material 0.8 / 9.
   const auto found = reference_light({2.0, 0.0}, 0.9, {.cosine = 0.5, .distance = 2.0})
                          .brdf({3.0, 0.0}, {.cosine = 0.8, .distance = 3.0});
   CHECK(found.value == doctest::Approx(0.9 / std::numbers::pi * 3.0 / 2.0 * (0.5 / 4.0) / (0.8 / 9.0)));
@@ -57,6 +58,26 @@ TEST_CASE("relative reflectance: the deviations of both exposures add up") {
   }
   CHECK(squares / predicted > 0.96);
   CHECK(squares / predicted < 1.04);
+}
+
+TEST_CASE("absolute reflectance: f = dL / dE, and the same as by a reference under the same lamp") {
+  CHECK(rc::check("a material of any BRDF comes back", [] {
+    const auto number = [](int from, int to) { return *rc::gen::inRange(from, to) / 100.0; };
+    const double f = number(1, 300), lamp = number(10, 1000), camera = number(10, 1000);
+    const double solid_angle = number(1, 600), transmittance = number(1, 101);
+    const illumination at{number(5, 101), number(50, 200)};
+    // A lamp of radiance L at the distance d: E = L Omega cos(theta_i) / d^2, where Omega is that at distance 1.
+    const double irradiance = lamp * solid_angle * at.cosine / (at.distance * at.distance);
+    const uncertain material{camera * f * irradiance, 0.0};
+    const auto found =
+        reference_light::of_lamp({transmittance * camera * lamp, 0.0}, solid_angle, transmittance).brdf(material, at);
+    RC_ASSERT(std::abs(found.value / f - 1.0) < 1e-12);
+    const uncertain white{camera * std::numbers::inv_pi * irradiance, 0.0};
+    RC_ASSERT(std::abs(found.value / reference_light(white, 1.0, at).brdf(material, at).value - 1.0) < 1e-12);
+  }));
+  const auto found = reference_light::of_lamp({2.0, 0.06}, 0.01).brdf({3.0, 0.12});
+  CHECK(found.value == doctest::Approx(150.0));
+  CHECK(found.relative_deviation() == doctest::Approx(0.05));
 }
 
 TEST_CASE("relative reflectance: Eq. 13 and 17 agree") {
@@ -86,5 +107,10 @@ TEST_CASE("relative reflectance: bad input is refused") {
   CHECK_THROWS_WITH_AS(make({1.0, 0.0}, 1.01, {}), Contains("up to 1, not 1.01"), gonio::error);
   CHECK_THROWS_WITH_AS(make({1.0, 0.0}, 0.99, {.cosine = 0.0}), Contains("cosine"), gonio::error);
   CHECK_THROWS_WITH_AS(make({1.0, 0.0}, 0.99, {.distance = std::nan("")}), Contains("distance"), gonio::error);
+  CHECK_THROWS_WITH_AS(reference_light::of_lamp({0.0, 0.0}, 0.1), Contains("lamp's exposure must be positive"),
+                       gonio::error);
+  CHECK_THROWS_WITH_AS(reference_light::of_lamp({1.0, 0.0}, 0.0), Contains("solid angle"), gonio::error);
+  CHECK_THROWS_WITH_AS(reference_light::of_lamp({1.0, 0.0}, 7.0), Contains("solid angle"), gonio::error);
+  CHECK_THROWS_WITH_AS(reference_light::of_lamp({1.0, 0.0}, 0.1, 1.1), Contains("transmittance"), gonio::error);
   CHECK_THROWS_WITH_AS(make({1.0, 0.0}, 0.99, {}).brdf({1.0, 0.0}, {.cosine = -0.1}), Contains("cosine"), gonio::error);
 }

@@ -9,8 +9,8 @@ using gonio::spherical_direction;
 
 TEST_CASE("scan: a plan has all that can be reached, by a short way, and names the rest") {
   std::vector<direction_pair> pairs = synthetic_poses(12);
-  pairs.push_back({spherical_direction(1.3, 0.0), spherical_direction(0.2, 1.0)});  // by reciprocity
-  pairs.push_back({spherical_direction(1.3, 0.0), spherical_direction(1.3, 1.0)});  // not at all
+  pairs.push_back({spherical_direction(1.3, 0.0), spherical_direction(0.2, 1.0)});  // reachable by reciprocity
+  pairs.push_back({spherical_direction(1.3, 0.0), spherical_direction(1.3, 1.0)});  // unreachable
   const synthetic_machine machine;
   const gonio::capture::scan_plan plan = gonio::capture::plan_scan(machine, pairs);
   CHECK(plan.poses.size() == 13u);

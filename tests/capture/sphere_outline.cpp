@@ -16,14 +16,14 @@ using gonio::capture::placed_sphere;
 
 namespace {
 
-/// 200 x 160 pixels, 12 radii from the sphere, which spans about 120 pixels.
+/// 200 x 160 pixels, at a distance of 12 radii from the sphere. The sphere's image spans about 120 pixels.
 gonio::lens_camera outline_camera(const gonio::lens_distortion& distortion = {}) {
   return {gonio::pinhole_camera::look_at({160, 200, 720.0, 720.0, 100.0, 80.0}, {0.0, 0.0, 12.0}, {0.1, 0.0, 0.0},
                                          {0.0, 1.0, 0.0}),
           distortion};
 }
 
-/// A lamp at an angle from the camera, seen from the sphere.
+/// A lamp whose direction, seen from the sphere, is at this angle from the camera.
 gonio::capture::point_lamp outline_lamp(double angle) {
   return {15.0 * Eigen::Vector3d(std::sin(angle), 0.0, std::cos(angle)), gonio::rgb::Constant(700.0)};
 }
@@ -46,7 +46,7 @@ TEST_CASE("places of the outline give the sphere to the last digits, near and of
     const auto within = [](int low, int high) { return *rc::gen::inRange(low, high) * 0.01; };
     const gonio::lens_camera camera = outline_camera({.k1 = within(-30, 30), .p1 = 0.002});
     const placed_sphere sphere{{within(-40, 40), within(-30, 30), within(-100, 500)}, 0.7};
-    // Where the cone around the sphere touches it.
+    // The circle where the cone from the camera touches the sphere.
     const Eigen::Vector3d axis = (sphere.centre - camera.position()).normalized();
     const double sine = sphere.radius / (sphere.centre - camera.position()).norm(), cosine = std::sqrt(1 - sine * sine);
     const Eigen::Vector3d across = axis.unitOrthogonal(), beside = axis.cross(across);
@@ -80,8 +80,7 @@ TEST_CASE("a photograph gives the sphere to a fifth of a pixel, to a pixel if li
     CAPTURE(found.inliers);
     CAPTURE(found.edge_points);
     CHECK(off.head<2>().norm() < (angle < 110.0 ? 0.2 : 1.1) * pixel);
-    CHECK(std::abs(off.z()) / 12.0 * 60.0 <
-          (angle < 110.0 ? 0.25 : 1.3));  // by which the outline's radius is off, in pixels
+    CHECK(std::abs(off.z()) / 12.0 * 60.0 < (angle < 110.0 ? 0.25 : 1.3));  // error of the outline's radius in pixels
   }
 }
 

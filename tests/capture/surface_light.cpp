@@ -13,7 +13,7 @@ using gonio::capture::white_reference;
 
 namespace {
 
-/// Looks down on the plane z = 0 from a height of 1.
+/// A camera that looks down on the plane z = 0 from a height of 1.
 gonio::lens_camera overhead_camera() {
   return gonio::pinhole_camera::look_at(gonio::camera_intrinsics::square(5, 0.5), {0.0, 0.0, 1.0}, {0.0, 0.0, 0.0},
                                         {0.0, 1.0, 0.0});
@@ -49,7 +49,7 @@ TEST_CASE("a white reference in place has the surface's own light, a board elsew
   REQUIRE(board);
   CHECK(board->cosine == doctest::Approx(1.0));
   CHECK(board->distance == doctest::Approx(2.5));
-  // From below the board is not lit, and one that faces away is not seen.
+  // A lamp below does not light the board. A board that faces away is not visible.
   CHECK_FALSE(gonio::capture::white_illumination(white, point_lamp{{0.0, 0.0, -1.0}}, 2, 2, here, 0.0));
   white.surface = gonio::capture::surface_of(gonio::capture::placed_plane{{0.0, 0.0, 0.5}, {0.0, 0.0, -1.0}}, camera);
   CHECK_FALSE(gonio::capture::white_illumination(white, lamp, 2, 2, here, 0.0));
@@ -63,7 +63,7 @@ TEST_CASE("as bright as a white reference is its reflectance over pi; half the l
   CHECK((dimmer * std::numbers::pi / 0.9 - 2.0).abs().maxCoeff() < 1e-12);
   const rgb farther = gonio::capture::relative_to_white(rgb::Ones(), {0.5, 4.0}, rgb::Ones(), 0.9, {0.5, 2.0});
   CHECK((farther * std::numbers::pi / 0.9 - 4.0).abs().maxCoeff() < 1e-12);
-  // What merged exposures say of black may be negative.
+  // The merged value of a black pixel may be negative.
   CHECK((gonio::capture::relative_to_white(rgb::Constant(-0.01), {}, rgb::Ones(), 1.0, {}) < 0.0).all());
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("lights and white references that cannot be are refused") {
     CHECK_THROWS_WITH_AS(gonio::capture::require_usable(white, overhead_camera().intrinsics()), doctest::Contains(why),
                          gonio::error);
   };
-  refuses_white({gonio::uniform_image(5, 4), 0.9, {}}, "the white image has 4 x 5 pixels, its camera 5 x 5");
+  refuses_white({gonio::uniform_image(5, 4), 0.9, {}}, "the white image has 4 x 5 pixels, but its camera 5 x 5");
   refuses_white({gonio::image({5, 5, 1}, 0.0f), 0.9, {}}, "1 channels");
   refuses_white({gonio::uniform_image(5, 5), 0.0, {}}, "above 0 and up to 1");
   refuses_white({gonio::uniform_image(5, 5), 1.1, {}}, "above 0 and up to 1");

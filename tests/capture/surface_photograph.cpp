@@ -36,7 +36,7 @@ gonio::image take_white(const lab::camera_defects& defects = {}, std::uint64_t s
                          seed);
 }
 
-/// The median relative error of the samples' green channel.
+/// Returns the median relative error of the samples' green channel.
 double median_error(const gonio::sample_set& samples) {
   std::vector<double> all;
   for (const gonio::sample& s : samples) {
@@ -70,7 +70,7 @@ TEST_CASE("a photograph of a sphere under a lamp is the paint's values") {
 }
 
 TEST_CASE("a pixel's receiver blurs half vectors as the sphere's normals within it do") {
-  // In the middle of the sphere normals turn by a pixel over the radius, which is 430 / 11 pixels.
+  // In the middle of the sphere, the normal turns by one pixel divided by the radius of 430 / 11 pixels.
   const auto surface = surface_of(photographed_sphere, photograph_camera());
   auto lamp = photograph_lamp;
   lamp.radius = 0.2;
@@ -94,7 +94,7 @@ TEST_CASE("a white image takes away vignetting and falloff, which spoil a photog
   const gonio::capture::white_reference white{take_white(dark), 0.9, {}};
   const auto relative = samples_of(picture, surface, photograph_camera(), photograph_lamp, white);
   CHECK(median_error(relative.samples) < 0.004);
-  // A reference that says its shape gives the same.
+  // A reference whose shape is given leads to the same result.
   const gonio::capture::white_reference shaped{white.photograph, 0.9, surface};
   const auto same = samples_of(picture, surface, photograph_camera(), photograph_lamp, shaped);
   REQUIRE(same.samples.size() == relative.samples.size());
@@ -125,7 +125,7 @@ TEST_CASE("a map of a sphere's normals and positions is the sphere") {
   CHECK((mapped.normals - surface.normals).cwiseAbs().maxCoeff() < 1e-6);
   const auto found = samples_of(take(), mapped, camera, photograph_lamp);
   CHECK(median_error(found.samples) < 0.004);
-  // Without positions a distant light will do, and a lamp is refused.
+  // Without positions, a distant light is accepted and a lamp is refused.
   const auto bare = gonio::capture::surface_of_maps(normals, "normals.npy", camera);
   CHECK_NOTHROW(samples_of(take(), bare, camera, gonio::directional_light{gonio::direction(0.6, 0.0, 0.8)}));
   refused_with([&] { static_cast<void>(samples_of(take(), bare, camera, photograph_lamp)); },
@@ -133,7 +133,7 @@ TEST_CASE("a map of a sphere's normals and positions is the sphere") {
   gonio::capture::vector_map small = xt::xtensor<float, 3>::from_shape({95, 112, 3});
   small.fill(0.0F);
   refused_with([&] { static_cast<void>(gonio::capture::surface_of_maps(small, "normals.npy", camera)); },
-               "normals.npy: has 112 x 95 pixels, its camera 112 x 96");
+               "normals.npy: has 112 x 95 pixels, but its camera 112 x 96");
   normals.data()[3 * (112 * 5 + 7)] = std::numeric_limits<float>::quiet_NaN();
   refused_with([&] { static_cast<void>(gonio::capture::surface_of_maps(normals, "normals.npy", camera)); },
                "normals.npy: pixel (row 5, column 7) is not finite");
@@ -147,11 +147,11 @@ TEST_CASE("bad photographs are refused") {
     refused_with([&] { static_cast<void>(samples_of(picture, surface, camera, light, {}, options)); }, why);
   };
   refuses(gonio::uniform_image(96, 111), photograph_lamp, {},
-          "the photograph has 111 x 96 pixels, its camera 112 x 96");
+          "the photograph has 111 x 96 pixels, but its camera 112 x 96");
   refuses(take(), gonio::capture::point_lamp{photographed_sphere.centre}, {}, "behind or inside");
   refuses(take(), gonio::directional_light{gonio::direction(0.0, 0.0, -1.0)}, {}, "the light is behind");
   refuses(take(), photograph_lamp, {.saturation = 1e-9}, "is saturated");
-  // A surface of which one pixel has neighbours all around.
+  // A surface with only one pixel that has neighbours on all sides.
   gonio::capture::vector_map normals = xt::xtensor<float, 3>::from_shape({96, 112, 3});
   normals.fill(0.0F);
   for (std::size_t row = 47; row < 50; ++row)

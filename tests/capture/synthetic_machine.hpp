@@ -1,5 +1,5 @@
 #pragma once
-/// A machine and a record for the tests of scans, with faults on demand.
+/// A machine and a record for the tests of scans. The tests can make them fail.
 
 #include <gonio/capture/scan.hpp>
 
@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
-/// Reaches what is less than 60 degrees from the normal, counts to 100, and does before each measurement what a test
-/// says: throw, or return another reading.
+/// A machine that reaches directions less than 60 degrees from the normal and counts to 100. Before each measurement it
+/// runs a function of the test, which may throw or return another measurement.
 struct synthetic_machine {
   std::function<void(gonio::capture::reading&)> fault = [](gonio::capture::reading&) {};
   std::vector<gonio::direction_pair> measured{};
@@ -40,7 +40,7 @@ struct synthetic_record {
 };
 static_assert(gonio::capture::scan_record<synthetic_record>);
 
-/// Poses that the machine reaches, at azimuths all around.
+/// Returns poses that the machine reaches, at azimuths all around.
 inline std::vector<gonio::direction_pair> synthetic_poses(std::size_t count) {
   std::vector<gonio::direction_pair> poses;
   for (std::size_t i = 0; i < count; ++i)

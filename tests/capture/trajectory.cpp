@@ -59,11 +59,12 @@ TEST_CASE("trajectory: poses of a tool lead back to the directions, and their qu
       if (i > 0) RC_ASSERT(path[i].quaternion.dot(path[i - 1].quaternion) >= 0.0);
     }
   }));
-  // A known one: from 30 degrees above x, the tool's x turns by 120 degrees about y.
+  // A pose known by hand: from 30 degrees above x, the tool's x turns by 120 degrees about y.
   const std::vector one{gonio::spherical_direction(gonio::radians(30.0), 0.0)};
   const auto pose = gonio::capture::tool_path({.arc_azimuth = 0.0}, one).front();
   CHECK((pose.quaternion - Eigen::Vector4d(0.5, 0.0, std::sqrt(0.75), 0.0)).norm() < 1e-12);
-  // Once round: the orientation comes back by steps of as little as the directions', where q itself ends at -q.
+  // A full circle: the orientation changes in steps as small as the directions', and returns; the quaternion q ends at
+  // -q.
   std::vector<direction> circle;
   for (int i = 0; i <= 360; ++i) circle.push_back(gonio::spherical_direction(0.7, gonio::radians(i)));
   const auto round = gonio::capture::tool_path({}, circle);
@@ -88,7 +89,7 @@ TEST_CASE("trajectory: 11 rows of 25, and right above; 23 lamps") {
   CHECK_THROWS_WITH_AS(gonio::capture::arc_lamps({gonio::radians(7.0)}), doctest::Contains("7.000000 degrees"),
                        gonio::error);
   CHECK_THROWS_WITH_AS(gonio::capture::half_hemisphere({0.0}), doctest::Contains("do not divide"), gonio::error);
-  // A right angle is the largest step, of one lamp.
+  // For one lamp, the largest allowed step is a right angle.
   CHECK(gonio::capture::arc_lamps({gonio::radians(90.0)}).size() == 1);
   CHECK_THROWS_WITH_AS(gonio::capture::arc_lamps({gonio::radians(180.0)}), doctest::Contains("do not divide"),
                        gonio::error);

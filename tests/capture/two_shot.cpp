@@ -1,4 +1,4 @@
-/// From one or two images to a whole BRDF: Xu et al. 2016, sections 6 and 7, with a simulated laboratory.
+/// From one or two images to a whole BRDF: Xu et al. 2016, sections 6 and 7, in a simulated laboratory.
 
 #include "lab/near_field_lab.hpp"
 #include <gonio/estimate/decomposition.hpp>
@@ -14,8 +14,8 @@
 
 namespace {
 
-/// Light and camera at half and difference angles in degrees as seen from the middle of the sample, a disc that spans
-/// 25 degrees; blocks of two by two of its pixels are samples.
+/// Light and camera at these half and difference angles in degrees, for the middle of the sample, a disc that spans 25
+/// degrees. Each block of two by two pixels is a sample.
 gonio::capture::near_field_setup shot_at(double theta_h, double theta_d, double phi_d) {
   const auto [light, camera] =
       gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(phi_d)});
@@ -26,7 +26,7 @@ gonio::capture::near_field_setup shot_at(double theta_h, double theta_d, double 
           .block = 2};
 }
 
-/// Images of a material, each with a seed of its own, as samples.
+/// Returns the samples of images of a material; each image has its own seed.
 gonio::sample_set measured(const gonio::model::formula_brdf& material,
                            const std::vector<gonio::capture::near_field_setup>& shots,
                            const lab::near_field_defects& defects = {}) {
@@ -39,8 +39,8 @@ gonio::sample_set measured(const gonio::model::formula_brdf& material,
   return samples;
 }
 
-/// Root mean square of the logarithms' difference, where light and viewer are at least 15 degrees above the horizon:
-/// below it, what MERL's materials have in common is too bright for a formula.
+/// Returns the RMS difference of the logarithms where light and viewer are at least 15 degrees above the horizon.
+/// Closer to the horizon, a prior learned from MERL is too bright for a formula.
 double error_of(const gonio::brdf_table& estimate, const gonio::model::formula_brdf& truth) {
   double sum = 0.0, count = 0.0;
   for (Eigen::Index cell = 0; cell < estimate.cells().size(); cell += 101) {
@@ -66,8 +66,8 @@ TEST_CASE("one image tells much, two tell more, noise and a slight misalignment 
     };
     const double one = error(measured(truth, {first})), two = error(measured(truth, {first, second}));
     const double flawed = error(measured(truth, {first, second}, {.noise = 0.05, .misalignment = gonio::radians(1.0)}));
-    // Measured, for red-paint, blue-rubber, gold-metal, grey-lambertian: 0.38, 0.21, 0.59, 0.47 of one image,
-    // 0.32, 0.20, 0.30, 0.32 of two.
+    // Measured for red-paint, blue-rubber, gold-metal, grey-lambertian: 0.38, 0.21, 0.59, 0.47 from one image; 0.32,
+    // 0.20, 0.30, 0.32 from two.
     CHECK(one < 0.62);
     CHECK(two < one);
     CHECK(two < 0.36);

@@ -1,4 +1,4 @@
-/// Bad input gets exit code 2 and one clear line, and leaves old files whole.
+/// Bad input gives exit code 2 and one clear line, and leaves existing files unchanged.
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
@@ -57,7 +57,7 @@ TEST_CASE("bad samples") {
   refuses(reconstruct + " --eta 0", {"eta"});
   refuses(reconstruct + " --eta -3", {"eta"});
   refuses(reconstruct + " --eta much", {"eta", "gcv", "much"});
-  refuses(reconstruct + " --eta gcv", {"2 rows", "not 1"});  // one observation: nothing to validate with
+  refuses(reconstruct + " --eta gcv", {"2 rows", "not 1"});  // one observation: nothing left to validate with
   refuses(reconstruct + " --noise -0.1", {"noise", "negative", "-0.1"});
   refuses(reconstruct + " --noise much", {"--noise", "much"});
   refuses(reconstruct + " --noise 0.1 --eta 3", {"--noise", "--eta", "one of them"});
@@ -139,7 +139,7 @@ TEST_CASE("options of one method given to another") {
   refuses(start + "pull-push --iteration-figure " + (folder / "story").string(),
           {"--iteration-figure", "--method correction"});
   refuses(start + "correction --solver nnls", {"--solver", "pca or linear"});
-  // An option of a solver or a metric that is not taken would do nothing.
+  // Refuses an option of a solver or metric that is not in use, because it would have no effect.
   for (const auto& [options, sentence] : std::initializer_list<std::pair<const char*, const char*>>{
            {"pca --root 2", "--root needs --metric root"},
            {"pca --variance 0.5", "--variance needs --solver tsvd, not tikhonov"},
@@ -170,11 +170,12 @@ TEST_CASE("bad requests of the correction method") {
   for (const char* count : {"0", "-1", "2.5", "many"})
     refuses(correction + "--iterations " + count, {"--iterations", count});
   refuses(correction + "--truth " + path.string(), {"--truth", "--iteration-figure"});
-  refuses(correction + "--truth " + path.string() + " --iteration-figure " + story.string(), {"one.csv", "MERL"});
+  refuses(correction + "--truth " + path.string() + " --iteration-figure " + story.string(),
+          {"one.csv", "expected a whole material"});
   refuses(correction + "--exclude no-such-stone --iteration-figure " + story.string(), {"no-such-stone"});
   refuses(correction + "--iteration-figure " + (path / "below-a-file").string(),
           {"below-a-file", "cannot create the folder"});
-  CHECK(folder.entries() == 1);  // neither a table nor a folder for the story
+  CHECK(folder.entries() == 1);  // neither a table nor a folder of iteration figures
 }
 
 TEST_CASE("bad tables and requests of tables") {
@@ -202,7 +203,7 @@ TEST_CASE("an unwritable target or a full disk leaves the old file whole") {
   refuses("expand --formula red-paint -o " + (folder / "none" / "x.binary").string(), {"x.binary"});
   refuses("expand --formula red-paint -o " + folder.path().string(), {folder.path().c_str()});
 
-  // A file size limit stands for the full disk: writing fails half-way through the 35 MB.
+  // A limit on file size stands in for a full disk: writing fails halfway through the 35 MB.
   const std::string limited = "sh -c 'trap \"\" XFSZ; ulimit -f 1024; exec \"$0\" \"$@\"' ";
   std::FILE* pipe =
       ::popen((limited + GONIO_TOOL + " expand --formula red-paint -o " + old.string() + " 2>&1").c_str(), "r");

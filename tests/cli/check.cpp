@@ -1,4 +1,4 @@
-/// gonio check: a part and a reference, exit codes 0, 1 and 2.
+/// gonio check: a part and a reference; exit codes 0, 1 and 2.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -15,7 +15,7 @@
 
 namespace {
 
-/// Some directions, each measured so often, of red paint times a factor.
+/// Files with some directions, each measured several times, of red paint times a factor.
 struct checked_files {
   scratch::folder folder;
 
@@ -39,7 +39,7 @@ struct checked_files {
   }
 };
 
-/// What is checked ends with this exit code, and with these words.
+/// Checks the exit code and the words in the output.
 void check_says(const std::string& arguments, int exit_code, std::initializer_list<std::string> words) {
   const auto result = gonio_tool("check " + arguments);
   CAPTURE(result.output);
@@ -118,6 +118,13 @@ TEST_CASE("gonio check: a verdict has at most five lines, and many parts are a t
   REQUIRE(told.size() == 2);
   CHECK(told[0]["verdict"] == "GO");
   CHECK(told[1]["verdict"] == "NO-GO");
+  // A warning about the reference is printed once, although the reference is read with each part.
+  scratch::put(files.folder / "gap.csv", scratch::get(files.folder / "good.csv") + "10,20,30,,,,1\n");
+  const auto warned =
+      gonio_tool("check " + same + " " + brighter + " --noise 0.02 --reference " + (files.folder / "gap.csv").string());
+  const std::size_t first = warned.output.find("gap.csv: 1 of 7 rows is left out");
+  CHECK(first != std::string::npos);
+  CHECK(warned.output.find("gap.csv", first + 1) == std::string::npos);
   check_says(same + " " + brighter + reference + " --report " + (files.folder / "p.html").string(), 2,
              {"--report needs one part, not 2"});
 }

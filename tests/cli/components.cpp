@@ -1,4 +1,4 @@
-/// gonio info --components and gonio expand --weights: components drawn, and materials of weights of one's own.
+/// gonio info --components and gonio expand --weights: drawings of components, and materials of given weights.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 const std::string shipped = std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior";
 
-/// Three times --weights, of what `gonio info --weights-of` prints.
+/// Returns three --weights options with the weights that `gonio info --weights-of` prints.
 std::string weight_options(const nlohmann::json& weights) {
   std::string options;
   for (const char* channel : {"r", "g", "b"}) {
@@ -28,10 +28,10 @@ std::string weight_options(const nlohmann::json& weights) {
   return options;
 }
 
-/// Red minus blue of the pixel at a share of a slice from the left and the top; slices have 64 pixels, margins 6.
+/// Returns red minus blue of the pixel at relative position (x, y) of a slice. Slices have 64 pixels, margins 8.
 double redness(const gonio::image& figure, std::size_t slice, double x, double y) {
   const auto pixel =
-      gonio::pixel(figure, 6 + static_cast<std::size_t>(y * 63), 6 + 70 * slice + static_cast<std::size_t>(x * 63));
+      gonio::pixel(figure, 8 + static_cast<std::size_t>(y * 63), 8 + 72 * slice + static_cast<std::size_t>(x * 63));
   return pixel.x() - pixel.z();
 }
 
@@ -46,7 +46,7 @@ TEST_CASE("the weights of a material given by hand give its table, byte for byte
   run("expand" + weight_options(facts["weights"]) + " -o " + at("by_hand.binary"));
   CHECK(scratch::get(at("named.binary")) == scratch::get(at("by_hand.binary")));
 
-  // Weights beside a name are added to the material's: the difference takes one to the other.
+  // Weights are added to those of a named material, so the difference leads from one material to the other.
   const auto other = read_json(gonio_tool("info --json " + shipped + " --weights-of red-plastic").output);
   nlohmann::json difference = facts["weights"];
   for (const char* channel : {"r", "g", "b"})
@@ -70,7 +70,7 @@ TEST_CASE("one list is for all channels, and counts in deviations if it is asked
   const auto [wi, wo] = gonio::to_directions({gonio::radians(50), gonio::radians(10), gonio::radians(90)});
   const gonio::rgb grey = mean(wi, wo);
   CHECK(grey.maxCoeff() == grey.minCoeff());
-  CHECK(bright(wi, wo).y() > 3.0 * grey.y());  // the second component is how bright a material is off its highlight
+  CHECK(bright(wi, wo).y() > 3.0 * grey.y());  // the second component is the brightness off the highlight
   CHECK(bright(wi, wo).y() == doctest::Approx(same(wi, wo).y()).epsilon(1e-3));
 }
 
@@ -84,23 +84,24 @@ TEST_CASE("the figure shows what the paper says of the components") {
   CHECK(facts["pure_red_stands_for"].size() == 3);
   CHECK(facts["shares_of_variance"][0].get<double>() > facts["shares_of_variance"][1].get<double>());
   const gonio::image figure = gonio::io::read_png(slices);
-  CHECK(figure.shape(0) == 64 + 12);
-  CHECK(figure.shape(1) == 4 * 64 + 5 * 6);
+  CHECK(figure.shape(0) > 64 + 16 + 2 * 14);  // a label, and a caption of a line or more
+  CHECK(figure.shape(1) == 4 * 64 + 5 * 8);
   CHECK(std::abs(redness(figure, 0, 0.5, 0.5)) < 0.02);  // the reference is grey
-  // The first is the specular peak, at theta_h near 0, against all else; the second what is off it.
+  // The first component contrasts the specular peak, at theta_h near 0, with the rest; the second is the brightness off
+  // the peak.
   CHECK(redness(figure, 1, 0.0, 0.7) > 0.6);
   CHECK(redness(figure, 1, 0.5, 0.7) < 0.0);
   CHECK(std::abs(redness(figure, 2, 0.5, 0.7)) > 0.3);
   CHECK(redness(figure, 2, 0.5, 0.7) * redness(figure, 2, 0.2, 0.3) > 0.0);
-  CHECK(std::abs(redness(figure, 2, 0.5, 0.7)) > 3.0 * std::abs(redness(figure, 2, 0.5, 0.0)));  // but where it grazes
-  // The third narrows or widens the peak: the peak itself and the ring around it go apart.
+  CHECK(std::abs(redness(figure, 2, 0.5, 0.7)) > 3.0 * std::abs(redness(figure, 2, 0.5, 0.0)));  // except at grazing
+  // The third narrows or widens the peak: the peak and the ring around it have opposite signs.
   CHECK(redness(figure, 3, 0.0, 0.7) * redness(figure, 3, 0.3, 0.7) < 0.0);
 
   const gonio::image tiles = gonio::io::read_png(spheres);
   CHECK(tiles.shape(0) > 5 * 64);
   CHECK(tiles.shape(1) > 3 * 64);
   const auto brightness = [&](std::size_t row) {
-    return gonio::luminance(gonio::pixel(tiles, 6 + 67 * row + 40, 6 + 24));
+    return gonio::luminance(gonio::pixel(tiles, 8 + 86 * row + 40, 8 + 24));
   };
   for (std::size_t row = 1; row < 5; ++row) CHECK(brightness(row) < brightness(row - 1));
 }

@@ -1,4 +1,4 @@
-/// gonio convert: between all kinds of files, and what is no kind.
+/// gonio convert: between all kinds of files; refuses other files.
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
@@ -18,7 +18,7 @@
 
 namespace {
 
-/// A folder with a small table, the material that it is of.
+/// A folder with a small table, and the material tabulated in it.
 struct small_files {
   scratch::folder here;
   gonio::model::ggx metal{.alpha = 0.3, .f0 = gonio::rgb(0.9, 0.6, 0.3)};
@@ -50,6 +50,24 @@ TEST_CASE("convert: a table becomes a material for renderers, and that a table a
   const gonio::brdf_table table = gonio::io::read_merl(files.path("table.binary"));
   CHECK(table.cells().grid().extents() == gonio::grid_extents{});
   CHECK((table(wi, wo) / material(wi, wo) - 1.0).abs().maxCoeff() < 0.01);
+}
+
+TEST_CASE("commands that read a table accept a renderer's material: its values at the cells of MERL's grid") {
+  const small_files files;
+  files.convert("t.binary", "t.bsdf");
+  files.convert("t.bsdf", "table.binary");
+  // Each command does the same to the material and to the table made of it.
+  const auto same = [&](const std::string& command, const std::string& output) {
+    for (const std::string name : {"t.bsdf", "table.binary"})
+      run(command + " " + files.path(name) + " -o " + files.path(name + output));
+    CHECK(scratch::get(files.here / ("t.bsdf" + output)) == scratch::get(files.here / ("table.binary" + output)));
+  };
+  same("sample --count 50 --seed 3", ".csv");
+  same("render --size 32", ".png");
+  same("fit --model lambert", ".fit.binary");
+  run("compare " + files.path("t.bsdf") + " " + files.path("table.binary"));
+  refuses("sample --count 5 " + files.path("t.bsdf.csv") + " -o " + files.path("new.csv"),
+          {"t.bsdf.csv: holds samples, expected a whole material", "gonio reconstruct"});
 }
 
 TEST_CASE("convert: tables and arrays of numpy become one another, by their first bytes") {
@@ -97,7 +115,7 @@ TEST_CASE("convert: tables for renderers are as fine as the albedo needs, or as 
 
 TEST_CASE("convert: a file for renderers has no negative value unless that is asked for") {
   const small_files files;
-  // Its red is negative away from the highlight, as a colour outside the gamut is.
+  // Red is negative away from the highlight, like a colour outside the gamut.
   gonio::brdf_table table = gonio::io::read_merl(files.path("t.binary"));
   for (float* red = table.values().data(); red < table.values().data() + table.values().size(); red += 3) *red -= 0.1F;
   gonio::io::write_merl(files.path("silk.binary"), table);
@@ -117,7 +135,7 @@ TEST_CASE("convert: a file for renderers has no negative value unless that is as
     CHECK(read("clipped" + kind)[1] == doctest::Approx(table(wi, wo)[1]).epsilon(0.05));
     CHECK(run("convert --keep-negative " + files.path("silk.binary") + " " + files.path("kept" + kind)).empty());
     CHECK(read("kept" + kind)[0] == doctest::Approx(table(wi, wo)[0]).epsilon(0.05));
-    // A file of the same kind that has them is clipped, too, and keeps all else.
+    // A file of the same kind with negative values is clipped as well; all other values stay.
     run("convert " + files.path("kept" + kind) + " " + files.path("again" + kind));
     CHECK(read("again" + kind)[0] == doctest::Approx(0.0).epsilon(1e-4));
     CHECK(read("again" + kind)[1] == doctest::Approx(read("kept" + kind)[1]).epsilon(1e-5));
@@ -126,7 +144,7 @@ TEST_CASE("convert: a file for renderers has no negative value unless that is as
   }
   run("convert " + files.path("silk.binary") + " " + files.path("silk_brdf.xompt"));
   CHECK(scratch::get(files.here / "silk_brdf.xompt").find(": -") == std::string::npos);
-  // A table stays what was measured.
+  // A table keeps its measured values.
   CHECK(run("convert " + files.path("silk.binary") + " " + files.path("silk.npy")).empty());
   refuses("convert --keep-negative " + files.path("silk.binary") + " " + files.path("silk.npy"),
           {"--keep-negative needs", ".bsdf or .mbsdf or .xompt"});

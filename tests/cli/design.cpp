@@ -1,4 +1,4 @@
-/// What to measure: `gonio design` and `gonio plan` with a prior of few synthetic materials.
+/// `gonio design` and `gonio plan`, with a prior of a few synthetic materials.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -19,7 +19,7 @@
 
 namespace {
 
-/// A folder with a prior, in which designs are made.
+/// A folder that holds a prior and the designs made with it.
 class drawing_board {
  public:
   drawing_board() { gonio::io::write_prior(folder_ / "p.prior", learn(synthetic_materials(small_cells(), 12), 10)); }
@@ -32,7 +32,7 @@ class drawing_board {
     return gonio_tool("design --prior " + at("p.prior") + " " + arguments + " -o " + at(output));
   }
 
-  /// The share of what materials differ by that a design leaves unknown.
+  /// Returns the fraction of the materials' variation that a design leaves unknown.
   [[nodiscard]] double unknown_after(const std::string& arguments, const char* output = "d.csv") const {
     const auto result = design(arguments + " --json", output);
     REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
@@ -43,7 +43,7 @@ class drawing_board {
     return gonio::io::read_direction_pairs(at(name));
   }
 
-  /// Exit code 2, one line with the words that help, and nothing written.
+  /// Checks for exit code 2 and one line with these words, and that no file is written.
   void refuses(const std::string& arguments, std::initializer_list<const char*> words) const {
     CAPTURE(arguments);
     const auto result = design(arguments, "refused.csv");
@@ -122,7 +122,7 @@ TEST_CASE("a design may go on from what is measured anyway") {
   const auto two = board.poses("two.csv"), all = board.poses("four.csv");
   REQUIRE(all.size() == 4);
   for (std::size_t i = 0; i < 2; ++i) CHECK(all[i].wi.isApprox(two[i].wi, 1e-9));
-  // Between two candidates, too.
+  // Directions between two candidates are accepted as well.
   board.put("own.csv", "theta_i,phi_i,theta_o,phi_o\n31.5,10,47.25,200\n");
   for (const char* criterion : {"perceived", "expected-error"}) {
     CAPTURE(criterion);
@@ -291,7 +291,7 @@ TEST_CASE("designed directions that ship are within the usual apparatus, and can
     ++sets;
     for (const gonio::direction_pair& pair : gonio::io::read_direction_pairs(entry.path())) {
       CHECK(gonio::angle_between(pair.wi, pair.wo) > gonio::radians(4.999));
-      if (name.starts_with("sphere")) continue;  // the whole sphere is seen
+      if (name.starts_with("sphere")) continue;  // it covers all directions
       CHECK(std::max(gonio::polar_angle(pair.wi), gonio::polar_angle(pair.wo)) < gonio::radians(80.001));
       if (name.starts_with("point")) points.push_back(pair);
     }
@@ -338,8 +338,9 @@ TEST_CASE("designs that cannot be made") {
   board.put("low.csv", "theta_i,phi_i,theta_o,phi_o\n40,0,95,0\n");
   board.refuses("-n 2 --start " + board.at("low.csv"), {"low.csv", "line 2", "horizon"});
   board.put("none.txt", "light 0 10\nviewer 0 10\nseparation 60\n");
-  board.refuses("-n 1 --constraint " + board.at("none.txt"), {"the rule 'separation'", "larger tolerance"});
-  board.refuses("-n 1 --geometry near-field --constraint " + board.at("none.txt"), {"no candidate"});
+  board.refuses("-n 1 --constraint " + board.at("none.txt"), {"the rule 'separation'", "relax this rule"});
+  board.refuses("-n 1 --geometry near-field --constraint " + board.at("none.txt"),
+                {"limits of the apparatus", "--constraint"});
   board.put("odd.txt", "lamp 3\n");
   board.refuses("-n 1 --constraint " + board.at("odd.txt"), {"odd.txt", "line 1", "lamp"});
 }
@@ -352,8 +353,8 @@ TEST_CASE("a plan says where light and viewer go, and draws them") {
   CHECK(printed.output.find("| 1 | 40.00 | 30.00 | 180.00 | 0.6428 0.0000 0.7660 | -0.5000 0.0000 0.8660 |") !=
         std::string::npos);
   CHECK(std::filesystem::file_size(board.at("d.png")) > 1000);
-  // The number of the first pose stands at its viewer, 30 degrees to the left of the middle, on the far side from the
-  // light; that of the second one above its viewer, 50 degrees upwards.
+  // The number of the first pose is drawn left of its viewer, 30 degrees left of the middle at (450, 450), away from
+  // the light. The number of the second is above its viewer, 50 degrees up. 90 degrees have 400 pixels.
   const gonio::image drawn = gonio::io::read_png(board.at("d.png"));
   const auto is_drawn = [&](std::size_t from_row, std::size_t from_column) {
     for (std::size_t row = from_row; row < from_row + 9; ++row)
@@ -361,9 +362,9 @@ TEST_CASE("a plan says where light and viewer go, and draws them") {
         if (gonio::pixel(drawn, row, column).minCoeff() < 0.5f) return true;
     return false;
   };
-  CHECK(is_drawn(256, 260 - 80 - 16));
-  CHECK_FALSE(is_drawn(240, 260 - 80 - 16));
-  CHECK(is_drawn(260 - 133 - 16, 256));
+  CHECK(is_drawn(444, 450 - 133 - 23));
+  CHECK_FALSE(is_drawn(424, 450 - 133 - 23));
+  CHECK(is_drawn(450 - 222 - 28, 444));
 
   const auto json = gonio_tool("plan " + board.at("d.csv") + " --json");
   const auto poses = read_json(json.output);

@@ -1,4 +1,4 @@
-/// What a terminal shows of work whose fraction is unknown.
+/// Progress shown in a terminal if the fraction of work done is unknown.
 
 #include "tool/pages/elapsed_time.hpp"
 
@@ -15,7 +15,7 @@
 
 namespace {
 
-/// Returns what a child writes to standard error while it works for some milliseconds, on a terminal or in a pipe.
+/// Returns the standard error of a child process that works for some milliseconds, in a terminal or a pipe.
 std::string shown(bool on_terminal, int milliseconds) {
   std::array<int, 2> ends{};  // to read, to write
   if (on_terminal) {

@@ -1,4 +1,4 @@
-/// No command writes over what it reads, nor under a name that its format does not have.
+/// No command overwrites its own input, or writes a file with the wrong extension for its format.
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
@@ -16,7 +16,7 @@
 
 namespace {
 
-/// A folder of small files of every kind that commands read. No command gets as far as reading what is in them.
+/// A folder with a small file of every kind that commands read. No command gets far enough to read their content.
 struct given_files {
   scratch::folder folder;
 
@@ -30,7 +30,7 @@ struct given_files {
     std::filesystem::create_hard_link(folder / "s.csv", folder / "hard.csv");
   }
 
-  /// Runs a command in the folder: it must be refused for its files, and leave them all as they are.
+  /// Runs a command in the folder. It must refuse its files and leave them unchanged.
   void refuses(const std::string& arguments, std::initializer_list<const char*> words) const {
     CAPTURE(arguments);
     const auto result =

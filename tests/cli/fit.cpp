@@ -1,4 +1,4 @@
-/// Analytic models fitted to samples and tables, as numbers, images and materials of renderers.
+/// Analytic models fitted to samples and tables; written as numbers, images and renderers' materials.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 using json = nlohmann::json;
 
-/// Samples of red paint, which is a sum of Lambert and GGX, in a file; or of one that is brighter by a factor.
+/// Writes samples of red paint, a sum of Lambert and GGX, times a brightness factor.
 std::string write_samples(const scratch::folder& folder, std::size_t count, double factor = 1.0) {
   const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
   std::mt19937 random(2);
@@ -68,7 +68,7 @@ TEST_CASE("samples of a model give its parameters back") {
   CHECK(fit["lobes"][0]["lobe"] == "lambert");
   CHECK(fit["lobes"][0]["colour"][0].get<double>() == doctest::Approx(0.42).epsilon(1e-4));
   CHECK(fit["lobes"][1]["parameters"]["alpha"].get<double>() == doctest::Approx(0.15).epsilon(1e-4));
-  // The colour and f0 of the model are those of its Fresnel factor, which is f0 + (1 - f0) (1 - cosine)^5.
+  // Colour and f0 of the model are parts of its Fresnel factor, f0 + (1 - f0) (1 - cosine)^5.
   CHECK(fit["lobes"][1]["parameters"]["f0"].get<double>() == doctest::Approx(0.04).epsilon(1e-3));
   CHECK(fit["lobes"][1]["colour"][2].get<double>() == doctest::Approx(1.0).epsilon(1e-3));
   for (const char* other :

@@ -1,4 +1,4 @@
-/// What the tool says of itself.
+/// The help of the tool.
 
 #include "tool.hpp"
 
@@ -47,7 +47,7 @@ void check_help(const std::string& command) {
   const std::string example = example_of(help), all = run(command + " --help-all");
   REQUIRE_FALSE(example.empty());
   CHECK(example.starts_with("gonio " + command + " "));
-  // Every option of the example is one of the command's.
+  // Every option used in the example belongs to the command.
   std::istringstream words(example);
   for (std::string word; words >> word;)
     if (word.size() > 1 && word[0] == '-') {

@@ -1,5 +1,5 @@
-/// Files that are made to hurt the tool: none makes it wait, crash, fill the memory, or write to the terminal what it
-/// likes.
+/// Files crafted to attack the tool: none makes it hang, crash, exhaust memory or write control sequences to the
+/// terminal.
 
 #include "../crafted/made_files.hpp"
 #include "../io/scratch.hpp"
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// Exit code 2, two seconds at most, and the words that help.
+/// Checks for exit code 2 within two seconds, and these words.
 void refuses(const std::string& arguments, const std::string& words) {
   const auto start = std::chrono::steady_clock::now();
   const auto result = run_program("timeout", "20 '" GONIO_TOOL "' " + arguments);
@@ -22,7 +22,7 @@ void refuses(const std::string& arguments, const std::string& words) {
   CAPTURE(result.output);
   CHECK(result.exit_code == 2);
   CHECK(result.output.find(words) != std::string::npos);
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));  // a sanitizer takes its time
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));  // allows for sanitizers
 }
 
 [[nodiscard]] bool holds_controls(const std::string& text) {

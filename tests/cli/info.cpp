@@ -1,4 +1,4 @@
-/// gonio info: of which kind a file is, and what is said of it; files of other programs wherever samples are read.
+/// gonio info: the kind of a file and facts about it. Files of other programs are accepted wherever samples are read.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -20,7 +20,7 @@ struct folder_of_files {
   [[nodiscard]] std::string at(const std::string& name) const { return (folder / name).string(); }
 };
 
-/// The facts about a file, without the warnings above them.
+/// Returns the facts about a file, without the warnings above them.
 auto facts_of_file(const std::string& path, const std::string& options = "") {
   const auto result = gonio_tool("info --json " + path + options);
   CAPTURE(result.output);
@@ -85,7 +85,7 @@ TEST_CASE("info knows the files of other programs by how they begin, and reconst
       "</WavelengthDataDirection><AngleBasis>LBNL/Shirley-Chiu</AngleBasis><ScatteringData>{ .25 }</ScatteringData>"
       "</WavelengthDataBlock></WavelengthData></WindowElement>";
   check("tree.xml", "<WindowElement>" + tree, "tensor tree", 256);
-  // Much geometry may stand above the tree.
+  // The tree may be preceded by a long list of geometry.
   CHECK(gonio_tool("info --side back --band visible " + given.at("tree.xml")).exit_code == 0);
   const auto no_front = gonio_tool("info --side front " + given.at("tree.xml"));
   CHECK(no_front.exit_code == 2);
@@ -155,7 +155,7 @@ TEST_CASE("info says how it read a file of samples, with the options that say th
   REQUIRE(facts["unsure_of"].size() == 1);
   CHECK(facts["unsure_of"][0].get<std::string>().find("--theta-o-sign mirror") != std::string::npos);
   CHECK(gonio_tool("info " + scan).output.find("read_as: 5 samples in the plane") != std::string::npos);
-  // What the options say is no longer unsure.
+  // A sign stated by an option is no longer reported as uncertain.
   const auto stated = facts_of_file(scan, " --theta-o-sign light");
   CHECK(stated["options"] == "--quantity percent --theta-o-sign light");
   CHECK(stated["unsure_of"].empty());
@@ -165,6 +165,10 @@ TEST_CASE("info says how it read a file of samples, with the options that say th
   CHECK(colours["read_as"] ==
         "2 samples; theta_i 10, 30 degrees; theta_o up to 40 degrees; red, green and blue, BRDF in "
         "sr^-1; comma-separated with decimal points");
+
+  const auto one_angle = facts_of_file(given.put("one.csv", "theta_i;theta_o;percent\n45;-45;11,87\n"));
+  CHECK(one_angle["read_as"].get<std::string>().starts_with(
+      "1 sample in the plane of incidence; theta_i 45 degrees; theta_o -45 degrees, negative on the"));
 }
 
 TEST_CASE("info knows each other kind of file that gonio reads or writes") {
@@ -210,4 +214,22 @@ TEST_CASE("info does not guess: what it does not know it says so") {
   refuses(given.put("damaged.bsdf", zemax_file.substr(0, zemax_file.size() - 30)), "ends before BRDF");
   refuses(given.put("cut.binary", std::string("\x5A\0\0\0\x5A\0\0\0\xB4\0\0\0", 12)), "cut.binary");
   refuses(given.put("other.bsdf", "tensor_file"), "other.bsdf");
+}
+
+TEST_CASE("a shipped file is named by its path in examples/data, wherever a prior or directions are read") {
+  const folder_of_files given;
+  const std::string data = std::string(GONIO_SOURCE_DIR) + "/examples/data/";
+  const std::string set = "directions/point-20-published.csv";
+  CHECK(run("info --json shipped:materials.prior") == run("info --json " + data + "materials.prior"));
+  CHECK(run("info --json shipped:" + set) == run("info --json " + data + set));
+  CHECK(run("plan shipped:" + set) == run("plan " + data + set));
+  refuses("plan shipped:directions/none.csv", {"directions/none.csv", "No such file"});
+  refuses("info --components none.png shipped:none.prior", {"none.prior", "No such file"});
+
+  run("expand --name blue-rubber --prior shipped:materials.prior -o " + given.at("one.binary"));
+  run("expand --name blue-rubber -o " + given.at("other.binary"));
+  CHECK(scratch::get(given.folder / "one.binary") == scratch::get(given.folder / "other.binary"));
+  run("sample " + given.at("one.binary") + " --directions shipped:" + set + " -o " + given.at("one.csv"));
+  run("sample " + given.at("one.binary") + " --directions " + data + set + " -o " + given.at("other.csv"));
+  CHECK(scratch::get(given.folder / "one.csv") == scratch::get(given.folder / "other.csv"));
 }

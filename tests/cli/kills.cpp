@@ -1,5 +1,5 @@
-/// Commands that take long, killed at random moments: their output is the old one or whole, and nothing else is left.
-/// GONIO_KILLS says how often each is killed (docs/decisions/0017-unfinished-files.md).
+/// Long-running commands, killed at random moments: the output is the old one or a complete new one, and no other file
+/// is left. GONIO_KILLS sets how often each command is killed (docs/decisions/0017-unfinished-files.md).
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
@@ -32,7 +32,7 @@ int wanted_kills() {
   return given == nullptr ? 2 : std::stoi(given);
 }
 
-/// The tool at work in a folder.
+/// A running tool and its folder.
 class tool_at_work {
  public:
   tool_at_work(const std::string& arguments, const scratch::fs::path& folder) {
@@ -40,7 +40,7 @@ class tool_at_work {
     child_ = ::fork();
     REQUIRE(child_ >= 0);
     if (child_ != 0) return;
-    for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);  // a shell's background job ignores one
+    for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);  // background jobs of a shell ignore SIGINT
     const int nowhere = ::open("/dev/null", O_WRONLY);
     if (::chdir(folder.c_str()) != 0 || ::dup2(nowhere, 1) < 0 || ::dup2(nowhere, 2) < 0) ::_exit(126);
     ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
@@ -49,7 +49,7 @@ class tool_at_work {
   tool_at_work(const tool_at_work&) = delete;
   tool_at_work& operator=(const tool_at_work&) = delete;
 
-  /// Sends a signal; false if the tool had ended by itself.
+  /// Sends a signal. Returns false if the tool had already ended.
   bool end(int signal) {
     ::kill(child_, signal);
     const int status = wait();
@@ -61,7 +61,7 @@ class tool_at_work {
     return false;
   }
 
-  /// Waits until it has a file open that it is about to write into this folder, or has ended.
+  /// Waits until the tool has opened a file to write into this folder, or has ended.
   void wait_until_it_writes(const scratch::fs::path& folder) const {
     const std::string unnamed = (folder / "#").native(), named = (folder / ".gonio-").native();
     const std::string journal = (folder / "paint.scan").native();
@@ -72,7 +72,7 @@ class tool_at_work {
       for (scratch::fs::directory_iterator file(open, gone), end; !gone && file != end; file.increment(gone)) {
         const std::string to = scratch::fs::read_symlink(file->path(), gone).native();
         if (to.starts_with(unnamed) || to.starts_with(named) || to == journal) return;
-        gone.clear();  // it was closed meanwhile
+        gone.clear();  // it was closed in the meantime
       }
     }
   }
@@ -87,7 +87,7 @@ class tool_at_work {
   pid_t child_ = -1;
 };
 
-/// Runs the tool undisturbed. How long it took.
+/// Runs the tool undisturbed and returns the duration.
 seconds run(const std::string& arguments, const scratch::fs::path& folder) {
   const auto start = std::chrono::steady_clock::now();
   const int status = tool_at_work(arguments, folder).wait();
@@ -102,8 +102,8 @@ std::vector<std::string> names_in(const scratch::fs::path& folder) {
   return names;
 }
 
-/// Ends commands at random moments: every other one at any time of its work, the others within 20 ms of the moment at
-/// which they begin to write. Seven of ten times nothing can be done about it.
+/// Ends commands at random moments: half of them at any time of their run, half within 20 ms of their first write.
+/// Seven of ten signals are SIGKILL, which cannot be handled.
 class killer {
  public:
   explicit killer(unsigned seed) : random_(seed) {}
@@ -131,7 +131,8 @@ struct kill_counts {
   int killed = 0, old = 0, whole = 0, left_at_once = 0;
 };
 
-/// Kills a command that writes files, each time over old ones or into none. `kept` is what the next run goes on from.
+/// Kills a command that writes files, alternately over old files and into an empty folder. The next run continues from
+/// `kept`.
 void kill_writer(const std::string& what, const std::string& arguments, const std::vector<std::string>& outputs,
                  const scratch::folder& folder, unsigned seed, const std::string& kept = "") {
   const seconds duration = run(arguments, folder.path());
@@ -157,7 +158,7 @@ void kill_writer(const std::string& what, const std::string& arguments, const st
       counts.old += is_old ? 1 : 0;
       counts.whole += is_whole ? 1 : 0;
     }
-    // What the kill left in the instant between link and rename, the next write removes.
+    // If the kill falls between link and rename, the next write removes the leftover file.
     const auto left = [&] {
       const std::vector<std::string> names = names_in(folder.path());
       return std::ranges::any_of(

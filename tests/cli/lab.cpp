@@ -1,8 +1,7 @@
-/// gonio lab: from directions to samples, and from a light probe to the light all around.
+/// gonio lab: from directions to samples, and from a light probe to an environment map.
 
-#include "../io/scratch.hpp"
 #include "../json.hpp"
-#include "tool.hpp"
+#include "laboratory.hpp"
 #include <gonio/capture/trajectory.hpp>
 #include <gonio/io/bytes/npy.hpp>
 #include <gonio/io/images/image.hpp>
@@ -19,30 +18,6 @@
 #include <sstream>
 #include <string>
 #include <vector>
-
-namespace {
-
-const std::string directions = std::string(GONIO_SOURCE_DIR) + "/examples/data/nielsen-20.csv";
-
-void refuses(const std::string& arguments, const std::string& words, int code = 2) {
-  const auto result = gonio_tool(arguments);
-  CAPTURE(arguments);
-  CAPTURE(result.output);
-  CHECK(result.exit_code == code);
-  CHECK(result.output.find(words) != std::string::npos);
-}
-
-/// A table in a folder, and what is made of it there.
-struct laboratory {
-  laboratory() { run("expand --formula red-paint -o " + at("truth.binary")); }
-
-  [[nodiscard]] std::string at(const std::string& name) const { return (folder / name).string(); }
-
-  scratch::folder folder;
-  std::string material = " --material " + at("truth.binary") + " ";
-};
-
-}  // namespace
 
 TEST_CASE("lab: without defects both machines' samples are the table's values") {
   const laboratory room;
@@ -74,7 +49,7 @@ TEST_CASE("lab: a scan with all defects is calibrated by itself, and goes on whe
   run("lab scan " + plan + " --camera gamma --white -o " + white);
   run("lab scan " + plan + " --camera gamma" + room.material + "-o " + paint);
   const std::string whole = scratch::get(paint);
-  // As a process that was killed leaves it.
+  // Truncated, as if the process had been killed.
   scratch::put(paint, whole.substr(0, whole.size() - 5000));
   const std::string resumed = run("lab scan " + plan + " --camera gamma" + room.material + "-o " + paint);
   CHECK(resumed.find(" were already there") != std::string::npos);
@@ -92,10 +67,10 @@ TEST_CASE("lab: a scan with all defects is calibrated by itself, and goes on whe
     worst = std::max(worst, std::abs(each.value.sum() / truth(wi, wo).sum() - 1.0));
     CHECK((each.weight.of_each() > 0.1).all());
   }
-  CHECK(worst > 0.001);  // half a degree at grazing angles, and noise
+  CHECK(worst > 0.001);  // from half a degree at grazing angles, and noise
   CHECK(worst < 0.5);
 
-  // The whole way: what comes out is near what was in the machine.
+  // The whole chain: the reconstruction is near the material in the machine.
   run("reconstruct " + room.at("samples.csv") + " -o " + room.at("estimate.binary"));
   const auto errors = read_json(run("compare --json " + room.at("estimate.binary") + " " + room.at("truth.binary")));
   CHECK(errors["delta_e_env"].get<double>() < 10.0);
@@ -116,7 +91,7 @@ TEST_CASE("lab: a reference whose reflectance depends on the angle needs its tab
     run(calibrate + options);
     double most_off = 0.0;
     const auto samples = gonio::io::read_samples(room.at("samples.csv"));
-    // A sample's phi_d may have light and viewer exchanged; the plan has not.
+    // In a sample's phi_d, light and viewer may be exchanged; in the plan they are not.
     const auto pairs = gonio::io::read_direction_pairs(plan);
     REQUIRE(samples.size() == pairs.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -128,12 +103,12 @@ TEST_CASE("lab: a reference whose reflectance depends on the angle needs its tab
     return most_off;
   };
   CHECK(check_samples(" --reflectance " + table, [](const auto&) { return 1.0; }) < 1e-3);
-  // Without the table, samples are off by what it says, at grazing light by a tenth and more.
+  // Without the table, samples deviate by its factors: by a tenth or more for grazing light.
   const auto constant_beside = [&](const auto& pair) -> gonio::rgb { return 0.99 / known.at(pair); };
   CHECK(check_samples("", constant_beside) > 0.1);
   CHECK(check_samples(" --nearest-reference --reflectance " + table, [](const auto&) { return 1.0; }) < 1e-3);
 
-  // The journal knows the table. One that ends too early, or is none, is refused, and nothing is written.
+  // The journal stores the table. Refuses a truncated table and other files, and writes nothing.
   refuses("lab scan " + plan + " --ideal --white -o " + white, "reflectance of white-by-formula.csv");
   std::filesystem::remove(room.at("samples.csv"));
   scratch::put(room.at("short.csv"), "theta_i,factor\n0,0.99\n40,0.95\n");
@@ -160,7 +135,7 @@ TEST_CASE("lab: an adaptive scan chooses its poses, and is the same however ofte
   CHECK(told.find("stopped at --most 22 poses") != std::string::npos);
   CHECK(told.ends_with("22 poses measured, 22 in total\n"));
   const std::string whole = scratch::get(paint);
-  scratch::put(paint, whole.substr(0, whole.rfind("added_pose") + 20));  // as a process that was killed leaves it
+  scratch::put(paint, whole.substr(0, whole.rfind("added_pose") + 20));  // truncated, as if the process had been killed
   CHECK(run(scan + " --most 22 --until 0.001").ends_with("1 poses measured, 22 in total\n"));
   CHECK(scratch::get(paint) == whole);
   CHECK(run(scan + " --until 1").ends_with("0 poses measured, 22 in total\n"));
@@ -174,7 +149,7 @@ TEST_CASE("lab: an adaptive scan chooses its poses, and is the same however ofte
           "--reference needs --adaptive");
   refuses("lab scan " + plan + " --white --adaptive --reference " + white + " -o " + room.at("b.scan"),
           "--adaptive needs --material");
-  refuses("lab scan " + plan + room.material + "-o " + paint, "adaptive");  // another kind of scan
+  refuses("lab scan " + plan + room.material + "-o " + paint, "adaptive");  // not the same kind of scan
 }
 
 TEST_CASE("lab: a scan goes on only with what lay in the machine, and by the same options") {
@@ -197,7 +172,7 @@ TEST_CASE("lab: a scan goes on only with what lay in the machine, and by the sam
   refuses_to_go_on("--white --room-seed 2", white, "room seed 2");
   refuses_to_go_on("--white --seed 2", white, "with the seed 1, not 2");
   refuses_to_go_on("--white --label tile", white, "not of 'tile'");
-  // Half-done, and then another material, even under the same name.
+  // An unfinished scan is refused for another material, even one of the same name.
   const std::string half = scratch::get(paint).substr(0, scratch::get(paint).size() / 2);
   scratch::put(paint, half);
   refuses_to_go_on("--material " + room.at("rubber.binary"), paint, "not of 'rubber.binary'");
@@ -319,7 +294,7 @@ TEST_CASE("lab: a light probe is photographed and unwrapped") {
   const gonio::image map = gonio::io::read_hdr(folder / "map.hdr");
   CHECK(map.shape(0) == 16u);
   CHECK(map.shape(1) == 32u);
-  // An array, as gonio lab merge writes one.
+  // An array as written by gonio lab merge.
   gonio::io::write_npy(folder / "probe.NPY", gonio::io::read_hdr(folder / "probe.hdr"));
   run("lab unwrap " + at("probe.NPY") + " --distance 5 --rows 16 -o " + at("again.hdr"));
   CHECK(scratch::get(folder / "again.hdr") == scratch::get(folder / "map.hdr"));
@@ -327,7 +302,7 @@ TEST_CASE("lab: a light probe is photographed and unwrapped") {
   const auto array = gonio::io::read_npy<float, 3>(folder / "map.NPY");
   CHECK(std::abs(array(8, 16, 2) - map(8, 16, 2)) <= 0.01f * map(8, 16, 2));  // an .hdr has 8 bits
   refuses("lab unwrap " + at("sky.hdr") + " -o " + at("map.hdr"),
-          "sky.hdr: an image of a mirror sphere must be square");
+          "sky.hdr: an image that a mirror sphere fills must be square, not 64 x 128; --outline find");
   refuses("lab unwrap " + at("probe.hdr") + " --rows 5 --truth " + at("sky.hdr") + " -o " + at("map.hdr"),
           "averaged to one of 5 rows");
 }
@@ -342,7 +317,7 @@ TEST_CASE("lab: bad input is refused") {
   refuses("lab scan " + room.at("none.csv") + " --white -o " + scan, "cannot be read");
   CHECK(!std::filesystem::exists(scan));
   run("lab scan " + plan + " --ideal --white -o " + scan);
-  refuses("lab scan " + plan + " --white -o " + scan, "65535 counts, not 4095");
+  refuses("lab scan " + plan + " --white -o " + scan, "counts up to 65535, not up to 4095");
   refuses("lab scan " + directions + " --ideal --white -o " + scan, "other poses");
   run("lab scan " + directions + " --ideal --white -o " + room.at("b.scan"));
   refuses("lab calibrate " + scan + " --reference " + room.at("b.scan") + " -o " + room.at("s.csv"), "the same poses");

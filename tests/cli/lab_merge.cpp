@@ -1,4 +1,4 @@
-/// gonio lab photograph, gonio lab merge: photographs of several exposure times as radiance.
+/// gonio lab photograph and gonio lab merge: photographs at several exposure times, merged to radiance.
 
 #include "../io/scratch.hpp"
 #include "../io/tiff_bytes.hpp"
@@ -43,7 +43,7 @@ struct photographed_scene {
   scratch::folder folder;
 };
 
-/// Writes a photograph of one count.
+/// Writes a photograph in which all pixels have this count.
 void put_frame(const std::filesystem::path& path, std::uint16_t count, std::size_t rows = 2,
                std::uint16_t largest = 4095) {
   gonio::io::write_pnm(path, {rows, 2, largest, std::vector<std::uint16_t>(6 * rows, count)});
@@ -69,7 +69,7 @@ TEST_CASE("lab merge: what was photographed comes back, in its deviations") {
     if (std::abs(found.data()[i] - truth.data()[i]) < 3.0f * deviation.data()[i]) ++within;
   CHECK(within > 2350);  // of 2400
   CHECK(gonio::io::read_png(room.at("mask.png")).shape(1) == 40);
-  // The same without dark frames, as an image to look at.
+  // The same without dark frames, as an image.
   run_merge("merge " + room.at("photos/light") + " --dark-level 64 --gamma 1 -o " + room.at("radiance.hdr"));
   const gonio::image seen = gonio::io::read_hdr(room.at("radiance.hdr"));
   CHECK(seen(10, 30, 0) / truth(10, 30, 0) == doctest::Approx(1.0).epsilon(0.03));
@@ -83,7 +83,7 @@ TEST_CASE("lab merge: cameras that are not linear are estimated") {
     run_merge("merge " + room.at(camera + "/light") + " -o " + room.at("radiance.npy"));
     const auto found = gonio::io::read_npy<float, 3>(room.at("radiance.npy"));
     const auto truth = gonio::io::read_npy<float, 3>(room.at(camera + "/truth.npy"));
-    // The factor is open; the contrast is not.
+    // The common factor is unknown; the contrast is not.
     const double contrast = double{found(10, 30, 1)} / found(10, 10, 1),
                  known = double{truth(10, 30, 1)} / truth(10, 10, 1);
     CHECK(contrast / known == doctest::Approx(1.0).epsilon(0.25));
@@ -105,10 +105,10 @@ TEST_CASE("lab merge: TIFF frames are merged by the exposure times of their EXIF
   put("two.TIFF", tiff_bytes::of(frame));
   const std::string merge = here.path().string() + " --gamma 1 -o " + (here / "out.npy").string();
   merge_refuses(merge, "two.TIFF: has no exposure time");
-  put("two.jpg", tiff_bytes::jpeg_of({{4, 100}}));  // what the camera wrote beside it
+  put("two.jpg", tiff_bytes::jpeg_of({{4, 100}}));  // a JPEG that the camera wrote as well
   run_merge("merge " + merge);
   const auto radiance = gonio::io::read_npy<float, 3>(here / "out.npy");
-  // 1 is the middle count in a second: 1000 of 65535 in a hundredth of one is 3.05.
+  // A radiance of 1 gives the middle count in one second; 1000 of 65535 in a hundredth of a second is 3.05.
   CHECK(radiance(0, 0, 0) == doctest::Approx(100.0 * 1000.0 / 32767.5).epsilon(0.001));
   put("two.jpg", tiff_bytes::jpeg_of({{0, 1}}));
   merge_refuses(merge, "two.jpg: an exposure time of 0 s");
@@ -152,7 +152,7 @@ TEST_CASE("lab merge: bad input is refused") {
   scratch::put(folder("broken") / "a_1s.png", std::string("no PNG"));
   refuses(here / "broken", "", "a_1s.png: is not a PNG file");
   CHECK(!std::filesystem::exists(here / "radiance.npy"));
-  // With a table the names need no times.
+  // With a table, file names need no times.
   scratch::put(here / "times.csv", std::string("file,seconds\na_1s.ppm,1/250\nb_2s.ppm,1/125\n"));
   CHECK(gonio_tool("lab merge " + (here / "good").string() + " --times " + (here / "times.csv").string() + to)
             .exit_code == 0);

@@ -1,4 +1,4 @@
-/// Learning from tables that are streamed, and adding to a prior.
+/// Learning from streamed tables, and adding materials to a prior.
 
 #include "../io/scratch.hpp"
 #include "../io/synthetic_spectra.hpp"
@@ -20,7 +20,7 @@
 
 namespace {
 
-/// A folder of tables, and priors beside it.
+/// A folder of tables; priors are written next to it.
 class learning_folder {
  public:
   explicit learning_folder(Eigen::Index count)
@@ -60,11 +60,11 @@ TEST_CASE("gonio learn: the same bytes for any number of threads, memory and scr
   CHECK(bytes_of(made.at("one.prior")) == bytes_of(made.at("other.prior")));
   CHECK(made.entries() == 4);  // tables, elsewhere, two priors
   const auto read = gonio::io::read_prior(made.at("one.prior"));
-  std::vector<Eigen::Index> by_name;  // as files come
+  std::vector<Eigen::Index> by_name;  // in the order of the files
   for (const std::string& name : read.names()) by_name.push_back(made.set().find(name));
   const auto in_memory = learn(made.set().subset(by_name), 8);
   const auto known = gonio::io::read_prior(gonio::io::write_prior(in_memory), "in memory");
-  // Beyond the codes of the file nothing differs, but where a code is about to change.
+  // The stored codes are the same, except where a value is on the border between two codes.
   const float step = known.components().cwiseAbs().maxCoeff() / 127.0f;
   CHECK((read.components() - known.components()).cwiseAbs().maxCoeff() <= 2 * step);
   CHECK((read.coefficients() - known.coefficients()).cwiseAbs().maxCoeff() < 1e-5f);
@@ -84,7 +84,7 @@ TEST_CASE("gonio learn --add-to: materials join a prior without the tables of th
   CHECK(twelve.names().size() == 12);
   CHECK(twelve.names().back() == "material-11");
   CHECK(twelve.cells() == ten.cells());
-  refuses(add + " -o " + made.at("ten.prior"), {"ten.prior"});  // which is read
+  refuses(add + " -o " + made.at("ten.prior"), {"ten.prior"});  // also the input
   refuses(add + " --thin 1 1 -o " + made.at("x.prior"), {"--thin"});
   refuses(add + " --split -o " + made.at("x.prior"), {"--split"});
   refuses("learn --merl " + made.at("new") + " --add-to " + made.at("twelve.prior") + " -o " + made.at("x.prior"),

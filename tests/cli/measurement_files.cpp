@@ -1,4 +1,4 @@
-/// Files as instruments and spreadsheets write them, and what goes wrong with them.
+/// Files as instruments and spreadsheets write them, and common mistakes in them.
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// A file that each command is run on.
+/// A file on which each command is run.
 struct one_file {
   scratch::folder folder;
   std::string path = (folder / "scan.csv").string();
@@ -27,7 +27,7 @@ struct one_file {
     CHECK(folder.entries() == 1);
   }
 
-  /// What `gonio info` says of the file: it must accept it.
+  /// Runs `gonio info` on the file, which must accept it, and returns the output.
   std::string info(const std::string& text, const std::string& options = "") const {
     put(text);
     return run("info " + path + options);
@@ -46,7 +46,7 @@ struct one_file {
 
 const std::string angles = "theta_i,phi_i,theta_o,phi_o,";
 
-/// Light and viewer all over the hemisphere, away from the mirror direction, and a value of the viewer's angle.
+/// A scan over the hemisphere away from the mirror direction. Each value is a function of the viewer's angle.
 template <class Value>
 std::string dull_scan(const std::string& columns, const Value& value) {
   std::string text = angles + columns + "\n";
@@ -65,34 +65,35 @@ TEST_CASE("the likely mistakes get the right sentences") {
       "theta_i;phi_i;tetha_o;phi_o;r;g;b\n10;0;20;0;1;1;1\n",
       {"line 1: column 'theta_o' is missing: perhaps it is 'tetha_o'; the header line looks semicolon-separated",
        "--columns"});
-  // No header line, or one behind #.
+  // No header line, or a header line after #.
   file.refuses("# theta_i,phi_i,theta_o,phi_o,r,g,b\n10,0,20,0,1,1,1\n",
                {"line 2: there is no header line above the numbers", "after # is a comment"});
-  // Numbers of which nobody says what they are.
+  // The file does not state the quantity.
   file.refuses(angles + "value\n10,0,20,0,0.3\n", {"line 2", "does not state the quantity of value", "--quantity"});
-  // Who says it twice, and differently.
+  // The file and the option state different quantities.
   file.refuses("# quantity: percent\n" + angles + "value\n10,0,20,0,30\n",
                {"line 1: the values are brdf according to the requested quantity (--quantity), but percent according "
                 "to the comment in line 1"},
                " --quantity brdf");
-  // Decimal commas between commas.
+  // Decimal commas in a comma-separated file.
   file.refuses(
       angles + "r,g,b\n10,5,0,20,5,0,1,5,1,5,1,5\n",
       {"line 2: 12 fields, expected 7", "comma-separated: separate fields by semicolons if numbers have decimal"});
-  // Lines that are separated otherwise than the header line.
+  // Rows and the header line use different separators.
   file.refuses(angles + "r,g,b\n10;0;20;0;1;1;1\n", {"1 field, expected 7", "comma-separated, this one semicolon"});
-  // Thousands that are none.
+  // Misplaced thousands separators.
   file.refuses(
       "theta_i;phi_i;theta_o;phi_o;r;g;b\n10;0;20;0;1,5;1.23,5;1\n",
       {"column g: '1.23,5' is not a number: it has a point and a comma", "semicolon-separated with decimal commas"});
   // A workbook.
   file.refuses("PK\x03\x04 xl/workbook.xml", {"looks like a workbook", "save its sheet as CSV"});
-  // Many wavelengths.
+  // More than one wavelength.
   file.refuses(angles + "wavelength,brdf\n10,0,20,0,550,1\n10,0,20,0,560,1\n",
                {"line 3: column wavelength: 560 nm, but 550 nm above: more than one wavelength"});
-  // A plane without sides.
-  file.refuses("theta_i,theta_o,r,g,b\n45,20,1,1,1\n", {"line 2: on which sides of the normal", "phi_i and phi_o"});
-  // A column that is not there, and a list that is none.
+  // In-plane angles without signs.
+  file.refuses("theta_i,theta_o,r,g,b\n45,20,1,1,1\n",
+               {"line 2: the viewer's side of the normal is unknown", "phi_i and phi_o"});
+  // A column that does not exist, and a malformed list.
   file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"there is no column 'Winkel' for theta_o"},
                " --columns theta_o=Winkel");
   file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"--columns theta_o: 'theta_o' is not a pair of names"},
@@ -114,7 +115,7 @@ TEST_CASE("a file from a spreadsheet is read as it is") {
   for (const char* words : {"samples: 6", "quantity: percent", "instrument: GON 360", "column 'Temperatur' is ignored"})
     CHECK(output.find(words) != std::string::npos);
   CHECK(output.find("maximum: [0.0999") != std::string::npos);  // 0.314 / pi
-  // The same in every command that reads samples, and in JSON.
+  // All commands that read samples agree, also in JSON.
   const std::string json = run("reconstruct " + file.path + columns + " --json");
   for (const char* words : {"\"quantity\": \"percent\"", "\"instrument\": \"GON 360\""})
     CHECK(json.find(words) != std::string::npos);
@@ -133,7 +134,7 @@ TEST_CASE("where samples come from stands in what is found of them") {
   run("reconstruct " + file.path + " --residuals " + residuals);
   CHECK(scratch::get(residuals).starts_with(
       "# instrument: GON 360\n# date: 2026-11-25\n# conditions: 23 C\nsample,r,g,b,"));
-  CHECK(run("info " + residuals).find("what the others say of each sample") != std::string::npos);
+  CHECK(run("info " + residuals).find("residuals of gonio reconstruct") != std::string::npos);
   const std::string checked = run("check " + file.path + " --reference " + file.path + " --noise 0.02 --json");
   const std::string told = "\"instrument\": \"GON 360\"";
   for (const char* key : {"\"part\": {", "\"reference\": {"}) {
@@ -188,6 +189,12 @@ TEST_CASE("a highlight on the light's side is told of, and turned by an option i
       "where light and viewer have the same direction, the sample is 9.0 times as bright as in the mirror direction");
   for (const char* sign : {"light", "mirror"}) file.is_silent_on(scan, std::string(" --theta-o-sign ") + sign);
   file.is_silent_on("# theta-o-sign: light\n" + scan);
+  const std::string bright_mirror = "theta_i,theta_o,brdf\n20,-20,9\n20,20,1\n40,-40,9\n40,40,1\n60,-60,9\n60,60,1\n";
+  file.is_silent_on(bright_mirror, " --theta-o-sign light");
+  file.warns(bright_mirror,
+             "where light and viewer have the same direction, the sample is 9.0 times as bright as in the mirror "
+             "direction: is a positive theta_o on the light's side (--theta-o-sign light)?",
+             " --theta-o-sign mirror");
   const std::string foreign = (file.folder / "scan.json").string();
   const auto variable = [](const std::string& name, const std::string& unit, const std::string& values) {
     return "\"" + name + "\":{\"unit\":\"" + unit + "\",\"values\":[" + values + "]}";
@@ -209,7 +216,7 @@ TEST_CASE("numbers that look like something else are accepted with a warning") {
   file.is_silent_on(
       "theta_i [rad],phi_i [rad],theta_o [rad],phi_o [rad],brdf\n"
       "0.5,0,0.7,3.1,1\n0.6,0,0.9,3.1,1\n0.1,0,1.4,3.1,1\n");
-  const auto white = [](double theta_o) { return 0.3 + 0.01 * std::cos(5.0 * theta_o); };  // of 0.318 at most
+  const auto white = [](double theta_o) { return 0.3 + 0.01 * std::cos(5.0 * theta_o); };  // at most 0.318 is possible
   file.is_silent_on(dull_scan("brdf", white));
   file.warns(dull_scan("brdf", [&](double angle) { return std::numbers::pi * white(angle); }),
              "away from highlights, half of the samples reflect more than");
@@ -252,7 +259,7 @@ TEST_CASE("rotations of an anisotropic sample are not averaged") {
   };
   scan.refuses(brushed(1.0), {"scan.csv", "16 pairs", "50 %", "anisotropic", "--rotation", "0, 90"});
   scan.refuses(brushed(1.0), {"--rotation 45", "0, 90"}, " --rotation 45");
-  CHECK(scan.info(brushed(1.0)).find("samples: 32") != std::string::npos);  // is told of, whatever it is
+  CHECK(scan.info(brushed(1.0)).find("samples: 32") != std::string::npos);  // info accepts any material
   CHECK(scan.info(brushed(1.0), " --rotation 90").find("samples: 16") != std::string::npos);
   const std::string output = " -o " + (scan.folder / "out.binary").string();
   scan.put(brushed(0.2));

@@ -1,4 +1,4 @@
-/// What gonio reconstruct does with fewer samples than a method needs, and what it warns of.
+/// gonio reconstruct with fewer samples than a method needs, and its warnings.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Samples of red paint and a place for tables.
+/// Samples of red paint, and a folder for tables.
 class sampled_paint {
  public:
   explicit sampled_paint(int count) {
@@ -22,7 +22,7 @@ class sampled_paint {
 
   [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// What is printed, errors too.
+  /// Returns the output, including errors.
   [[nodiscard]] std::string reconstruct(const std::string& options, const char* table = "out.binary") const {
     const auto result = gonio_tool("reconstruct " + at("samples.csv") + " " + options + " -o " + at(table));
     REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
@@ -44,19 +44,19 @@ TEST_CASE("few samples are not corrected: what pca does is done, with a warning"
   CHECK_FALSE(contains(forty.reconstruct("--method pca", "pca.binary"), "warning"));
   CHECK(scratch::get(forty.at("out.binary")) == scratch::get(forty.at("pca.binary")));
 
-  // Who asks for rounds gets them, and is warned.
+  // If rounds are requested, they are run, with a warning.
   const std::string asked = forty.reconstruct("--method correction --iterations 1");
   CHECK(contains(asked, "1 round"));
   CHECK(
-      contains(asked, "warning: --method correction with 40 samples usually has 2.0 times the error of --method pca"));
+      contains(asked, "warning: --method correction with 40 samples usually has 1.9 times the error of --method pca"));
 }
 
 TEST_CASE("correction as the paper prints it") {
   const sampled_paint forty(40);
   const std::string printed = forty.reconstruct("--method correction --as-printed --iterations 2", "printed.binary");
   CHECK(contains(printed, "2 rounds"));
-  CHECK_FALSE(contains(printed, "outliers"));  // the paper does not estimate their share
-  // Gamma is 3 unless it is given.
+  CHECK_FALSE(contains(printed, "outliers"));  // the paper's method does not estimate their fraction
+  // Gamma defaults to 3.
   CHECK(contains(forty.reconstruct("--method correction --as-printed --gamma 3 --iterations 2", "three.binary"),
                  "2 rounds"));
   CHECK(scratch::get(forty.at("three.binary")) == scratch::get(forty.at("printed.binary")));
@@ -92,7 +92,7 @@ TEST_CASE("the nearest samples need no prior, and take none") {
   CHECK(
       contains(forty.reconstruct("--method scattered --neighbours 1"), "40 samples, nearest sample in each direction"));
   CHECK(scratch::get(forty.at("out.binary")) != mean);
-  // What was sampled comes back.
+  // Sampling the result returns the measurements.
   REQUIRE(
       gonio_tool("sample " + forty.at("out.binary") + " --count 40 --seed 3 -o " + forty.at("again.csv")).exit_code ==
       0);
@@ -119,8 +119,8 @@ TEST_CASE("of many samples outliers count less, unless all are to be kept") {
   };
   CHECK(error("") < 0.3 * error("--no-reject"));
   const std::string told = paint.reconstruct("--json");
-  CHECK(contains(told, "more samples disagree, left out"));
-  CHECK(contains(told, " of 400 samples disagree with the others: if they have something in common"));
+  CHECK(contains(told, "more samples disagree and have less than half of their weight"));
+  CHECK(contains(told, " of 400 samples disagree with the others. If they have something in common"));
   const auto fit = read_json(told);
   CHECK(fit["outliers"].get<double>() > 0.1);
   CHECK(fit["outliers"].get<double>() < 0.35);

@@ -1,4 +1,4 @@
-/// Images of a flat sample, by the simulated laboratory, become samples, and these a table.
+/// Simulated images of a flat sample are converted to samples, and these to a table.
 
 #include "../io/scratch.hpp"
 #include "lab/near_field_lab.hpp"
@@ -55,7 +55,7 @@ TEST_CASE("images become samples of the paint, and these a table") {
   for (const gonio::sample& s : samples) {
     const auto [wi, wo] = s.directions.pair();
     const gonio::rgb truth = shots.paint(wi, wo);
-    // The three channels share an exponent, and have eight bits.
+    // The format shares one exponent among three 8-bit channels.
     REQUIRE((s.value - truth).abs().maxCoeff() <= truth.maxCoeff() / 256.0);
   }
 
@@ -87,7 +87,7 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
   CHECK(found.output.find("light corrected by ") != std::string::npos);
   CHECK(found.output.find("second.hdr: light corrected by ") != std::string::npos);
 
-  // How well the samples are explained by the paint, whose logarithm is steep where images were taken.
+  // Returns the residual of the samples against the paint, whose logarithm is steep in these directions.
   const auto misfit = [&](const char* file) {
     double sum = 0.0;
     const auto samples = gonio::io::read_samples(shots.at(file));
@@ -100,7 +100,7 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
   CHECK(gonio::io::read_samples(shots.at("found.csv")).size() == gonio::io::read_samples(shots.at("plain.csv")).size());
   CHECK(misfit("found.csv") < misfit("plain.csv"));
 
-  // A reference in place saw the same light: the values stay, where otherwise they take the light's cosine along.
+  // With a reference in place, a wrong light direction leaves the values unchanged. Otherwise they scale by the cosine.
   const auto by_reference =
       gonio_tool("near-field " + images + "--misplaced 1 --reference-in-place -o " + shots.at("reference.csv"));
   REQUIRE_MESSAGE(by_reference.exit_code == 0, by_reference.output);
@@ -131,7 +131,7 @@ TEST_CASE("samples that may be off their directions count less where that matter
   const auto trusting = run(" --json"), expecting = run(" --misplaced 1 --json");
   REQUIRE_MESSAGE(expecting.exit_code == 0, expecting.output);
   CHECK(expecting.output != trusting.output);
-  // How sure it is, is said as without the angle, and less is known.
+  // The uncertainty is printed as it is without the angle, but larger.
   const auto known_to = [](const std::string& output) {
     const std::string key = "\"known_to\": ";
     return std::stod(output.substr(output.find(key) + key.size()));
@@ -174,7 +174,7 @@ TEST_CASE("two materials in one image get a file each, and a map of where they a
     const auto samples = gonio::io::read_samples(shots.at(file));
     CHECK(samples.size() > 50);
     return std::ranges::all_of(samples, [&](const gonio::sample& s) {
-      if (s.weight != 1.0) return true;  // of a block at the border
+      if (s.weight != 1.0) return true;  // a block at the border
       const auto [wi, wo] = s.directions.pair();
       const gonio::rgb truth = material(wi, wo);
       return (s.value - truth).abs().maxCoeff() <= 0.05 * truth.maxCoeff();
@@ -186,7 +186,7 @@ TEST_CASE("two materials in one image get a file each, and a map of where they a
 }
 
 TEST_CASE("two materials in one image were under one light: one pose for both") {
-  // Blue rubber alone says little of where the light was; the red paint beside it, with a highlight, says it for both.
+  // Blue rubber alone does not determine the light's position. Red paint next to it has a highlight, which does.
   const two_shots shots;
   const gonio::model::formula_brdf other = gonio::model::formula_material("blue-rubber");
   for (const auto& [name, text, seed] : {std::tuple{"first", first, 1u}, std::tuple{"second", second, 2u}}) {

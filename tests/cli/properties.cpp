@@ -1,4 +1,4 @@
-/// What gonio properties finds in tables and samples.
+/// gonio properties of tables and samples.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -18,7 +18,7 @@ using gonio::rgb;
 
 namespace {
 
-/// A file's properties, by what they are called.
+/// Returns a file's properties by name.
 auto properties(const std::filesystem::path& file, const std::string& options = "") {
   const auto result = gonio_tool("properties --json " + file.string() + options);
   REQUIRE_MESSAGE(result.exit_code == 0, result.output);
@@ -82,8 +82,8 @@ TEST_CASE("samples that break reciprocity and isotropy, and by how much") {
   scratch::put(file,
                "theta_i,phi_i,theta_o,phi_o,r,g,b\n"
                "30,0,50,180,1,1,1\n"
-               "50,0,30,180,1,0.9,1\n"   // swapped and turned
-               "30,90,50,270,1,1,0.8\n"  // turned
+               "50,0,30,180,1,0.9,1\n"   // light and viewer exchanged, and rotated
+               "30,90,50,270,1,1,0.8\n"  // rotated
                "30,0,50,180,1,1,0.99\n"  // repeated
                "10,0,70,30,-0.1,1,1\n");
   const auto found = properties(file);
@@ -101,7 +101,7 @@ TEST_CASE("samples that break reciprocity and isotropy, and by how much") {
   CHECK(says(file.string(), "| isotropy | 2 pairs turned about the normal, off by"));
   CHECK(says(file.string(), "| energy | not known"));
 
-  // The tolerance decides what is a pair.
+  // The tolerance decides which samples form a pair.
   scratch::put(file, "theta_i,phi_i,theta_o,phi_o,r,g,b\n30,0,50,180,1,1,1\n51,0,30,180,1,1,1\n");
   CHECK(properties(file)["reciprocity"]["pairs"] == 0);
   CHECK(properties(file, " --tolerance 1.5")["reciprocity"]["pairs"] == 1);
@@ -114,13 +114,13 @@ TEST_CASE("files of laboratories") {
     MESSAGE("skipped: no ../shared/data");
     return;
   }
-  // Its directions are irregular: only a wide tolerance finds pairs.
+  // Its directions are irregular, so only a wide tolerance finds pairs.
   CHECK(properties(shared / "cornell/garnet_red.brdf")["reciprocity"]["pairs"] == 0);
   CHECK(properties(shared / "cornell/garnet_red.brdf", " --tolerance 2")["reciprocity"]["pairs"].get<int>() > 20);
   const auto rgl = properties(shared / "rgl-bsdf/cardboard.bsdf");
   CHECK(rgl["kind"] == "RGL material");
   CHECK(rgl["energy"]["kept"] == true);
-  CHECK(rgl["reciprocity"]["median"].get<double>() > 0.01);  // as it was measured
+  CHECK(rgl["reciprocity"]["median"].get<double>() > 0.01);  // real measurements are not exactly reciprocal
 }
 
 TEST_CASE("what has no properties is refused in one line") {

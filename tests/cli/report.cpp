@@ -1,4 +1,4 @@
-/// gonio report: a page that a browser shows without a network, whatever the text of the measurements is.
+/// gonio report: a page that browsers show without a network, whatever text the measurements contain.
 
 #include "../base64.hpp"
 #include "../io/scratch.hpp"
@@ -58,11 +58,11 @@ TEST_CASE("gonio report: an in-plane scan with a wrong sample") {
   CHECK(data["samples"][7]["disagrees"] == false);
   CHECK(data["samples"][6]["disagreement"].get<double>() > 9.0);
   CHECK(data["samples"][0]["in_plane"] == -70.0);
-  CHECK(data["samples"][14]["in_plane"] == 70.0);  // on the far side from the light
+  CHECK(data["samples"][14]["in_plane"] == 70.0);  // on the side opposite to the light
   REQUIRE(data["scans"].size() == 1);
   CHECK(data["scans"][0]["theta_i"] == 45.0);
   CHECK(data["scans"][0]["samples"].size() == 15);
-  // The fit is near what was measured, where nothing was wrong, and the mirror direction is where it is bright.
+  // The fit is close to the correct samples, and brightest in the mirror direction.
   double brightest = 0.0, where = 0.0;
   for (const auto& each : data["scans"][0]["curve"])
     if (std::abs(each["angle"].get<double>()) < 60.0 && each["fit"][1].get<double>() > brightest) {
@@ -110,7 +110,7 @@ TEST_CASE("gonio report: the viewer's table is that of gonio reconstruct, within
   CHECK(known["grid"] == read_json("[45,45,90]"));
   const auto levels =
       gonio::io::decompress_bytes(from_base64(known["codes"].get<std::string>()), 45 * 45 * 90, "codes");
-  // Near the sample at 20 degrees, which fits, it is what the sample is told to be known to.
+  // Next to the sample at 20 degrees, which fits, the uncertainty is the one given for the sample.
   const auto& sample = data["samples"][9];
   const auto near =
       gonio::grid({45, 45, 90})
@@ -136,7 +136,7 @@ TEST_CASE("gonio report: the page asks no network") {
     CAPTURE(word);
     CHECK(page.find(word) == std::string::npos);
   }
-  // What is left are names, not addresses: of XML's vocabularies, in a licence, and the text of the measurements.
+  // The remaining addresses are never loaded: XML namespaces, a licence, and text of the measurements.
   CHECK(occurrences(page, "http://") == occurrences(page, "http://www.w3.org/") +
                                             occurrences(page, "\nhttp://www.apache.org/licenses/LICENSE-2.0\n") +
                                             occurrences(page, "http://example.org/"));
@@ -150,7 +150,7 @@ TEST_CASE("gonio report: text of files and of the command line is text in the pa
   const std::string plain = files.page_of("scan.csv", in_plane_scan("", false));
   const std::string page = files.page_of("<b>&.csv", in_plane_scan("# instrument: " + evil + "<!--\n", false),
                                          "--title '" + evil + "@DATA@'");
-  // No script is added or ended, and the title is no mark of the page's form.
+  // The text adds or closes no script, and the title does not replace a placeholder of the page.
   CHECK(occurrences(page, "</script>") == occurrences(plain, "</script>"));
   CHECK(occurrences(page, "<script>alert") == occurrences(data_text(page), "<script>alert"));
   CHECK(page.find("<title>&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;@DATA@</title>") != std::string::npos);
@@ -232,7 +232,7 @@ TEST_CASE("--report: pages of reconstruct, check, design and fit") {
   };
   const std::string ref = files.path("ref.csv"), part = files.path("part.csv"), out = " -o " + files.path("out");
 
-  // The page of reconstruct is that of report, but for the command.
+  // The pages of reconstruct and report differ only in the command.
   auto fit = data_of("reconstruct " + part + " --noise 0.02" + out + ".binary");
   auto report = read_json(data_text(files.page_of("part.csv", in_plane_scan("", true), "--noise 0.02")));
   CHECK(fit["kind"] == "reconstruct");
@@ -243,7 +243,7 @@ TEST_CASE("--report: pages of reconstruct, check, design and fit") {
 
   const auto told = gonio_tool("check " + part + " --reference " + ref + " --noise 0.02 --json --report '" +
                                files.path("check.html") + "'");
-  CHECK(told.exit_code == 1);  // it differs
+  CHECK(told.exit_code == 1);  // the part differs
   auto check = read_json(data_text(scratch::get(files.folder / "check.html")));
   CHECK(check["kind"] == "check");
   CHECK(check["name"] == "part beside ref");
@@ -274,7 +274,7 @@ TEST_CASE("--report: pages of reconstruct, check, design and fit") {
   CHECK(design["name"] == "out");
   REQUIRE(design["design"]["directions"].size() == 3);
   CHECK(design["design"]["directions"][2]["number"] == 3);
-  CHECK(design["design"]["sentence"].get<std::string>().find("3 measurements leave") == 0);
+  CHECK(design["design"]["sentence"].get<std::string>().find("3 measurements: expected Delta E of spheres ") == 0);
   CHECK_FALSE(design.contains("map"));
   const auto next = data_of("design -n 2 --given " + ref + " --noise 0.02" + out + ".csv");
   CHECK(next["samples"].size() == 15);

@@ -1,5 +1,5 @@
 #pragma once
-/// Pages of `gonio report` as tests read them.
+/// Pages of `gonio report` as read by tests.
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <string>
 
-/// A scan of red paint in the plane of a light at 45 degrees; the seventh sample of `wrong` is five times too bright.
+/// A scan of red paint in the plane of a light at 45 degrees. If `wrong`, the seventh sample is five times too bright.
 inline std::string in_plane_scan(const std::string& comments, bool wrong) {
   const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
   const gonio::direction light = gonio::spherical_direction(gonio::radians(45.0), 0.0);
@@ -37,7 +37,7 @@ struct page_files {
 
   [[nodiscard]] std::string path(const std::string& name) const { return (folder / name).string(); }
 
-  /// The page that is made of a file of this name and text.
+  /// Returns the page made from a file with this name and text.
   [[nodiscard]] std::string page_of(const std::string& name, const std::string& text,
                                     const std::string& arguments = "") const {
     scratch::put(folder / name, text);

@@ -1,4 +1,4 @@
-/// gonio report: what instruments would read, several files in one page, and pages on paper.
+/// gonio report: simulated instrument readings, several files in one page, and printed pages.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -24,14 +24,15 @@ TEST_CASE("gonio report: readings are those of gonio properties, as well known a
   REQUIRE(readings["colours"].size() == 5);
   CHECK(readings["colours"][4]["L"].get<double>() == near(table["colours"][4]["L"]));
 
-  // Aspecular angles of 15 and 45 degrees from light at 45 are viewers at 30 degrees on its far side, and at 0.
+  // For light at 45 degrees, aspecular angles of 15 and 45 degrees are viewers at 30 degrees on the far side, and at 0.
   const auto& known = readings["known_to"];
   REQUIRE(known["colours"].size() == 5);
   CHECK(known["colours"][0].get<double>() == near(data["samples"][10]["known_to"]));
   CHECK(known["colours"][2].get<double>() == near(data["samples"][7]["known_to"]));
   for (const char* angle : {"20", "60", "85"}) CHECK(known["gloss"][angle].get<double>() > 0.0);
   CHECK(known["haze_20"].get<double>() > 0.0);
-  // What the light of 8 degrees reflects in all directions is an albedo, without and with four degrees.
+  // The reflectance of light at 8 degrees into all directions is an albedo, with and without the specular cone of four
+  // degrees.
   const auto& albedo = data["albedo"][2];  // at 10 degrees
   CHECK(albedo["theta_i"] == 10.0);
   for (const char* key : {"reflectance_8", "reflectance_8_specular_excluded"})
@@ -69,12 +70,12 @@ TEST_CASE("gonio report: several files, of which the first has the page") {
   REQUIRE(beside["scans"][0]["samples"].size() == 15);
   CHECK(beside["scans"][0]["samples"][6]["in_plane"] == -10.0);
   CHECK(data["record"].dump().find("b.csv: 15, of which 15 count") != std::string::npos);
-  // What a page has of one file it keeps: 10 KB are added.
+  // The second file adds about 10 KB to the page of one.
   CHECK(page.size() < alone.size() + 50'000);
   CHECK_FALSE(other.contains("others"));
   CHECK_FALSE(other.contains("subject"));
 
-  // Files of one stem have their paths.
+  // Files with the same stem are listed by their paths.
   std::filesystem::create_directory(files.folder / "again");
   scratch::put(files.folder / "again" / "a.csv", in_plane_scan("", true));
   run("report " + a + " '" + files.path("again/a.csv") + "' --title both" + to);
@@ -95,17 +96,17 @@ TEST_CASE("gonio report: chromium prints a page, if it is there") {
     scratch::put(chromium, "#!/bin/sh\n" + script);
     std::filesystem::permissions(chromium, std::filesystem::perms::owner_all);
   };
-  check_refusal(report("/absent"), {"page.pdf", "chromium", "PATH", ".html"});  // before it reconstructs
+  check_refusal(report("/absent"), {"page.pdf", "chromium", "PATH", ".html"});  // before the reconstruction
   put_chromium("exit 1\n");
   const auto failed = report("/absent:" + files.path(""));
   CHECK(failed.exit_code == 2);
   CHECK(failed.output.find("page.pdf: chromium does not print the page") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(pdf));
-  // Prints the first line of the page that it is given, last.
+  // Prints the first line of its page, which is the last argument.
   put_chromium(R"(for word; do case "$word" in --print-to-pdf=*) to="${word#*=}";; esac; done
 read -r line < "$word"; echo "printed: $line" > "$to"
 )");
   CHECK(report(files.path("")).exit_code == 0);
   CHECK(scratch::get(pdf) == "printed: <!DOCTYPE html>\n");
-  CHECK(files.folder.entries() == 3);  // with the samples and chromium
+  CHECK(files.folder.entries() == 3);  // the samples, chromium and the page
 }

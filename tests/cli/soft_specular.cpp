@@ -39,7 +39,7 @@ TEST_CASE("two priors are learned, and the samples choose one") {
   CHECK(facts["soft"]["names"] == nlohmann::json{"blue-rubber", "grey-lambertian"});
   CHECK(facts["specular"]["materials"] == 3);
   const auto prior = gonio::io::read_soft_specular_prior(split);
-  // The same bytes with a scratch folder, memory and threads of its own.
+  // A different scratch folder, memory limit and number of threads give the same bytes.
   run("learn --split --thin 9 15 --components 4 --merl " + at("tables") + " -o " + at("again.prior") + " --scratch " +
       at("tables") + " --memory 1 --threads 1");
   CHECK(scratch::get(at("again.prior")) == scratch::get(split));
@@ -56,13 +56,13 @@ TEST_CASE("two priors are learned, and the samples choose one") {
   };
   CHECK(reconstruct("grey-lambertian", "soft", "") == doctest::Approx(16.0));
   CHECK(reconstruct("chrome-steel", "specular", " --eta 10") == doctest::Approx(6.0));
-  // The same table as of the library's estimator.
+  // The table equals that of the library's estimator.
   const auto estimator = gonio::soft_specular_decomposition(prior, gonio::penalties_in_proportion(prior, 10.0));
   const auto expected = estimator.fit(gonio::io::read_samples(at("s.csv"))).tabulate(gonio::valid_cells());
   gonio::io::write_merl(at("expected.binary"), expected);
   CHECK(scratch::get(at("out.binary")) == scratch::get(at("expected.binary")));
 
-  // What goes with one prior does not go with the other, and few samples do not tell soft from specular.
+  // Options for one kind of prior are refused with the other. Few samples cannot tell soft from specular.
   const std::string samples = at("s.csv"), out = " -o " + at("none.binary");
   const std::string shipped = std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior";
   const std::string either = "reconstruct --method soft-specular " + samples + out;
@@ -74,7 +74,7 @@ TEST_CASE("two priors are learned, and the samples choose one") {
   refuses(either + " --prior " + split + " --eta -1", {"eta"});
   refuses(either + " --prior " + split + " --noise 0.02", {"--noise", "--method pca"});
   scratch::put(samples, "theta_h,theta_d,phi_d,r,g,b\n1,2,3,0.1,0.1,0.1\n");
-  refuses(either + " --prior " + split, {"cannot distinguish soft from specular", "theta_h up to 5.0"});
+  refuses(either + " --prior " + split, {"choice of soft or specular needs a sample", "theta_h up to 5.0"});
   CHECK_FALSE(std::filesystem::exists(folder / "none.binary"));
   std::filesystem::remove(folder / "tables/gold-metal.binary");
   std::filesystem::remove(folder / "tables/chrome-steel.binary");

@@ -1,4 +1,4 @@
-/// gonio reconstruct --spectra, and what reads spectra as colours.
+/// gonio reconstruct --spectra, and commands that convert spectra to colours.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -15,8 +15,8 @@
 
 namespace {
 
-/// A blueish paint at some wavelengths: a highlight over a diffuse part that falls with the wavelength. The last one is
-/// `brighter`.
+/// A bluish paint at some wavelengths: a highlight over a diffuse part that falls with the wavelength. The value at the
+/// last wavelength is multiplied by `brighter`.
 gonio::sample_set measured_paint(std::vector<double> wavelengths, double brighter = 1.0) {
   gonio::sample_set samples{gonio::channels(wavelengths)};
   for (Eigen::Index i = 0; i < 18; ++i) {
@@ -64,7 +64,7 @@ TEST_CASE("each wavelength is reconstructed, and written as spectra or as their 
   const gonio::rgb daylit = gonio::io::read_merl(files.at("d65.binary"))(wi, wo),
                    lamplit = gonio::io::read_merl(files.at("a.binary"))(wi, wo);
   CHECK(daylit.z() > 1.1 * daylit.x());
-  CHECK(lamplit.y() < daylit.y());  // of a lamp's light less is blue
+  CHECK(lamplit.y() < daylit.y());  // a lamp's light has less blue
   CHECK(((material.material(wi, wo) / daylit - 1.0).abs() < 0.05).all());
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("a .bsdf has the wavelengths of a file that names them, with --spectra
   run("reconstruct " + files.at("spectra.csv") + " --spectra -o " + files.at("asked.bsdf"));
   REQUIRE(gonio::io::read_rgl(files.at("default.bsdf")).spectra);
   run("reconstruct " + files.at("spectra.csv") + " --illuminant A -o " + files.at("lamplit.bsdf"));
-  CHECK(!gonio::io::read_rgl(files.at("lamplit.bsdf")).spectra);  // colours were asked for
+  CHECK(!gonio::io::read_rgl(files.at("lamplit.bsdf")).spectra);  // colours were requested
 }
 
 TEST_CASE("a .bsdf has those wavelengths between which spectra are straight, and says how many") {

@@ -1,4 +1,4 @@
-/// Photographs of a sphere, by the simulated laboratory, become samples.
+/// Simulated photographs of a sphere are converted to samples.
 
 #include "../io/scratch.hpp"
 #include "lab/sphere_lab.hpp"
@@ -25,7 +25,7 @@ const std::string sphere_scene =
     "size 128 128\nfield_of_view 11.5\ndistortion -0.25 0.1 0.002 -0.001\nposition 0 0 12\ntarget 0 0 0\nup 0 1 0\n"
     "lamp 13.1 0 7.3\nintensity 700\n";
 
-/// A photograph of red paint and one of a white sphere, and a set-up.
+/// A photograph of a sphere with red paint, one of a white sphere, and a set-up.
 class sphere_shots {
  public:
   sphere_shots() {
@@ -103,7 +103,7 @@ TEST_CASE("a map of normals and one of positions stand for the sphere's outline"
   };
   refused("normals.npy", "", "needs the positions of the surface");
   put_map("small.npy", surface.normals.leftCols(64), 8);
-  refused("small.npy", positions, "small.npy: has 8 x 8 pixels, its camera 128 x 128");
+  refused("small.npy", positions, "small.npy: has 8 x 8 pixels, but its camera 128 x 128");
   put_map("none.npy", 0.0 * surface.normals, 128);
   refused("none.npy", positions, "none.npy: all normals are zero");
   Eigen::Matrix3Xd broken = surface.normals;
@@ -122,7 +122,7 @@ TEST_CASE("sphere refuses what is missing") {
   };
   const std::string paint = shots.at("paint.hdr") + " ", white = " --white " + shots.at("white.hdr");
   refused(paint + shots.at("setup.txt"), "'white_reflectance' needs --white");
-  refused(paint + shots.at("bare.txt"), "'sphere' is missing (or --normals)");
+  refused(paint + shots.at("bare.txt"), "bare.txt: needs 'sphere' or the option --normals");
   refused(paint + shots.at("setup.txt") + white + white, "--white needs an image for each photograph: 1, not 2");
   refused(shots.at("paint.hdr") + " " + shots.at("setup.txt") + " --white " + shots.at("black.hdr"),
           "no sphere is found");

@@ -1,4 +1,4 @@
-/// gonio svbrdf: registered images in, a map of BRDFs out.
+/// gonio svbrdf: from registered images to a map of BRDFs.
 
 #include "svbrdf_images.hpp"
 #include "tool.hpp"
@@ -67,16 +67,16 @@ TEST_CASE("svbrdf: an unfinished map is gone on with, unless it is of other imag
   CHECK(run(given.command("next.gsv")).find("resumed after band 1 of 2") != std::string::npos);
   CHECK(scratch::get(given.folder / "next.gsv") == whole);
   CHECK(!scratch::fs::exists(part));
-  // Other images of the same sizes.
+  // Refuses to resume with other images of the same size.
   scratch::put(part, whole.substr(0, whole.size() - 1000));
   auto changed = given.images[1];
   changed(20, 3, 1) = 9.0f;
   given.replace(1, changed);
   refuses(given.command("next.gsv"), {"next.gsv.part", "other images"});
   given.replace(1, given.images[1]);
-  // Another penalty.
+  // Refuses to resume with another penalty.
   refuses(given.command("next.gsv", "images.json", "3"), {"next.gsv.part", "another job"});
-  // What was whole is still there.
+  // The finished bands are still there.
   CHECK(whole.starts_with(scratch::get(part)));
   CHECK(scratch::fs::file_size(part) > whole.size() / 2);
 }
@@ -169,7 +169,7 @@ TEST_CASE("svbrdf: on a full disk it says so, and the command given again goes o
   const images_folder given;
   run(given.command("map.gsv"));
   const auto size = scratch::fs::file_size(given.folder / "map.gsv");
-  // A limit of a file's size, in blocks of 512 bytes, stands for a full disk.
+  // A limit on file size, in blocks of 512 bytes, stands in for a full disk.
   const auto limited = [&](std::uintmax_t bytes, const std::string& arguments) {
     return run_program("sh",
                        "-c \"ulimit -f " + std::to_string(bytes / 512) + "; exec '" GONIO_TOOL "' " + arguments + "\"");
@@ -180,7 +180,7 @@ TEST_CASE("svbrdf: on a full disk it says so, and the command given again goes o
   CHECK(!scratch::fs::exists(given.folder / "full.gsv"));
   CHECK(run(given.command("full.gsv")).find("resumed after band 1 of 2") != std::string::npos);
   CHECK(scratch::get(given.folder / "full.gsv") == scratch::get(given.folder / "map.gsv"));
-  // Where a mask is decoded.
+  // The same while a mask is decoded.
   gonio::io::write_png(given.folder / "mask.png", gonio::uniform_image(70, 375, gonio::rgb::Ones()));
   scratch::put(given.folder / "masked.json",
                "{\"quantity\": \"brdf\", \"mask\": \"mask.png\", \"images\": [" + given.entry("image-0.npy", 0) + "]}");

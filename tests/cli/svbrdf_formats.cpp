@@ -1,4 +1,4 @@
-/// gonio svbrdf: images of all formats are read in bands.
+/// gonio svbrdf: reads images of all formats in bands.
 
 #include "svbrdf_images.hpp"
 #include "tool.hpp"
@@ -19,7 +19,7 @@
 
 namespace {
 
-/// A list of the images whose files have this extension.
+/// Writes a list of the images with this extension.
 void write_list(const images_folder& given, const std::string& extension, const std::string& more = "") {
   std::string list = "{\"quantity\": \"brdf\", " + more + "\"images\": [";
   for (std::size_t i = 0; i < given.angles.size(); ++i)
@@ -43,12 +43,12 @@ TEST_CASE("svbrdf: images of Radiance HDR make the same map as their values in a
   run(given.command("expected.gsv"));
   run(given.command("map.gsv", "images.hdr.json") + " --threads 2");
   CHECK(scratch::get(given.folder / "map.gsv") == scratch::get(given.folder / "expected.gsv"));
-  // Gone on with behind the first band.
+  // Resumes after the first band.
   const std::string whole = scratch::get(given.folder / "map.gsv");
   scratch::put(given.folder / "next.gsv.part", whole.substr(0, whole.size() - 1000));
   CHECK(run(given.command("next.gsv", "images.hdr.json")).find("resumed after band 1 of 2") != std::string::npos);
   CHECK(scratch::get(given.folder / "next.gsv") == whole);
-  // Cut, and of more rows than are there.
+  // Refuses a truncated file, and a header that states more rows than the file has.
   const std::string image = scratch::get(file_of(given, 2, ".hdr"));
   scratch::put(file_of(given, 2, ".hdr"), image.substr(0, image.size() - 9));
   refuses(given.command("cut.gsv", "images.hdr.json"), {"image-2.hdr: the HDR file is truncated"});
@@ -71,13 +71,13 @@ TEST_CASE("svbrdf: images of OpenEXR make the same map as their values in arrays
   const std::string image = scratch::get(file_of(given, 2, ".exr"));
   scratch::put(file_of(given, 2, ".exr"), image.substr(0, image.size() - 9));
   refuses(given.command("cut.gsv", "images.exr.json"), {"image-2.exr: cannot be decoded as OpenEXR"});
-  // A block that is damaged is found when it is decoded; what is before it stays, as of any job that ends.
+  // A damaged block is found when it is decoded. The bands before it are kept, as for any job that stops.
   std::string damaged = image;
   damaged[image.size() - 2000] = static_cast<char>(~damaged[image.size() - 2000]);
   scratch::put(file_of(given, 2, ".exr"), damaged);
   refuses(given.command("damaged.gsv", "images.exr.json"), {"image-2.exr: cannot be decoded as OpenEXR"});
   CHECK(!scratch::fs::exists(given.folder / "damaged.gsv"));
-  // Mended, the job goes on.
+  // With the file repaired, the job resumes.
   scratch::put(file_of(given, 2, ".exr"), image);
   run(given.command("damaged.gsv", "images.exr.json"));
   CHECK(scratch::get(given.folder / "damaged.gsv") == scratch::get(given.folder / "expected.gsv"));

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-/// Four images of 70 x 375 texels, whose bands have 43 rows; a prior of few cells.
+/// Four images of 70 x 375 texels in bands of 43 rows, and a prior of few cells.
 struct images_folder {
   scratch::folder folder;
   gonio::log_relative_pca prior = learn(synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 12), 6);

@@ -1,4 +1,4 @@
-/// gonio svbrdf: texels that are not of the sample.
+/// gonio svbrdf: texels outside the sample.
 
 #include "svbrdf_images.hpp"
 #include "tool.hpp"
@@ -15,13 +15,13 @@
 
 namespace {
 
-/// A list of all images, with more that it says.
+/// Writes a list of all images with additional entries.
 void write_list(const images_folder& given, const std::string& name, const std::string& more) {
   const std::string list = scratch::get(given.folder / "images.json");
   scratch::put(given.folder / name, "{" + more + "," + list.substr(1));
 }
 
-/// Row 45 and the columns 100 to 199 of all rows are black.
+/// Row 45, and columns 100 to 199 of all rows, are black.
 gonio::image mask_of() {
   gonio::image mask = gonio::uniform_image(70, 375, gonio::rgb(0.0, 0.3, 0.0));
   for (std::size_t row = 0; row < 70; ++row)
@@ -43,7 +43,7 @@ TEST_CASE("svbrdf: texels beside the mask have no material, and all others are a
   run(given.command("whole.gsv"));
   gonio::io::write_png(given.folder / "mask.png", mask_of());
   write_list(given, "masked.json", "\"mask\": \"mask.png\"");
-  // What is there does not matter, not even whether it is a number.
+  // Values outside the mask do not matter; they may even be NaN or infinite.
   auto image = given.images[2];
   image(45, 7, 1) = std::numeric_limits<float>::quiet_NaN();
   image(3, 150, 0) = std::numeric_limits<float>::infinity();
@@ -74,7 +74,7 @@ TEST_CASE("svbrdf: texels beside the mask have no material, and all others are a
   CHECK(scratch::get(given.folder / "one.gsv") == scratch::get(given.folder / "masked.gsv"));
   const std::string facts = run("info " + (given.folder / "masked.gsv").string());
   CHECK(facts.find("0.72") != std::string::npos);
-  // Drawn black.
+  // Masked texels are drawn black.
   const std::string drawing = (given.folder / "map.png").string();
   run("render " + (given.folder / "masked.gsv").string() + " --prior " + (given.folder / "small.prior").string() +
       " --light 20,10 --exposure 0.5 -o " + drawing);

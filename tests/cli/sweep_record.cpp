@@ -1,4 +1,4 @@
-/// The sweeps of a search that was interrupted.
+/// The record of the sweeps of an interrupted search.
 
 #include "tool/files/sweep_record.hpp"
 
@@ -12,7 +12,8 @@ using cli::sweep_record;
 
 namespace {
 
-/// What a search of so many sweeps has, the n-th of which finds 10 n, and how many it did itself.
+/// The result of a search among 100 candidates whose n-th sweep finds 10 n, and the number of sweeps that it ran
+/// itself.
 struct searched {
   std::vector<Eigen::Index> best;
   int sweeps = 0;
@@ -24,10 +25,12 @@ searched search(const scratch::fs::path& output, int count, std::uint32_t checks
   searched found;
   found.earlier = record.earlier();
   for (int n = 0; n < count; ++n)
-    found.best.push_back(record.next([&] {
-      ++found.sweeps;
-      return Eigen::Index{10 * n};
-    }));
+    found.best.push_back(record.next(
+        [&] {
+          ++found.sweeps;
+          return Eigen::Index{10 * n};
+        },
+        100));
   return found;
 }
 
@@ -43,14 +46,18 @@ TEST_CASE("a search goes on behind the sweeps of an earlier one") {
   CHECK(again.earlier == 3);
   CHECK(again.sweeps == 2);
   CHECK(again.best == std::vector<Eigen::Index>{0, 10, 20, 30, 40});
-  // Half a line is no sweep.
+  // An incomplete line is not counted as a sweep.
   const std::string whole = scratch::get(part);
   scratch::put(part, whole.substr(0, whole.size() - 2));
   CHECK(search(output, 4).earlier == 4);
-  // What is no record begins again.
+  // A file that is not a record is started again.
   scratch::put(part, whole + "-4\n");
   CHECK(search(output, 2).sweeps == 2);
   CHECK(search(output, 2).earlier == 2);
+  // A candidate that the search does not have.
+  scratch::put(part, scratch::get(part) + "100\n");
+  CHECK_THROWS_WITH_AS(search(output, 3), doctest::Contains("six.csv.part: names candidate 100, but the last"),
+                       gonio::error);
 }
 
 TEST_CASE("sweeps of another search are refused, and those of a finished one removed") {

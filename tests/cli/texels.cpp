@@ -1,4 +1,4 @@
-/// gonio texels: images, arrays and materials of a map.
+/// gonio texels: images, arrays and materials from a map.
 
 #include "svbrdf_images.hpp"
 #include "tool.hpp"
@@ -21,8 +21,8 @@
 
 namespace {
 
-/// Columns up to 75 are of one material, from 250 on of another, those between of a third; rows from 60 on are not of
-/// the sample.
+/// Columns below 75 have one material, columns from 250 on another, and those between a third. Rows from 60 on are
+/// outside the sample.
 struct sample_of_three : images_folder {
   explicit sample_of_three(float last = 0.05f) {
     for (std::size_t i = 0; i < images.size(); ++i) {
@@ -42,7 +42,7 @@ struct sample_of_three : images_folder {
     scratch::put(folder / "images.json", "{\"invalid\": \"skip\"," + list.substr(1));
   }
 
-  /// By how many columns each has.
+  /// Returns the number of a column's material, ordered by area.
   static int of(std::size_t column) { return column < 75 ? 3 : column < 250 ? 1 : 2; }
   [[nodiscard]] std::string file(const std::string& name) const { return (folder / name).string(); }
   [[nodiscard]] std::string texels(const std::string& arguments) const {
@@ -50,7 +50,7 @@ struct sample_of_three : images_folder {
   }
 };
 
-/// The bytes of an array of these.
+/// Returns the bytes of an array of labels.
 std::string labels_in(const std::string& file) {
   const std::string all = scratch::get(file);
   CHECK(all.find("'|u1'") != std::string::npos);
@@ -72,7 +72,7 @@ TEST_CASE("texels: clusters are the materials, the largest first, and texels bes
   for (std::size_t i = 0; i < labels.size(); ++i)
     wrong += labels[i] != (i / 375 >= 60 ? 0 : sample_of_three::of(i % 375)) ? 1 : 0;
   CHECK(wrong == 0);
-  // As an image, and for any number of threads.
+  // Labels as an image, with another number of threads.
   run(given.texels("--clusters 3 --threads 3 --labels " + given.file("l.png")));
   const gonio::image drawn = gonio::io::read_png(given.file("l.png"));
   REQUIRE(drawn.shape(0) == 70);
@@ -83,7 +83,7 @@ TEST_CASE("texels: clusters are the materials, the largest first, and texels bes
   CHECK((gonio::pixel(drawn, 65, 7) == 0.0).all());
   run(given.texels("--clusters 3 --threads 3 --labels " + given.file("again.npy")));
   CHECK(scratch::get(given.file("again.npy")) == scratch::get(given.file("l.npy")));
-  // The means of the weights, and the tables that they stand for.
+  // The mean weights, and the tables that they represent.
   const auto means = gonio::io::read_npy<float, 3>(given.file("m.npy"));
   REQUIRE(means.shape(0) == 3);
   REQUIRE(means.shape(2) == 6);
@@ -139,7 +139,7 @@ TEST_CASE("texels: Delta E of two maps") {
   const gonio::image drawn = gonio::io::read_png(given.file("e.png"));
   const gonio::rgb expected = gonio::render::sequential_colour(0.1 * double{found(5, 350)});
   CHECK((gonio::pixel(drawn, 5, 350) - expected).abs().maxCoeff() < 0.01);
-  // Of the images that gonio render draws.
+  // Compares with the images drawn by gonio render.
   const auto render = [&](const std::string& map, const std::string& image) {
     run("render " + given.file(map) + " --prior " + given.file("small.prior") + " --light 20,10 --exposure 1 -o " +
         given.file(image));
@@ -166,6 +166,6 @@ TEST_CASE("texels: what cannot be done is refused") {
           {"small.gsv: has 2 x 2 texels", "375 x 70"});
   const std::string small = "texels " + given.file("small.gsv") + " --prior " + given.file("small.prior");
   refuses(small + " --clusters 5", {"--clusters 5", "4 points differ"});
-  run(small + " --uncertainty " + given.file("u.png"));  // which has no room for a scale
+  run(small + " --uncertainty " + given.file("u.png"));  // the image is too small for a scale
   CHECK(gonio::io::read_png(given.file("u.png")).shape(0) == 2);
 }

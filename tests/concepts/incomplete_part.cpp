@@ -1,5 +1,5 @@
-/// Must not compile: the metric, the basis or the solver of a decomposition lacks a member, which a macro names.
-/// incomplete_parts.cmake compiles it once for each.
+/// Must not compile: the metric, basis or solver of a decomposition lacks a member, chosen by a macro.
+/// incomplete_parts.cmake compiles it once for each member.
 
 #include <gonio/estimate/decomposition.hpp>
 

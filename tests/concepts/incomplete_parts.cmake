@@ -1,4 +1,4 @@
-# Where a decomposition's metric, basis or solver lacks a member, the compiler's first ten lines name it.
+# If a decomposition's metric, basis or solver lacks a member, the first ten lines of the compiler's output name it.
 cmake_minimum_required(VERSION 3.25)
 list(TRANSFORM INCLUDES PREPEND -I)
 string(REPEAT "[^\n]*\n" 10 ten_lines)

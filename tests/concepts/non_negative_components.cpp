@@ -1,4 +1,4 @@
-/// Must not compile: weights >= 0 of functions whose signs are arbitrary.
+/// Must not compile: non-negative weights of functions with arbitrary signs.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/estimate/decomposition.hpp>

@@ -28,14 +28,14 @@ const gonio::reconstruction<gonio::log_relative>& conformity_estimator() {
   return all;
 }
 
-/// Two materials that the prior has not seen.
+/// Returns a material that the prior has not seen.
 const gonio::brdf_table& checked_material(Eigen::Index number = 1) {
   static const auto set = synthetic_materials(conformity_cells(), 3, 101);
   static const std::vector<gonio::brdf_table> tables{set.table(0), set.table(1), set.table(2)};
   return tables[number];
 }
 
-/// Some cells of a table, each channel with noise relative to it and a factor.
+/// Returns some cells of a table times a factor, with relative noise in each channel.
 gonio::located_samples noisy(const gonio::brdf_table& table, const std::vector<Eigen::Index>& cells, double noise,
                              unsigned seed, const gonio::rgb& factor = gonio::rgb::Ones()) {
   std::mt19937_64 random(seed);
@@ -52,7 +52,7 @@ std::vector<Eigen::Index> some_cells(Eigen::Index count, unsigned seed) {
   return gonio::random_cells(conformity_cells(), count, seed);
 }
 
-/// How often parts that are `factor` times the reference are said to differ.
+/// Returns the fraction of parts, `factor` times the reference, that are reported as different.
 double alarms(const std::vector<Eigen::Index>& cells, int trials, double level,
               const gonio::conformity_options& options, const gonio::rgb& factor = gonio::rgb::Ones()) {
   int found = 0;
@@ -150,7 +150,7 @@ TEST_CASE("what is within the tolerance is no difference, what is well beyond is
   CHECK(alarms(cells, 200, 0.05, options) == 0.0);
   CHECK(alarms(cells, 500, 0.05, options, {1.05, 0.95, 1.05}) < 0.05 + 3.0 * std::sqrt(0.05 * 0.95 / 500));
   CHECK(alarms(cells, 100, 0.05, options, gonio::rgb::Constant(1.2)) > 0.95);
-  // Of independent differences each is moved towards zero by what is tolerated, and no further.
+  // With a diagonal precision matrix, each residual moves towards zero by its tolerance, but not past zero.
   const Eigen::VectorXd residuals = (Eigen::VectorXd(3) << 0.3, -0.05, -0.2).finished();
   const Eigen::VectorXd tolerance = (Eigen::VectorXd(3) << 0.1, 0.1, 0.0).finished();
   const Eigen::MatrixXd precision = Eigen::Vector3d(2.0, 3.0, 4.0).asDiagonal();
@@ -181,9 +181,9 @@ TEST_CASE("tolerances of each channel, and of the highlight") {
   const auto cells = some_cells(8, 5);
   gonio::conformity_options options = noise_of(0.02);
   options.tolerance = {0.3, 0.0, 0.0};
-  CHECK(alarms(cells, 100, 0.05, options, {1.2, 1.0, 1.0}) < 0.12);  // by green and blue
+  CHECK(alarms(cells, 100, 0.05, options, {1.2, 1.0, 1.0}) < 0.12);  // green and blue alone raise alarms
   CHECK(alarms(cells, 100, 0.05, options, {1.0, 1.2, 1.0}) > 0.95);
-  // Only cells below 5 degrees have the tolerance of the peak.
+  // The tolerance of the peak applies only to cells below 5 degrees.
   options.tolerance = {0.0};
   options.peak_tolerance = 0.3;
   CHECK(alarms(cells, 100, 0.05, options, gonio::rgb::Constant(1.2)) > 0.95);
@@ -298,7 +298,7 @@ TEST_CASE("repeats of the reference make it surer, and their order does not matt
   const auto reordered =
       gonio::check_conformity(conformity_estimator(), part, often.subset({3, 1, 0, 2}), noise_of(0.02));
   CHECK(reordered.p_value == doctest::Approx(by_three.p_value).epsilon(1e-9));
-  // A weight of 2 is half of the variance.
+  // A weight of 2 halves the variance.
   auto heavy = part;
   heavy.weights.setConstant(2.0);
   const auto weighted = gonio::check_conformity(conformity_estimator(), heavy, once, noise_of(0.02));
@@ -336,7 +336,7 @@ TEST_CASE("a material of the prior is familiar, values in another order are not"
   const auto strange = conformity_estimator().process_of(shuffled).familiarity();
   CHECK(strange.scale > 5.0 * known.scale);
   CHECK(strange.p_value < known.p_value);
-  // y' K^-1 y, by the definition.
+  // y' K^-1 y, computed directly.
   const Eigen::MatrixXd y = conformity_estimator().process_of(samples).values();
   const Eigen::MatrixXd k = conformity_estimator().process_of(samples).covariance();
   CHECK(known.scale == doctest::Approx(y.cwiseProduct(Eigen::MatrixXd(k.llt().solve(y))).sum() / 60.0).epsilon(1e-6));
@@ -405,7 +405,7 @@ TEST_CASE("a noiseless reference predicts, even if it is repeated in a direction
 TEST_CASE("channels are data: one reading is one channel, and each of many wavelengths counts") {
   const auto cells = some_cells(12, 4);
   auto part = noisy(checked_material(), cells, 0.02, 1), reference = noisy(checked_material(), cells, 0.02, 2);
-  // Three copies of a reading are one channel.
+  // Three copies of one reading count as one channel.
   for (gonio::located_samples* samples : {&part, &reference})
     samples->values = samples->values.col(0).replicate(1, 3).eval();
   const auto thrice = gonio::check_conformity(conformity_estimator(), part, reference, noise_of(0.02));
@@ -416,7 +416,7 @@ TEST_CASE("channels are data: one reading is one channel, and each of many wavel
   CHECK(thrice.p_value == once.p_value);
   CHECK(thrice.directions[3].difference.size() == 1);
 
-  // Of five wavelengths the last is tripled.
+  // The last of five wavelengths is tripled.
   part.values = part.values.replicate(1, 5).eval();
   reference.values = reference.values.replicate(1, 5).eval();
   part.values.col(4) *= 3.0;
@@ -432,11 +432,11 @@ TEST_CASE("channels are data: one reading is one channel, and each of many wavel
         other.values = reference.values.leftCols(4).eval();
         return gonio::check_conformity(conformity_estimator(), part, other, noise_of(0.02));
       },
-      {"5 channels", "the reference, 4"});
+      {"5 channels", "the reference has 4"});
 }
 
 TEST_CASE("parts of one channel are refused as seldom as was promised") {
-  // 400 pairs, 5 % promised: within three deviations of the binomial distribution.
+  // 400 pairs at a promised rate of 5 %: within three standard deviations of the binomial distribution.
   for (const Eigen::Index channels : {1, 3, 5}) {
     CAPTURE(channels);
     int refused = 0;
@@ -448,7 +448,7 @@ TEST_CASE("parts of one channel are refused as seldom as was promised") {
         Eigen::MatrixXd values = samples->values.col(0).replicate(1, channels);
         for (Eigen::Index i = 0; i < values.rows(); ++i)
           for (Eigen::Index c = 0; c < channels; ++c) values(i, c) *= 1.0 + 0.02 * normal(random);
-        samples->values = channels == 1 ? Eigen::MatrixXd(values.replicate(1, 3)) : values;  // as a file is read
+        samples->values = channels == 1 ? Eigen::MatrixXd(values.replicate(1, 3)) : values;  // as files are read
       }
       refused +=
           gonio::check_conformity(conformity_estimator(), part, reference, noise_of(0.02)).conforms(0.05) ? 0 : 1;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Distance of two azimuths of period pi.
+/// Returns the distance between two azimuths of period pi.
 double azimuth_distance(double a, double b) {
   const double apart = std::abs(a - b);
   return std::min(apart, pi - apart);
@@ -37,7 +37,7 @@ TEST_CASE("half and difference angles agree with the reference") {
     const half_difference angles = gonio::to_half_difference(wi, wo);
     CHECK(angles.theta_h == doctest::Approx(column("theta_h")[i]).epsilon(1e-12).scale(1));
     CHECK(angles.theta_d == doctest::Approx(column("theta_d")[i]).epsilon(1e-12).scale(1));
-    // phi_d means nothing at theta_d = 0, and has the error of an azimuth near it.
+    // phi_d is undefined at theta_d = 0, and near it as inaccurate as any azimuth near a pole.
     if (column("theta_d")[i] > 1e-9) CHECK(azimuth_distance(angles.phi_d, column("phi_d")[i]) < 1e-9);
     const auto pair = gonio::to_directions({column("theta_h")[i], column("theta_d")[i], column("phi_d")[i]});
     CHECK((pair.wi - direction(column("wi2x")[i], column("wi2y")[i], column("wi2z")[i])).norm() < 1e-14);

@@ -27,7 +27,7 @@ void refuses_distortion(const gonio::lens_distortion& distortion, const std::str
 }  // namespace
 
 TEST_CASE("points are shown where OpenCV's formula shows them") {
-  // cv::projectPoints of (0.3, -0.2, 1) with unit focal length and these coefficients, by hand: r^2 = 0.13.
+  // cv::projectPoints of (0.3, -0.2, 1) with unit focal length and these coefficients, computed by hand: r^2 = 0.13.
   const gonio::lens_distortion distortion{.k1 = -0.2, .k2 = 0.05, .p1 = 0.001, .p2 = -0.002, .k3 = 0.01};
   const double radial = 1.0 - 0.2 * 0.13 + 0.05 * 0.0169 + 0.01 * 0.002197;
   const Eigen::Vector2d shown = distortion.distorted({0.3, -0.2});
@@ -100,7 +100,7 @@ TEST_CASE("without coefficients it is the pinhole") {
 }
 
 TEST_CASE("what folds within the image is refused, naming the radius") {
-  // 1 + 3 k1 r^2 = 0 at r = 0.471, which is shown at 0.314; the corner is at 0.589.
+  // 1 + 3 k1 r^2 = 0 at r = 0.471, which is imaged at 0.314. The corner is at 0.589.
   refuses_distortion({.k1 = -1.5}, "folds within the image: at a radius of 0.47");
   refuses_distortion({.p1 = 0.9}, "folds within the image");
   refuses_distortion({.k1 = std::numeric_limits<double>::quiet_NaN()}, "must be finite");

@@ -11,7 +11,7 @@ using gonio::pinhole_camera;
 
 namespace {
 
-/// A number from a range, in a million steps.
+/// Returns one of a million evenly spaced numbers in a range.
 double number_between(double low, double high) { return low + (high - low) * 1e-6 * *rc::gen::inRange(0, 1'000'001); }
 
 Eigen::Vector3d vector_in_box(double half_size) {
@@ -71,7 +71,7 @@ TEST_CASE("look_at is a rotation that puts the target on the axis, right to the 
   const auto camera = pinhole_camera::look_at(intrinsics, {3.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
   CHECK((*camera.project({0.0, 0.0, 0.0}) - Eigen::Vector2d(50.0, 50.0)).norm() < 1e-12);
   CHECK(camera.project({0.0, 0.0, 1.0})->y() < 50.0);  // rows are counted downwards
-  CHECK(camera.project({0.0, 1.0, 0.0})->x() > 50.0);  // who looks to -x has y to the right
+  CHECK(camera.project({0.0, 1.0, 0.0})->x() > 50.0);  // for a camera that looks along -x, y is to the right
   CHECK_FALSE(camera.project({4.0, 0.0, 0.0}).has_value());
   CHECK_FALSE(camera.project({3.0, 1.0, 0.0}).has_value());
 }
@@ -118,7 +118,7 @@ TEST_CASE("what is no camera is refused") {
   refused([](auto&, auto& r, auto&) { r(1, 1) = 0.99; }, "orthogonal");
   refused([](auto&, auto& r, auto&) { r(2, 2) = -1.0; }, "determinant 1");
   refused([](auto&, auto& r, auto&) { r(0, 0) = nan; }, "orthogonal");
-  // Four decimals of a file are exact enough.
+  // Four decimals, as in a file, are accurate enough.
   CHECK_NOTHROW(pinhole_camera(camera_intrinsics::square(10, 1.0),
                                (Eigen::Matrix3d() << 0.7071, -0.7071, 0, 0.7071, 0.7071, 0, 0, 0, 1).finished(),
                                Eigen::Vector3d::Zero()));

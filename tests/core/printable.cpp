@@ -26,11 +26,11 @@ TEST_CASE("bytes that are no UTF-8 are written as their codes") {
   CHECK(printable("\xC3") == "\\xc3");
   CHECK(printable("\xC3x") == "\\xc3x");
   CHECK(printable("\xE2\x82") == "\\xe2\\x82");
-  CHECK(printable("\xC0\x9B\xC1\xBF") == "\\xc0\\x9b\\xc1\\xbf");  // longer than need be
+  CHECK(printable("\xC0\x9B\xC1\xBF") == "\\xc0\\x9b\\xc1\\xbf");  // overlong encodings
   CHECK(printable("\xE0\x82\x9B") == "\\xe0\\x82\\x9b");
   CHECK(printable("\xF0\x80\x82\x9B") == "\\xf0\\x80\\x82\\x9b");
   CHECK(printable("\xED\xA0\x80") == "\\xed\\xa0\\x80");                    // a surrogate
-  CHECK(printable("\xF4\x90\x80\x80\xFF") == "\\xf4\\x90\\x80\\x80\\xff");  // beyond Unicode
+  CHECK(printable("\xF4\x90\x80\x80\xFF") == "\\xf4\\x90\\x80\\x80\\xff");  // above U+10FFFF
 }
 
 TEST_CASE("what a message in parts quotes cannot steer a terminal") {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-// Tables of chi-square and F, as any textbook has them.
+// Tables of chi-square and F, as in any textbook.
 TEST_CASE("quantiles are those of the tables") {
   CHECK(gonio::chi_square_quantile(0.95, 3.0) == doctest::Approx(7.8147).epsilon(1e-5));
   CHECK(gonio::chi_square_quantile(0.999, 1.0) == doctest::Approx(10.828).epsilon(1e-4));
@@ -24,7 +24,7 @@ TEST_CASE("shares that are none are refused") {
 }
 
 TEST_CASE("upper tails are those of closed forms, however small") {
-  // Of 2 degrees of freedom exp(-x / 2), of 1 erfc(sqrt(x / 2)).
+  // Upper tails: exp(-x / 2) for 2 degrees of freedom, erfc(sqrt(x / 2)) for 1.
   for (const double x : {0.1, 1.0, 10.0, 100.0, 500.0}) {
     CHECK(gonio::chi_square_tail(x, 2.0) == doctest::Approx(std::exp(-0.5 * x)).epsilon(1e-9));
     CHECK(gonio::chi_square_tail(x, 1.0) == doctest::Approx(std::erfc(std::sqrt(0.5 * x))).epsilon(1e-9));

@@ -24,7 +24,7 @@ TEST_CASE("k of n: each number is chosen as often as any other") {
   std::array<int, 6> chosen{};
   for (std::uint64_t seed = 0; seed < 6000; ++seed)
     for (const std::size_t i : gonio::random_choice(6, 2, seed)) ++chosen[i];
-  // 2000 times each, with a standard deviation of 36.
+  // Each is expected 2000 times, with a standard deviation of 36.
   for (const int times : chosen) CHECK(std::abs(times - 2000) < 180);
 }
 

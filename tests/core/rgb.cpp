@@ -19,7 +19,7 @@ TEST_CASE("CIELAB agrees with the reference") {
 TEST_CASE("the difference of a colour with itself is zero, of black and white 100") {
   CHECK(gonio::delta_e({0.2, 0.5, 0.7}, {0.2, 0.5, 0.7}) == 0.0);
   CHECK(gonio::delta_e(rgb::Zero(), rgb::Ones()) == doctest::Approx(100.0).epsilon(1e-4));
-  CHECK(gonio::delta_e(rgb::Ones(), rgb::Constant(7.0)) == 0.0);  // both clip to white
+  CHECK(gonio::delta_e(rgb::Ones(), rgb::Constant(7.0)) == 0.0);  // both are clipped to white
 }
 
 TEST_CASE("luminance weights sum to one and sRGB meets its published points") {
@@ -33,5 +33,5 @@ TEST_CASE("luminance weights sum to one and sRGB meets its published points") {
 
 TEST_CASE("XYZ and back") {
   for (const rgb& colour : {rgb(1, 1, 1), rgb(0.2, 0.5, 0.9), rgb(-0.1, 2.0, 0.0)})
-    CHECK(((gonio::from_xyz(gonio::to_xyz(colour)) - colour).abs() < 2e-6).all());  // matrices of 7 digits
+    CHECK(((gonio::from_xyz(gonio::to_xyz(colour)) - colour).abs() < 2e-6).all());  // the matrices have 7 digits
 }

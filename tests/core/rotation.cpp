@@ -12,7 +12,7 @@ TEST_CASE("rotation: matrices that turn are rotations, those that stretch, shear
     const Eigen::Vector3d axis(number(), number(), 1.5);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(4.0 * number(), axis.normalized()).toRotationMatrix();
     RC_ASSERT(gonio::is_rotation(turn));
-    RC_ASSERT(gonio::is_rotation((turn * 1e4).array().round() / 1e4));  // four decimals
+    RC_ASSERT(gonio::is_rotation((turn * 1e4).array().round() / 1e4));  // rounded to four decimals
     RC_ASSERT(!gonio::is_rotation(1.001 * turn));
     RC_ASSERT(!gonio::is_rotation(-turn));
     Eigen::Matrix3d sheared = turn;

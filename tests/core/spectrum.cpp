@@ -11,14 +11,14 @@ using gonio::spectral_colour;
 
 namespace {
 
-/// From 400 to 700 nanometres every 10.
+/// From 400 to 700 nanometres in steps of 10.
 std::vector<double> visible() {
   std::vector<double> wavelengths;
   for (int i = 0; i <= 30; ++i) wavelengths.push_back(400.0 + 10.0 * i);
   return wavelengths;
 }
 
-/// Reflectance 1 from one wavelength to another, 0 outside.
+/// Reflectance 1 between two wavelengths, 0 outside.
 std::vector<double> band(double from, double to) {
   std::vector<double> values;
   for (const double wavelength : visible()) values.push_back(wavelength >= from && wavelength <= to ? 1.0 : 0.0);
@@ -69,7 +69,7 @@ TEST_CASE("grey is grey, whatever the wavelengths") {
     const spectral_colour colour(wavelengths);
     RC_ASSERT(colour.size() == count);
     const rgb found = colour(std::vector<double>(count, grey));
-    RC_ASSERT(((found - grey).abs() <= 1e-6 * std::max(1.0, std::abs(grey))).all());  // matrices of 7 digits
+    RC_ASSERT(((found - grey).abs() <= 1e-6 * std::max(1.0, std::abs(grey))).all());  // the matrices have 7 digits
   }));
 }
 

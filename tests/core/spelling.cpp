@@ -8,8 +8,8 @@ using gonio::nearest_word, gonio::spelling_distance;
 TEST_CASE("how far words are apart") {
   CHECK(spelling_distance("", "") == 0);
   CHECK(spelling_distance("", "abc") == 3);
-  CHECK(spelling_distance("plan", "paln") == 1);               // exchanged
-  CHECK(spelling_distance("reconstuct", "reconstruct") == 1);  // left out
+  CHECK(spelling_distance("plan", "paln") == 1);               // neighbours exchanged
+  CHECK(spelling_distance("reconstuct", "reconstruct") == 1);  // a letter missing
   CHECK(spelling_distance("kitten", "sitting") == 3);
 }
 

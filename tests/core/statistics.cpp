@@ -22,7 +22,7 @@ TEST_CASE("quantiles and medians are those of the sorted numbers") {
     const double lower = sorted.size() % 2 == 0 ? sorted[middle - 1] : sorted[middle];
     RC_ASSERT(gonio::median(numbers) == 0.5 * (lower + sorted[middle]));
     std::ranges::sort(numbers);
-    RC_ASSERT(numbers == sorted);  // reordered, no more
+    RC_ASSERT(numbers == sorted);  // only reordered
   }));
 }
 
@@ -34,6 +34,6 @@ TEST_CASE("the least and the greatest; a temporary is a vector, too") {
 }
 
 TEST_CASE("half of all normal numbers are within a median's distance of the mean") {
-  // P(|x| < d) of a normal number is erf(d / sqrt(2)).
+  // For a standard normal variable, P(|x| < d) = erf(d / sqrt(2)).
   CHECK(std::erf(1.0 / gonio::deviation_by_median / std::sqrt(2.0)) == doctest::Approx(0.5).epsilon(1e-4));
 }

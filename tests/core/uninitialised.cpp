@@ -19,5 +19,5 @@ TEST_CASE("only numbers that nothing was said of have no value") {
   numbers.push_back(2);
   CHECK(numbers == vector<int>{7, 7, 7, 1, 2});
   CHECK(vector<int>(numbers) == numbers);
-  CHECK(vector<std::string>(2) == vector<std::string>{"", ""});  // which a constructor makes
+  CHECK(vector<std::string>(2) == vector<std::string>{"", ""});  // strings are constructed as usual
 }

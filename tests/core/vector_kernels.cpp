@@ -15,7 +15,7 @@ constexpr double largest = std::numeric_limits<double>::max(), smallest = std::n
 
 TEST_CASE("products and scaled sums are those of plain loops") {
   CHECK(rc::check([](const std::vector<std::int16_t>& integers) {
-    // Integers below 2^16, whose products and sums are exact in double.
+    // Integers below 2^16: their products and sums are exact in double.
     const std::vector<double> a(integers.begin(), integers.end()), b(integers.rbegin(), integers.rend());
     const auto count = std::ssize(a);
     double product = 0.0;

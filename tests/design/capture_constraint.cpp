@@ -10,7 +10,7 @@ using gonio::design::capture_constraint;
 
 namespace {
 
-/// Light and viewer at polar angles in degrees, so many degrees of azimuth apart.
+/// Light and viewer at these polar angles and this difference of azimuths, in degrees.
 direction_pair light_and_viewer(double light, double viewer, double azimuth = 0.0) {
   return {spherical_direction(radians(light), radians(azimuth)), spherical_direction(radians(viewer), 0.0)};
 }
@@ -68,7 +68,7 @@ TEST_CASE("in the plane of incidence: poses are checked against it, and those ne
   CHECK(constraint(light_and_viewer(30, 60)));
   CHECK(constraint(light_and_viewer(0, 60, 77)));
   CHECK_FALSE(constraint(light_and_viewer(30, 60, 175)));
-  // How steep the light is does not matter.
+  // The polar angle of the light does not matter.
   CHECK_FALSE(constraint(light_and_viewer(10, 60, 178)));
   CHECK(constraint(light_and_viewer(10, 60, 179)));
   const auto pose = constraint.pose_of({radians(20), radians(30), radians(8)});

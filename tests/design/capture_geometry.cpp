@@ -5,7 +5,7 @@
 
 namespace {
 
-/// The smallest geometry there can be: numbers in a row, all in one direction.
+/// The smallest possible geometry: three candidates in a row, all in the same direction.
 struct line_of_candidates {
   [[nodiscard]] Eigen::Index size() const { return 3; }
   [[nodiscard]] bool allows(Eigen::Index) const { return true; }
@@ -43,7 +43,7 @@ TEST_CASE("a point sample is in the direction of its cell; steps do not lead to 
     const auto angles = points.directions(cell);
     REQUIRE(angles.size() == 1);
     CHECK(angles[0].theta_d == small_cells().angles(cell).theta_d);
-    // Light and viewer may change places: one of them must be where the light can be.
+    // Light and viewer may be exchanged: one of them must be in the light's range.
     const gonio::cosine_pair cosine = gonio::cosines(angles[0]);
     CHECK(points.allows(cell) == (std::max(cosine.i, cosine.o) >= std::cos(gonio::radians(45))));
     const gonio::direction_pair centre = points.centre(cell);

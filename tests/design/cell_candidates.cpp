@@ -6,7 +6,7 @@
 
 namespace {
 
-/// Some cells have none, others much more than eta.
+/// Penalties of zero at some cells, much larger than eta at others.
 std::vector<double> synthetic_sample_noise_penalties() {
   std::vector<double> etas(small_cells().size());
   for (Eigen::Index cell = 0; cell < std::ssize(etas); ++cell) etas[cell] = static_cast<double>(cell % 7 * (cell % 5));
@@ -20,7 +20,8 @@ TEST_CASE("all additions at once are what each is by itself") {
   for (const auto& [noise, common_shift, leave_out, sample_noise_penalties] :
        {std::tuple{0.0, 0.0, false, none}, std::tuple{0.0, 0.4, false, none}, std::tuple{0.0, 0.0, false, some},
         std::tuple{0.1, 0.4, false, some}, std::tuple{0.0, 0.0, true, none}, std::tuple{0.1, 0.4, true, some}}) {
-    // The penalty beside a row of Y as it is for real materials: far below, K is too badly conditioned for floats.
+    // eta is as large relative to the rows of Y as for real materials. If it is much smaller, K is too ill-conditioned
+    // for float.
     const auto candidates = synthetic_candidates(
         {.eta = 4.0, .noise = noise, .common_shift = common_shift, .leave_out = leave_out}, {}, sample_noise_penalties);
     REQUIRE(candidates.size() == small_cells().size());

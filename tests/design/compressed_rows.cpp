@@ -6,7 +6,7 @@
 
 namespace {
 
-/// Rows of a few directions with small changes, as an image has them.
+/// Rows of a few directions with small variations, like those of one image.
 gonio::design::component_rows related_rows(Eigen::Index n, Eigen::Index k, unsigned seed) {
   std::srand(seed);
   const Eigen::MatrixXd rows =

@@ -12,7 +12,7 @@ using gonio::design::d_optimality;
 
 namespace {
 
-/// The smallest criterion there can be.
+/// The smallest possible criterion.
 struct first_entry {
   double operator()(const Eigen::MatrixXd& components) const { return components(0, 0); }
 };
@@ -23,7 +23,7 @@ Eigen::MatrixXd random_rows(Eigen::Index n, Eigen::Index k) {
   return Eigen::MatrixXd::Random(n, k);
 }
 
-/// The covariance of the weights for noise of variance 1, by the textbook.
+/// The textbook covariance of the weights for noise of variance 1.
 Eigen::MatrixXd covariance(const Eigen::MatrixXd& r, double eta) {
   return dense_reference::inverse(r.transpose() * r + eta * Eigen::MatrixXd::Identity(r.cols(), r.cols()));
 }
@@ -51,7 +51,7 @@ TEST_CASE("condition numbers are told up to rounding: neighbouring pixels make t
     Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(12, 1.0, 2.0) / 2.0;
     values[0] = 1.0 / condition;
     CAPTURE(condition);
-    // What the smallest singular value is good to.
+    // The relative accuracy of the smallest singular value.
     const double rounding = gonio::singular_value_rounding(12) * condition + 1e-12;
     const Eigen::MatrixXd tall = u * values.asDiagonal() * v.transpose();
     CHECK(condition_number{}(tall) == doctest::Approx(condition).epsilon(rounding));

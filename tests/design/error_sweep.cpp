@@ -11,7 +11,7 @@ namespace {
 
 using gonio::design::error_sweep;
 
-/// Tiles of some cells of the basis.
+/// Returns the tiles of some cells of the basis.
 error_sweep::tiles tiles_of(const gonio::design::expected_error& criterion, Eigen::Index first, Eigen::Index cells) {
   const Eigen::Index columns = error_sweep::columns(criterion.coefficients().rows());
   error_sweep::tiles tiles = error_sweep::tiles::Zero(2 * error_sweep::width, cells / error_sweep::width * columns);

@@ -5,7 +5,7 @@
 
 namespace {
 
-/// The best pair of all.
+/// Returns the best pair, found by trying all.
 gonio::design::capture_plan best_pair(const gonio::design::cell_candidates& candidates) {
   gonio::design::capture_plan best;
   for (Eigen::Index a = 0; a < candidates.size(); ++a) {
@@ -37,7 +37,7 @@ TEST_CASE("the first cell of greedy growth is the best of all; each error is les
 
 namespace {
 
-/// Looks at the candidates in two parts, as processes may.
+/// Searches the candidates in two parts, as two processes would.
 struct in_two_parts {
   const gonio::design::cell_candidates& whole;
   mutable int asked = 0;
@@ -109,7 +109,6 @@ TEST_CASE("cells that the constraint excludes are no candidates") {
           gonio::design::cell_candidates(candidate_basis(), gonio::design::expected_error(candidate_basis()),
                                          constraint),
           1)),
-      doctest::Contains(
-          "the rule 'light' of the constraint leaves no candidate: it needs a wider range or a larger tolerance"),
+      doctest::Contains("the rule 'light' of the apparatus leaves no direction to measure: relax this rule"),
       gonio::error);
 }

@@ -23,7 +23,7 @@ Eigen::MatrixXd components_at(const std::vector<Eigen::Index>& cells) {
   return rows;
 }
 
-/// Eq. 15 as printed, with p-dimensional norms in which each cell counts as much as `weights` says.
+/// Eq. 15 as printed, with p-dimensional norms in which cells are weighted by `weights`.
 double as_printed(const Eigen::MatrixXd& measured, double eta, double beta, const Eigen::VectorXd& weights) {
   const Eigen::MatrixXd q = candidate_basis().components().cast<double>();
   const Eigen::MatrixXd c = candidate_basis().coefficients().cast<double>();
@@ -50,7 +50,7 @@ TEST_CASE("it is Eq. 15 as printed") {
       for (const std::vector<Eigen::Index>& cells :
            {std::vector<Eigen::Index>{5}, {0, 100}, {3, 60, 200, 222, 310}, {7, 7, 8}}) {
         const Eigen::MatrixXd measured = components_at(cells);
-        // Components are stored as float: Q'Q is Sigma^2 to its precision.
+        // Components are stored as float, so Q'Q equals Sigma^2 to float precision.
         CHECK(criterion(criterion.prepare(measured)) ==
               doctest::Approx(as_printed(measured, eta, beta, ones)).epsilon(1e-5));
       }
@@ -116,15 +116,15 @@ TEST_CASE("noise is independent in each measurement: what many draws of it add, 
   }
   const expected_error criterion(candidate_basis(), {.eta = eta, .noise = noise});
   CHECK(criterion(measured) == doctest::Approx(sum / m).epsilon(5e-3));
-  // One shift of all is another error, larger or smaller.
+  // A shift common to all samples gives another error.
   const expected_error shared(candidate_basis(), {.eta = eta, .common_shift = noise});
   CHECK(std::abs(shared(measured) - criterion(measured)) > 0.02 * criterion(measured));
 }
 
 namespace {
 
-/// The error of each material's reconstruction by a basis that has its prior from the others, by the textbook: their
-/// weights' mean and covariance, Bayes' rule, and the norm over all cells.
+/// The textbook error of each material's reconstruction with a prior from the other materials: mean and covariance of
+/// their weights, Bayes' rule, and the norm over all cells.
 double each_left_out(const gonio::log_relative_pca& basis, const Eigen::MatrixXd& measured, double eta, double noise) {
   const Eigen::MatrixXd q = basis.components().cast<double>(), c = basis.coefficients().cast<double>();
   const Eigen::Index m = c.rows(), k = c.cols(), n = measured.rows(), channels = basis.channels();
@@ -173,7 +173,8 @@ TEST_CASE("out of sample it is the error of each material with the prior of the 
 }
 
 TEST_CASE("a material that is left out is left out with all of its wavelengths") {
-  // The same columns in other groups: in sample nothing changes; out of sample more of them leave more unknown.
+  // The same columns, grouped into fewer materials. In sample, nothing changes. Out of sample, leaving out more columns
+  // at once increases the error.
   const Eigen::MatrixXd measured = components_at({3, 60, 200, 222, 310});
   const auto error = [&](const gonio::log_relative_pca& basis, bool leave_out) {
     return expected_error(basis, {.eta = 1.0, .leave_out = leave_out})(measured);
@@ -204,7 +205,7 @@ TEST_CASE("materials with more channels that are all the same have the same erro
     };
     return gonio::learn_streamed_pca(std::move(rows), {.components = 11}).prior;
   };
-  // As many columns as there are, the variance is larger by, and eta with it.
+  // With c equal channels the variance is c times as large, and eta is scaled by c.
   const auto candidates = [](const gonio::log_relative_pca& basis) {
     const double eta = 0.2 * static_cast<double>(basis.channels());
     return gonio::design::cell_candidates(basis, expected_error(basis, {.eta = eta, .leave_out = true}));
@@ -263,5 +264,5 @@ TEST_CASE("what cannot be is refused") {
                        doctest::Contains("leaving out a material needs at least two"), gonio::error);
   CHECK_THROWS_AS(expected_error(candidate_basis(), {.eta = std::nan("")}), gonio::error);
   CHECK_THROWS_WITH_AS(expected_error(candidate_basis(), {}, Eigen::MatrixXd::Identity(2, 2)),
-                       doctest::Contains("square matrix"), gonio::error);
+                       doctest::Contains("must be a matrix with"), gonio::error);
 }

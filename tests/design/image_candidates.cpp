@@ -16,7 +16,7 @@ static_assert(gonio::design::sweeping_objective<gonio::design::image_candidates<
 
 constexpr gonio::design::expected_error_options with_noise{.eta = 0.5, .noise = 0.1, .common_shift = 0.3};
 
-/// E of all samples of some images, one row each.
+/// Returns E of all samples of some images, with one row for each sample.
 template <class Geometry>
 double of_all_samples(const Geometry& geometry, const std::vector<Eigen::Index>& images) {
   std::vector<Eigen::RowVectorXd> rows;

@@ -11,7 +11,7 @@ using gonio::design::near_field_geometry;
 
 namespace {
 
-/// The candidate with these polar angles of light and camera and azimuth between them, in degrees.
+/// Returns the candidate with these polar angles of light and camera and this azimuth between them, in degrees.
 Eigen::Index candidate_at(const near_field_geometry& geometry, double light, double camera, double azimuth) {
   return geometry.nearest(
       {gonio::spherical_direction(radians(light), radians(azimuth)), gonio::spherical_direction(radians(camera), 0.0)});
@@ -34,12 +34,12 @@ TEST_CASE("a candidate is where it says, and nearest finds it again") {
 TEST_CASE("from the zenith the pixels see a cone of the field of view, all under the same light") {
   const near_field_geometry geometry({.field_of_view = radians(25), .pixels = 60});
   const auto seen = geometry.directions(candidate_at(geometry, 40, 0, 0));
-  // Pixels in a disc of diameter 60 asin'd / tan'd: nearly pi / 4 of the square.
+  // Pixels in a disc whose image has the relative diameter 60 asin'd / tan'd: nearly pi / 4 of the square.
   CHECK(seen.size() > 2500);
   CHECK(seen.size() < 3000);
   double steepest = 1.0, flattest = 0.0;
   for (const auto& angles : seen) {
-    // Folded angles do not tell light and camera apart: the light is the lower one.
+    // Folded angles do not distinguish light and camera; here the light is the lower one.
     const auto [one, other] = gonio::cosines(angles);
     CHECK(std::min(one, other) == doctest::Approx(std::cos(radians(40))));
     steepest = std::min(steepest, std::max(one, other));
@@ -47,7 +47,7 @@ TEST_CASE("from the zenith the pixels see a cone of the field of view, all under
   }
   CHECK(degrees(std::acos(flattest)) < 0.5);
   CHECK(degrees(std::acos(steepest)) == doctest::Approx(12.5).epsilon(0.04));
-  // Of 3 x 3 pixels the outermost ones' middles are in the disc, too.
+  // Even the centres of the outermost of 3 x 3 pixels are in the disc.
   const near_field_geometry coarse({.field_of_view = radians(25), .pixels = 3});
   CHECK(coarse.directions(candidate_at(coarse, 40, 0, 0)).size() == 9);
 }
@@ -65,7 +65,7 @@ TEST_CASE("a disc seen from the side is an ellipse of fewer pixels, its near sid
     smallest = std::min(smallest, theta_o);
     largest = std::max(largest, theta_o);
   }
-  // r = tan(12.5 degrees), camera at (sin 60, 0, cos 60): the near edge is seen at atan((sin 60 - r) / cos 60).
+  // r = tan(12.5 degrees), camera at (sin 60, 0, cos 60): it sees the near edge at atan((sin 60 - r) / cos 60).
   const double r = std::tan(radians(12.5));
   CHECK(smallest == doctest::Approx(degrees(std::atan((std::sin(radians(60)) - r) / 0.5))).epsilon(0.01));
   CHECK(largest == doctest::Approx(degrees(std::atan((std::sin(radians(60)) + r) / 0.5))).epsilon(0.01));
@@ -127,5 +127,5 @@ TEST_CASE("what cannot be built is refused") {
   refused([](auto& o) { o.step = 0.0; }, "step");
   refused([](auto& o) { o.largest_polar_angle = radians(90); }, "largest polar angle");
   refused([](auto& o) { o.fixed_camera = radians(95); }, "above the horizon");
-  refused([](auto& o) { o.constraint.smallest_separation = 4.0; }, "no candidate");
+  refused([](auto& o) { o.constraint.smallest_separation = 4.0; }, "limits of the apparatus");
 }

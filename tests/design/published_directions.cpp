@@ -44,7 +44,7 @@ TEST_CASE("industry's directions are in the plane of the light, whose angle from
   REQUIRE(directions.size() == 5);
   const std::array aspecular{15.0, 25.0, 45.0, 75.0, 110.0};
   for (Eigen::Index i = 0; i < 5; ++i) {
-    // In the plane of incidence theta_h is half of how far the viewer is from the mirror direction.
+    // In the plane of incidence, theta_h is half the angle between viewer and mirror direction.
     CHECK(gonio::degrees(directions[i].theta_h) == doctest::Approx(aspecular[i] / 2.0));
     const auto pair = gonio::to_directions(directions[i]);
     CHECK(pair.wi.y() == doctest::Approx(0.0));

@@ -41,7 +41,7 @@ TEST_CASE("an apparatus without errors adds none; each of its errors adds its ow
     const auto pair = gonio::to_directions(locations[cell].angles);
     CHECK(observations * of_angles[cell] ==
           doctest::Approx(gonio::angular_error_penalty(small_prior(), pair, off.angular_error)));
-    // The metric is a logarithm: a small error of a reading is one relative to it.
+    // The metric is logarithmic: its error is the relative error of the reading.
     const double value = gonio::reflectance_of(small_prior().metric(), small_prior().offset(cell), locations[cell]);
     const double reading = value * pair.wi.z() * pair.wo.z();
     CHECK(std::sqrt(of_dark[cell]) <= 1.5 * dark.dark_signal / reading);

@@ -10,7 +10,7 @@ using gonio::design::capture_plan;
 
 namespace {
 
-/// How far, in cells, each of three places is from the nearest cell of a design.
+/// Returns the sum of the distances, in cells, from three locations to the nearest cell of a design.
 double distance_from_places(std::span<const Eigen::Index> cells) {
   const auto& grid = small_cells().grid();
   double sum = 0.0;
@@ -32,7 +32,7 @@ const gonio::design::point_geometry& small_points() {
   return points;
 }
 
-/// Is a plan as good as any with one of its cells moved by one?
+/// Returns true if no plan with one cell moved by one step is better.
 bool no_step_improves(const capture_plan& plan) {
   capture_plan copy = plan;
   for (Eigen::Index position = 0; position < std::ssize(plan.candidates); ++position)

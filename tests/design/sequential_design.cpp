@@ -52,7 +52,7 @@ TEST_CASE("the posterior over candidates is the estimator's fit, and its deviati
     const double deviation = process.deviation(gonio::row_at(estimator.prior(), at), at.angles),
                  variance = deviation * deviation - gonio::error_variance_at(estimator.model(), at.angles);
     CHECK(known.covariance(cell, cell) == doctest::Approx(variance).epsilon(1e-6));
-    // Doubts are beside it where it is stated how sure the fit is.
+    // The deviation of the fit also includes the doubts.
     CHECK(paint.deviation(at) > std::sqrt(process.scale()) * deviation);
   }
 }
@@ -67,7 +67,7 @@ TEST_CASE("a candidate's value is that of the covariance with its measurement, o
     with.add(candidate, sequence().error_variances()[candidate]);
     CHECK(each[candidate] == doctest::Approx(gonio::design::seen_deviation(with.covariance, seen)).epsilon(1e-8));
     CHECK(each[candidate] <= before);
-    // The same as measuring there.
+    // Agrees with the posterior after measuring the candidate.
     auto samples = std::vector<Eigen::Index>{3, 50, 120, candidate};
     const auto measured = sequence().posterior_of(process_of_some(samples));
     CHECK((measured.covariance - with.covariance).cwiseAbs().maxCoeff() < 1e-6);

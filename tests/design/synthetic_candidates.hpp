@@ -10,7 +10,7 @@ inline const gonio::log_relative_pca& candidate_basis() {
   return basis;
 }
 
-/// The same columns, as 9 materials at 4 wavelengths.
+/// The same columns, grouped as 9 materials at 4 wavelengths.
 inline const gonio::log_relative_pca& spectral_candidate_basis() {
   static const gonio::log_relative_pca basis =
       gonio::learn_streamed_pca(at_wavelengths(synthetic_materials(small_cells(), 12), {400.0, 500.0, 600.0, 700.0}),

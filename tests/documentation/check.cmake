@@ -3,6 +3,7 @@
 #   `<!-- examples/learn/own_metric.cpp -->`, and its lines stand in that file, in a row. The tests build these files;
 # - each relative link of these pages leads to a file;
 # - docs/gallery.md shows every picture of docs/pictures/;
+# - a page of docs/results/ opens with a paragraph, then a picture or a small table, whose numbers a table below has;
 # - the lines of the pages of docs/learn/ and docs/reference/ have at most 120 characters, tables apart.
 cmake_minimum_required(VERSION 3.25)
 
@@ -13,15 +14,15 @@ function(violation text)
   set(violations ${violations} PARENT_SCOPE)
 endfunction()
 
-# line_of(RESULT TEXT POSITION): the number of the line that a position is in.
+# line_of(RESULT TEXT POSITION): returns the number of the line of a position.
 function(line_of result text position)
   string(SUBSTRING "${text}" 0 ${position} before)
   string(REGEX MATCHALL "\n" newlines "${before}")
   list(LENGTH newlines line)
-  set(${result} ${line} PARENT_SCOPE) # the text has a line feed put before its first line
+  set(${result} ${line} PARENT_SCOPE) # a line feed precedes the first line of the text
 endfunction()
 
-# The C++ and Python blocks of a page.
+# check_blocks(PAGE TEXT): checks the C++ and Python blocks of a page.
 function(check_blocks page text)
   set(rest "${text}")
   set(consumed 0)
@@ -63,11 +64,11 @@ function(check_blocks page text)
   set(violations ${violations} PARENT_SCOPE)
 endfunction()
 
-# Links to files, as far as these are ours: [text](path) and [text](path#heading).
+# check_links(PAGE TEXT): checks the relative links of a page, [text](path) and [text](path#heading).
 function(check_links page text)
   cmake_path(GET page PARENT_PATH folder)
-  string(REGEX REPLACE "\n```[^`]*\n```" "" text "${text}") # what looks like a link in a block is none
-  # A list's elements must not hold what lists are made of.
+  string(REGEX REPLACE "\n```[^`]*\n```" "" text "${text}") # blocks contain no links
+  # Elements of a list must not contain semicolons or brackets.
   string(REPLACE ";" "," text "${text}")
   string(REPLACE "](" "@@(" text "${text}")
   string(REGEX REPLACE "[][\\]" "" text "${text}")
@@ -90,11 +91,33 @@ function(check_width page text)
   string(REGEX MATCHALL "\n[^|\n][^\n]*" lines "${text}")
   foreach(line IN LISTS lines)
     string(LENGTH "${line}" length)
-    if(length GREATER 121) # with its line feed
+    if(length GREATER 121) # including its line feed
       string(SUBSTRING "${line}" 1 60 start)
       violation("${page}: a line has over 120 characters: ${start}...")
     endif()
   endforeach()
+  set(violations ${violations} PARENT_SCOPE)
+endfunction()
+
+function(check_opening page text)
+  set(opening "^\n# [^\n]+\n\n([^|!\n][^\n]*\n)+\n")
+  if(NOT text MATCHES "${opening}[|!]")
+    violation("${page}: after the title and one paragraph a picture or a small table must follow")
+  elseif(text MATCHES "${opening}([|][^\n]*\n[|][^\n]*\n([|][^\n]*\n)+)")
+    set(table "${CMAKE_MATCH_0}")
+    string(REGEX REPLACE "${opening}[|][^\n]*\n[|][^\n]*" "" rows "${table}")
+    string(LENGTH "${table}" length)
+    string(SUBSTRING "${text}" ${length} -1 rest)
+    string(REGEX REPLACE "\n[^|\n][^\n]*" "" rest "${rest}") # tables alone
+    string(REGEX REPLACE "\n[|][^|]*" "" rows "${rows}")
+    string(REGEX MATCHALL "[0-9][0-9.e+]*" numbers "${rows}")
+    foreach(number IN LISTS numbers)
+      string(FIND "${rest}" "${number}" found)
+      if(found EQUAL -1)
+        violation("${page}: ${number} of the first table stands in no table below")
+      endif()
+    endforeach()
+  endif()
   set(violations ${violations} PARENT_SCOPE)
 endfunction()
 
@@ -109,6 +132,9 @@ foreach(page IN LISTS pages)
   check_links(${page} "${text}")
   if(page MATCHES "^docs/(learn|reference)/")
     check_width(${page} "${text}")
+  endif()
+  if(page MATCHES "^docs/results/" AND NOT page MATCHES "/(README|quick)[.]md$")
+    check_opening(${page} "${text}")
   endif()
 endforeach()
 file(GLOB pictures RELATIVE "${SOURCE}/docs" "${SOURCE}/docs/pictures/*")

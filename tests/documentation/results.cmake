@@ -1,8 +1,8 @@
 # Prints the quick tables of docs/results again and compares:
 #   cmake -D SOURCE=. -D SHARED=../shared/data -D PAPERS=build/bin/gonio-papers -D SCRATCH=build/results
 #         -P tests/documentation/results.cmake
-# Quick are all blocks of quick.md, and those named below. Each command is run with --markdown into a copy of its page;
-# only the line that says when it was printed may differ. Commands whose data are not there are left out.
+# The quick tables are all blocks of quick.md, and those named below. Runs each command with --markdown on a copy of its
+# page. Only the line with the date may differ. Skips commands whose data are missing.
 cmake_minimum_required(VERSION 3.25)
 
 set(results "${SOURCE}/docs/results")
@@ -14,7 +14,8 @@ foreach(line IN LISTS lines)
 endforeach()
 list(APPEND quick "models.md|model-recovery" "spectra.md|spectra --samples garnet_red.brdf krylon_blue.brdf")
 
-# The file or folder that a command calls by its name; the word itself if it is none; nothing if it is not there.
+# resolve(RESULT WORD): returns the path of a file or folder that a command names; nothing if it is missing; any other
+# word unchanged.
 function(resolve result word)
   set(${result} "${word}" PARENT_SCOPE)
   if(NOT word MATCHES "[.](npy|hdr|gz|binary|brdf|csv|prior)$" AND NOT word STREQUAL "rgl-measured")
@@ -22,12 +23,12 @@ function(resolve result word)
   endif()
   file(GLOB found "${SHARED}/${word}" "${SHARED}/*/${word}" "${SOURCE}/examples/data/${word}"
     "${SOURCE}/examples/data/*/${word}")
-  list(APPEND found "") # nothing is there
+  list(APPEND found "") # if nothing was found
   list(GET found 0 first)
   set(${result} "${first}" PARENT_SCOPE)
 endfunction()
 
-# The page without the lines that say when a block was printed.
+# read_tables(RESULT PAGE): returns a page without the lines that say when a block was printed.
 function(read_tables result page)
   file(READ "${page}" text)
   string(REGEX REPLACE "\nPrinted on [^<]*<!-- end of " "\n<!-- end of " text "${text}")

@@ -10,13 +10,13 @@ const gonio::log_relative_pca& moved_prior() {
   return basis;
 }
 
-/// A mapped value of one of the materials that the basis was learned from, at a location.
+/// Returns the mapped value at a location of one of the materials that the basis was learned from.
 double mapped(std::size_t observation, const gonio::location& at) {
   const auto c = moved_prior().coefficients().row(observation).cast<double>();
   return gonio::offset_at(moved_prior(), at) + gonio::row_at(moved_prior(), at).dot(c);
 }
 
-/// m times the mean square, over the observations and eight sides, of what a value is wrong by.
+/// Returns m times the mean squared error of a value, over the observations and 64 directions of the angular error.
 double measured_eta(const gonio::direction_pair& meant, double angle) {
   const auto here = gonio::locate(small_cells(), gonio::to_half_difference(meant.wi, meant.wo));
   const auto& metric = moved_prior().metric();

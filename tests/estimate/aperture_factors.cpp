@@ -10,8 +10,8 @@ using gonio::direction, gonio::radians;
 
 namespace {
 
-/// A lobe about the mirror direction of this width of theta_h, over a ground; the second channel is a mirror's
-/// darkness.
+/// A lobe around the mirror direction with a standard deviation of 0.5 degrees in theta_h, plus a constant. The second
+/// channel is zero.
 Eigen::ArrayXd narrow_lobe(const direction& wi, const direction& wo) {
   const double theta_h = gonio::to_half_difference(wi, wo).theta_h / radians(0.5);
   return Eigen::ArrayXd{{0.1 + 100.0 * std::exp(-0.5 * theta_h * theta_h), 0.0, 1.0}};
@@ -39,7 +39,7 @@ TEST_CASE("factors of samples around a lobe narrower than the receiver are those
     worst = std::max(worst, std::abs(std::log(factors(i, 0) / exact)));
   }
   CHECK(worst < 0.2);              // measured: 0.099 with 64 pairs a sample, 0.46 with 16
-  CHECK(factors.col(1).isOnes());  // nothing is reflected
+  CHECK(factors.col(1).isOnes());  // zero reflectance
   CHECK(factors.col(2).isOnes(1e-12));
 }
 

@@ -29,7 +29,7 @@ const gonio::log_relative_pca& prior() {
   return learned;
 }
 
-/// Counts how often its functions are copied.
+/// Counts copies of its functions.
 class counted_prior {
  public:
   static inline int copies = 0;
@@ -155,7 +155,7 @@ TEST_CASE("tabulating agrees with evaluating, on the basis' cells and on others,
     CHECK(std::ranges::equal(table.values(), threaded.values()));
     const auto simple = fit.tabulate_cells(over);
     for (Eigen::Index cell = 0; cell < over.size(); ++cell) {
-      if (over.angles(cell).theta_d == 0.0) continue;  // no phi_d can be told from the directions
+      if (over.angles(cell).theta_d == 0.0) continue;  // directions do not determine phi_d
       const auto [wi, wo] = to_directions(over.angles(cell));
       const rgb direct = fit(wi, wo);
       const double tolerance = 2e-6 * (1.0 + direct.maxCoeff());
@@ -167,7 +167,7 @@ TEST_CASE("tabulating agrees with evaluating, on the basis' cells and on others,
 }
 
 TEST_CASE("values that are too large for a progression are as large as they are, and infinite beyond floats") {
-  // `upsample` is infinite where the field is beyond 88. Its value is then at least this, where the reference is zero.
+  // `upsample` gives infinity if the mapped value exceeds 88. Reflectance is then at least this, at zero reference.
   const double representable = gonio::log_relative::epsilon * std::exp(88.0);
   const valid_cells fine(gonio::grid({18, 27, 36}));
   double largest = 0.0;
@@ -207,7 +207,7 @@ TEST_CASE("archetypes: a basis that computes its rows is fitted and evaluated at
   const decomposition estimator{functions, archetype::ordinary_least_squares{}};
   static_assert(gonio::estimator<decltype(estimator)>);
   const auto fit = estimator.fit(samples);
-  const auto [wi, wo] = gonio::to_directions({0.2, 0.01, 0.7});  // beyond the first node of theta_d
+  const auto [wi, wo] = gonio::to_directions({0.2, 0.01, 0.7});  // below the first node of theta_d
   CHECK((fit(wi, wo) - rgb(0, 0.1, 3)).abs().maxCoeff() < 1e-9);
   const auto table = fit.tabulate(valid_cells(gonio::grid({4, 30, 5})));
   for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
@@ -216,7 +216,7 @@ TEST_CASE("archetypes: a basis that computes its rows is fitted and evaluated at
 
 namespace {
 
-/// One computed basis for each channel, which differ in their offsets.
+/// A computed basis for each channel. The three differ in their offsets.
 struct three_polynomials {
   archetype::theta_d_polynomial first;
   std::size_t size() const { return 2; }
@@ -233,7 +233,7 @@ TEST_CASE("computed bases that differ from channel to channel") {
   const auto fit = decomposition{three_polynomials{{cells()}}, archetype::ordinary_least_squares{}}.fit(samples);
   const auto [wi, wo] = gonio::to_directions({0.2, 0.4, 0.7});
   CHECK((fit(wi, wo) - rgb(3, 4, 3)).abs().maxCoeff() < 1e-9);
-  CHECK(fit.weights()(0, 2) == doctest::Approx(1.0));  // 3 less the offset of 2
+  CHECK(fit.weights()(0, 2) == doctest::Approx(1.0));  // 3 minus the offset of 2
   CHECK(fit.mapped(0).z() == doctest::Approx(3.0));
 }
 

@@ -27,7 +27,7 @@ std::vector<gonio::direction_pair> pairs_over_highlights() {
   return pairs;
 }
 
-/// Mean over the cells of the squared mapped difference from a table.
+/// Returns the mean over the cells of the squared mapped difference from a table.
 double error_of(const gonio::brdf_table& estimate, const gonio::brdf_table& truth) {
   const auto& metric = misplaced_prior().metric();
   double sum = 0.0;
@@ -52,7 +52,7 @@ TEST_CASE("samples in their places: the plain decomposition") {
 
 TEST_CASE("samples off their places: less is lost by who expects it") {
   const auto materials =
-      synthetic_materials(fine_cells(), 12);  // those of the prior: all that is wrong is misplacement
+      synthetic_materials(fine_cells(), 12);  // materials of the prior: the angular error is the only error
   const double angle = radians(2.0);
   const errors_in_variables_decomposition expecting{misplaced_prior(), 0.01, angle};
   const gonio::decomposition trusting{misplaced_prior(), gonio::tikhonov{0.01}};
@@ -74,13 +74,13 @@ TEST_CASE("weights count, threads do not") {
   const auto one = errors_in_variables_decomposition{misplaced_prior(), 0.1, radians(1.0), {1}}.fit(samples),
              three = errors_in_variables_decomposition{misplaced_prior(), 0.1, radians(1.0), {3}}.fit(samples);
   CHECK(one.weights() == three.weights());
-  // A sample of weight two is two samples.
+  // A sample of weight two equals two samples.
   auto doubled = samples;
   samples[4].weight = 2.0;
   doubled.push_back(doubled[4]);
   const errors_in_variables_decomposition estimator{misplaced_prior(), 0.1, radians(1.0)};
   CHECK((estimator.fit(samples).weights() - estimator.fit(doubled).weights()).norm() < 1e-8 * one.weights().norm());
-  // Nor do the weights of other channels matter to one.
+  // Weights of other channels do not affect a channel.
   for (auto& s : samples) s.weight = gonio::rgb(1.0, 0.2, 3.0);
   CHECK((estimator.fit(samples).weights().col(0) - one.weights().col(0)).norm() > 0.0);
   const auto apart = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).weights();

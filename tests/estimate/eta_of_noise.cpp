@@ -13,7 +13,7 @@
 
 namespace {
 
-/// The squared distance, over all cells and for each channel, of weights from a table.
+/// Returns the squared distance between weights and a table, over all cells, for each channel.
 Eigen::Array3d squared_distance(const gonio::log_relative_pca& prior, const Eigen::MatrixXd& weights,
                                 const gonio::brdf_table& table) {
   Eigen::Array3d squares = Eigen::Array3d::Zero();
@@ -33,7 +33,7 @@ gonio::sample_set measured_at(const gonio::brdf_table& table, std::span<const Ei
   return samples;
 }
 
-/// The definition: learn again without each material, and reconstruct it.
+/// The definition: learns again without each material, and reconstructs it.
 double by_learning_again(const gonio::material_set& materials, std::span<const Eigen::Index> cells, double eta) {
   const auto metric = gonio::log_relative::to_median_of(materials);
   double sum = 0.0;
@@ -100,17 +100,17 @@ TEST_CASE("noise adds what the reconstruction makes of it, and shifts what is me
   const auto located = gonio::locate_samples(prior.cells(), samples);
   const auto noise = gonio::map_noise(prior, located.locations, 0.1);
   for (Eigen::Index i = 0; i < 5; ++i) {
-    // Far above epsilon the map is a logarithm: E ln(1 + b z) = -b^2 / 2 and the variance b^2, but for b^4.
+    // Far above epsilon the map is a logarithm: E ln(1 + b z) = -b^2 / 2 and the variance is b^2, up to O(b^4).
     CHECK(noise.shift[i] == doctest::Approx(-0.005).epsilon(0.1));
     CHECK(noise.variance[i] == doctest::Approx(0.01).epsilon(0.1));
   }
 
-  // With a penalty that leaves the mean material the error is that of the mean, whatever the noise.
+  // A penalty this large gives the mean material. The error is then that of the mean for any noise.
   const double without = at_one_eta(error_of(prior, cells, 0.0), 1e12);
   CHECK(at_one_eta(error_of(prior, cells, 0.3), 1e12) == doctest::Approx(without).epsilon(1e-6));
 
-  // Much noise and no penalty: hardly anything but noise is left, whose energy is the sum over the locations of what
-  // one of deviation 1 adds, times the variance.
+  // With large noise and a small penalty, nearly all of the error is noise. Its squared norm is the sum over the
+  // locations of the response to unit noise times the variance.
   const double eta = 1e-4;
   Eigen::MatrixXd rows(5, prior.size());
   for (Eigen::Index i = 0; i < 5; ++i) rows.row(i) = gonio::row_at(prior, located.locations[i]);

@@ -29,7 +29,7 @@ const gonio::log_relative_pca& prior() {
   return learned;
 }
 
-/// Seven wavelengths: mixtures of the red and the blue of a material, so that no two are alike.
+/// Seven wavelengths: different mixtures of the red and the blue of a material.
 gonio::sample_set measured_spectra(std::vector<double> wavelengths = {400, 450, 500, 550, 600, 650, 700},
                                    Eigen::Index weightless = -1, const rgb& weightless_value = rgb::Zero()) {
   const auto colours =
@@ -44,7 +44,7 @@ gonio::sample_set measured_spectra(std::vector<double> wavelengths = {400, 450, 
   return samples;
 }
 
-/// Each wavelength of a spectral fit is the fit of that wavelength's samples alone.
+/// Checks that each wavelength of a spectral fit equals the fit to that wavelength's samples alone.
 template <class Estimator>
 void check_like_grey(const Estimator& estimator) {
   const auto samples = measured_spectra();
@@ -64,7 +64,7 @@ void check_like_grey(const Estimator& estimator) {
     }
     CHECK(spectra.values(wi, wo)[band] == doctest::Approx(grey(wi, wo).y()).epsilon(1e-5));
   }
-  // As a colour it is what the observer sees of its spectrum.
+  // Converted to a colour, it is the colour of its spectrum.
   const Eigen::ArrayXd spectrum = spectra.values(wi, wo);
   const rgb seen = samples.channels().colour(std::span(spectrum.data(), 7));
   CHECK(((spectra(wi, wo) - seen).abs() < 1e-6).all());
@@ -137,7 +137,7 @@ TEST_CASE("one wavelength is fitted as it is, once") {
   CHECK(fit.weights().cols() == 1);
   const auto table = fit.tabulate_spectra(cells(), gonio::thread_count{2});
   CHECK(std::ranges::equal(table.colours().values(), fit.tabulate(cells()).values()));
-  // The same as three equal colours.
+  // Agrees with three equal colour channels.
   gonio::sample_set colours;
   for (const gonio::sample& each : laser) colours.push_back(each);
   CHECK(std::ranges::equal(estimator.fit(colours).tabulate(cells()).values(), fit.tabulate(cells()).values()));

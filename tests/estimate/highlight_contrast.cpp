@@ -11,7 +11,7 @@ using gonio::highlight_regions;
 
 namespace {
 
-/// Regions that a grid of few cells has.
+/// Regions suited to a grid of few cells.
 constexpr highlight_regions wide{0.15, 0.5};
 
 const gonio::log_relative& contrast_reference() {
@@ -19,7 +19,7 @@ const gonio::log_relative& contrast_reference() {
   return metric;
 }
 
-/// Grey, whose mapped luminance is `in_peak` up to 0.15, `off_peak` from 0.5 on, and anything between.
+/// A grey table with mapped luminance `in_peak` up to 0.15, `off_peak` from 0.5 on, and arbitrary values between.
 gonio::brdf_table grey_table(double in_peak, double off_peak, const gonio::valid_cells& cells = small_cells()) {
   gonio::brdf_table table(cells);
   for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {

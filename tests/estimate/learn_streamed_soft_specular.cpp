@@ -9,7 +9,7 @@
 
 namespace {
 
-/// A grid whose first cells are in the default peak, up to 5 degrees.
+/// Materials on a grid whose first cells are in the default peak, up to 5 degrees.
 gonio::material_set thirteen_materials() {
   return synthetic_materials(gonio::valid_cells(gonio::grid({12, 6, 9})), 13);
 }
@@ -52,7 +52,7 @@ TEST_CASE("streamed halves: a threshold, threads and a random subspace") {
   CHECK_FALSE(subspace.exact);
   CHECK(subspace.residual > 0.0);
   CHECK(subspace.residual < 1e-4);
-  // All but the shiniest of them.
+  // All materials except the shiniest.
   const auto metric = gonio::log_relative::to_median_of(set);
   const auto contrasts = gonio::highlight_contrasts(metric, set);
   const double high = contrasts.maxCoeff() - 1e-9;
@@ -70,7 +70,7 @@ TEST_CASE("materials that cannot be parted are refused") {
                                   }};
   CHECK_THROWS_WITH_AS((void)gonio::learn_streamed_soft_specular(rows), doctest::Contains("'material-1'"),
                        gonio::error);
-  // On a grid that has no cell in the peak.
+  // On a grid without cells in the peak.
   const auto coarse = synthetic_materials(gonio::valid_cells(gonio::grid({2, 4, 6})), 4);
   CHECK_THROWS_WITH_AS((void)gonio::learn_streamed_soft_specular(gonio::rows_of(coarse)),
                        doctest::Contains("too coarse"), gonio::error);

@@ -14,7 +14,7 @@ using gonio::rgb;
 
 namespace {
 
-/// A laboratory's own struct.
+/// A struct as a laboratory might define it.
 struct reading {
   double theta_h, value;
 };
@@ -131,7 +131,7 @@ TEST_CASE("values of an estimate at locations: few are evaluated, many are read 
     const auto [wi, wo] = to_directions(locations[i].angles);
     const gonio::rgb direct = fit(wi, wo);
     for (Eigen::Index c = 0; c < 3; ++c) {
-      // Angles go through directions and back.
+      // Angles are converted to directions and back.
       REQUIRE(double{all(c, i)} == doctest::Approx(direct[c]).epsilon(1e-6));
       if (i < 100) REQUIRE(few(c, i) == static_cast<float>(direct[c]));
     }
@@ -149,7 +149,7 @@ TEST_CASE("what cannot be used is refused by the number of the sample or cell") 
   CHECK_THROWS_WITH_AS(locate_samples(small_cells(), samples), doctest::Contains("sample 2"), gonio::error);
   samples[1].value.y() = 1e38;
   CHECK(locate_samples(small_cells(), samples).values(0, 1) == 1e38);
-  samples[0].value.y() = std::nan("");  // bad even though it does not count
+  samples[0].value.y() = std::nan("");  // refused even with weight zero
   CHECK_THROWS_WITH_AS(locate_samples(small_cells(), samples), doctest::Contains("sample 1"), gonio::error);
   auto table = some_table();
   table.values()[3 * 7 + 1] = std::nanf("");

@@ -18,7 +18,7 @@ const gonio::valid_cells& merl_cells() {
   return cells;
 }
 
-/// A lobe of 4 degrees with a dip of 1 degree in it, as deep as `depth`, times a colour.
+/// A lobe of 4 degrees times a colour, with a dip of width 1 degree and this depth.
 rgb dipping(const gonio::half_difference& at, double depth) {
   const double h = gonio::degrees(at.theta_h);
   return rgb(0.8, 0.5, 0.2) * (0.1 + std::exp(-h * h / 16.0) * (1.0 - depth * std::exp(-h * h)));

@@ -9,7 +9,7 @@ TEST_CASE("colours become XYZ where more than one in ten has a negative channel"
                              Eigen::MatrixXd::Ones(10, 1)};
   ten.values(4, 0) = -0.1;
   CHECK(!gonio::out_of_gamut_as_xyz(ten));
-  ten.values.row(5).setZero();  // black is a colour
+  ten.values.row(5).setZero();  // black is in the gamut
   CHECK(!gonio::out_of_gamut_as_xyz(ten));
   ten.values.row(5).setConstant(0.5);
   ten.values(5, 0) = -0.1;

@@ -21,7 +21,7 @@ std::vector<double> uniform_numbers(std::size_t count, double low, double high, 
   return numbers;
 }
 
-/// The integral of a density from low to high by the midpoint rule.
+/// Returns the integral of a density from low to high by the midpoint rule.
 template <class Density>
 double integral(const Density& density, double low, double high, int steps = 40'000) {
   const double width = (high - low) / steps;
@@ -30,8 +30,8 @@ double integral(const Density& density, double low, double high, int steps = 40'
   return sum;
 }
 
-/// Reflectances of a synthetic material and an estimate of it: most are diffuse, a few per cent are a highlight;
-/// `share` of the measurements, and no highlights, are those of another location.
+/// Reflectances of a synthetic material and an estimate of it. Most are diffuse, a few per cent are a highlight. A
+/// fraction `share` of the measurements, none in the highlight, are those of other locations.
 struct synthetic_measurement {
   channel_values measured, estimated;
   std::vector<bool> outlier;
@@ -62,11 +62,12 @@ TEST_CASE("the density of outliers is positive and integrates to 1") {
     const auto logarithms = uniform_numbers(count, -5.0, -5.0 + width, static_cast<unsigned>(count));
     const outlier_density density(logarithms);
     const auto [least, most] = std::ranges::minmax_element(logarithms);
-    // It reaches half a unit beyond the measurements, and is constant on 200 bins: exact but for 1 in 200 steps.
+    // The support extends half a unit past the measurements, in 200 constant bins. The rule is exact except for 1 in
+    // 200 steps.
     const double whole = integral(density, *least - 0.5, *most + 0.5);
     RC_ASSERT(std::abs(whole - 1.0) < 1e-6);
     for (const double value : logarithms) RC_ASSERT(density(value) > 0.0);
-    RC_ASSERT(density(*least - 100.0) > 0.0);  // the outermost bins go on
+    RC_ASSERT(density(*least - 100.0) > 0.0);  // the outermost bins extend to infinity
     RC_ASSERT(density(*most + 100.0) > 0.0);
   }));
 }
@@ -77,7 +78,7 @@ TEST_CASE("the density of outliers is higher where more was measured, but flatte
   logarithms.insert(logarithms.end(), few.begin(), few.end());
   const outlier_density density(logarithms);
   const double ratio = density(0.5) / density(3.5);
-  // Nine times as many: the square root is three.
+  // Nine times as many measurements give three times the density, by the square root.
   CHECK(ratio == doctest::Approx(3.0).epsilon(0.05));
   CHECK(density(2.0) < density(3.5));
   CHECK(density(2.0) > 0.0);
@@ -95,7 +96,7 @@ TEST_CASE("all measurements equal, one, and two") {
 TEST_CASE("Student's t: the density of good residuals integrates to 1 and has the right tail") {
   for (const double scale : {0.02, 0.3, 2.0}) {
     const outlier_mixture mixture{0.8, scale};
-    // Beyond 100 scales, 3.75 / 100^4 of a side's probability is missing.
+    // Outside 100 scales, a probability of 3.75 / 100^4 is missing on each side.
     CHECK(integral([&](double r) { return mixture.good_density(r); }, -100 * scale, 100 * scale) ==
           doctest::Approx(1.0).epsilon(1e-6));
     CHECK(mixture.good_density(0.0) == doctest::Approx(0.375 / scale));
@@ -131,12 +132,13 @@ TEST_CASE("expectation-maximisation finds the share and the scale that residuals
       for (std::size_t i = 0; i < n; ++i)
         residuals[i] =
             static_cast<double>(i) < share * static_cast<double>(n) ? scale * student(generator) : uniform(generator);
-      const std::vector<double> outliers(n, 0.125);  // the density that they have
+      const std::vector<double> outliers(n, 0.125);  // the density of the uniform outliers
       const auto found = gonio::estimate_mixture(residuals, outliers);
       CAPTURE(share);
       CAPTURE(scale);
-      // The number of good ones is known to a few tenths of a per cent; the scale's standard error is 1 / sqrt(n) of
-      // itself or 1 %. The last EM step changes them by less than 1e-4 and 1e-3, which may be a tenth of what is left.
+      // The standard error of the inlier fraction is a few tenths of a per cent; that of the scale is a fraction of
+      // about 1 / sqrt(n), or 1 %. The last EM step changes them by less than 1e-4 and 1e-3, perhaps a tenth of the
+      // remaining error.
       CHECK(found.inlier_fraction == doctest::Approx(share).epsilon(0.01));
       CHECK(found.scale == doctest::Approx(scale).epsilon(0.04));
     }
@@ -150,7 +152,7 @@ TEST_CASE("the mixture's limits: perfect residuals, none good, and a start at th
   const auto hopeless = gonio::estimate_mixture(uniform_numbers(100, 50.0, 60.0, 3), outliers);
   CHECK(hopeless.inlier_fraction >= 0.02);
   CHECK(std::isfinite(hopeless.scale));
-  // Of n that are all wrong, p^1 (1 - p)^n is largest at p = 1 / (n + 1).
+  // If all n are wrong, p^1 (1 - p)^n is largest at p = 1 / (n + 1).
   const auto nine = gonio::estimate_mixture(std::vector<double>(9, 1e6), std::vector<double>(9, 0.2));
   CHECK(nine.inlier_fraction == doctest::Approx(0.1).epsilon(0.01));
   const auto one = gonio::estimate_mixture({0.7}, {1.0});
@@ -161,10 +163,10 @@ TEST_CASE("the mixture's limits: perfect residuals, none good, and a start at th
 TEST_CASE("automatic weights tell outliers from good samples") {
   const auto made = synthetic_measurement_of(4000, 0.3, 0.03, 5);
   const auto mixture = automatic_weights{}.mixture(made.measured, made.estimated);
-  // 1 - 0.3, with 0.7 % of standard error; some outliers have the right value by chance, a few per cent here.
+  // 1 - 0.3, with a standard error of 0.7 %. A few per cent of the outliers have the right value by chance.
   CHECK(mixture.inlier_fraction > 0.69);
   CHECK(mixture.inlier_fraction < 0.80);
-  CHECK(mixture.scale == doctest::Approx(0.03).epsilon(0.25));  // good residuals are Gaussian, not Student's
+  CHECK(mixture.scale == doctest::Approx(0.03).epsilon(0.25));  // inlier residuals are Gaussian, not Student's t
   const auto weights = automatic_weights{}.weigh(made.measured, made.estimated);
   CHECK(((weights >= 0.0f) && (weights <= 1.0f)).all());
   CHECK((weights.row(0) == weights.row(1)).all());
@@ -172,9 +174,9 @@ TEST_CASE("automatic weights tell outliers from good samples") {
   double good = 0.0, bad = 0.0;
   const auto bad_count = static_cast<double>(std::ranges::count(made.outlier, true));
   for (std::size_t i = 0; i < made.outlier.size(); ++i) (made.outlier[i] ? bad : good) += double{weights(0, i)};
-  CHECK(good / (4000.0 - bad_count) > 0.75);  // the tail's weight is 0.8 in the mean
+  CHECK(good / (4000.0 - bad_count) > 0.75);  // the tail weight is 0.8 on average
   CHECK(bad / bad_count < 0.15);
-  // Without the tail's weight good ones count nearly in full.
+  // Without the tail weight, inliers have nearly full weight.
   const auto whole = automatic_weights{.down_weight_tail = false}.weigh(made.measured, made.estimated);
   CHECK((whole >= weights).all());
   double whole_good = 0.0;
@@ -185,7 +187,7 @@ TEST_CASE("automatic weights tell outliers from good samples") {
 
 TEST_CASE("automatic weights do not depend on the order of the channels") {
   auto made = synthetic_measurement_of(3000, 0.3, 0.1, 7);
-  // Red, the same everywhere, says nothing; green and blue differ.
+  // Red is constant and carries no information. Green and blue differ.
   made.measured.row(0).setConstant(0.2f);
   made.estimated.row(0).setConstant(0.2f);
   made.measured.row(1) = made.measured.row(1).square();
@@ -202,7 +204,7 @@ TEST_CASE("automatic weights do not depend on the order of the channels") {
 
 TEST_CASE("a highlight is trusted more than the same residual at a common value") {
   auto made = synthetic_measurement_of(2000, 0.3, 0.1, 6);
-  // The last two are off by the same factor; one has a value that nothing else comes near.
+  // The last two samples have the same relative error; the value of one is far from all others.
   made.measured.col(1998).setConstant(0.05f);
   made.measured.col(1999).setConstant(50.0f);
   made.estimated.col(1998).setConstant(0.05f * 1.6f);
@@ -239,7 +241,7 @@ TEST_CASE("automatic weights of awkward measurements are from 0 to 1") {
     for (const channel_values& measured : {zero, half, huge, negative, random})
       for (const channel_values& estimated : {zero, half, huge}) check(measured, estimated);
   }
-  // A perfect fit of equal measurements: outliers would look the same, but all count alike, and rather as good ones.
+  // A perfect fit of equal measurements. Outliers would look the same, but all weights are equal and above one half.
   const channel_values half = channel_values::Constant(3, 10, 0.5f);
   const auto weights = automatic_weights{}.weigh(half, half);
   CAPTURE(weights(0, 0));
@@ -260,7 +262,7 @@ TEST_CASE("more than twenty thousand measurements are judged by some of them") {
 
 namespace {
 
-/// Four thousand samples, an eighth of which are a highlight that the estimate misses by `factor`; 30 % are outliers.
+/// Four thousand samples, 30 % of them outliers. An eighth are in a highlight, which the estimate misses by `factor`.
 struct missed_highlight {
   synthetic_measurement made = synthetic_measurement_of(4000, 0.3, 0.03, 12);
   std::shared_ptr<const gonio::sample_regions> regions;
@@ -275,7 +277,7 @@ struct missed_highlight {
     }
   }
 
-  /// The mean weight of good samples, or of outliers, in the highlight.
+  /// Returns the mean weight of inliers, or of outliers, in the highlight.
   [[nodiscard]] double weight(const automatic_weights& weighting, bool of_outliers) const {
     const channel_values weights = weighting.weigh(made.measured, made.estimated);
     double sum = 0.0, count = 0.0;

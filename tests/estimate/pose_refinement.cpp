@@ -11,7 +11,7 @@ namespace {
 
 using gonio::direction, gonio::sample_set, gonio::pose_correction, gonio::pose_refinement, gonio::radians;
 
-/// Fine enough for a turn to be more than a cell in a highlight.
+/// Cells small enough that a rotation moves a highlight by more than a cell.
 const gonio::valid_cells& image_cells() {
   static const gonio::valid_cells cells(gonio::grid({24, 16, 18}));
   return cells;
@@ -34,9 +34,9 @@ Eigen::Matrix3d turn_of(const Eigen::Vector3d& turn) {
   return angle > 0.0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Eigen::Matrix3d::Identity();
 }
 
-/// An image by a camera around the mirror direction of a light, both of which are turned, unknown to who takes it: its
-/// radiance is divided by the cosine of where the light should be, or by that of where it is if a white reference
-/// lay in place.
+/// Returns an image by a camera near the mirror direction of a light. Both are rotated by unknown angles. The radiance
+/// is divided by the cosine of the assumed direction of the light, or, with a white reference in place, by that of its
+/// true direction.
 template <class Material>
 sample_set image_of(const Material& truth, double theta, const pose_correction& turns = {},
                     gonio::light_calibration calibrated_by = gonio::light_calibration::irradiance) {
@@ -51,7 +51,7 @@ sample_set image_of(const Material& truth, double theta, const pose_correction& 
   return samples;
 }
 
-/// Root mean square of the mapped difference from a material, over the cells.
+/// Returns the RMS mapped difference from a material over the cells.
 template <class Fit, class Material>
 double mapped_error(const Fit& fit, const Material& truth) {
   double sum = 0.0;
@@ -83,7 +83,8 @@ TEST_CASE("where light and camera are is found with the material") {
     pose_refinement refinement(image_prior(), images, {.eta = slight_eta, .deviation = radians(2.0)});
     const double before = mapped_error(refinement.result(), truth), objective = refinement.objective();
     refinement.solve();
-    // Measured: 0.0001 to 0.002 of the objective, 0.01 to 0.24 of the error, 0.92 to 1.16 of that of known locations.
+    // Measured, relative to before: 0.0001 to 0.002 of the objective, 0.01 to 0.24 of the error. Relative to the error
+    // with known locations: 0.92 to 1.16.
     CHECK(refinement.objective() < 0.01 * objective);
     CHECK(mapped_error(refinement.result(), truth) < 0.3 * before);
     CHECK(mapped_error(refinement.result(), truth) < 1.25 * mapped_error(known_places(truth), truth));
@@ -159,14 +160,15 @@ TEST_CASE("several materials in the same images: each has its own weights, all o
   const auto images_of = [&](std::size_t number, bool half) {
     const std::vector<sample_set> images{image_of(material(number), 0.5, first),
                                          image_of(material(number), 0.9, second)};
-    std::vector<sample_set> halves(images.size());  // one has the left of each image, the other the right
+    std::vector<sample_set> halves(images.size());  // one material on the left of each image, the other on the right
     for (std::size_t i = 0; i < images.size(); ++i)
       for (const gonio::sample& s : images[i])
         if ((s.directions.pair().wo.y() > 0.0) != half) halves[i].push_back(s);
     return halves;
   };
   const gonio::pose_refinement_options options{.eta = slight_eta, .deviation = radians(2.0)};
-  // How far samples are from where they were: of turns themselves, those of both about the normal cannot be seen.
+  // RMS error of the samples' locations. Rotations are not compared, since a common one about the normal is
+  // unobservable.
   const auto off = [&](const gonio::sample_set& found, const std::vector<sample_set>& images) {
     double sum = 0.0;
     std::size_t sample = 0;
@@ -222,7 +224,7 @@ TEST_CASE("images that cannot be are refused") {
   CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), images, {.deviation = 0.0}),
                        doctest::Contains("the deviation of light and camera"), gonio::error);
   CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), {images, {images[0], images[0]}}),
-                       doctest::Contains("material 2 is in 2 images, the first in 1"), gonio::error);
+                       doctest::Contains("material 2 is in 2 images, but material 1 in 1"), gonio::error);
   auto broken = images;
   broken[0][3].value[1] = std::nan("");
   CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), broken), doctest::Contains("sample 4"), gonio::error);

@@ -30,7 +30,7 @@ gonio::located_samples measured_at(const std::vector<Eigen::Index>& chosen, cons
   return gonio::locate_samples(posterior_cells(), gonio::sample_table(table, chosen));
 }
 
-/// A material drawn from the model itself: components, discrepancy and independent errors.
+/// A material drawn from the model: components, discrepancy and independent errors.
 gonio::brdf_table drawn_material(unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -74,17 +74,18 @@ TEST_CASE("the deviation is that of the textbook, times the scale") {
   const auto known = posterior_estimator().fit_located(some);
   const gonio::sample_process process = posterior_estimator().process_of(some).with_doubts();
   const auto at = gonio::locate_cell(posterior_cells(), chosen.back());
-  // The last sample's variance given the others.
+  // The variance of the last sample given the others.
   const Eigen::MatrixXd all = posterior_estimator().process_of(measured_at(chosen, table)).with_doubts().covariance();
   const Eigen::LLT<Eigen::MatrixXd> factors(all.topLeftCorner(12, 12));
-  // What neighbours err together is no part of what is asked for, and so is nothing of it common to both.
+  // The error that neighbouring samples share is not part of the predicted value, and so not of its covariance with
+  // them.
   const gonio::discrepancy_model& model = posterior_estimator().model();
   const Eigen::VectorXd shared =
       model.doubt.shared_error_variance * gonio::discrepancy_covariance(process.at().angles, at.angles, model.lengths);
   const Eigen::VectorXd with = all.col(12).head(12) - shared;
   const double variance = all(12, 12) - model.doubt.shared_error_variance - with.dot(factors.solve(with));
   CHECK(known.deviation(at) == doctest::Approx(std::sqrt(process.scale_of_material() * variance)).epsilon(1e-6));
-  // What the samples are, relative to what was expected; all of it, and what is not error.
+  // Squares of the samples relative to their expectation: in total, and the part that is not error.
   const Eigen::MatrixXd& y = process.values();
   const Eigen::MatrixXd expected = process.expected().among(process.at()), dual = factors.solve(y);
   CHECK(process.scale_of_material() == doctest::Approx((10.0 + (dual.array() * (expected * dual).array()).sum() / 3.0) /
@@ -109,7 +110,7 @@ TEST_CASE("intervals hold as often as they say on materials of the model") {
   }
   CAPTURE(inside / all);
   CHECK(inside / all > 0.91);
-  CHECK(inside / all < 0.995);  // doubts are of materials that the model has not
+  CHECK(inside / all < 0.995);  // doubts allow for materials unlike the model's
 }
 
 TEST_CASE("more samples make surer, and intervals are nested and not negative") {
@@ -151,8 +152,8 @@ TEST_CASE("certainty is the median of what is said of each direction") {
   CHECK(known.known_to == doctest::Approx(gonio::median(everywhere)).epsilon(1e-3));
   CHECK(known.known_to_at_grazing == doctest::Approx(gonio::median(grazing)).epsilon(1e-3));
   CHECK(known.highlight_factor > 1.0);
-  CHECK(known.known_to_beyond == 0.0);  // samples are all over
-  // The more is measured in the highlight, the better it is known.
+  CHECK(known.known_to_beyond == 0.0);  // samples cover all directions
+  // More samples in the highlight make it more certain.
   auto more = gonio::sample_table(table, gonio::random_cells(posterior_cells(), 12, 1));
   for (const double theta_d : {0.3, 0.7, 1.1}) {
     const gonio::half_difference angles{0.02, theta_d, 1.5};
@@ -168,7 +169,7 @@ TEST_CASE("each residual is beside what a fit of all other samples says") {
   const auto paint = posterior_estimator().fit(samples);
   const std::vector<gonio::sample_residual> residuals = paint.residuals();
   REQUIRE(residuals.size() == 8);
-  CHECK(residuals[3].number == 4);  // sample 3 does not count
+  CHECK(residuals[3].number == 4);  // sample 3 has weight zero
   for (const gonio::sample_residual& each : residuals) {
     auto others = samples;
     others[each.number].weight = 0.0;
@@ -197,14 +198,14 @@ TEST_CASE("samples in finer steps, and samples that are all in one region, do no
   const auto coarse = scan(8), fine = scan(64);
   CHECK(fine.deviation(beyond) > 0.9 * coarse.deviation(beyond));
   CHECK(fine.deviation(beyond) > 3.0 * fine.deviation(near));
-  // What is unknown altogether is off as normal numbers are, what is nearly known by more or by less.
+  // If a value is wholly unknown, the errors are nearly normal. If it is nearly known, they have heavier tails.
   const auto deviations_reached = [&](const gonio::location& at, gonio::confidence_level level) {
     return fine.half_width(at, level) / fine.deviation(at);
   };
   CHECK(deviations_reached(beyond, gonio::confidence_level::sixty_eight_percent) > 0.75);
   CHECK(deviations_reached(near, gonio::confidence_level::sixty_eight_percent) < 0.55);
   CHECK(deviations_reached(near, gonio::confidence_level::ninety_five_percent) == doctest::Approx(1.85));
-  // What lies far from all half vectors is told apart.
+  // The uncertainty far from all measured half vectors is stated separately.
   const gonio::certainty known = fine.certainty();
   CHECK(gonio::degrees(known.measured_to) == doctest::Approx(15.0 * 63.0 / 64.0));
   CHECK(known.known_to_beyond > known.known_to);

@@ -28,7 +28,7 @@ const gonio::log_relative_pca& discrepancy_prior() {
   return learned;
 }
 
-/// A material of the prior with a wave that no combination of its components has.
+/// A material of the prior plus a wave that no combination of its components contains.
 gonio::brdf_table wavy_material() {
   gonio::brdf_table table = synthetic_materials(discrepancy_cells(), 8).table(3);
   for (Eigen::Index cell = 0; cell < discrepancy_cells().size(); ++cell) {
@@ -62,7 +62,7 @@ TEST_CASE("the fit is the posterior mean of prior and discrepancy") {
   const discrepancy_model model{.variance = 0.05, .error_variance = 0.01, .grazing_variance = 0.0};
   const auto fit = keeping_all(discrepancy_prior(), model).fit(samples);
 
-  // The textbook's: k(x, X) (k(X, X) + variance of the errors)^-1 y.
+  // The textbook formula: k(x, X) (k(X, X) + variance of the errors)^-1 y.
   const auto located = gonio::locate_samples(discrepancy_cells(), samples);
   std::vector<gonio::half_difference> places;
   for (const auto& at : located.locations) places.push_back(at.angles);
@@ -114,7 +114,7 @@ TEST_CASE("the mean of the process is the ridge regression of components joined 
     CHECK((paint.fit().weights().topRows(10) - components).norm() < 1e-4 * components.norm());
     const auto table = gonio::fitted_brdf(basis, ridge.weights).tabulate(discrepancy_cells());
     CHECK(mapped_error(paint.fit().tabulate(discrepancy_cells()), table) < 1e-5);
-    // The same is said of the fit.
+    // The reports agree as well.
     for (Eigen::Index c = 0; c < 3; ++c) {
       CHECK(paint.fit().report()->residual[c] == doctest::Approx(ridge.report.residual[c]).epsilon(1e-4));
       CHECK(paint.fit().report()->objective[c] == doctest::Approx(ridge.report.objective[c]).epsilon(1e-4));
@@ -189,7 +189,7 @@ TEST_CASE("fits around all samples as centres are those of the process") {
   const auto around = keeping_all(discrepancy_prior(), {.most_centres = 79}).fit(samples);
   CHECK(around.fit().functions().second().size() == 79);
   CHECK(mapped_error(around.tabulate(discrepancy_cells()), exact) < 0.01);
-  // What is said of it comes of the same process.
+  // The uncertainty comes from the same process.
   const auto at = gonio::locate_cell(discrepancy_cells(), 400);
   CHECK(around.deviation(at) == doctest::Approx(keeping_all(discrepancy_prior()).fit(samples).deviation(at)));
   CHECK_THROWS_WITH_AS(static_cast<void>(around.residuals()), doctest::Contains("at most 79 samples, not 80"),
@@ -225,7 +225,7 @@ TEST_CASE("each wavelength is fitted as a grey material, without the samples tha
     grey.erase(grey.begin() + 6);
     const auto alone = estimator.keeping_all().fit(grey);
     const auto [wi, wo] = gonio::to_directions({0.2, 0.4, 1.1});
-    // A sample that is probably right counts a little less than one that surely is.
+    // A sample that is only probably right has slightly less weight than a certain one.
     CHECK(paint.values(wi, wo)[band] == doctest::Approx(alone(wi, wo)[0]).epsilon(1e-3));
   }
 }
@@ -253,7 +253,7 @@ TEST_CASE("an impossible model of a discrepancy is refused") {
   refused({.variance = 0.0}, {"variance of a discrepancy", "positive"});
   refused({.error_variance = 0.0}, {"error variance", "positive"});
   refused({.noise = -0.1}, {"noise", "negative"});
-  refused({.most_centres = 0}, {"at least one centre"});
+  refused({.most_centres = 0}, {"most_centres", "at least 1"});
 }
 
 TEST_CASE("readings through an aperture are told apart from those of single directions") {
@@ -266,7 +266,7 @@ TEST_CASE("readings through an aperture are told apart from those of single dire
                    untold = read.through({});
   CHECK(told.have_apertures());
   CHECK(!untold.have_apertures());
-  for (const Eigen::Index centres : {1000, 60}) {  // evaluated directly, and by a table
+  for (const Eigen::Index centres : {1000, 60}) {  // evaluated directly, and from a table
     CAPTURE(centres);
     const gonio::reconstruction estimator{prior, {.most_centres = centres}};
     const auto peak_error = [&](const sample_set& samples) {
@@ -283,7 +283,7 @@ TEST_CASE("readings through an aperture are told apart from those of single dire
     CAPTURE(without);
     CHECK(with < 0.5 * without);
   }
-  // Samples are told of as they were read.
+  // Messages quote the samples as they were measured.
   const gonio::reconstruction estimator{prior};
   auto wrong = told;
   wrong[7].value *= 30.0;
@@ -297,7 +297,7 @@ TEST_CASE("readings through an aperture are told apart from those of single dire
     off.push_back((each.predicted / each.measured).log().abs().maxCoeff());
   }
   CHECK(gonio::median(off) < 0.1);
-  // One channel, and wavelengths, whose factors are their own.
+  // One channel, and wavelengths, each with its own factors.
   sample_set bands(gonio::channels({450.0, 550.0, 650.0, 700.0}));
   for (const gonio::sample& each : told)
     bands.add(each.directions, std::array{each.value[0], each.value[1], each.value[2], 0.5 * each.value[1]}, 1.0,

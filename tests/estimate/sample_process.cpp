@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Components alone, or with a discrepancy, at n places all over the half sphere.
+/// Components alone, or with a discrepancy, at n locations over the hemisphere.
 gonio::sample_process some_process(Eigen::Index n, double variance, const Eigen::MatrixXd& weights,
                                    double error_variance = 0.1) {
   gonio::located_rows at{Eigen::MatrixXd::Random(n, 12), {}};
@@ -55,7 +55,7 @@ TEST_CASE("each sample is predicted as a fit without it does") {
     const Eigen::RowVectorXd mean = with.transpose() * factors.solve(Eigen::MatrixXd(values(others, Eigen::all)));
     CHECK((all.mean.row(i) - mean).norm() < 1e-9);
     CHECK(all.deviation[i] == doctest::Approx(std::sqrt(covariance(i, i) - with.dot(factors.solve(with)))));
-    // One alone, by the other way.
+    // A single sample, by the other method.
     const gonio::sample_predictions one = process.predicted_without(std::vector<Eigen::Index>{i});
     CHECK((one.mean.row(0) - mean).norm() < 1e-9);
     CHECK(one.deviation[0] == doctest::Approx(all.deviation[i]));
@@ -149,7 +149,7 @@ TEST_CASE("doubts are beside the process, and what neighbours err together does 
   CHECK((doubting.covariance() - expected).norm() < 1e-12 * expected.norm());
   CHECK((doubting.values() - process.values()).norm() == 0.0);
   CHECK_FALSE(process.expected().doubts);
-  // The textbook's deviation.
+  // The textbook formula for the deviation.
   const gonio::half_difference place{0.4, 0.3, 1.0};
   const Eigen::RowVectorXd row = Eigen::RowVectorXd::LinSpaced(process.at().rows.cols(), -1.0, 1.0);
   const Eigen::MatrixXd with = doubting.expected().between(process.at(), {row, {place}});

@@ -17,7 +17,7 @@ TEST_CASE("factor and likelihood: as likely as with the mixture that the differe
     std::vector<double> differences;
     for (int i = 0; i < 1000; ++i)
       differences.push_back(i < 600 ? factor + scale * student(generator) : uniform(generator));
-    const std::vector<double> outliers(differences.size(), 0.125);  // the density that they have
+    const std::vector<double> outliers(differences.size(), 0.125);  // the density of the uniform outliers
     const auto found = gonio::detail::best_factor(differences, outliers);
     CAPTURE(scale);
     CHECK(found.logarithm_of_factor == doctest::Approx(factor).epsilon(0.1 * scale));
@@ -26,7 +26,7 @@ TEST_CASE("factor and likelihood: as likely as with the mixture that the differe
     for (const double each : differences)
       expected += std::log(share * made.good_density(each - factor) + (1.0 - share) * 0.125);
     CHECK(found.log_likelihood > expected - 1.0);
-    CHECK(found.log_likelihood < expected + 10.0);  // three numbers were fitted
+    CHECK(found.log_likelihood < expected + 10.0);  // three fitted numbers gain little
   }
 }
 

@@ -16,7 +16,7 @@ using gonio::soft_or_specular;
 
 namespace {
 
-/// Fits any samples by a constant.
+/// Fits a constant to any samples.
 struct always {
   double value;
   gonio::completed_table fit(const gonio::sample_set&) const {
@@ -44,7 +44,7 @@ const gonio::log_relative& switch_reference() {
   return metric;
 }
 
-/// Grey samples in the peak and out of it whose contrast is known.
+/// Grey samples inside and outside the peak, with a known contrast.
 gonio::sample_set samples_of_contrast(double contrast) {
   const auto at = [](double theta_h, double mapped) {
     const gonio::half_difference angles{theta_h, 0.4, 0.7};
@@ -108,7 +108,7 @@ TEST_CASE("switch: samples that do not tell soft from specular are refused, and 
   const soft_or_specular estimator{always{1.0}, always{2.0}, switch_reference(), 0.0};
   auto samples = samples_of_contrast(1.0);
   const gonio::sample_set in_peak{samples[0]}, off_peak{samples[1]};
-  CHECK_THROWS_WITH_AS((void)estimator.fit(in_peak), doctest::Contains("cannot distinguish soft from specular"),
+  CHECK_THROWS_WITH_AS((void)estimator.fit(in_peak), doctest::Contains("choice of soft or specular needs a sample"),
                        gonio::error);
   CHECK_THROWS_WITH_AS((void)estimator.choose(off_peak), doctest::Contains("up to 5.0"), gonio::error);
   samples[1].weight = 0.0;

@@ -1,4 +1,4 @@
-/// Every basis x metric x solver that makes sense: fitted, certified, tabulated, evaluated.
+/// Every sensible combination of basis, metric and solver: fitted, certified, tabulated, evaluated.
 
 #include "../solve/oracles/nnls_block_pivoting.hpp"
 #include "../solve/oracles/nnls_coordinate_descent.hpp"
@@ -53,7 +53,7 @@ auto non_negative_solvers() {
                     gonio::quadratic_program{}, gonio::non_negative_lasso{1e-7}};
 }
 
-/// The material is one of the basis: its measurements are explained, and so is the rest of it.
+/// The material belongs to the basis: the fit explains its measurements and predicts the rest of it.
 template <class Basis>
 void check_fit(const gonio::fitted_brdf<Basis>& fit) {
   REQUIRE(fit.report());

@@ -16,7 +16,7 @@ using gonio::model::sum_of_lobes;
 
 namespace {
 
-/// A small grid on which an appearance metric is quick to make.
+/// A small grid, on which appearance metrics are made quickly.
 const valid_cells& sphere_cells() {
   static const valid_cells cells(gonio::grid({20, 15, 30}));
   return cells;
@@ -32,9 +32,9 @@ brdf_table grey(double albedo) { return tabulate(lambertian{rgb::Constant(albedo
 }  // namespace
 
 TEST_CASE("colour differences agree with the reference on MERL's grid") {
-  // Expected values: build_lights, build_env and deltaE of the reference's render.py (numpy 1.24, float64) on
-  // these tables, written as raw float32 by this library. Every pixel of every table agreed to 6e-8 relative, so the
-  // printed digits must agree.
+  // Expected values: build_lights, build_env and deltaE of the reference's render.py (numpy 1.24, float64) on these
+  // tables, which this library wrote as raw float32. Every pixel of every table agreed to 6e-8 relative, so the printed
+  // digits must agree.
   const valid_cells cells;
   const appearance_metric appearance(cells);
   CHECK(appearance.lights().points().size() == 1020);
@@ -93,7 +93,7 @@ TEST_CASE("the difference is the mean over the pixels of the images' differences
 }
 
 TEST_CASE("black and an overexposed sphere are 100 apart in lightness where light falls; beyond white is white") {
-  // Under the environment light falls on every pixel of the sphere.
+  // The environment lights every pixel of the sphere.
   CHECK(small_metric().difference(grey(0.0), grey(500.0)).environment == doctest::Approx(100.0).epsilon(1e-4));
   CHECK(small_metric().difference(grey(500.0), grey(1000.0)).environment == 0.0);
 }

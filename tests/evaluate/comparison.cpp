@@ -16,7 +16,7 @@ using gonio::model::lambertian;
 
 namespace {
 
-/// The smallest metric, which has no cells of its own.
+/// The smallest metric. It has no cells of its own.
 struct identity_metric {
   double forward(double rho, const auto&) const noexcept { return rho; }
   double inverse(double y, const auto&) const noexcept { return y; }
@@ -36,7 +36,7 @@ const appearance_metric& appearance() {
 
 brdf_table paint() { return tabulate(gonio::model::formula_material("red-paint"), cells()); }
 
-/// A table from a function of the cell and its true value.
+/// Returns a table of change(cell, value) for the values of a table.
 template <class Change>
 brdf_table changed(const brdf_table& table, Change&& change) {
   brdf_table result(table.cells());
@@ -48,7 +48,7 @@ brdf_table scaled(const brdf_table& table, const rgb& factor) {
   return changed(table, [&](std::size_t, const rgb& value) { return rgb(value * factor); });
 }
 
-/// A metric with cells, proportional to a reference there.
+/// A metric with cells, proportional to a reference.
 struct shows_reference {
   log_relative metric;
   [[nodiscard]] const valid_cells& cells() const noexcept { return metric.cells(); }
@@ -63,7 +63,7 @@ log_relative constant_reference(const valid_cells& over, float reference) {
   return {over, std::vector<float>(over.size(), reference)};
 }
 
-/// The definition of the interpolated percentile, by sorting everything.
+/// The definition of the interpolated percentile, by sorting all values.
 double percentile_by_sorting(const brdf_table& table, std::size_t channel, double limit) {
   std::vector<double> values;
   for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
@@ -96,14 +96,14 @@ TEST_CASE("a table has no error against itself") {
 TEST_CASE("the mapped error of a constant shift in the mapped domain is that shift, for each channel") {
   const brdf_table truth = paint();
   SUBCASE("log-relative") {
-    const rgb shift(0.1, 0.25, 0.5);  // upwards: down from nearly zero would be below zero, which counts as zero
+    const rgb shift(0.1, 0.25, 0.5);  // positive: values shifted below zero would be clamped
     const log_relative metric = constant_reference(cells(), 0.1f);
     const brdf_table estimate = changed(truth, [&](std::size_t cell, const rgb& value) {
       rgb result;
       for (Eigen::Index c = 0; c < 3; ++c) result[c] = metric.inverse(metric.forward(value[c], cell) + shift[c], cell);
       return result;
     });
-    // forward has slope below 1 / rho, and both tables are rounded to float: 6e-8 each.
+    // The slope of forward is below 1 / rho, and both tables are rounded to float: 6e-8 each.
     const comparison result = gonio::compare(estimate, truth, metric, appearance());
     CHECK((result.mapped_rms - shift).abs().maxCoeff() < 1e-6);
     CHECK(result.mapped_rms.mean() == doctest::Approx(0.85 / 3.0).epsilon(1e-5));
@@ -125,8 +125,8 @@ TEST_CASE("the cosine error weighs a difference by max(cos_i cos_o, 0.001)") {
     return rgb(value + sign * size / weight);
   });
   const comparison result = gonio::compare(estimate, truth, identity_metric(), appearance());
-  // Rounding of value + 1e-3 / weight to float, relative to 1e-3: values go up to about 10 in the highlight's few
-  // cells.
+  // The rounding of value + 1e-3 / weight to float, relative to 1e-3: values reach about 10 in a few cells of the
+  // highlight.
   for (Eigen::Index c = 0; c < 3; ++c) CHECK(result.cosine_rms[c] == doctest::Approx(size[c]).epsilon(1e-4));
 }
 
@@ -154,10 +154,10 @@ TEST_CASE("the highlight's peak is the 99.9th percentile below 5 degrees: one wi
   const brdf_table wild =
       changed(truth, [](std::size_t cell, const rgb& value) { return cell == 100 ? rgb(rgb::Constant(1e6)) : value; });
   CHECK(gonio::highlight_peak(wild).x() == doctest::Approx(gonio::highlight_peak(truth).x()).epsilon(0.05));
-  // A lost highlight is what the measure is for.
+  // The ratio detects a lost highlight.
   const brdf_table matte = tabulate(lambertian{{0.42, 0.028, 0.022}}, cells());
   CHECK(gonio::compare(matte, truth, identity_metric(), appearance()).peak_ratio.maxCoeff() < 0.2);
-  // Beyond 5 degrees nothing counts.
+  // Cells at 5 degrees or more do not count.
   const brdf_table elsewhere = changed(truth, [](std::size_t cell, const rgb& value) {
     return cells().angles(cell).theta_h >= gonio::radians(5.0) ? rgb(50.0 * value) : value;
   });
@@ -195,7 +195,7 @@ TEST_CASE("a grid without cells below 5 degrees has its peak at its smallest the
   for (Eigen::Index cell = 0; cell < few.size(); ++cell)
     table.set(cell, rgb::Constant(few.angles(cell).theta_h == few.angles(0).theta_h ? 0.5 : 7.0));
   CHECK((gonio::highlight_peak(table) == 0.5).all());
-  // A single cell is its own percentile.
+  // A single cell equals its own percentile.
   const valid_cells one(gonio::grid({1, 1, 1}));
   REQUIRE(one.size() == 1);
   CHECK((gonio::highlight_peak(brdf_table(one, {1.0f, 2.0f, 3.0f})) == rgb(1.0, 2.0, 3.0)).all());
@@ -217,7 +217,7 @@ TEST_CASE("a metric over another grid is read between its cells") {
   const valid_cells coarse(gonio::grid({8, 6, 10}));
   const comparison here = gonio::compare(estimate, truth, constant_reference(cells(), 0.1f), appearance());
   const comparison there = gonio::compare(estimate, truth, constant_reference(coarse, 0.1f), appearance());
-  // The reference cancels in a difference of logarithms, but its cosine weight must be that of the truth's cell.
+  // The reference cancels in a difference of logarithms. The cosine weight must be that of the truth's cell.
   CHECK((here.mapped_rms - there.mapped_rms).abs().maxCoeff() < 1e-12);
 
   const comparison weighted = gonio::compare(scaled(truth, rgb::Constant(2.0)), truth,
@@ -229,7 +229,7 @@ TEST_CASE("a metric over another grid is read between its cells") {
 TEST_CASE("negative values of an estimate count in the errors as the metric says, in appearance as zero") {
   const brdf_table truth = scaled(paint(), rgb::Zero()), estimate = scaled(paint(), rgb::Constant(-1.0));
   const comparison result = gonio::compare(estimate, truth, constant_reference(cells(), 0.1f), appearance());
-  CHECK((result.mapped_rms == 0.0).all());  // log_relative counts them as zero
+  CHECK((result.mapped_rms == 0.0).all());  // log_relative clamps them to zero
   CHECK((result.cosine_rms > 0.0).all());
   CHECK(result.delta_e_env == 0.0);
   CHECK((result.peak_ratio == 1.0).all());

@@ -48,22 +48,27 @@ TEST_CASE("the choice depends on what was read; with nothing read there is one, 
 }
 
 TEST_CASE("one value is chosen for as a grey, and wavelengths by their colour") {
-  gonio::sample_set grey, value{gonio::channels::one_value()},
-      spectra{gonio::channels({300.0, 350.0, 450.0, 550.0, 650.0})};
+  const gonio::channels bands({300.0, 350.0, 450.0, 550.0, 650.0});
+  gonio::sample_set grey, value{gonio::channels::one_value()}, spectra{bands}, others{bands};
   for (const gonio::sample& s : three_samples(99)) {
     const double g = s.value.y();
     grey.push_back({s.directions, gonio::rgb::Constant(g)});
     value.add(s.directions, std::array{g});
-    spectra.add(s.directions, std::array{0.9 * g, 1.1 * g, g, g, g});  // nobody sees the first two
+    // The first two wavelengths are invisible.
+    spectra.add(s.directions, std::array{0.9 * g, 1.1 * g, g, g, g});
+    others.add(s.directions, std::array{3.0 * g, 0.2 * g, g, g, g});
   }
   const auto expected = small_chooser().choose(grey, 4), of_value = small_chooser().choose(value, 4),
-             of_spectra = small_chooser().choose(spectra, 4);
+             of_spectra = small_chooser().choose(spectra, 4), of_others = small_chooser().choose(others, 4),
+             of_colours = small_chooser().choose(spectra.in_three_channels(), 4);
   for (std::size_t i = 0; i < 4; ++i) {
     CHECK(of_value[i].pose.wi == expected[i].pose.wi);
     CHECK(of_value[i].pose.wo == expected[i].pose.wo);
     CHECK(of_value[i].expected_delta_e == doctest::Approx(expected[i].expected_delta_e));
-    CHECK(of_spectra[i].pose.wi == expected[i].pose.wi);
-    CHECK(of_spectra[i].pose.wo == expected[i].pose.wo);
+    for (const auto& same : {of_others[i], of_colours[i]}) {
+      CHECK(of_spectra[i].pose.wi == same.pose.wi);
+      CHECK(of_spectra[i].pose.wo == same.pose.wo);
+    }
   }
 }
 

@@ -19,7 +19,7 @@ gonio::log_relative_pca prior_of_families() {
   return learn(std::move(materials), 10);
 }
 
-/// Twelve materials of six families at four wavelengths, of which nobody sees the first.
+/// Twelve materials of six families at four wavelengths, the first of which is invisible.
 gonio::log_relative_pca prior_of_spectra() {
   auto spectra = at_wavelengths(synthetic_materials(small_cells(), 16), {300.0, 450.0, 550.0, 650.0});
   for (std::size_t m = 0; m < spectra.names.size(); ++m)
@@ -39,7 +39,7 @@ gonio::perceived_options options_of(double variance_share, Eigen::Index material
 
 const std::vector<Eigen::Index> measured{20, 77, 150};
 
-/// Mapped values of a prior's channels, less its mean, as those of colours.
+/// Returns mapped values of a prior's channels, minus its mean, converted to colours.
 Eigen::MatrixXd in_colours(const gonio::design::sequential_design<gonio::log_relative>& cells,
                            const Eigen::MatrixXd& mapped) {
   const auto& prior = cells.estimator().prior();
@@ -56,7 +56,7 @@ Eigen::MatrixXd in_colours(const gonio::design::sequential_design<gonio::log_rel
   return three;
 }
 
-/// The same from the definition: each material's family is taken out of the observations.
+/// Computes the value directly from the definition, with each material's family removed from the observations.
 double naive_value(const gonio::log_relative_pca& prior, double variance_share, double power = 1.0) {
   const auto cells = cells_of(prior);
   const gonio::perceived_sensitivity perceived(small_cells(), 4);
@@ -109,7 +109,7 @@ TEST_CASE("what is seen of a design is the mean over materials, each reconstruct
     CAPTURE(share);
     const gonio::perceived_candidates candidates(cells_of(prior), options_of(share));
     CHECK(candidates.materials() == 12);
-    // A hundredth of the discrepancy's variance is left out of what is seen.
+    // The estimate leaves out a hundredth of the discrepancy's visible variance.
     CHECK(candidates(measured) == doctest::Approx(naive_value(prior, share)).epsilon(0.02));
   }
 }

@@ -14,7 +14,7 @@ const gonio::log_relative_pca& few_materials() {
 
 gonio::render::sphere_operator lit_sphere(int size) { return {small_cells(), gonio::render::two_lights(), size}; }
 
-/// Lightness of a sphere's points of a grey material with these weights.
+/// Returns the lightness of a sphere's points for a grey material with these weights.
 Eigen::ArrayXd lightness(const gonio::render::sphere_operator& sphere, const Eigen::VectorXf& weights) {
   const gonio::log_relative_pca& prior = few_materials();
   gonio::brdf_table table(small_cells());

@@ -14,7 +14,7 @@ TEST_CASE("a small change of a channel moves CIELAB as the slopes say") {
   const auto seen = perceived(grey, grey);  // the derivative of a logarithm's inverse
   CHECK(seen.weights.sum() == doctest::Approx(1.0));
 
-  // All mapped values of green change by a hundredth: of the points under lights, which come last.
+  // All mapped values of green change by 0.01. The points under lights come last.
   const gonio::render::sphere_operator sphere(small_cells(), gonio::render::two_lights(), 9);
   gonio::brdf_table before(small_cells()), after(small_cells());
   for (Eigen::Index cell = 0; cell < cells; ++cell) {

@@ -52,7 +52,7 @@ TEST_CASE("exactly the asked share of samples are outliers, and they are values 
   std::size_t changed = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) changed += (clean[i].value != dirty[i].value).any() ? 1u : 0u;
   CHECK(changed <= 100);
-  CHECK(changed > 90);  // a random other value can happen to be the same
+  CHECK(changed > 90);  // a random value may happen to be the same
   const auto again = sample_table(table(), cells, {.outlier_ratio = 0.25}, 9);
   for (std::size_t i = 0; i < cells.size(); ++i) REQUIRE((again[i].value == dirty[i].value).all());
 }
@@ -62,7 +62,7 @@ TEST_CASE("noise is relative and has the asked deviation") {
   const auto clean = sample_table(table(), cells), noisy = sample_table(table(), cells, {.noise = 0.1}, 9);
   double sum = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) sum += (noisy[i].value / clean[i].value - 1.0).square().sum();
-  // 9000 draws: the deviation is known to 0.75 %; four of those.
+  // With 9000 draws the standard error of the deviation is 0.75 %; four times that.
   CHECK(std::sqrt(sum / 9000) == doctest::Approx(0.1).epsilon(0.03));
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("misplaced directions are off by the angle and above the horizon") {
       CHECK(off.norm() == doctest::Approx(1.0));
       CHECK(off.z() > 0.0);
       const double angle = std::atan2(w.cross(off).norm(), w.dot(off));
-      CHECK((angle == doctest::Approx(0.01) || (angle < 1e-12 && theta > 1.55)));  // else it would be below the horizon
+      CHECK((angle == doctest::Approx(0.01) || (angle < 1e-12 && theta > 1.55)));  // never below the horizon
     }
   }
 }
@@ -133,4 +133,34 @@ TEST_CASE("parting samples: each is in one part, in order, by the seed") {
   CHECK(gonio::split_samples(samples, 0, 1).some.empty());
   CHECK(gonio::split_samples(samples, 50, 1).others.empty());
   CHECK_THROWS_WITH_AS((void)gonio::split_samples(samples, 51, 1), doctest::Contains("51 of 50"), gonio::error);
+}
+
+TEST_CASE("random pairs are those of random cells at random azimuths, and are measured with their azimuths") {
+  const auto pairs = gonio::random_pairs(table().cells(), 300, 5);
+  const auto cells = random_cells(table().cells(), 300, 5);
+  REQUIRE(pairs.size() == 300);
+  double azimuths = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto angles = gonio::to_half_difference(pairs[i].wi, pairs[i].wo),
+               expected = table().cells().angles(cells[i]);
+    CHECK(angles.theta_h == doctest::Approx(expected.theta_h).epsilon(1e-9));
+    CHECK(angles.theta_d == doctest::Approx(expected.theta_d).epsilon(1e-9));
+    azimuths += gonio::azimuth(pairs[i].wi + pairs[i].wo) > 0.0 ? 1.0 : 0.0;
+  }
+  CHECK(azimuths / 300.0 == doctest::Approx(0.5).epsilon(0.2));
+  const auto brushed = [](const gonio::direction& wi, const gonio::direction& wo) noexcept {
+    return gonio::rgb(wi.x() * wo.x() + 2.0, 1.0, 0.5);
+  };
+  const gonio::sample_set clean = gonio::sample_brdf(brushed, pairs);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    CHECK(clean[i].directions.pair().wi == pairs[i].wi);
+    CHECK((clean[i].value == brushed(pairs[i].wi, pairs[i].wo)).all());
+  }
+  const gonio::sample_set noisy = gonio::sample_brdf(brushed, pairs, {.noise = 0.1}, 3);
+  CHECK((noisy[7].value != clean[7].value).all());
+  CHECK((noisy[7].value == gonio::sample_brdf(brushed, pairs, {.noise = 0.1}, 3)[7].value).all());
+  const gonio::sample_set spoilt = gonio::sample_brdf(brushed, pairs, {.outlier_ratio = 1.0}, 3);
+  CHECK(std::ranges::any_of(clean, [&](const gonio::sample& s) { return (s.value == spoilt[0].value).all(); }));
+  CHECK_THROWS_AS(static_cast<void>(gonio::sample_brdf(brushed, pairs, {.noise = -1.0})), gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(gonio::random_pairs(table().cells(), 0, 1)), gonio::error);
 }

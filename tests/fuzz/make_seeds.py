@@ -164,6 +164,8 @@ def jpeg(seconds):
     return b"\xFF\xD8\xFF\xE1" + struct.pack(">H", len(exif) + 8) + b"Exif\0\0" + exif + b"\xFF\xD9"
 
 
+put("utia", "float", struct.pack("<108f", *[0.1 * i for i in range(108)]))
+put("utia", "double", struct.pack("<108d", *[0.1 * i for i in range(108)]))
 put("merl", "small", merl(3, 2, 4))
 put("merl", "small.gz", gzip.compress(merl(3, 2, 4), mtime=0))
 put("merl", "marked", struct.pack("<3i", 2, 2, 2) + struct.pack("<24d", *([1.0] * 7 + [-1.0]) * 3))
@@ -309,6 +311,7 @@ put("json", "state.json", '{"key":{"n":5,"set":"a"},"result":[1,-2.5e-3,null,tru
 put("json", "twice.json", '{"a":1,"b":{},"a":[18446744073709551615,-9223372036854775808,1.0]}')
 
 words = {
+    "utia": ['\\x00\\x00\\xC0\\x7F', '\\x00\\x00\\x00\\x00\\x00\\x00\\xF8\\x7F'],
     "merl": ['\\x5A\\x00\\x00\\x00', '\\xB4\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x10\\x00\\x00', '\\x1F\\x8B\\x08', '\\x00\\x00\\x00\\x00\\x00\\x00\\xF0\\xBF', '\\x00\\x00\\x00\\x00\\x00\\x00\\xF8\\x7F'],
     "gzip": ['\\x1F\\x8B\\x08', '\\x78\\x9C', '\\x78\\xDA', '\\x00\\x00\\xFF\\xFF', '\\x03\\x00'],
     "prior": ['gonio-pca', 'gonio-split', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x10\\x00\\x00', '\\x78\\xDA', '\\x00\\x00\\x80\\x7F', '\\x00\\x00\\xC0\\x7F'],

@@ -1,7 +1,7 @@
-# Writes how far the harnesses of the readers went, from the logs that `fuzz` leaves in build/fuzz/tests/fuzz/:
+# Writes the statistics of the readers' harnesses, from the logs that `fuzz` leaves in build/fuzz/tests/fuzz/:
 #   cmake -D LOGS=build/fuzz/tests/fuzz -D OUTPUT=docs/results/fuzzing.md -P tests/fuzz/report.cmake
-# A log with a finding is refused: mend it, remove the log, and begin anew. The rows of some readers alone are printed,
-# to be added to that page:
+# Replaces the block of that page. Refuses a log with a finding: correct the reader, remove the log, and fuzz again.
+# READERS: prints the rows of these readers, to be added to that page:
 #   cmake -D LOGS=build/fuzz/tests/fuzz -D "READERS=hdr;exr" -P tests/fuzz/report.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -51,20 +51,11 @@ if(NOT DEFINED OUTPUT)
 endif()
 
 string(TIMESTAMP today "%Y-%m-%d")
-file(WRITE "${OUTPUT}" "# How far the readers were fuzzed
-
-Written by `cmake -D LOGS=build/fuzz/tests/fuzz -D OUTPUT=docs/results/fuzzing.md -P tests/fuzz/report.cmake`, ${today}, from the logs of
-the target `fuzz` (`cmake -S . -B build/fuzz -G Ninja -D CMAKE_CXX_COMPILER=clang++-19 -D GONIO_BUILD_FUZZ=ON -D GONIO_FUZZ_SECONDS=200`,
-`ninja -C build/fuzz fuzz`): libFuzzer with the address and undefined-behaviour sanitizers, files of up to 16 KiB, no allocation above 64 MiB,
-512 MB in all, two seconds a file. A finding is a crash, what a sanitizer says, an exception that is no `gonio::error`, and a refusal that does
-not name the file or holds control characters. There is none left; what was found is mended, and `tests/crafted` keeps the files.
-On a machine that other work fills, a process may wait two seconds for its turn: such runs had `-timeout=20`, and the slowest file is in the table.
-
-<!-- cmake -P tests/fuzz/report.cmake -->
-
-| reader | files read | seconds | files kept, as they reach new code | slowest, whole seconds | largest memory of the process, MB |
+include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/page_block.cmake")
+write_block("${OUTPUT}" "cmake -P tests/fuzz/report.cmake" "end of report.cmake"
+            "| reader | files read | seconds | files kept, as they reach new code | slowest, whole seconds | largest memory of the process, MB |
 |---|---|---|---|---|---|
 ${rows}| all | ${all} | ${all_seconds} | | | |
 
-<!-- end of cmake -->
+Printed on ${today} by `cmake -P tests/fuzz/report.cmake`.
 ")

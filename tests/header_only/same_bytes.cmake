@@ -1,6 +1,6 @@
-# cmake -D PROGRAM=... -D TOOL=... -D SOURCE=... -D SCRATCH=... -P same_bytes.cmake: README's program, compiled of the
-# headers alone, and `gonio reconstruct` write the same bytes from the same samples, one of which is wrong. The material is
-# a measured one where ../shared/data is, otherwise a formula's.
+# cmake -D PROGRAM=... -D TOOL=... -D SOURCE=... -D SCRATCH=... -P same_bytes.cmake: fails unless README's header-only
+# program and `gonio reconstruct` write the same bytes from the same samples, one of which is wrong. The material is a
+# measured one if ../shared/data exists, otherwise a formula's.
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${SCRATCH}")
 file(MAKE_DIRECTORY "${SCRATCH}")
@@ -40,7 +40,7 @@ file(WRITE "${SCRATCH}/measurements.csv" "${text}")
 
 run("${PROGRAM}")
 run("${TOOL}" reconstruct measurements.csv --prior materials.prior -o tool.binary)
-if(NOT said MATCHES "sample 7 disagrees, left out")
+if(NOT said MATCHES "sample 7 disagrees and is left out")
   message(FATAL_ERROR "the wrong sample was not found: ${said}")
 endif()
 run("${CMAKE_COMMAND}" -E compare_files paint.binary tool.binary)

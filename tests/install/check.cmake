@@ -1,4 +1,4 @@
-# Builds and runs programs and projects that know only what was installed in PREFIX, and in a prefix of headers alone.
+# Builds and runs programs and projects that see only a gonio installed in PREFIX, or in a prefix with only its headers.
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${SCRATCH}/build" "${SCRATCH}/shape_build" "${SCRATCH}/render_build"
      "${SCRATCH}/render_directory_build" "${SCRATCH}/headers")
@@ -7,8 +7,8 @@ function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# build_and_run(PROJECT BUILD [OPTION...]): the project's folder here, where to build it below SCRATCH, and what else its
-# configuration is told.
+# build_and_run(PROJECT BUILD [OPTION...]): configures the project in the folder PROJECT here with the options, in BUILD
+# below SCRATCH, builds it and runs its tests.
 function(build_and_run project build)
   run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/${project}" -B "${SCRATCH}/${build}"
       -G "${GENERATOR}"
@@ -27,7 +27,7 @@ function(ask_pkg_config result)
   set(${result} ${answer} PARENT_SCOPE)
 endfunction()
 
-# Headers alone by their one command: nothing is compiled, and README's program finds what it needs by pkg-config.
+# build_with_pkg_config(PACKAGE PREFIX): compiles README's program with the flags of pkg-config, and runs it.
 function(build_with_pkg_config package prefix)
   file(GLOB folders "${prefix}/lib/pkgconfig" "${prefix}/lib/*/pkgconfig" "${prefix}/share/pkgconfig")
   list(JOIN folders ":" path)
@@ -56,12 +56,12 @@ if(pkg_config)
   endif()
 endif()
 
-# As on a machine without dlib and nanoflann, which this one has: a search for either fails. CMake warns of options
-# that nobody read, and that is what these should be.
+# As on a machine without dlib and nanoflann: a search for either fails. If nothing searches, CMake would warn of unused
+# options.
 build_and_run(consumer build --no-warn-unused-cli
               -D CMAKE_DISABLE_FIND_PACKAGE_dlib=ON
               -D CMAKE_DISABLE_FIND_PACKAGE_Nanoflann=ON)
-# A renderer that has Eigen alone, with what is installed and with gonio as a directory of its own.
+# A renderer with only Eigen: with the installed gonio, and with gonio as a subdirectory.
 build_and_run(render_consumer render_build)
 build_and_run(render_consumer render_directory_build -D "GONIO_SOURCE=${CMAKE_CURRENT_LIST_DIR}/../..")
 build_and_run(shape_consumer shape_build)

@@ -1,6 +1,6 @@
-# Configures, builds and tests a project beside the library, which knows the gonio installed in PREFIX alone, in BUILD:
+# Configures, builds and tests a project beside the library in BUILD. The project sees only the gonio installed in PREFIX:
 # cmake -D PROJECT=shape -D BUILD=... -D PREFIX=... -D GENERATOR=Ninja -D COMPILER=g++ -D CONFIG=Release -D "FLAGS=-O1"
-# [-D LABELS=regex] [-D INSTALL=ON] -P project.cmake. With INSTALL it is then installed there as well.
+# [-D LABELS=regex] [-D INSTALL=ON] -P project.cmake. INSTALL also installs the project in PREFIX.
 cmake_minimum_required(VERSION 3.25)
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 

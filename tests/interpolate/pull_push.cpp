@@ -20,14 +20,14 @@ namespace {
 /// A number from 0 to 1.
 double fraction() { return 1e-6 * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1'000'001)); }
 
-/// Cells of a grid of any extents from 1 to 12.
+/// Returns cells of a grid with any extents from 1 to 12.
 valid_cells any_cells() {
   const auto extent = [] { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, 13)); };
   const int theta_h = extent(), theta_d = extent();
   return valid_cells(gonio::grid({theta_h, theta_d, extent()}));
 }
 
-/// Up to 20 samples at locations above the horizon.
+/// Returns up to 20 samples at locations above the horizon.
 sample_set any_samples() {
   sample_set samples;
   const int count = *rc::gen::inRange(1, 21);
@@ -38,7 +38,7 @@ sample_set any_samples() {
   return samples;
 }
 
-/// One row of cells along phi_d, with samples at the nodes given.
+/// Completes one row of cells along phi_d with samples at the given nodes.
 std::vector<double> complete_along_phi_d(int extent, const std::vector<std::pair<int, double>>& nodes) {
   const valid_cells cells(gonio::grid({1, 1, extent}));
   sample_set samples;
@@ -103,20 +103,20 @@ TEST_CASE("cells measured with full weight keep their weighted mean, whatever is
   }));
 }
 
-// By hand from Gortler et al.: pairs pull {8, 0} and {0} (unknown), the top is 8.
+// By hand, following Gortler et al.: the pairs pull to {8, 0} and {0} (unknown), the top is 8.
 TEST_CASE("golden: four cells of which one is known") {
   const auto values = complete_along_phi_d(4, {{0, 8.0}});
   CHECK(std::ranges::equal(values, std::vector<double>{8, 8, 8, 8}));
 }
 
-// Pairs: (8 known, weight 1), (4 known, weight 1). Unknown cell 1 is 3/4 of its own pair and 1/4 of the next, and
-// unknown cell 3 wraps to the first pair.
+// Pairs: (8 known, weight 1), (4 known, weight 1). Unknown cell 1 is 3/4 of its own pair and 1/4 of the next. Unknown
+// cell 3 wraps to the first pair.
 TEST_CASE("golden: linear interpolation between pairs, which wraps") {
   const auto values = complete_along_phi_d(4, {{0, 8.0}, {2, 4.0}});
   CHECK(std::ranges::equal(values, std::vector<double>{8, 7, 4, 5}));
 }
 
-// Five cells: pairs with centres at 1, 3 and 4.5, the last of one cell; the next to the right of it is at 6.
+// Five cells: pairs with centres at 1, 3 and 4.5, the last of a single cell. The next pair to its right is at 6.
 TEST_CASE("golden: an odd number of cells is interpolated between true centres") {
   const auto values = complete_along_phi_d(5, {{0, 3.0}, {2, 6.0}, {4, 9.0}});
   CHECK(values[0] == 3.0);
@@ -143,7 +143,7 @@ TEST_CASE("phi_d wraps for any number of cells: the last is next to the first") 
     std::vector<std::pair<int, double>> nodes;
     for (int k = 0; k < extent; ++k)
       if (k != extent - 1) nodes.emplace_back(k, k == 0 ? 1.0 : 0.0);
-    // The missing last cell sees the first across the wrap.
+    // The missing last cell is next to the first across the wrap.
     CHECK(complete_along_phi_d(extent, nodes).back() > 0.0);
   }
 }

@@ -43,7 +43,7 @@ sample_set scattered_samples(int count, std::mt19937_64& generator) {
   return samples;
 }
 
-/// The value by its definition: distances to all samples, sorted.
+/// Computes the value by its definition: distances to all samples, sorted.
 rgb by_definition(const sample_set& samples, const gonio::direction_pair& pair, const scattered_options& options) {
   const auto distance = [&](const gonio::sample& s) {
     const auto a = options.embedding(s.angles()), b = options.embedding(gonio::to_half_difference(pair.wi, pair.wo));
@@ -78,7 +78,7 @@ TEST_CASE("a search through all samples finds the same") {
         const auto f = scattered_interpolation{options}.fit(samples);
         for (int i = 0; i < 50; ++i) {
           const auto pair = any_pair(generator);
-          // It has the end of the weights a millionth further out.
+          // By the definition, weights end a millionth further out.
           REQUIRE((f(pair.wi, pair.wo) - by_definition(samples, pair, options)).abs().maxCoeff() < 1e-4);
         }
       }
@@ -152,11 +152,11 @@ TEST_CASE("samples count by their weights, and by those of each channel") {
   };
   CHECK((value({{here, rgb(1, 2, 4), 0.5}, {here, rgb(5, 6, 0), 1.5}}) - rgb(4, 5, 1)).abs().maxCoeff() < 1e-12);
   CHECK((value({{here, rgb(1, 2, 4), 0.0}, {here, rgb(5, 6, 0), 1.5}}) - rgb(5, 6, 0)).abs().maxCoeff() < 1e-12);
-  // More repeats than neighbours: none of them is left out, and those elsewhere count as before.
+  // More repeats than neighbours: none is left out, and samples elsewhere keep their weights.
   sample_set many(100, {here, rgb(2, 2, 2), 1.0});
   many.push_back({here, rgb(103, 2, -99), 1.0});
   CHECK((value(many) - rgb(3, 2, 1)).abs().maxCoeff() < 1e-12);
-  // A channel that was overexposed here is known from elsewhere.
+  // A channel overexposed here is taken from elsewhere.
   const half_difference elsewhere{0.2, 0.35, 0.4};
   const rgb known = value({{here, rgb(1, 2, 4), rgb(0, 1, 1)}, {elsewhere, rgb(5, 6, 7), 1.0}});
   CHECK(known.x() == doctest::Approx(5.0));
@@ -184,7 +184,7 @@ TEST_CASE("tables have the same bytes for any number of threads, and approach wh
   CHECK(std::ranges::equal(table.values(), f.tabulate(small_cells(), {3}).values()));
   for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell)
     REQUIRE((table.at(cell) - truth.at(cell)).abs().maxCoeff() < 1e-5 * (1.0 + truth.at(cell).maxCoeff()));
-  // Any range of samples is taken.
+  // Accepts any range of samples.
   const auto read = samples | std::views::transform([](const gonio::sample& s) { return s; });
   CHECK(std::ranges::equal(scattered_interpolation{}.fit(read).tabulate(small_cells()).values(), table.values()));
 }

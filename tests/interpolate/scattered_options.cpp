@@ -20,10 +20,10 @@ TEST_CASE("a pair and its reciprocal are one place, and so are pairs turned abou
   };
   CHECK(distance({0.3, 0.4, 0.2}, {0.3, 0.4, 0.2 + std::numbers::pi}) < 1e-15);
   CHECK(distance({0.3, 0.4, 1e-9}, {0.3, 0.4, std::numbers::pi - 1e-9}) < 1e-9);
-  CHECK(distance({0.3, 0.0, 0.2}, {0.3, 0.0, 1.5}) == 0.0);   // no phi_d
-  CHECK(distance({0.0, 0.4, 0.2}, {0.0, 0.4, 1.5}) == 0.0);   // turned about the normal
+  CHECK(distance({0.3, 0.0, 0.2}, {0.3, 0.0, 1.5}) == 0.0);   // phi_d is undefined
+  CHECK(distance({0.0, 0.4, 0.2}, {0.0, 0.4, 1.5}) == 0.0);   // rotated about the normal
   CHECK(distance({0.3, 0.4, 0.2}, {0.3, 0.4, -0.2}) > 1e-3);  // mirrored: another pair
-  // As much finer near the normal as the root is.
+  // Near the normal, distances are larger because of the square root.
   CHECK(distance({0.0, 0.4, 0.0}, {0.01, 0.4, 0.0}) > 5.0 * distance({0.5, 0.4, 0.0}, {0.51, 0.4, 0.0}));
 }
 

@@ -88,8 +88,8 @@ TEST_CASE("BiRD: states of illumination must average to unpolarised light") {
   const auto states = [](const std::string& values) { return "\"polarization_i\":{\"values\":[" + values + "]}"; };
   for (const std::string& fine : {states("\"s\",\"p\",\"u\""), states("[1,1,0,0],[1,-1,0,0],[1,0,0,0]")})
     CHECK(read_bird(three_of(fine), "x")[0].value.y() == doctest::Approx(0.2));
-  check_bird_refused(three_of(states("\"s\",\"s\",\"u\"")), {"theta_i 30", "theta_r 60", "s and p alike"});
-  check_bird_refused(three_of(states("\"s\",\"p\",\"p\"")), {"theta_i 0", "s and p alike"});
+  check_bird_refused(three_of(states("\"s\",\"s\",\"u\"")), {"theta_i 30", "theta_r 60", "as much s as p"});
+  check_bird_refused(three_of(states("\"s\",\"p\",\"p\"")), {"theta_i 0", "as much s as p"});
   check_bird_refused(three_of(states("\"s\",\"p\",\"x\"")), {"'x'", "Stokes"});
   check_bird_refused(three_of(states("[1,0,0],[1,0,0,0],\"u\"")), {"4 numbers"});
   check_bird_refused(three_of(states("[1,0,0,0,0],[1,0,0,0],\"u\"")), {"4 numbers"});

@@ -81,5 +81,5 @@ TEST_CASE("bad calibrations are refused") {
   refuses_calibration(changed(calibration_yaml, "5.3e+02, 0.,", "5.3e+02,"), "holds 8 numbers");
   refuses_calibration(changed(calibration_yaml, "5.3e+02", "nan"), "'camera_matrix' holds");
   refuses_calibration(changed(calibration_yaml, "rows: 5", "rows: 999999999"), "'distortion_coefficients'");
-  refuses_calibration(changed(calibration_xml, "</camera_matrix>", ""), "has no end");
+  refuses_calibration(changed(calibration_xml, "</camera_matrix>", ""), "is not closed");
 }

@@ -37,7 +37,7 @@ TEST_CASE("named files: a folder without any, two of one name, and what is no fo
   scratch::put(here / "steel.binary", std::string("x"));
   scratch::put(here / "steel.BINARY.gz", std::string("x"));
   scratch::check_refused([&] { return names_in(here); },
-                         {here.path().string(), "two files are named 'steel' apart from their extension"});
+                         {here.path().string(), "two files differ only in their extension: 'steel'"});
   scratch::check_refused([&] { return gonio::io::list_named_files(here / "absent", extensions, "table"); },
                          {"absent", "cannot be read as a folder"});
 }

@@ -105,7 +105,7 @@ TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
   refused(smallest + "rotation 1 0 0 0 1 0 0 0 1\n", {"line 7", "'rotation'", "'target'", "only one"});
   refused(with("target 0 0 0", "rotation 1 0 0 0 1 0 0 0 1\nup 0 0 1"), {"'rotation'", "'up'", "only one"});
   refused(smallest + "light_angles 0 0\n", {"line 5", "'light_angles'", "only one"});
-  refused(with("light 0 0 2", "light 0 0 0"), {"line 5", "length that is not 0"});
+  refused(with("light 0 0 2", "light 0 0 0"), {"line 5", "not 0 0 0"});
   refused(with("light 0 0 2", "light 1 0 -1"), {"the light is at or below"});
   refused(with("light 0 0 2", "light_angles 90 0"), {"line 5", "90 degrees", "less than 90"});
   refused(with("light 0 0 2", "light_angles 9 400"), {"line 5", "400 degrees"});

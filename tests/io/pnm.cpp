@@ -56,7 +56,7 @@ TEST_CASE("Netpbm: bad files are refused") {
   refuses("P6 1 1 65536\n123456", "largest count is 65536");
   refuses("P6 1 1 255\n12", "has 2 bytes of pixels, expected 3");
   refuses("P6 1 1 255\n1234", "has 4 bytes");
-  refuses("P6 1 1 100\n12\xC8", "counts 200, more than the file's largest 100");
+  refuses("P6 1 1 100\n12\xC8", "counts 200, more than the largest count in its header, 100");
   const scratch::folder here;
   check_refused(
       [&] {

@@ -237,7 +237,7 @@ TEST_CASE("bad files of the RGL database are refused") {
   refused([&](fields& all) { spectral(all, {1, 3, 2, 0, 0}, 500.0); }, {"file: ", "at least 2 x 2", "0 x 0"});
   refused([&](fields& all) { spectral(all, {1, 3, 2, 2, 2}, 500.0), all.erase("wavelengths"); }, {"'wavelengths'"});
   refused([](fields& all) { all["jacobian"] = {1, {1}, std::string("\0", 1)}; }, {"'jacobian' is not 1"});
-  refused([](fields& all) { all["phi_i"] = all["theta_i"]; }, {"anisotropic", "3 azimuths"});
+  refused([](fields& all) { all["phi_i"] = all["theta_i"]; }, {"'rgb' has 1 azimuths of the light", "phi_i has 3"});
   refused([](fields& all) { all["vndf"].shape = {3, 4, 5}; }, {"'vndf'", "3 dimensions", "expected 4"});
   refused([](fields& all) { all["vndf"].type = 11; }, {"'vndf'", "does not lie within"});
   refused([](fields& all) { all["theta_i"].type = 5; }, {"'theta_i'", "float32"});

@@ -86,7 +86,7 @@ TEST_CASE("RT-300S: what is no such file is refused") {
   check_rt300s_refused(with(exported, "\t12\t", "\t"), {"line 6", "3 fields", "an azimuth and 3 values"});
   check_rt300s_refused(start, {"no sample"});
   check_rt300s_refused(with(sheet, " RT", " R"), {"has no row RT"});
-  check_rt300s_refused(with(sheet, " Receive", " Receiver"), {"line 6", "precedes the rows"});
+  check_rt300s_refused(with(sheet, " Receive", " Receiver"), {"line 6", "above the row RT"});
   check_rt300s_refused(with(sheet, "20\t60", "20\t"), {"line 6", "reading 2 has RT"});
   check_rt300s_refused(with(sheet, "20\t60", "20\t160"), {"line 6", "Receive (degrees): 160"});
   check_rt300s_refused(with(sheet, "20\t20", "20\t-20"), {"line 6", "Incidence (degrees): -20"});

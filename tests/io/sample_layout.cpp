@@ -94,7 +94,7 @@ TEST_CASE("a matrix may stand below a preamble and above units, and be turned") 
 
 TEST_CASE("what is no matrix, or has no sides, is refused") {
   check_text_refused("theta_o;0;30\n45;1;2\n-45;1;2\n", {"line 2", "does not state the quantity of value"});
-  check_text_refused(percent + "theta_o;0;30\n45;1;2\n40;1;2\n", {"line 3", "which sides of the normal"});
+  check_text_refused(percent + "theta_o;0;30\n45;1;2\n40;1;2\n", {"line 3", "side of the normal is unknown"});
   check_text_refused(percent + "theta_o;0;95\n-45;1;2\n", {"line 2", "'theta_i' is missing", "'95'"});
   check_text_refused(percent + "theta_o [rad];0;30\n-0,5;1;2\n", {"line 2", "'theta_i' is missing"});
   check_text_refused(percent + "theta_o;0;phi=30\n-45;1;2\n", {"line 2", "'phi=30'"});
@@ -165,7 +165,7 @@ TEST_CASE("the scale of X, Y and Z is assumed and said where it is plain, else r
   CHECK(gonio::luminance(factors[1].value) * std::numbers::pi == doctest::Approx(0.1).epsilon(1e-3));
   CHECK(said[0].find("Y 1, as the largest Y is 1, the median 0.55 (--quantity percent: Y 100)") != std::string::npos);
   check_refused([&] { return read("30;-30;9;4;1\n30;0;.1;.1;.1\n30;5;.1;.1;.1\n", said); },
-                {"the largest Y is 4, the median 0.1", "--quantity reflectance-factor or percent"});
+                {"the largest Y is 4, the median 0.1", "--quantity reflectance-factor if", "--quantity percent if"});
 }
 
 TEST_CASE("X, Y and Z beside other values, in small letters or not all of them are ignored") {

@@ -70,7 +70,7 @@ TEST_CASE("without azimuths the signs of an in-plane scan tell the sides apart")
   CHECK(degrees(samples[1].angles().theta_d) == doctest::Approx(12.5));
   CHECK(read_samples("theta_i,theta_o,r,g,b\n0,45,1,1,1\n30,0,1,1,1\n", "x").size() == 2);  // no sides to tell apart
   check_text_refused("theta_i,theta_o,r,g,b\n0,45,1,1,1\n45,20,1,1,1\n45,45,1,1,1\n",
-                     {"line 3", "which sides", "phi_i and phi_o"});
+                     {"line 3", "side of the normal is unknown", "phi_i and phi_o"});
   check_text_refused("theta_i,theta_o,phi_0,r,g,b\n45,-45,0,1,1,1\n", {"'phi_i' is missing", "perhaps it is 'phi_0'"});
   check_text_refused("theta_i,theta_o,azimuth,r,g,b\n45,-45,0,1,1,1\n", {"'phi_i' is missing", "'azimuth'"});
   check_text_refused("theta_i,r,g,b\n45,1,1,1\n", {"'theta_o' is missing"});

@@ -313,3 +313,19 @@ TEST_CASE("damaged CSV files are read or refused") {
       return read_samples({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "x");
     });
 }
+
+TEST_CASE("samples written as pairs keep their azimuths") {
+  const scratch::folder here;
+  const gonio::direction_pair pair{gonio::spherical_direction(gonio::radians(30.0), gonio::radians(75.0)),
+                                   gonio::spherical_direction(gonio::radians(50.0), gonio::radians(-160.0))};
+  gonio::sample_set samples;
+  samples.push_back({pair, {0.1, 0.2, 0.3}, 1.0});
+  const std::string text = write_samples(samples, {}, gonio::io::direction_columns::pairs);
+  CHECK(text == "theta_i,phi_i,theta_o,phi_o,r,g,b,weight\n30,75,50,-160,0.1,0.2,0.3,1\n");
+  write_samples(here / "a", samples, {}, gonio::io::direction_columns::pairs);
+  const auto again = gonio::io::read_samples(here / "a");
+  CHECK((again[0].directions.pair().wi - pair.wi).norm() < 1e-10);
+  CHECK((again[0].directions.pair().wo - pair.wo).norm() < 1e-10);
+  samples[0].directions = gonio::sample_directions(gonio::direction_pair{{0, 0, 1}, {0, 0, 1}});
+  CHECK(write_samples(samples, {}, gonio::io::direction_columns::pairs).find("\n0,0,0,0,") != std::string::npos);
+}

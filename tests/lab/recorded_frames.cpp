@@ -108,7 +108,7 @@ TEST_CASE("lab: a manifest that is none says what is wrong") {
   refuses(R"({"largest_count": 255, "frames": []})", "at least one frame");
   refuses(R"({"largest_count": 255, "window": {"column": 0, "row": 0, "columns": 0, "rows": 1}, "frames": [1]})",
           "no pixel");
-  refuses(with_frame("7"), "7 is no frame");
+  refuses(with_frame("7"), "7 is not a frame");
   refuses(with_frame(R"({"theta_i": 95, "phi_i": 0})"), "above the horizon");
   const std::string angles = R"("theta_i": 30, "phi_i": 0, "theta_o": 40, "phi_o": 180)";
   refuses(with_frame("{" + angles + R"(, "seconds": 0, "file": "a.png"})"), "'seconds' must be positive");

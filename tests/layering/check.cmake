@@ -1,10 +1,10 @@
-# Fails if a header under ROOT, one or several include/gonio folders, includes against the arrows of
-# docs/reference/architecture.md: cmake -D ROOT=include/gonio,shape/include/gonio -P check.cmake.
-# COMPLETE: every included header exists.
+# cmake -D ROOT=include/gonio,shape/include/gonio -P check.cmake: fails if a header under ROOT, one or several
+# include/gonio folders, includes a module against the arrows of docs/reference/architecture.md. COMPLETE: also fails if
+# an included header does not exist.
 cmake_minimum_required(VERSION 3.25)
 
-# "user -> used ..."; whoever may include a module may include what that module may include.
-# A module is a folder, or a folder or a single header in it where that has rules of its own. Used before user.
+# "user -> used ...": a user may include the used modules and all that these may include. A module is a folder, or a
+# folder or header within it that has its own rules. A module is listed before its users.
 set(edges
   "core       ->"
   "core/k_d_tree.hpp -> core" # apart, because it needs nanoflann
@@ -12,7 +12,7 @@ set(edges
   "table      -> core"
   "metric     -> table"
   "basis      -> metric solve"
-  "estimate/estimator.hpp -> table" # the concept, which needs no basis
+  "estimate/estimator.hpp -> table" # only the concept, which needs no basis
   "estimate   -> basis estimate/estimator.hpp"
   "interpolate -> metric estimate/estimator.hpp"
   "interpolate/scattered_brdf.hpp -> interpolate core/k_d_tree.hpp" # apart, because it needs nanoflann
@@ -42,7 +42,7 @@ set(edges
   "render.hpp -> render texels/texel_brdf.hpp"
   "shape.hpp  -> shape/io"
   "mpi.hpp    -> mpi"
-  "core.hpp -> core" # all of a module each
+  "core.hpp -> core" # umbrella headers
   "solve.hpp -> solve"
   "table.hpp -> table"
   "metric.hpp -> metric"
@@ -68,7 +68,7 @@ foreach(edge IN LISTS edges)
   endforeach()
 endforeach()
 
-# The module of a path relative to ROOT.
+# module_of(PATH RESULT): returns the module of a path relative to ROOT.
 function(module_of path result)
   string(REGEX REPLACE "/impl/([a-z0-9_]+)[.]ipp$" "/\\1.hpp" path "${path}") # a body is part of its header
   cmake_path(GET path PARENT_PATH folder)
@@ -82,7 +82,7 @@ function(module_of path result)
 endfunction()
 
 set(violations 0)
-string(REPLACE "," ";" ROOT "${ROOT}") # a list would not survive add_test
+string(REPLACE "," ";" ROOT "${ROOT}") # add_test does not pass lists
 foreach(root IN LISTS ROOT)
   cmake_path(ABSOLUTE_PATH root)
   file(GLOB_RECURSE headers RELATIVE "${root}" "${root}/*.hpp" "${root}/*.ipp")
@@ -95,7 +95,7 @@ foreach(root IN LISTS ROOT)
     set(text "\n${text}")
     string(REGEX MATCHALL "\n[ \t]*#[ \t]*include[ \t]*[<\"][^>\"\n]+" directives "${text}")
     foreach(directive IN LISTS directives)
-      # A path relative to the header, or one from the include root; else it is not ours.
+      # A path is relative to the header or to the include root; other headers are not ours.
       string(REGEX REPLACE ".*[<\"]" "" path "${directive}")
       if(path MATCHES "^gonio/")
         string(REGEX REPLACE "^gonio/" "" used_path "${path}")
@@ -129,12 +129,15 @@ foreach(root IN LISTS ROOT)
     endforeach()
   endforeach()
 
-  # A header is in the one of its module; render.hpp is what a renderer needs, and those that need libraries of their own
-  # (core/arrays.hpp: xtensor) are apart. A body is in one of the sources of gonio::compiled.
+  # A header is in its module's umbrella header, except those for render.hpp and those that need a library of their own
+  # (core/arrays.hpp: xtensor). A body is in one of the sources of gonio::compiled, or in another body.
   if(EXISTS "${root}/../../src")
     file(GLOB sources "${root}/../../src/*.cpp")
     set(compiled)
-    foreach(source IN LISTS sources)
+    set(bodies ${headers})
+    list(FILTER bodies INCLUDE REGEX "[.]ipp$")
+    list(TRANSFORM bodies PREPEND "${root}/")
+    foreach(source IN LISTS sources bodies)
       file(READ "${source}" text)
       string(APPEND compiled "${text}")
     endforeach()
@@ -149,7 +152,7 @@ foreach(root IN LISTS ROOT)
       endif()
       string(FIND "${places}" "<gonio/${header}>" place)
       if(place EQUAL -1)
-        message(FATAL_ERROR "${header} is neither in the header of its module nor, a body, in a source of src/")
+        message(FATAL_ERROR "${header} is in neither its module's header nor, if it is a body, a source of src/ or another body")
       endif()
     endforeach()
   endif()

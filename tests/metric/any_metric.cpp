@@ -24,7 +24,7 @@ gonio::log_relative relative_to_something() {
   return {small_cells(), reference};
 }
 
-/// It gives what the metric gives that it holds: at cells, at locations, and for a row of cells at once.
+/// Checks that any_metric agrees with the metric it holds: at cells, at locations, and for a row of cells.
 template <gonio::row_metric Metric>
 void check_held(const Metric& metric) {
   const any_metric chosen = metric;
@@ -41,7 +41,7 @@ void check_held(const Metric& metric) {
     RC_ASSERT(chosen.on(cells).forward(rho, cell) == metric.forward(rho, cell));
   }));
 
-  // Mapped values of two neighbouring cells, with what is interpolated beside the channels.
+  // Mapped values of two neighbouring cells, and the additional fields that are interpolated with them.
   constexpr std::size_t count = 2, first = 3;
   std::array<double, 7> cosines{};
   for (std::size_t i = 0; i < cosines.size(); ++i) cosines[i] = std::cos(0.3 * static_cast<double>(i));

@@ -1,5 +1,5 @@
 #pragma once
-/// What every metric that is the same at all locations must do.
+/// Checks of every metric that is the same at all locations.
 
 #include <gonio/metric/place_free.hpp>
 
@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-/// Increasing, odd, undone by its inverse, with the slope of its differences, the same at a cell and at a location, and
-/// a row of cells is mapped back as one by one.
+/// Checks that the metric increases, is odd, is inverted by its inverse, has the slope of its differences and is the
+/// same at a cell and a location, and that a row of cells is mapped back like single cells.
 template <gonio::row_metric Metric>
 requires gonio::smooth_metric<Metric>
 void check_place_free(const Metric& metric) {
@@ -49,7 +49,7 @@ void check_place_free(const Metric& metric) {
     CHECK(double{out[i]} == doctest::Approx(one).epsilon(1e-6));
   }
 
-  // The same bytes wherever a number stands: vectors of sixteen begin at multiples of 64 bytes.
+  // The bytes do not depend on a number's position: vectors of sixteen start at multiples of 64 bytes.
   std::vector<float> numbers(60);
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 0.07f * static_cast<float>(i);
   std::vector<float> all = numbers;

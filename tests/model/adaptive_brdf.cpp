@@ -33,7 +33,7 @@ unit_square_tables tabulated(Eigen::Index tables, Eigen::Index rows, Eigen::Inde
   return all;
 }
 
-/// A material whose normals are all alike, seen from any direction.
+/// A material whose normals all have the same weight, seen from any direction.
 adaptive_brdf_parts even_material() {
   const auto all = [](double number) { return [number](Eigen::Index, double, double) { return number; }; };
   return {{0.0, 0.7, half_pi},
@@ -48,7 +48,7 @@ direction random_direction(std::mt19937& random) {
   return gonio::spherical_direction(std::acos(1e-3 + 0.999 * uniform(random)), 6.28 * uniform(random));
 }
 
-/// Where a half vector lies in the unit square, as the database says it: across by azimuth, along by polar angle.
+/// Returns a half vector's position in the unit square as the database defines it: azimuth across, polar angle along.
 std::pair<double, double> square_of(const direction& wi, const direction& wo) {
   const direction h = (wi + wo).normalized();
   const double turns = (std::atan2(h.y(), h.x()) - std::atan2(wi.y(), wi.x())) / (2.0 * std::numbers::pi) + 0.5;
@@ -73,11 +73,11 @@ TEST_CASE("alike normals leave reflectance over four areas and the cosine") {
 }
 
 TEST_CASE("reflectance is looked up where the visible normals' cumulative distribution maps the half vector") {
-  // The density (1 + a)(1 + b) has the distributions (a + a^2 / 2) / 1.5 across and the same along.
+  // The density (1 + a)(1 + b) has the distribution function (a + a^2 / 2) / 1.5 in both directions.
   adaptive_brdf_parts parts = even_material();
   parts.visible_normals =
       tabulated(3, 4, 6, [](Eigen::Index, double across, double along) { return (1.0 + across) * (1.0 + along); });
-  // Red is the position across, green that along.
+  // Red is the position across, green the position along.
   parts.reflectance =
       tabulated(9, 2, 2, [](Eigen::Index t, double across, double along) { return t % 3 == 0 ? across : along; });
   const adaptive_brdf material(std::move(parts));
@@ -93,7 +93,7 @@ TEST_CASE("reflectance is looked up where the visible normals' cumulative distri
 }
 
 TEST_CASE("between two angles of the light, densities and their sums are interpolated") {
-  // From above normals are seen alike, from the side more of them are inclined.
+  // Seen from above, all normals have the same weight. Seen from the side, more of them are inclined.
   adaptive_brdf_parts parts = even_material();
   parts.theta_i = {0.0, half_pi};
   parts.visible_normals =
@@ -108,7 +108,7 @@ TEST_CASE("between two angles of the light, densities and their sums are interpo
 
 namespace {
 
-/// As the class docstring has it, from the parts and with the standard library's functions.
+/// The BRDF as the class docstring defines it, from the parts, by functions of the standard library.
 class plain_adaptive_brdf {
  public:
   explicit plain_adaptive_brdf(const adaptive_brdf_parts& parts) : parts_(parts) {}
@@ -136,7 +136,7 @@ class plain_adaptive_brdf {
     return (1.0 - f) * ((1.0 - g) * low[0] + g * low[1]) + f * ((1.0 - g) * high[0] + g * high[1]);
   }
 
-  /// Interpolated between two theta_i.
+  /// Interpolates between two theta_i.
   template <class Value>
   double between(double theta, const Value& value) const {
     const std::vector<double>& angles = parts_.theta_i;
@@ -145,7 +145,7 @@ class plain_adaptive_brdf {
     return std::lerp(value(t), value(t + 1), (theta - angles[t]) / (angles[t + 1] - angles[t]));
   }
 
-  /// The integral from 0 to `end` of what is linear between `nodes` nodes.
+  /// Returns the integral from 0 to `end` of a function that is linear between `nodes` nodes.
   template <class Value>
   static double integral(Eigen::Index nodes, double end, const Value& value) {
     const double step = 1.0 / static_cast<double>(nodes - 1);
@@ -171,7 +171,7 @@ class plain_adaptive_brdf {
   const adaptive_brdf_parts& parts_;
 };
 
-/// A material whose tables are of all sizes and full of random numbers.
+/// A material whose tables have different sizes and random values.
 adaptive_brdf_parts random_material(std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(0.1, 1.0);
   const auto any = [&](Eigen::Index, double, double) { return uniform(random); };
@@ -205,7 +205,7 @@ TEST_CASE("directions at the edges of the tables, and such as are none, are look
     for (const direction& wo : {up, side, opposite}) CHECK(material.as_measured(wi, wo).isFinite().all());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const direction& none : {direction(nan, 0.0, 1.0), direction(0.0, nan, 0.5), direction(nan, nan, 1.0)}) {
-    static_cast<void>(material(none, up));  // a sanitizer would tell
+    static_cast<void>(material(none, up));  // a sanitizer would report an error
     static_cast<void>(material(up, none));
   }
 }
@@ -220,7 +220,7 @@ TEST_CASE("parts of a material that do not fit are refused") {
   refused([](auto& p) { p.theta_i = {0.0, 0.0, 1.0}; }, {"theta_i", "ascending"});
   refused([](auto& p) { p.theta_i = {0.0, 1.0, 1.6}; }, {"theta_i", "pi/2"});
   refused([](auto& p) { p.theta_i[1] = std::numeric_limits<double>::quiet_NaN(); }, {"theta_i"});
-  refused([](auto& p) { p.theta_i = {0.0, 1.0}; }, {"visible normals", "needs 2 tables", "not 3 of 5 x 4"});
+  refused([](auto& p) { p.theta_i = {0.0, 1.0}; }, {"visible normals", "needs 2 tables", "not 3 tables of 5 x 4"});
   refused([](auto& p) { p.normals.rows = 1; }, {"distribution of normals", "at least 2 x 2", "1 x 3"});
   refused([](auto& p) { p.projected_area.values.pop_back(); }, {"projected area", "5 numbers"});
   refused([](auto& p) { p.reflectance.tables = 3; }, {"reflectance", "needs 9 tables"});

@@ -5,13 +5,13 @@
 
 namespace {
 
-/// Parameters somewhere within their bounds.
+/// Returns random parameters within their bounds.
 gonio::model::lobe_kind::values any_parameters(const gonio::model::lobe_kind& kind) {
   gonio::model::lobe_kind::values values{};
   for (std::size_t i = 0; i < kind.parameters().size(); ++i) {
     const gonio::model::shape_parameter& about = kind.parameters()[i];
     const double share = 0.02 + 0.9 * any_fraction();
-    // Not where a highlight is so narrow that differences say nothing.
+    // Excludes highlights so narrow that differences mean nothing.
     const double low = about.logarithmic ? about.lowest + 0.05 : about.lowest,
                  high = about.logarithmic ? std::min(about.highest, 200.0) : about.highest;
     values[i] = about.logarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
@@ -42,10 +42,10 @@ TEST_CASE("slopes are exact: those of central differences, for every kind") {
           down[i] -= distance;
           return (kind->value(at, up) - kind->value(at, down)) / (2.0 * distance);
         };
-        // Lafortune's scale bends at the mirror direction.
+        // Lafortune's scale has a kink at the mirror direction.
         if (kind->name() == "lafortune" && std::abs(std::abs(parameters[0]) - pi / 4) < 1e-3) continue;
         const double difference = difference_by(step), scale = std::abs(difference) + value / std::abs(parameters[i]);
-        // At its end a lobe of a small exponent is as steep as one likes, and differences still depend on their step.
+        // At its border, a lobe with a small exponent is arbitrarily steep, and differences depend on their step.
         if (std::abs(difference - difference_by(step / 2.0)) > 2e-6 * scale) continue;
         ++compared;
         RC_ASSERT(std::abs(slopes[i] - difference) <= 1e-5 * scale + 1e-12);

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// A grey diffuser whose red is negative where light and viewer are on one side of the normal.
+/// A grey diffuser whose red is negative if light and viewer are on the same side of the normal.
 struct dark_red {
   double red;
   gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
@@ -38,7 +38,7 @@ TEST_CASE("negative values are counted, and integrated as a sphere of light sees
   const auto found = gonio::model::count_negative_values(dark_red{red}, cells);
   CHECK(found.cells > cells.size() / 5);
   CHECK(found.cells < cells.size());
-  // Half of all pairs are on one side. Of green and blue 1, red is 1 / 4, without its negative part 1 / 2.
+  // Half of all pairs are on the same side. If green and blue are 1, red is 1 / 4, or 1 / 2 without its negative part.
   CHECK(found.added[0] == doctest::Approx(0.25 / (2.5 / 3.0)).epsilon(0.03));
   CHECK(found.added[1] == doctest::Approx(0.0));
 }

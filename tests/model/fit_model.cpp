@@ -36,7 +36,7 @@ std::vector<gonio::model::fit_observation> observed(const gonio::model::analytic
   return all;
 }
 
-/// A material of a kind: parameters where a few hundred measurements can see the lobe.
+/// Returns a lobe of a kind, with parameters that a few hundred measurements can determine.
 gonio::model::analytic_lobe any_lobe(const lobe_kind& kind, std::mt19937_64& random) {
   const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   lobe_kind::values values{};
@@ -52,7 +52,7 @@ gonio::model::analytic_lobe any_lobe(const lobe_kind& kind, std::mt19937_64& ran
   return {kind, {between(0.05, 1.0), between(0.05, 1.0), between(0.05, 1.0)}, values};
 }
 
-/// The largest relative error of colours and parameters.
+/// Returns the largest relative error of colours and parameters.
 double error_of(const gonio::model::analytic_lobe& found, const gonio::model::analytic_lobe& truth) {
   double worst = ((found.colour() - truth.colour()).abs() / truth.colour()).maxCoeff();
   for (std::size_t i = 0; i < truth.kind().parameters().size(); ++i)
@@ -125,7 +125,7 @@ TEST_CASE("a fit reflects no more than falls in, by any norm and metric, and is 
   const auto pairs = scattered_pairs(400);
   const lobe_kind &lambert = lobe_kind::of<gonio::model::lambert_shape>(),
                   &ggx = lobe_kind::of<gonio::model::ggx_shape>();
-  // Grazing light is reflected twice.
+  // At grazing angles it reflects twice the incident light.
   const analytic_brdf impossible({{lambert, {0.3, 0.2, 0.1}, {}}, {ggx, {4.0, 2.0, 1.0}, {0.1, 0.1}}}),
       possible({{lambert, {0.3, 0.2, 0.1}, {}}, {ggx, {0.5, 0.5, 0.25}, {0.1, 0.1}}});
   REQUIRE(gonio::model::find_largest_albedo(impossible).value > 1.5);
@@ -138,7 +138,7 @@ TEST_CASE("a fit reflects no more than falls in, by any norm and metric, and is 
     const double found = gonio::model::find_largest_albedo(bounded.model).value;
     CHECK(found < 1.0005);
     CHECK(found > 0.99);
-    // Far nearer than the same lobes, all darker.
+    // Much closer than the same lobes scaled down together.
     const double darker = 1.0 / gonio::model::find_largest_albedo(impossible).value;
     std::vector<gonio::model::analytic_lobe> scaled;
     for (const auto& lobe : impossible.lobes())
@@ -171,7 +171,7 @@ TEST_CASE("variable projection and the joint descent end in the same minimum of 
   std::normal_distribution<double> noise(0.0, 0.05);
   for (auto& seen : samples) seen.value *= 1.0 + noise(random);
   const auto projected = gonio::model::fit_model({&lambert, &ggx}, samples);
-  // The linear metric by another name, of which nobody knows that the colours separate.
+  // The linear metric under another name, so that the fit does not know that the colours separate.
   const auto joint = gonio::model::fit_model({&lambert, &ggx}, samples, archetype::smooth_identity_metric());
   CHECK(projected.loss > 1e-6);
   CHECK(projected.loss == doctest::Approx(joint.loss).epsilon(1e-9));
@@ -202,7 +202,7 @@ TEST_CASE("robust norms have a scale also where most measurements are black") {
   const auto albedo = [&](gonio::model::fit_norm norm) {
     return gonio::model::fit_model({&lambert}, samples, gonio::lin(), {.norm = norm}).model.lobes()[0].colour()[1];
   };
-  CHECK(albedo(gonio::model::fit_norm::l2) == doctest::Approx(0.5625).epsilon(0.01));  // one in 16 thrice as bright
+  CHECK(albedo(gonio::model::fit_norm::l2) == doctest::Approx(0.5625).epsilon(0.01));  // one in 16 is tripled
   CHECK(albedo(gonio::model::fit_norm::huber) == doctest::Approx(0.51).epsilon(0.01));
   CHECK(albedo(gonio::model::fit_norm::l1) == doctest::Approx(0.5).epsilon(1e-3));
 }
@@ -255,7 +255,7 @@ TEST_CASE("a table is fitted as its cells are") {
   const auto fit =
       gonio::model::fit_model({&lobe_kind::of<gonio::model::ward_shape>()}, gonio::model::fit_observations(table));
   const auto ward = fit.model.lobes()[0].as<gonio::model::ward_shape>();
-  CHECK(ward.shape().roughness == doctest::Approx(0.3).epsilon(1e-6));  // the table is of floats
+  CHECK(ward.shape().roughness == doctest::Approx(0.3).epsilon(1e-6));  // the table stores floats
   CHECK(((ward.colour() - paint.colour()).abs() < 1e-6).all());
 }
 
@@ -270,7 +270,7 @@ TEST_CASE("cells may count by the pairs of directions in them, or by these times
       pairs += own;
       reflected += own * at.i * at.o;
     }
-    // Half vectors at all azimuths, and phi_d over all 360 degrees: two hemispheres of directions, and of cosines.
+    // Half vectors at all azimuths, and phi_d over 360 degrees: two hemispheres of directions, weighted by cosines.
     const double all = 2.0 * std::numbers::pi * 2.0;
     CHECK(all * pairs == doctest::Approx(std::pow(2.0 * std::numbers::pi, 2)).epsilon(0.03));
     CHECK(all * reflected == doctest::Approx(std::pow(std::numbers::pi, 2)).epsilon(0.01));

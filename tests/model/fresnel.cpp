@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Fresnel's amplitudes, squared and averaged, with complex numbers.
+/// Fresnel's amplitudes in complex numbers, squared and averaged.
 double by_amplitudes(double cosine, std::complex<double> index) {
   const std::complex<double> inside = std::sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
   const auto across = (cosine - index * inside) / (cosine + index * inside);
@@ -37,7 +37,7 @@ TEST_CASE("at normal incidence and at grazing angles") {
           doctest::Approx(gonio::model::normal_reflectance(n)));
     CHECK(gonio::model::fresnel_schlick(0.0, gonio::model::normal_reflectance(n)) == doctest::Approx(1.0));
   }
-  // Glass in between: Schlick's approximation is off by less than four hundredths.
+  // For glass, the error of Schlick's approximation is below 0.04.
   for (double cosine = 0.0; cosine <= 1.0; cosine += 0.01)
     CHECK(std::abs(gonio::model::fresnel_schlick(cosine, 0.04) - gonio::model::fresnel_dielectric(cosine, 1.5)) < 0.04);
   // Gold at 550 nm.

@@ -9,7 +9,7 @@ namespace {
 
 const direction normal(0.0, 0.0, 1.0);
 
-/// Eq. 20, 23, 33 and 34 with the tangents and the fraction as printed.
+/// Eq. 20, 23, 33 and 34 with tangents and the fraction as printed.
 double as_printed(const ggx& f, const direction& wi, const direction& wo) {
   const direction h = (wi + wo).normalized();
   const auto squared_tangent = [](const direction& v) { return (1.0 - v.z() * v.z()) / (v.z() * v.z()); };
@@ -20,7 +20,7 @@ double as_printed(const ggx& f, const direction& wi, const direction& wo) {
   return F * D * G1(wi) * G1(wo) / (4.0 * wi.z() * wo.z());
 }
 
-/// Midpoint sum of D(h) * weight(h) over the hemisphere, in rings that are narrow where D is.
+/// Midpoint sum of D(h) * weight(h) over the hemisphere, with narrower rings where D is large.
 template <class Weight>
 double integrate_distribution(const ggx& f, int bins, Weight&& weight) {
   double sum = 0.0;
@@ -42,7 +42,7 @@ TEST_CASE("GGX keeps what a BRDF must keep, from mirror-like to rough") {
     CAPTURE(alpha);
     const ggx f{.alpha = alpha, .f0 = {0.02, 0.5, 1.0}};
     check_finite_at_special_pairs_and_zero_below_the_horizon(f);
-    // Rounding in h is amplified by 1/alpha: a test of isotropy at 1e-9 has nothing to say of alpha = 1e-3.
+    // Rounding of h is amplified by 1/alpha, so a tolerance of 1e-9 on isotropy is meaningless for alpha = 1e-3.
     if (alpha > 0.01) check_reciprocal_isotropic_and_not_negative(f);
   }
 }
@@ -51,7 +51,7 @@ TEST_CASE("GGX is the paper's formula") {
   CHECK(rc::check([] {
     const ggx f{.alpha = 0.02 + 0.98 * any_fraction(), .f0 = rgb::Constant(any_fraction())};
     const direction wi = any_direction(), wo = any_direction();
-    // Tangents overflow their digits near grazing; there the printed form is the inaccurate one.
+    // Tangents lose their digits near grazing; there the printed form is the less accurate one.
     RC_PRE(wi.z() > 1e-3 && wo.z() > 1e-3);
     RC_ASSERT(std::abs(f(wi, wo).x() - as_printed(f, wi, wo)) <= 1e-9 * as_printed(f, wi, wo));
   }));
@@ -86,7 +86,7 @@ TEST_CASE("GGX's distribution with the cosine integrates to 1") {
 }
 
 TEST_CASE("the microfacets that are visible cover the surface exactly: G1 is Smith's for this distribution") {
-  // Integral of G1(v) max(v.h, 0) D(h) = cos theta_v; it fixes Eq. 34 given Eq. 33.
+  // The integral of G1(v) max(v.h, 0) D(h) is cos theta_v. Given Eq. 33, this determines Eq. 34.
   for (const double alpha : {0.1, 0.4, 1.0})
     for (const double theta : {0.0, 0.5, 1.0, 1.4}) {
       CAPTURE(alpha);
@@ -106,8 +106,8 @@ TEST_CASE("GGX never reflects more than it receives, and nearly everything when 
       CAPTURE(alpha);
       CAPTURE(theta);
       const double reflected = albedo(ggx{.alpha = alpha, .f0 = rgb::Ones()}, theta).x();
-      CHECK(reflected <= 1.0 + 1e-3);  // the quadrature's own error
+      CHECK(reflected <= 1.0 + 1e-3);  // the error of the quadrature
       if (alpha == 0.05 && theta < 1.0) CHECK(reflected > 0.98);
-      if (alpha == 1.0) CHECK(reflected < 0.8);  // single scattering only
+      if (alpha == 1.0) CHECK(reflected < 0.8);  // the model has single scattering only
     }
 }

@@ -24,7 +24,7 @@ double projected_solid_angle(double centre, const model::field_angles& field) {
   return (std::sin(high) - std::sin(low)) * (half + 0.5 * std::sin(2.0 * half));
 }
 
-/// The same share by random directions of the source and of the receptor.
+/// The same fraction, by random directions of the source and the receptor.
 double share_by_chance(const model::ggx& f, const model::reflectometer& meter, int count) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> about_zero(-0.5, 0.5);
@@ -62,7 +62,7 @@ TEST_CASE("the gloss standard reflects by Fresnel's equations, and a mirror has 
   CHECK(model::gloss_standard_reflectance(radians(20.0)) == doctest::Approx(0.0490781).epsilon(1e-5));
   CHECK(model::gloss_standard_reflectance(radians(60.0)) == doctest::Approx(0.1000560).epsilon(1e-5));
   CHECK(model::gloss_standard_reflectance(radians(85.0)) == doctest::Approx(0.6191482).epsilon(1e-5));
-  // All of a narrow lobe is within the receptor.
+  // The receptor receives the whole of a narrow lobe.
   const model::ggx mirror{.alpha = 2e-4, .f0 = {1.0, 1.0, 1.0}};
   CHECK(model::specular_gloss(mirror, 20) == doctest::Approx(2037.6).epsilon(0.005));
   CHECK(model::specular_gloss(mirror, 60) == doctest::Approx(999.4).epsilon(0.005));
@@ -90,7 +90,7 @@ TEST_CASE("an integrating sphere's readings of a diffuser and of a mirror") {
   const model::instrument_readings diffuse = model::read_instruments(model::lambertian{.albedo = {0.2, 0.5, 0.9}});
   for (int channel = 0; channel < 3; ++channel)
     CHECK(diffuse.total[channel] == doctest::Approx(rgb(0.2, 0.5, 0.9)[channel]).epsilon(0.002));
-  // The cone's projected solid angle, pi sin^2 of its half angle times the cosine at its axis, is missing.
+  // The cone is excluded: its projected solid angle is pi sin^2 of the half angle times the cosine at its axis.
   const double cone = std::pow(std::sin(radians(4.0)), 2) * std::cos(radians(8.0));
   CHECK(diffuse.total.y() - diffuse.diffuse.y() == doctest::Approx(0.5 * cone).epsilon(0.02));
   CHECK(diffuse.scatter ==

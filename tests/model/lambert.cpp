@@ -14,7 +14,7 @@ TEST_CASE("a Lambertian surface reflects its albedo from every angle, as the sam
   const lambertian f{.albedo = {0.2, 0.5, 0.9}};
   for (const double theta : {0.0, 0.6, 1.2}) {
     CAPTURE(theta);
-    // The quadrature's cut at the horizon leaves about one bin in 400.
+    // The quadrature's cut at the horizon loses about one bin in 400.
     CHECK(((albedo(f, theta) - f.albedo).abs() < 2e-3).all());
   }
   CHECK(rc::check([&] {

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-/// The smallest lobe with a parameter: power times the cosines.
+/// The smallest lobe with a parameter: a power of the cosines.
 template <class Real>
 struct cosine_shape {
   static constexpr std::string_view name = "cosine";

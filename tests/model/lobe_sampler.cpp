@@ -36,7 +36,7 @@ using gonio::model::detail::ward_normalisation;
 template <ward_normalisation Normalisation>
 constexpr auto brushed_ward = brushed<gonio::model::detail::anisotropic_ward<Normalisation>::template shape>;
 
-/// Every kind, rough and sharp.
+/// Returns lobes of every kind, rough and sharp.
 const std::vector<analytic_lobe>& single_lobes() {
   static const std::vector<analytic_lobe> all{white("lambert", {}),
                                               white("phong", {0.5}),
@@ -62,11 +62,14 @@ const std::vector<analytic_lobe>& single_lobes() {
                                               white("torrance-sparrow", {0.5, 0.9}),
                                               white("ggx", {0.01, 0.1}),
                                               white("ggx", {0.2, 0.04}),
-                                              white("ggx", {1.0, 1.0})};
+                                              white("ggx", {1.0, 1.0}),
+                                              white("ward-anisotropic", {0.05, 0.4, 0.6}),
+                                              white("ggx-anisotropic", {0.05, 0.4, 0.04, -0.6}),
+                                              white("ggx-anisotropic", {0.6, 0.3, 0.9, 1.2})};
   return all;
 }
 
-/// The lobes one by one, a sum like one that a fit returns, and nothing at all.
+/// Returns the single lobes, a sum like those that fits return, and a BRDF without lobes.
 std::vector<analytic_brdf> models() {
   std::vector<analytic_brdf> all;
   for (const analytic_lobe& lobe : single_lobes()) all.push_back(analytic_brdf({lobe}));
@@ -90,7 +93,7 @@ std::string name_of(const analytic_brdf& f) {
 /// From 0 up to 1.
 double any_number() { return 0.999999 * any_fraction(); }
 
-/// The directions of one sampler with the densities of another.
+/// Draws the directions of one sampler and returns the densities of another.
 template <class Drawn, class Told>
 struct mismatched {
   Drawn drawn;
@@ -107,7 +110,7 @@ struct mismatched {
 
 namespace someone {
 
-/// A shape that is not of the library: as Phong's.
+/// A shape that the library does not have, similar to Phong's.
 template <class Real>
 struct narrow_shape {
   static constexpr std::string_view name = "narrow";
@@ -193,7 +196,7 @@ TEST_CASE("lobe sampler: weights are bounded as the form of the lobe has it") {
     CHECK(worst_weight(white("torrance-sparrow", {roughness, 1.0})) < 2.0 + 1e-6);
   }
   for (const double exponent : {1.0, 30.0, 10'000.0}) {
-    const double share = exponent / (exponent + 1.0);  // of directions that are not cosine-weighted
+    const double share = exponent / (exponent + 1.0);  // of the directions that are not cosine-weighted
     CAPTURE(exponent);
     CHECK(worst_weight(white("phong", {exponent})) < (exponent + 2.0) / (exponent + 1.0) / share);
     CHECK(worst_weight(white("blinn-phong", {exponent})) < (exponent + 8.0) / (exponent + 1.0) / share);
@@ -251,6 +254,8 @@ TEST_CASE("lobe sampler: a model of known type is drawn as the same chosen at ru
   check_same(gonio::model::anisotropic_ward(rgb::Ones(), {0.1, 0.4}),
              {brushed_ward<ward_normalisation::geometric_mean>(0.1, 0.4)});
   check_same(gonio::model::ggx_lobe(rgb::Ones(), {0.3, 0.2}), {white("ggx", {0.3, 0.2})});
+  check_same(gonio::model::anisotropic_ggx(rgb::Ones(), {0.1, 0.4, 0.2, 0.3}),
+             {white("ggx-anisotropic", {0.1, 0.4, 0.2, 0.3})});
   check_same(gonio::model::ggx{0.3, rgb::Constant(0.2)}, {white("ggx", {0.3, 0.2})});
   check_same(gonio::model::sum_of_lobes{gonio::model::sum_of_lobes{gonio::model::lambertian{}},
                                         gonio::model::ggx{0.3, rgb::Constant(0.2)}},
@@ -286,7 +291,7 @@ TEST_CASE("lobe sampler: below the horizon, and of what is no direction, nothing
       CHECK(drawn.pdf == 0.0);
       CHECK(sampler.pdf(direction::UnitZ(), wo) == 0.0);
     }
-    // At the horizon's edge, and with the extreme numbers.
+    // At the edge of the horizon, and with the smallest and largest random numbers.
     for (const direction& wo : {direction(1.0, 0.0, 1e-300), direction(1.0, 0.0, 1e-12), seen_from(0.0)})
       for (const double u1 : {0.0, 1.0 - 0x1p-53})
         for (const double u2 : {0.0, 1.0 - 0x1p-53}) {
@@ -313,9 +318,9 @@ TEST_CASE("sampler checks: p values of a correct sampler are uniform, and slight
       const double p = sampler_checks::chi_square_p_value(right, wo, shares, 20'000, seed);
       ++quarters[std::min<std::size_t>(3, static_cast<std::size_t>(4.0 * p))];
     }
-    // Of 40 about ten; outside of 2 to 20 with a probability of 0.002.
+    // About ten of 40; outside of 2 to 20 with a probability of 0.002.
     for (const int count : quarters) CHECK((count >= 2 && count <= 20));
-    // As if each were one of 150 tests.
+    // With the significance level of one of 150 tests.
     CHECK(sampler_checks::chi_square_p_value(rougher, wo, 100'000, 1) < sampler_checks::sidak(0.01, 150));
     CHECK(sampler_checks::chi_square_p_value(larger, wo, 100'000, 1) < 0.01);
     CHECK(sampler_checks::integral_of_pdf(larger, wo) == doctest::Approx(1.03).epsilon(0.001));

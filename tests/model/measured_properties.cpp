@@ -60,7 +60,7 @@ TEST_CASE("a lobe and a constant fall off; a second lobe is a rise, where it is"
   CHECK(largest_tail_rise(grey_table()).amount < 1e-6);
   const gonio::valid_cells cells(gonio::grid({45, 30, 36}));
   const auto lobe = gonio::tabulate(gonio::model::ward_duer(rgb::Ones(), {.roughness = 0.1}), cells);
-  // At a fixed theta_d the lobe's cosines rise a little.
+  // At a fixed theta_d, the lobe's cosines rise slightly.
   CHECK(largest_tail_rise(lobe).amount < 0.5);
 
   gonio::brdf_table ringed = grey_table();
@@ -69,7 +69,7 @@ TEST_CASE("a lobe and a constant fall off; a second lobe is a rise, where it is"
     const auto index = over.cell(ringed.cells().linear(cell));
     if (index.theta_h == 12 && index.theta_d == 3) ringed.set(cell, ringed.at(cell) * rgb(1.0, 1.5, 1.0));
     if (index.theta_h == 0) ringed.set(cell, ringed.at(cell) * 2.0);
-    // Beyond 70 degrees in all nothing counts.
+    // Cells with a sum of angles above 70 degrees do not count.
     if (index.theta_h == 18) ringed.set(cell, ringed.at(cell) * 9.0);
   }
   const auto rise = largest_tail_rise(ringed);
@@ -107,7 +107,7 @@ TEST_CASE("pairs that ought to be equal are found, and by how much they differ")
 }
 
 TEST_CASE("near the normal azimuths mean little; elsewhere they do") {
-  // The viewer at 1 radian is turned by 1 radian, the light by another azimuth.
+  // The viewer at 1 radian is rotated by 1 radian, the light by another azimuth.
   const auto turned_pairs = [](double theta, double off) {
     const sample_set samples{{pair_of(spherical_direction(theta, 0.0), spherical_direction(1.0, 0.0)), rgb::Ones()},
                              {pair_of(spherical_direction(theta, off), spherical_direction(1.0, 1.0)), rgb::Ones()}};
@@ -117,13 +117,13 @@ TEST_CASE("near the normal azimuths mean little; elsewhere they do") {
   CHECK(turned_pairs(0.005, 0.0) == 1);
   CHECK(turned_pairs(0.1, 0.0) == 0);
   CHECK(turned_pairs(0.1, 1.0) == 1);
-  // A lamp that stays where it is, and a viewer turned by three tolerances, are no evidence.
+  // A fixed lamp, and a viewer rotated by three tolerances, are no evidence.
   const double few = gonio::radians(1.5);
   const sample_set near{{pair_of(spherical_direction(0.2, 0.0), spherical_direction(1.0, 0.0)), rgb::Ones()},
                         {pair_of(spherical_direction(0.2, 0.0), spherical_direction(1.0, few)), rgb::Ones()}};
   CHECK(compare_equal_samples(near).turned.pairs == 0);
   CHECK(compare_equal_samples(near).repeated.pairs == 0);
-  // In the plane of incidence the azimuths are pi apart, on either side of where they wrap.
+  // In the plane of incidence the azimuths differ by pi, on both sides of the wrap.
   const sample_set in_plane{
       {pair_of(spherical_direction(0.5, 0.0), spherical_direction(1.0, std::numbers::pi)), rgb::Ones()},
       {pair_of(spherical_direction(1.0, 0.0), spherical_direction(0.5, std::numbers::pi)), rgb::Ones()}};
@@ -133,7 +133,7 @@ TEST_CASE("near the normal azimuths mean little; elsewhere they do") {
 TEST_CASE("half and difference angles have no azimuths: nothing is turned") {
   sample_set samples{{{0.001, 0.7, 0.3}, rgb::Ones()}, {{0.001, 0.7, 2.0}, rgb::Ones()}};
   CHECK(compare_equal_samples(samples).turned.pairs == 0);
-  // The same with azimuths: a sample elsewhere says that they are known.
+  // With azimuths: a sample elsewhere shows that they are known.
   samples.push_back({pair_of(spherical_direction(0.5, 1.0), spherical_direction(1.0, 1.0)), rgb::Ones()});
   CHECK(compare_equal_samples(samples).turned.pairs == 1);
 }

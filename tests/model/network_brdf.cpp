@@ -16,7 +16,7 @@ using gonio::model::network_brdf;
 
 namespace {
 
-/// Networks of no material, with values between 0 and a few sr^-1.
+/// Random networks with values between 0 and a few sr^-1.
 std::vector<network_brdf> random_networks(std::size_t count) {
   std::mt19937 random(7);
   std::normal_distribution<float> normal(0.0f, 0.3f);
@@ -34,12 +34,12 @@ direction random_direction(std::mt19937& random) {
   return gonio::spherical_direction(std::acos(1e-3 + 0.999 * uniform(random)), 6.28 * uniform(random));
 }
 
-/// Agreement to 1e-4; near zero, rounding of the exponent is left.
+/// Compares to 1e-4; near zero, to the rounding of the exponent.
 bool close(double value, double expected, double floor) {
   return std::abs(value - expected) <= std::max(1e-4 * expected, floor);
 }
 
-/// The network as its README says it, index by index.
+/// The network as its README defines it, index by index.
 rgb spelled_out(const network_brdf& network, const gonio::half_difference& at) {
   const auto p = network.parameters();
   const std::array<double, 6> x{std::sin(at.theta_h),
@@ -131,7 +131,7 @@ TEST_CASE("decoded materials have the reference's values") {
   const auto spots = golden_json("decode_spots.json");
   REQUIRE(spots.size() > 10);
   const gonio::valid_cells cells;
-  // The fast path, for a few of the materials.
+  // The vectorised evaluation, for a few of the materials.
   gonio::model::named_networks few;
   for (std::size_t spot = 0; spot < 3; ++spot) {
     const std::string name = spots[spot]["material"];

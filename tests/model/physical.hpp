@@ -1,5 +1,5 @@
 #pragma once
-/// What every analytic BRDF must keep, as checks that any model can be handed to.
+/// Checks of the physical properties of any analytic BRDF.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/model/physical_properties.hpp>
@@ -11,10 +11,10 @@
 
 inline constexpr double pi = std::numbers::pi;
 
-/// An integer of [0, 10^6], all equally likely from the first example on, as a fraction.
+/// Returns an integer of [0, 10^6] as a fraction. All are equally likely from the first example on.
 inline double any_fraction() { return 1e-6 * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1'000'001)); }
 
-/// Above the horizon, up to grazing and including it.
+/// Returns a direction above the horizon, including grazing ones.
 inline gonio::direction any_direction() {
   const double theta = any_fraction() * pi / 2.0;
   return gonio::spherical_direction(theta, any_fraction() * 2.0 * pi);
@@ -27,11 +27,11 @@ void check_reciprocal_isotropic_and_not_negative(const Brdf& f) {
     const gonio::rgb value = f(wi, wo);
     RC_ASSERT((value >= 0.0).all());
     RC_ASSERT(value.isFinite().all());
-    // The sum wi + wo and products of two factors do not depend on their order: exact equality.
+    // wi + wo and products of two factors do not depend on their order: equality is exact.
     RC_ASSERT((f(wo, wi) == value).all());
     const double turn = any_fraction() * 2.0 * pi;
     const auto turned = [turn](const gonio::direction& w) { return gonio::turned_about_normal(w, turn); };
-    // A rotation rounds by 1e-16, which a highlight of width alpha amplifies by about 1/alpha.
+    // A rotation has a rounding error of 1e-16, which a highlight of width alpha amplifies by about 1/alpha.
     RC_ASSERT(((f(turned(wi), turned(wo)) - value).abs() <= 1e-9 * value.maxCoeff() + 1e-12).all());
   }));
 }
@@ -66,7 +66,7 @@ void check_finite_at_special_pairs_and_zero_below_the_horizon(const Brdf& f) {
   }
 }
 
-/// The fraction of light from angle theta that is reflected.
+/// Returns the fraction of light from angle theta that is reflected.
 template <gonio::brdf Brdf>
 gonio::rgb albedo(const Brdf& f, double theta, int bins = 400) {
   return gonio::model::directional_albedo(f, theta, bins);

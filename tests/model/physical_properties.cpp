@@ -9,7 +9,7 @@ using gonio::rgb;
 
 namespace {
 
-/// Wrong on purpose: brighter where the light is low, darker than black where it is high, and striped.
+/// Deliberately wrong: brighter where the light is low, negative where it is high, and striped.
 struct unphysical {
   rgb operator()(const direction& wi, const direction& /*wo*/) const noexcept {
     return {1.0 / wi.z(), 0.5 - wi.z(), 1.0 + 0.5 * wi.x()};

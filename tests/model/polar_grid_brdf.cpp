@@ -51,7 +51,7 @@ TEST_CASE("polar grid: values stand at the centres, theta_i slowest and the azim
   CHECK(value(f, 67.5, 22.5, 45.0) == doctest::Approx(4.0));
   CHECK(value(f, 67.5, 67.5, -135.0) == doctest::Approx(7.0));
   CHECK(value(f, 67.5, 67.5, 225.0) == doctest::Approx(7.0));
-  // Between the centres linear, beyond them constant.
+  // Linear between the centres, constant outside them.
   CHECK(value(f, 45.0, 45.0, 90.0) == doctest::Approx(3.5));
   CHECK(value(f, 22.5, 30.0, 45.0) == doctest::Approx(2.0 / 6.0));
   CHECK(value(f, 1.0, 1.0, 0.0) == doctest::Approx(0.0));

@@ -15,7 +15,7 @@ TEST_CASE("a smooth spectrum has the colour that it is for, and is not negative"
   const smooth_spectra spectra;
   CHECK(spectra.wavelengths().size() == 20);
   const Eigen::MatrixXd weights = gonio::interpolated_colour(spectra.wavelengths());
-  // To the seven digits that the matrices of core/rgb.hpp have.
+  // To the seven digits of the matrices in core/rgb.hpp.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(0.0, 2.0);
   for (int i = 0; i < 200; ++i) {
@@ -25,7 +25,7 @@ TEST_CASE("a smooth spectrum has the colour that it is for, and is not negative"
     CHECK((weights * spectrum.matrix() - colour.matrix()).cwiseAbs().maxCoeff() < 1e-6);
     CHECK(spectrum.minCoeff() > -1e-9);
   }
-  // Out-of-gamut colours have theirs, too, and grey is the same at all wavelengths.
+  // Colours outside the gamut have spectra as well. Grey is the same at all wavelengths.
   const rgb negative(-0.1, 0.2, 0.3);
   CHECK((weights * spectra(negative).matrix() - negative.matrix()).cwiseAbs().maxCoeff() < 1e-6);
   CHECK((spectra(rgb::Constant(0.3)) == 0.3).all());

@@ -28,7 +28,7 @@ std::vector<double> wavelengths(double first, double step, Index count) {
   return all;
 }
 
-/// Spectra over cells, by `value(cell, nanometres)`.
+/// Returns a table of spectra from `value(cell, nanometres)`.
 gonio::spectral_table table_of(const std::vector<double>& at, const std::function<double(Index, double)>& value) {
   gonio::spectral_table table(cells(), at);
   for (Index cell = 0; cell < cells().size(); ++cell)
@@ -53,7 +53,7 @@ gonio::spectral_table smooth_paint() {
   });
 }
 
-/// A table as those see it who read some of its wavelengths.
+/// Returns the table with the values between the chosen wavelengths interpolated linearly.
 gonio::spectral_table linear_between(const gonio::spectral_table& table, const positions& chosen) {
   gonio::spectral_table read = table;
   const std::vector<double>& at = table.wavelengths();
@@ -99,7 +99,7 @@ TEST_CASE("a few wavelengths of smooth spectra suffice, and what is linear betwe
       }
     }
     CHECK(worst < 1.001 * tolerance);
-    CHECK(worst > 0.8 * tolerance);  // as few as that
+    CHECK(worst > 0.8 * tolerance);  // no more wavelengths than needed
     for (Index band = 0; band < table.bands(); band += 10)
       for (const double degrees : {0.0, 30.0, 80.0})
         CHECK(albedo(read, band, degrees) == doctest::Approx(albedo(table, band, degrees)).epsilon(1.001 * tolerance));
@@ -121,7 +121,7 @@ TEST_CASE("a narrow line keeps its neighbours, be it in one cell alone") {
 }
 
 TEST_CASE("the farthest wavelength is found behind one that is too far") {
-  // The line to the third is too steep for the second; that to the fourth is near both.
+  // The line to the third point is too steep for the second; the line to the fourth is close to both.
   const gonio::spectral_table table = table_of({400.0, 410.0, 420.0, 430.0}, [](Index, double nanometres) {
     return nanometres < 420.0 ? 0.2 : nanometres == 420.0 ? 0.205 : 0.20525;
   });
@@ -140,7 +140,7 @@ TEST_CASE("what reflects next to nothing and what grazes counts by the albedo al
   CHECK(sufficient_wavelengths(with_line([&](Index cell) { return cell == one; }, 0.2)) == positions{0, 1, 2});
   CHECK(sufficient_wavelengths(with_line([](Index cell) { return both_cosines(cell) < 0.01; }, 0.01)) ==
         positions{0, 2});
-  // So dark towards grazing angles that no cell counts, but the albedo of light from 80 degrees has the line.
+  // So dark towards grazing angles that no cell counts, but the albedo for light at 80 degrees shows the line.
   const gonio::spectral_table falling = table_of({500.0, 550.0, 600.0}, [](Index cell, double nanometres) {
     const gonio::cosine_pair cosine = gonio::cosines(cells().angles(cell));
     const bool grazes = std::min(cosine.i, cosine.o) < 0.25;

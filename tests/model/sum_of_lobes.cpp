@@ -11,7 +11,7 @@ using gonio::model::sum_of_lobes;
 
 namespace {
 
-/// The smallest brdf: not default constructible, and its value only converts to rgb.
+/// The smallest BRDF: not default constructible, and its value is only convertible to rgb.
 struct archetype {
   struct value {
     operator rgb() const noexcept { return {1.0, 2.0, 3.0}; }

@@ -21,10 +21,10 @@ using gonio::model::tabulate_adaptively;
 
 namespace {
 
-/// What a table is off, as shares of the largest value for light from the same angle.
+/// Errors of a table, relative to the largest value for light from the same angle.
 struct table_error {
   double mean = 0.0;
-  double high = 0.0;  ///< of all but 1 % of the directions
+  double high = 0.0;  ///< exceeded by 1 % of the directions
 };
 
 /// Viewers are uniform over the hemisphere, up to 84 degrees.
@@ -80,7 +80,7 @@ TEST_CASE("adaptive tables are exact where they asked for values") {
   CHECK(table.parts().theta_i.back() == doctest::Approx(std::numbers::pi / 2.0));
   int compared = 0;
   for (const auto& [wi, wo] : asked) {
-    // But for what the normals are made of, and for what stands for the horizon.
+    // Except retroreflection, which determines the normals, and directions that stand for the horizon.
     if (wi == wo || wi.z() < 0.05 || wo.z() < 0.05) continue;
     CHECK(((table.as_measured(wi, wo) - f(wi, wo)).abs() < 1e-4 * f(wi, wo)).all());
     ++compared;
@@ -101,7 +101,7 @@ TEST_CASE("the normals of adaptive tables are normalised, and positive") {
   }
   CHECK(area == doctest::Approx(1.0).epsilon(1e-3));
   CHECK(table.parts().projected_area.values.front() == doctest::Approx(1.0).epsilon(1e-3));
-  // A rough conductor's highlight is as wide as its normals': half of the peak at half of the peak's distance.
+  // A rough conductor's highlight is as wide as its distribution of normals: half the peak value at half the distance.
   const gonio::model::ggx truth{.alpha = 0.2};
   const double known =
       truth.distribution(gonio::spherical_direction(gonio::radians(6.0), 0.0)) / truth.distribution(direction(0, 0, 1));

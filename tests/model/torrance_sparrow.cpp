@@ -6,7 +6,7 @@ using gonio::rgb;
 
 namespace {
 
-/// Thesis, Eq. 2.19 to 2.22, by angles; the Fresnel factor with theta_d.
+/// Thesis, Eq. 2.19 to 2.22, in angles; the Fresnel factor uses theta_d.
 double as_printed(double m, double f0, const direction& wi, const direction& wo) {
   const direction h = (wi + wo).normalized();
   const double theta_h = std::acos(std::min(h.z(), 1.0)), cosine_d = wi.dot(h);

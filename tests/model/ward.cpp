@@ -8,7 +8,7 @@ namespace {
 
 const direction normal(0.0, 0.0, 1.0);
 
-/// exp(-tan^2 theta_h (cos^2 phi / ax^2 + sin^2 phi / ay^2)) / (4 pi ax ay), by angles.
+/// exp(-tan^2 theta_h (cos^2 phi / ax^2 + sin^2 phi / ay^2)) / (4 pi ax ay), computed from angles.
 double printed_gaussian(const direction& wi, const direction& wo, double ax, double ay) {
   const direction h = (wi + wo).normalized();
   const double theta = std::acos(std::min(h.z(), 1.0)), phi = std::atan2(h.y(), h.x());

@@ -32,7 +32,7 @@ TEST_CASE("deviations are those of a combination computed cell by cell") {
   CHECK(found[2] == doctest::Approx(sum / (3.0 * static_cast<double>(small_cells().size()))).epsilon(1e-4));
 }
 
-TEST_CASE("non-negative combinations deviate at least as much in the square, and here in the mean") {
+TEST_CASE("non-negative combinations deviate at least as much in the square, and here on average") {
   const auto functions = corrections_of(synthetic_materials(small_cells(), 12));
   const auto free = deviations_from_others(functions, gonio::least_squares{});
   const auto bounded = deviations_from_others(functions, gonio::nnls{});

@@ -79,9 +79,9 @@ TEST_CASE("directions-measured: nothing to reconstruct, and nothing left to judg
   CHECK(nothing.output.find("give --tables or --samples") != std::string::npos);
   const auto unknown = synthetic.evaluate("--sets beauty -n 5 --samples " + synthetic.at("paint.brdf"));
   CHECK(unknown.exit_code == 2);
-  CHECK(unknown.output.find("no set by beauty") != std::string::npos);
+  CHECK(unknown.output.find("there is no set 'beauty'") != std::string::npos);
   CHECK(synthetic.evaluate("--eta -1 -n 5 --samples " + synthetic.at("paint.brdf")).exit_code == 2);
   const auto all = synthetic.evaluate("-n 60 --sets random --samples " + synthetic.at("paint.brdf"));
   CHECK(all.exit_code == 2);
-  CHECK(all.output.find("no sample is left to judge by") != std::string::npos);
+  CHECK(all.output.find("no sample is left for the comparison") != std::string::npos);
 }

@@ -167,6 +167,10 @@ TEST_CASE("figures: with either cosine weight, and with both side by side") {
     CHECK(both[0]["rows"][m]["E_deviation, product"] == product[0]["rows"][m]["E_deviation"]);
     CHECK(both[0]["rows"][m]["E_deviation, larger"] == larger[0]["rows"][m]["E_deviation"]);
   }
+  // Figures that reconstruct each material learn with the weight, too.
+  const json one_by_one = database.draw("2016-15 --cosine-weight product larger", "9 15");
+  CHECK(one_by_one[0]["rows"][0].contains("one image, product"));
+  CHECK(one_by_one[0]["rows"][0]["one image, product"] != one_by_one[0]["rows"][0]["one image, larger"]);
   const auto refused = database.evaluate("figures --figure 2016-3 --cosine-weight larger larger");
   CHECK(refused.exit_code == 2);
 }

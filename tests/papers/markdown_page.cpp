@@ -133,3 +133,23 @@ TEST_CASE("the table of another program") {
   CHECK(gonio_papers("run --markdown " + (folder / "false.md").string() + " -- false").exit_code == 2);
   CHECK(scratch::get(folder / "false.md") == "<!-- false -->\n<!-- end of false -->\n");
 }
+
+TEST_CASE("long tables are folded, short ones are not") {
+  const scratch::folder folder;
+  const std::string page = (folder / "page.md").string();
+  const auto printed_rows = [&](int rows) {
+    std::string text = "Before.\n\n| a | b | c | d |\n|---|---|---|---|\n";
+    for (int i = 0; i < rows; ++i) text += "| 1 | 2 | 3 | 4 |\n";
+    scratch::put(folder / "text", text + "\nAfter.\n");
+    scratch::put(page, "<!-- cat text -->\n<!-- end of cat -->\n");
+    const auto printed = gonio_papers("run --markdown " + page + " -- cat " + (folder / "text").string());
+    REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
+    CHECK_FALSE(has(printed.output, "details"));
+    return scratch::get(page);
+  };
+  CHECK_FALSE(has(printed_rows(25), "details"));
+  const std::string long_page = printed_rows(26);
+  CHECK(has(long_page,
+            "Before.\n\n<details markdown=\"1\">\n<summary>26 rows: a, b, c, ...</summary>\n\n| a | b | c | d |\n"));
+  CHECK(has(long_page, "| 1 | 2 | 3 | 4 |\n\n</details>\n\nAfter.\n\nPrinted on 20"));
+}

@@ -51,3 +51,19 @@ TEST_CASE("shape-poses: a pose that is held costs what it is off, one that is fi
   CHECK(far_off[0].find("1 refused") != std::string::npos);
   CHECK(std::stod(far_off[1]) == doctest::Approx(std::stod(right[1])).epsilon(0.02));
 }
+
+TEST_CASE("shape-causes: ten rounds of Algorithm 1 end before they converge") {
+  const auto result = gonio_papers(
+      "shape-causes --shapes 60 --ears 2 --rows 'ten rounds' 'until convergence' 'true positions of the "
+      "seen vertices' gonio");
+  REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+  CHECK(result.output.find("smoothed") == std::string::npos);
+  // Signed and absolute in the hole, then of all vertices.
+  const auto ten = row_of(result.output, "ten rounds"), converged = row_of(result.output, "until convergence"),
+             known = row_of(result.output, "true positions of the seen vertices"),
+             ours = row_of(result.output, "gonio");
+  REQUIRE(ten.size() == 4);
+  CHECK(std::stod(converged[3]) < 0.5 * std::stod(ten[3]));
+  CHECK(std::stod(known[0]) < 0.5 * std::stod(ten[0]));
+  CHECK(std::stod(ours[1]) < std::stod(converged[1]));
+}

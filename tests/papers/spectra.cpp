@@ -27,7 +27,7 @@ TEST_CASE("spectra are fitted by wavelengths and by colours, and judged by what 
   CHECK(result.output == gonio_papers("spectra --samples " + file.string() + " --counts 20 --repetitions 2").output);
 
   check_refusal(gonio_papers("spectra --samples " + file.string() + " --counts 30"),
-                {"paint.csv", "no sample is left to judge by", "30"});
+                {"paint.csv", "no sample is left for the comparison", "30"});
   scratch::put(here / "grey.csv", std::string("theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n"));
   check_refusal(gonio_papers("spectra --samples " + (here / "grey.csv").string()),
                 {"grey.csv", "names no wavelengths"});

@@ -181,6 +181,8 @@ class ReconstructedBrdfTest(unittest.TestCase):
             self.paint.known_to([0, 0, -1], [0, 0, 1])
         with self.assertRaisesRegex(gonio.Error, "variance is"):
             gonio.Estimator(gonio.read_prior(PRIOR), variance=-1)
+        with self.assertWarnsRegex(UserWarning, "noise of 200 % is very large"):
+            gonio.Estimator(gonio.read_prior(PRIOR), noise=2)
         with self.assertRaisesRegex(gonio.Error, "noise is"):
             gonio.Estimator(gonio.read_prior(PRIOR), noise=float("nan"))
 
@@ -262,7 +264,7 @@ class ReconstructTest(unittest.TestCase):
             found = gonio.reconstruct(samples)
         self.assertEqual([str(each.message) for each in heard], found.warnings)
         self.assertIs(heard[0].category, UserWarning)
-        self.assertTrue(found.warnings[0].startswith("sample 6 disagrees, left out"))
+        self.assertTrue(found.warnings[0].startswith("sample 6 disagrees and is left out"))
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             with self.assertRaises(UserWarning):

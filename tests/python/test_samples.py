@@ -156,6 +156,9 @@ class SamplesTest(unittest.TestCase):
             (long, values, None, "directions[1]: wi has length 2.0, expected 1"),
             ([[12.5, 20, 0]], [1], None,
              "directions[0] has theta_h 12.5: expected radians of at least 0 and less than pi/2"),
+            (np.repeat(DIRECTIONS[:, :3], 2, axis=0), [1] * 4, None,
+             "directions looks like unit vectors: expected light and viewer side by side, np.hstack([wi, wo]), or "
+             "theta_h, theta_d and phi_d in radians"),
             ([[0.1, 0.2, 90]], [1], None, "directions[0] has phi_d 90.0: expected radians from -2 pi to 2 pi"),
         ]:
             with self.subTest(sentence=sentence), self.assertRaises(gonio.Error) as raised:

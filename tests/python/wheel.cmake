@@ -1,7 +1,7 @@
 # cmake -D PYTHON=/usr/bin/python3 -D SOURCE=. -D SCRATCH=build/wheel -P tests/python/wheel.cmake: makes the source
-# distribution, of it the wheel, puts the libraries that the wheel needs inside (auditwheel), installs it in a bare virtual
-# environment, and passes the module's tests there, beside the tool that the wheel brings. Build tools, numpy, mypy and
-# Mitsuba come from PyPI; where that cannot be reached, it says so and nothing is tested.
+# distribution and from it the wheel, and puts the needed libraries into the wheel (auditwheel). Installs it in an empty
+# virtual environment, and runs the module's tests there with the wheel's tool. Build tools, numpy, mypy and Mitsuba
+# come from PyPI; if PyPI cannot be reached, prints a message and tests nothing.
 cmake_minimum_required(VERSION 3.25)
 
 function(run what)
@@ -11,7 +11,7 @@ function(run what)
   endif()
 endfunction()
 
-# only(RESULT PATTERN): the one file that a pattern finds.
+# only(RESULT PATTERN): returns the only file that matches a pattern.
 function(only result pattern)
   file(GLOB found "${pattern}")
   list(LENGTH found count)
@@ -33,7 +33,7 @@ if(unreachable)
 endif()
 run("the source distribution" "${tools}" -m build --sdist --outdir "${SCRATCH}/source" "${SOURCE}")
 only(archive "${SCRATCH}/source/gonio-*.tar.gz")
-# The folder of the build stays, so that a second wheel compiles what has changed.
+# Keep the build folder: a second wheel then compiles only changed files.
 run("the wheel" "${tools}" -m pip wheel --no-deps --wheel-dir "${SCRATCH}/wheel"
   --config-settings=build-dir=${SCRATCH}/build "${archive}")
 only(wheel "${SCRATCH}/wheel/gonio-*.whl")

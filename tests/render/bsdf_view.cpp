@@ -13,7 +13,7 @@ namespace {
 
 using gold_sampler = gonio::model::lobe_sampler<gonio::model::formula_brdf>;
 static_assert(std::is_constructible_v<bsdf_view, const gold_sampler&>);
-static_assert(!std::is_constructible_v<bsdf_view, gold_sampler>);  // a view of what is gone
+static_assert(!std::is_constructible_v<bsdf_view, gold_sampler>);  // it would view a destroyed temporary
 
 template <class Real>
 struct gold_in {

@@ -15,7 +15,7 @@ using scattered::scattered_pair;
 
 namespace {
 
-/// The distance from the cell that was found, in cells along each axis, of the exact place.
+/// Checks the distance, in cells along each axis, between the exact location and the cell found.
 template <class Real>
 void check_found(int pairs, double tolerance, const gonio::grid& cells) {
   const cell_finder<Real> find(cells);
@@ -24,7 +24,7 @@ void check_found(int pairs, double tolerance, const gonio::grid& cells) {
   int neighbours = 0, missing = 0;
   for (int i = 0; i < pairs; ++i) {
     const auto exact = scattered_pair(generator, i % 4);
-    // What the finder is given is what is exact.
+    // The directions as rounded to Real are exact for the finder.
     const direction wi = exact.wi.cast<Real>().template cast<double>(),
                     wo = exact.wo.cast<Real>().template cast<double>();
     const Eigen::Index found = find.at(static_cast<Real>(wi.x()), static_cast<Real>(wi.y()), static_cast<Real>(wi.z()),
@@ -76,7 +76,7 @@ TEST_CASE("cell finder: at the ends of the angles it is where the grid is") {
   CHECK(find(side, side) == expected(side, side));
   CHECK(find(side, mirrored) == expected(side, mirrored));
   CHECK(find(mirrored, side) == expected(mirrored, side));
-  // An azimuth of half a turn is one of none.
+  // Azimuths half a turn apart are equivalent.
   CHECK(find(up, side) % 180 == expected(up, side) % 180);
   const direction low = gonio::spherical_direction(1.5707, 0.3), lower = gonio::spherical_direction(1.5707, 0.31);
   CHECK(find(low, lower) == expected(low, lower));

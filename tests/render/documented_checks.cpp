@@ -1,4 +1,4 @@
-// The block of docs/learn/renderer.md that says how to check a sampler.
+// The code block of docs/learn/renderer.md that shows how to check a sampler.
 
 #include "../sampler_checks.hpp"
 #include <gonio/model/formula_materials.hpp>

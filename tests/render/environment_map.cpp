@@ -24,7 +24,7 @@ struct white_everywhere {
   rgb operator()(const direction&) const noexcept { return rgb::Ones(); }
 };
 
-/// Smooth in every direction: its integrals are known. Over the sphere of (2 + y, 3 + x, 4 - z): (8, 12, 16) pi.
+/// Smooth in every direction, with known integrals: over the sphere, those of (2 + y, 3 + x, 4 - z) are (8, 12, 16) pi.
 struct affine_radiance {
   rgb operator()(const direction& d) const noexcept { return {2.0 + d.y(), 3.0 + d.x(), 4.0 - d.z()}; }
 };
@@ -35,7 +35,7 @@ rgb sum_of_irradiance(const directional_lighting& lighting) {
   return sum;
 }
 
-/// Irradiance of a surface with this normal.
+/// Returns the irradiance of a surface with this normal.
 rgb irradiance(const directional_lighting& lighting, const direction& normal) {
   rgb sum = rgb::Zero();
   for (const directional_light& light : lighting.lights())
@@ -45,13 +45,13 @@ rgb irradiance(const directional_lighting& lighting, const direction& normal) {
 
 image black(std::size_t rows) { return gonio::uniform_image(rows, 2 * rows); }
 
-/// The closed-form environment, small.
+/// A small version of the closed-form environment.
 const environment_map& windows() {
   static const environment_map map = environment_map::of(gonio::render::formula_environment{}, 64);
   return map;
 }
 
-/// A glossy sphere under lights. Images are normalised; this one is in proportion to the light.
+/// Returns a glossy sphere under lights. Images are normalised; these values are proportional to the light.
 std::vector<rgb> glossy_sphere(const directional_lighting& lighting) {
   const gonio::model::ggx gloss{.alpha = 0.3, .f0 = {1.0, 0.77, 0.34}};
   std::vector<rgb> colours;
@@ -65,7 +65,7 @@ std::vector<rgb> glossy_sphere(const directional_lighting& lighting) {
   return colours;
 }
 
-/// Root mean square difference of spheres, relative to the root mean square of the second.
+/// Returns the RMS difference of two spheres, relative to the RMS of the second.
 double relative_difference(const std::vector<rgb>& a, const std::vector<rgb>& b) {
   double squares = 0.0, scale = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -105,7 +105,7 @@ TEST_CASE("the radiance from a pixel's direction is the pixel's") {
       CHECK(map.towards(row, column).norm() == doctest::Approx(1.0).epsilon(1e-15));
       CHECK((map(3.0 * map.towards(row, column)) == gonio::pixel(picture, row, column)).all());
     }
-  // Directions on the image's edges.
+  // Directions at the borders of the image.
   CHECK(map({0.0, 1.0, 0.0}).x() == 1.0);
   CHECK(map({0.0, -1.0, 0.0}).x() == 9.0);
   CHECK(map({0.0, 0.0, 1.0}).y() == 17.0);
@@ -122,7 +122,7 @@ TEST_CASE("a spot in the image's upper right shines from behind the camera, abov
   const auto points = gonio::render::sphere_points(size);
   const auto brightest =
       std::ranges::max_element(points, {}, [&](const auto& p) { return gonio::pixel(sphere, p.row, p.column).y(); });
-  // The highlight is where the normal halves the angle between light and camera.
+  // The highlight is at the normal halfway between light and camera.
   const direction half = (direction(1.0, 1.0, 1.0).normalized() + direction::UnitZ()).normalized();
   CHECK((brightest->normal - half).norm() < 0.08);
 }
@@ -147,7 +147,7 @@ TEST_CASE("all lights together are the integral of the radiance") {
   CHECK(sum.x() == doctest::Approx(8.0 * pi).epsilon(1e-6));
   CHECK(sum.y() == doctest::Approx(12.0 * pi).epsilon(1e-6));
   CHECK(sum.z() == doctest::Approx(16.0 * pi).epsilon(1e-6));
-  // Irradiance by a + b.d is pi a + (2/3) pi b.n; radiance is constant within pixels of 2.8 degrees.
+  // The irradiance of a + b.d is pi a + (2/3) pi b.n. Radiance is constant within pixels of 2.8 degrees.
   const direction normal = direction(0.3, 0.5, 0.8).normalized();
   const rgb expected = pi * rgb(2.0, 3.0, 4.0) + 2.0 / 3.0 * pi * rgb(normal.y(), normal.x(), -normal.z());
   CHECK((irradiance(lights, normal) / expected - 1.0).abs().maxCoeff() < 1e-3);
@@ -237,7 +237,7 @@ TEST_CASE("important lights are unbiased") {
     squares += error * error / seeds;
     for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += one[i] / seeds;
   }
-  // The mean of 400 has a twentieth of the deviation of one.
+  // The mean of 400 has a twentieth of the standard deviation of one.
   CHECK(std::sqrt(squares) > 0.05);
   CHECK(relative_difference(mean, truth) < 1.5 * std::sqrt(squares / seeds));
 }
@@ -264,7 +264,7 @@ TEST_CASE("a map is an environment for the half-vector quadrature as well") {
     squares += std::pow(a.data()[i] - b.data()[i], 2.0);
     scale += std::pow(b.data()[i], 2.0);
   }
-  // Windows of 4 to 8 degrees in pixels of 0.7.
+  // Windows of 4 to 8 degrees in an image with pixels of 0.7 degrees.
   CHECK(std::sqrt(squares / scale) < 0.03);
   CHECK(squares > 0.0);
 }
@@ -273,7 +273,7 @@ TEST_CASE("what is no environment is refused") {
   const auto refused = [](image picture, const char* words) {
     CHECK_THROWS_WITH_AS((void)environment_map(std::move(picture)), doctest::Contains(words), gonio::error);
   };
-  refused(gonio::uniform_image(8, 8, rgb::Ones()), "(8, 8, 3)");  // an angular map, say
+  refused(gonio::uniform_image(8, 8, rgb::Ones()), "(8, 8, 3)");  // for example an angular map
   refused(gonio::uniform_image(0, 0), "(0, 0, 3)");
   refused(xt::ones<float>({4, 8, 1}), "(4, 8, 1)");
   refused(black(4), "black");

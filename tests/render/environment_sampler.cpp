@@ -51,7 +51,7 @@ TEST_CASE("environment sampler: its density integrates to 1, and draws fall wher
     within_pixels += d - map.towards(std::min<std::size_t>(row, 31), std::min<std::size_t>(column, 63));
   }
   CHECK(sampler_checks::chi_square_p_value(expected, found) > 0.01);
-  // Within a pixel of 0.1 radians any place is as likely: the mean is its centre's, up to 0.03 / sqrt(draws).
+  // Within a pixel of 0.1 radians all locations are equally likely. Their mean is the centre, up to 0.03 / sqrt(draws).
   CHECK((within_pixels / static_cast<double>(draws)).norm() < 5e-4);
 }
 

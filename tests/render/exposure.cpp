@@ -10,7 +10,7 @@ using gonio::rgb;
 
 namespace {
 
-/// An image whose sphere has a share of bright pixels, in surroundings that are brighter than both.
+/// An image whose sphere has a fraction of bright pixels. Its surroundings are brighter than both.
 image sphere_with(double share, const rgb& bright, const rgb& dark, int size = 100) {
   const std::size_t side = size;
   image picture = gonio::uniform_image(side, side, rgb::Constant(1000.0));
@@ -48,6 +48,6 @@ TEST_CASE("an image is white at the 99th percentile of what is not black") {
   for (std::size_t row = 0; row < 10; ++row)
     for (std::size_t column = 0; column < 20; ++column) gonio::set_pixel(picture, row, column, rgb(0.5, 4.0, 1.0));
   CHECK(gonio::render::exposure_of(picture) == doctest::Approx(0.25));
-  gonio::set_pixel(picture, 3, 3, rgb(100.0, 0.0, 0.0));  // half a percent
+  gonio::set_pixel(picture, 3, 3, rgb(100.0, 0.0, 0.0));  // half a percent of the pixels
   CHECK(gonio::render::exposure_of(picture) == doctest::Approx(0.25));
 }

@@ -8,35 +8,12 @@
 using gonio::rgb;
 using gonio::render::category_colour;
 using gonio::render::diverging_colour;
-using gonio::render::false_colour;
 
 namespace {
 
 bool is(const rgb& colour, double r, double g, double b) { return (colour - rgb(r, g, b)).abs().maxCoeff() < 1e-15; }
 
 }  // namespace
-
-TEST_CASE("the paper's colours: 0 is blue, 10 green, 20 and more red") {
-  CHECK(is(false_colour(0.0), 0.0, 0.0, 1.0));
-  CHECK(is(false_colour(5.0), 0.0, 0.5, 0.5));
-  CHECK(is(false_colour(10.0), 0.0, 1.0, 0.0));
-  CHECK(is(false_colour(15.0), 0.5, 0.5, 0.0));
-  CHECK(is(false_colour(20.0), 1.0, 0.0, 0.0));
-  CHECK(is(false_colour(400.0), 1.0, 0.0, 0.0));
-  CHECK(is(false_colour(-1.0), 0.0, 0.0, 1.0));
-  CHECK(is(false_colour(std::numeric_limits<double>::infinity()), 1.0, 0.0, 0.0));
-}
-
-TEST_CASE("a colour gives its value back, on any range") {
-  constexpr gonio::render::false_colour_range range{-2.0, 3.0};
-  for (int i = 0; i <= 50; ++i) {
-    const double value = -2.0 + 0.1 * i;
-    CAPTURE(value);
-    const rgb colour = false_colour(value, range);
-    CHECK(colour.sum() == doctest::Approx(1.0).epsilon(1e-14));
-    CHECK(-2.0 + 5.0 * (1.0 + colour.x() - colour.z()) / 2.0 == doctest::Approx(value).epsilon(1e-13).scale(1));
-  }
-}
 
 TEST_CASE("a value with a sign: blue below zero, white at it, red above, and it gives its value back") {
   CHECK(is(diverging_colour(0.0, 2.0), 1.0, 1.0, 1.0));
@@ -56,7 +33,7 @@ TEST_CASE("a value with a sign: blue below zero, white at it, red above, and it 
 
 namespace {
 
-/// As who lacks the cones of green sees a linear colour: Vienot, Brettel and Mollon 1999.
+/// A linear colour as seen without green cones: Vienot, Brettel and Mollon 1999.
 rgb without_green_cones(const rgb& colour) {
   const double yellow = 0.29275 * colour.x() + 0.70725 * colour.y();
   return {yellow, yellow, 0.02234 * (colour.y() - colour.x()) + colour.z()};
@@ -84,6 +61,15 @@ TEST_CASE("from light to dark: lightness tells the order, with and without cones
   const rgb middle = gonio::render::uncertainty_colour(std::sqrt(0.02));
   CHECK((middle - gonio::render::sequential_colour(0.5)).abs().maxCoeff() < 1e-12);
   CHECK((gonio::render::uncertainty_colour(3.0) == gonio::render::sequential_colour(1.0)).all());
+}
+
+TEST_CASE("a difference of colours is light where there is none, and dark from the paper's 20 on") {
+  using gonio::render::difference_colour, gonio::render::sequential_colour;
+  CHECK((difference_colour(0.0) == sequential_colour(0.0)).all());
+  CHECK((difference_colour(10.0) == sequential_colour(0.5)).all());
+  CHECK((difference_colour(20.0) == sequential_colour(1.0)).all());
+  CHECK((difference_colour(std::numeric_limits<double>::infinity()) == sequential_colour(1.0)).all());
+  CHECK((difference_colour(10.0, 40.0) == sequential_colour(0.25)).all());
 }
 
 TEST_CASE("categories: each two are told apart, and from black, with and without cones of green") {

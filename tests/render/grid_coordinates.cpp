@@ -21,7 +21,7 @@ gonio::render::grid_coordinates<Real> coordinates_of(const direction& wi, const 
                                             number(wo.y()), number(wo.z()));
 }
 
-/// The cell that coordinates are in.
+/// Returns the cell that contains these coordinates.
 template <class Real>
 gonio::cell_index cell_of(const gonio::grid& cells, const gonio::render::grid_coordinates<Real>& at) {
   const auto [h, d, p] = cells.extents();
@@ -31,7 +31,7 @@ gonio::cell_index cell_of(const gonio::grid& cells, const gonio::render::grid_co
   return {std::min(whole(at.theta_h, h), h - 1), std::min(whole(at.theta_d, d), d - 1), whole(at.phi_d, p) % p};
 }
 
-/// The exact place may be outside of the cell that was found by so many cells.
+/// Checks that the exact location is outside the cell found by at most `tolerance` cells.
 template <class Real>
 void check_found(int pairs, double tolerance, const gonio::grid& cells) {
   std::mt19937_64 generator(7);
@@ -39,7 +39,7 @@ void check_found(int pairs, double tolerance, const gonio::grid& cells) {
   int neighbours = 0;
   for (int i = 0; i < pairs; ++i) {
     const auto exact = scattered_pair(generator, i % 4);
-    // What is exact is what was given, in its precision.
+    // The directions as rounded to Real are the exact input.
     const direction wi = exact.wi.cast<Real>().template cast<double>(),
                     wo = exact.wo.cast<Real>().template cast<double>();
     const gonio::cell_index cell = cell_of(cells, coordinates_of<Real>(wi, wo));
@@ -89,7 +89,7 @@ TEST_CASE("grid coordinates: as near to the exact ones as they say") {
   }
   MESSAGE("off by at most " << worst << ", in float " << worst_in_float);
   CHECK(worst < 1e-13);
-  CHECK(worst_in_float < 4e-7);  // directions rounded to float are 1e-7 off themselves
+  CHECK(worst_in_float < 4e-7);  // rounding directions to float alone gives 1e-7
 }
 
 TEST_CASE("grid coordinates: at the ends of the angles") {

@@ -16,7 +16,7 @@ using gonio::render::half_vector_sampler;
 
 namespace {
 
-/// A Lambertian of some reflectance below a lobe about the half vector.
+/// A Lambertian plus a lobe around the half vector.
 struct shiny {
   double diffuse = 0.2, height = 3.0, exponent = 200.0;
 
@@ -40,8 +40,8 @@ struct named_table {
   gonio::render::lookup_table<> table;
 };
 
-/// The ten test materials of Nielsen et al. 2015, or if their networks are not at hand, ten by formula; on a coarser
-/// grid than MERL's.
+/// The ten test materials of Nielsen et al. 2015 on a grid coarser than MERL's. If their networks are missing, ten
+/// formulas.
 const std::vector<named_table>& ten_materials() {
   static const auto all = [] {
     const gonio::valid_cells cells(gonio::grid({90, 30, 60}));
@@ -143,7 +143,7 @@ TEST_CASE("half-vector sampler: in float it draws what it draws in double") {
     const auto expected = exact.sample(wo, u1, u2);
     const auto found = sampler.sample(wo.cast<float>(), u1, u2);
     CHECK(found.pdf == sampler.pdf(found.wi, wo.cast<float>()));
-    // Another bin where rounding decides.
+    // Rounding may select another bin.
     const bool is_same = (found.wi.cast<double>() - expected.wi).norm() < 1e-3 &&
                          std::abs(found.pdf - expected.pdf) < 1e-3 * expected.pdf;
     other += is_same ? 0 : 1;

@@ -18,7 +18,7 @@ double product_of_cosines(const gonio::valid_cells& cells, std::size_t cell) {
   return cosine.i * cosine.o;
 }
 
-/// A grey table, ten times as bright where a cell's centre is nearly on the horizon: as estimates are.
+/// A grey table that is ten times as bright in cells whose centre is nearly on the horizon, as estimates are.
 brdf_table bright_at_the_horizon(double factor) {
   const gonio::valid_cells cells;
   brdf_table table(cells);
@@ -37,7 +37,7 @@ TEST_CASE("cells that are nearly on the horizon draw no line along the terminato
     const gonio::image y = gonio::render::render_sphere(b, gonio::render::two_lights(), view);
     double largest = 0.0;
     for (const auto& point : gonio::render::sphere_points(view.size)) {
-      // The light from behind, which only the rim shows, is another matter: there all is near the horizon.
+      // Skips points lit from behind, at the rim: all directions are near the horizon there.
       if (point.normal.dot(direction(-1.0, -1.0, -3.0)) > 0.0) continue;
       const rgb off = gonio::pixel(x, point.row, point.column) - gonio::pixel(y, point.row, point.column);
       largest = std::max(largest, off.maxCoeff());

@@ -11,16 +11,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// An integer of [0, 10^6], all equally likely from the first example on, as a fraction.
+/// Returns an integer of [0, 10^6] as a fraction. All are equally likely from the first example on.
 double any_fraction() { return 1e-6 * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1'000'001)); }
 
-/// A normal that the camera sees.
+/// Returns a normal that faces the camera.
 direction any_normal() {
   const double theta = any_fraction() * 0.999 * pi / 2.0;
   return gonio::spherical_direction(theta, any_fraction() * 2.0 * pi);
 }
 
-/// The smallest lighting of the concept's documentation.
+/// The smallest lighting, from the concept's documentation.
 struct headlight {
   template <class Visit>
   void for_each_incident(const direction& normal, Visit&& visit) const {
@@ -105,7 +105,7 @@ TEST_CASE("the environment agrees with the reference") {
 }
 
 TEST_CASE("the environment's windows shine at their centres, and their cut-off edges are not seen") {
-  // The brightest window, of intensity 60 and 7 degrees, on a sky that is below 0.6.
+  // The brightest window, with intensity 60 and a width of 7 degrees, on a sky below 0.6.
   const direction window = direction(-0.85, 0.2, -0.48).normalized();
   CHECK(gonio::render::environment_radiance(window).x() > 60.0);
   CHECK(gonio::render::environment_radiance(window).x() < 60.6);
@@ -116,7 +116,7 @@ TEST_CASE("the environment's windows shine at their centres, and their cut-off e
     CAPTURE(step);
     const double angle = gonio::radians(0.1 * step);
     const double after = gonio::render::environment_radiance(std::cos(angle) * window + std::sin(angle) * aside).x();
-    // What the window does not explain is the sky, which changes by less than 0.01 a step.
+    // The remainder is the sky, which changes by less than 0.01 in each step.
     const double sky = (after - before) - (window_alone(0.1 * step) - window_alone(0.1 * (step - 1)));
     CHECK(std::abs(sky) < 0.01);
     before = after;
@@ -154,7 +154,8 @@ TEST_CASE("the thesis's lights: one in front, one behind that reaches the lower 
 
 TEST_CASE("incident directions of an environment mirror the camera at half vectors that cover the hemisphere") {
   const gonio::render::environment_lighting lighting(9, 7);
-  // Seen along the normal, wi is above the horizon where h is within 45 degrees of it: 6 of 9 rings in sqrt(theta_h).
+  // Seen along the normal, wi is above the horizon if h is within 45 degrees of the normal: 6 of 9 rings in
+  // sqrt(theta_h).
   const auto seen = all_incident(lighting, direction(0.0, 0.0, 1.0));
   CHECK(seen.size() == 6 * 7);
   for (const auto& [wi, wo, weight] : seen) {
@@ -171,7 +172,8 @@ TEST_CASE("under uniform light a point that faces the camera receives pi, and fi
   };
   for (const double theta : {0.0, 0.4, 0.8, 1.2, 1.4}) {
     CAPTURE(theta);
-    // Bins are in or out by their centres; what is cut off at wi's horizon has no weight, what is cut at h's has.
+    // Bins are in or out by their centres. Bins cut at wi's horizon have zero weight at the cut; those cut at h's do
+    // not.
     CHECK(error(usual, theta) < 0.01);
     CHECK(error(fine, theta) < 0.002);
   }

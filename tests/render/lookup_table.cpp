@@ -27,7 +27,7 @@ const gonio::brdf_table& paint() {
   return table;
 }
 
-/// Uniform above the horizon, every fourth close to the mirror direction.
+/// Uniform above the horizon, except every fourth, which is close to the mirror direction.
 std::vector<gonio::direction_pair> some_pairs(std::size_t count) {
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> uniform(1e-3, 1.0);
@@ -45,7 +45,7 @@ std::vector<gonio::direction_pair> some_pairs(std::size_t count) {
   return pairs;
 }
 
-/// What a MERL file of a table holds behind its header.
+/// Returns the values of a MERL file, without its header.
 std::vector<double> planes_of(const gonio::brdf_table& table) {
   const Eigen::Index plane = table.cells().grid().size();
   std::vector<double> planes(3 * plane, -1.0);
@@ -101,7 +101,7 @@ TEST_CASE("lookup table: nearest look-up is the table's own but at the horizon, 
 }
 
 TEST_CASE("lookup table: many pairs at once are the pairs one by one") {
-  const auto pairs = some_pairs(1'003);  // not a multiple of what is done at once
+  const auto pairs = some_pairs(1'003);  // not a multiple of the block size
   const auto check = [&]<class Real>(const auto& table, Real tolerance, std::size_t allowed) {
     const std::size_t count = pairs.size();
     std::array<std::vector<Real>, 9> arrays;
@@ -112,7 +112,7 @@ TEST_CASE("lookup table: many pairs at once are the pairs one by one") {
         arrays[slot][i] = static_cast<Real>(pairs[i].wi[k]);
         arrays[3 + slot][i] = static_cast<Real>(pairs[i].wo[k]);
       }
-    arrays[2][5] = Real(-0.5);  // below the horizon, and no number
+    arrays[2][5] = Real(-0.5);  // below the horizon, and not finite
     arrays[4][7] = std::numeric_limits<Real>::quiet_NaN();
     table.template evaluate<Real>({arrays[0], arrays[1], arrays[2]}, {arrays[3], arrays[4], arrays[5]},
                                   {arrays[6], arrays[7], arrays[8]});
@@ -130,7 +130,7 @@ TEST_CASE("lookup table: many pairs at once are the pairs one by one") {
   check.operator()<float>(lookup_table<float>::of(paint()), 1e-4f, 0);
   check.operator()<double>(lookup_table<double, interpolation::nearest>::of(paint()), 0.0, 0);
   check.operator()<float>(lookup_table<float, interpolation::nearest>::of(paint()), 0.0f,
-                          1);  // a neighbour at a border
+                          1);  // a neighbour, if on a border
 }
 
 TEST_CASE("lookup table: half numbers are good to three digits, whatever the table's largest value") {
@@ -174,7 +174,7 @@ TEST_CASE("lookup table: of a formula, and of the planes of a MERL file") {
     CHECK(relative_difference(from_formula(wi, wo), table(wi, wo)) < 1e-6);
     CHECK(relative_difference(from_planes(wi, wo), table(wi, wo)) < 1e-6);
   }
-  // Doubles stay doubles.
+  // Doubles keep their precision.
   planes[0] = 1500.0 * (1.0 + 1e-12);
   const auto [wi, wo] = gonio::to_directions(coarse.angles({0, 0, 0}));
   CHECK(lookup_table<double, interpolation::nearest>::from_merl(planes, coarse)(wi, wo)[0] ==
@@ -218,13 +218,15 @@ TEST_CASE("lookup table: negative measurements are black, what is not finite is 
         0.0);
   table.values()[4] = std::numeric_limits<float>::quiet_NaN();
   CHECK_THROWS_WITH_AS(lookup_table<>::of(table),
-                       "a table for rendering is not finite at theta_h 0, theta_d 0, phi_d 1", gonio::error);
+                       "a table for rendering is not finite in cell (0, 0, 1) of (theta_h, theta_d, phi_d)",
+                       gonio::error);
 }
 
 TEST_CASE("lookup table: a grid without cells above the horizon is refused") {
   const auto white = [](const direction&, const direction&) noexcept { return rgb(rgb::Ones()); };
-  CHECK_THROWS_WITH_AS(lookup_table<>::tabulated(white, gonio::grid({1, 4, 2})),
-                       "a grid of 1 x 4 x 2 cells has none above the horizon at theta_d 3, phi_d 0: it needs more "
-                       "cells along theta_h",
-                       gonio::error);
+  CHECK_THROWS_WITH_AS(
+      lookup_table<>::tabulated(white, gonio::grid({1, 4, 2})),
+      "a grid of 1 x 4 x 2 cells has none above the horizon at theta_d number 3, phi_d number 0: it needs more "
+      "cells along theta_h",
+      gonio::error);
 }

@@ -16,7 +16,7 @@ namespace {
 
 const gonio::grid small_grid({15, 12, 18});
 
-/// Planes of positive numbers, some of them marked as empty.
+/// Planes of positive numbers, some cells marked as empty.
 std::vector<double> random_planes() {
   std::mt19937_64 generator(5);
   std::uniform_real_distribution<double> value(0.0, 900.0);
@@ -40,7 +40,7 @@ void reads_as_a_lookup_table() {
   CHECK(rc::check([&] {
     const gonio::direction wi = any_direction(), wo = any_direction();
     const gonio::rgb seen = view(wi, wo), read = copied(wi, wo);
-    // Eight values are summed in another order.
+    // The sum of eight values is computed in another order.
     const double rounding = Interpolation == interpolation::nearest ? 0.0 : 1e-14;
     RC_ASSERT(((seen - read).abs() <= rounding * read).all());
     const Eigen::Vector3f i = wi.cast<float>(), o = wo.cast<float>();

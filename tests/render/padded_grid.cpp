@@ -28,7 +28,7 @@ grid_coordinates<double> any_place() {
   return {share(), share(), share()};
 }
 
-/// Which cell has a number, margins as the cells they repeat.
+/// Returns the cell of each number. Margins map to the cells that they repeat.
 std::map<Eigen::Index, Eigen::Index> cell_of_number(const padded_grid& cells) {
   const auto [heights, rows, columns] = cells.grid().extents();
   std::map<Eigen::Index, Eigen::Index> found;
@@ -39,7 +39,7 @@ std::map<Eigen::Index, Eigen::Index> cell_of_number(const padded_grid& cells) {
   return found;
 }
 
-/// The weights of cells around a place, together those of one cell.
+/// Returns the interpolation weights of cells around a location, summed for each cell.
 std::map<Eigen::Index, double> weights_of(const padded_grid& cells, const cell_corner<double>& at) {
   const auto cell = cell_of_number(cells);
   std::map<Eigen::Index, double> weights;

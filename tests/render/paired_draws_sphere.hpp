@@ -1,7 +1,8 @@
 #pragma once
-/// The sphere in an environment as simply as one can write it: for each sample of a pixel one direction by the BRDF and
-/// one by the environment, found by bisection, combined by the balance heuristic. What render/sampled_sphere.hpp is
-/// tested against (tests/render/sampled_sphere.cpp) and timed against (bench/render/environment_sphere.cpp).
+/// The simplest renderer of a sphere in an environment. For each sample of a pixel, it draws one direction from the
+/// BRDF and one from the environment by bisection, and combines them by the balance heuristic.
+/// render/sampled_sphere.hpp is tested (tests/render/sampled_sphere.cpp) and timed
+/// (bench/render/environment_sphere.cpp) against it.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/random.hpp>
@@ -23,7 +24,7 @@ namespace paired_draws {
 using gonio::direction;
 using gonio::rgb;
 
-/// Pixels of a map in proportion to luminance times solid angle, in the order of its rows.
+/// Draws pixels of a map in proportion to luminance times solid angle, in row order.
 class row_by_row_light {
  public:
   explicit row_by_row_light(gonio::render::environment_map map) : map_(std::move(map)) {
@@ -36,7 +37,7 @@ class row_by_row_light {
     reached_.push_back(sum);
   }
 
-  /// By arc functions.
+  /// By trigonometric functions.
   [[nodiscard]] rgb radiance(const direction& d) const {
     const double scale = static_cast<double>(map_.rows()) / std::numbers::pi;
     const double polar = std::atan2(std::hypot(d.x(), d.z()), d.y());
@@ -78,7 +79,7 @@ struct pair {
   double u = 0.0, v = 0.0;
 };
 
-/// Even pairs of numbers of three kinds (M. Roberts's sequence), those of two kinds put together at random.
+/// Evenly spaced triples of pairs (M. Roberts's sequence). The order of each kind is shuffled independently.
 inline std::vector<std::array<pair, 3>> even_pairs(int count, std::uint64_t seed, std::uint64_t stream) {
   constexpr double root = 1.324717957244746;
   std::mt19937_64 generator(seed * 0x9E3779B97F4A7C15u + stream);
@@ -97,7 +98,7 @@ inline std::vector<std::array<pair, 3>> even_pairs(int count, std::uint64_t seed
   return all;
 }
 
-/// Light reflected by a surface towards a camera at +z.
+/// Returns the light reflected by a surface towards a camera at +z.
 template <class Sampler>
 rgb reflected(const Sampler& material, const row_by_row_light& light, const gonio::render::surface_frame& surface,
               const std::array<pair, 3>& u) {
@@ -113,7 +114,7 @@ rgb reflected(const Sampler& material, const row_by_row_light& light, const goni
   return sum;
 }
 
-/// Radiance, not exposed; black around the sphere.
+/// Returns unexposed radiance, black outside the sphere.
 template <class Sampler>
 gonio::image render_sphere(const Sampler& material, const row_by_row_light& light, int size, int samples,
                            std::uint64_t seed, gonio::thread_count threads = {}) {

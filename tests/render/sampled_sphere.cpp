@@ -17,7 +17,7 @@ const environment_map& small_windows() {
   return map;
 }
 
-/// The root of the mean square of the difference over that of what is expected.
+/// Returns the RMS difference relative to the RMS of the expected values.
 double relative_error(const gonio::image& found, const gonio::image& expected) {
   REQUIRE(found.size() == expected.size());
   double squares = 0.0, scale = 0.0;
@@ -28,7 +28,7 @@ double relative_error(const gonio::image& found, const gonio::image& expected) {
   return std::sqrt(squares / scale);
 }
 
-/// Black around it, at the exposure 1.
+/// Black background, exposure 1.
 template <class Sampler>
 gonio::image unexposed(const Sampler& material, const gonio::render::environment_sampler& light, int size, int samples,
                        std::uint64_t seed) {
@@ -78,7 +78,7 @@ TEST_CASE("sampled sphere: the mean of many pictures of one sample is right") {
   constexpr int pictures = 500;
   for (int seed = 0; seed < pictures; ++seed) mean += unexposed(sampler, light, 12, 1, 100 + seed) / float{pictures};
   CHECK(relative_error(mean, expected) < 0.08);
-  // Over all pixels together there is little noise: a bias would be seen.
+  // Summed over all pixels there is little noise, so a bias would show.
   double sum = 0.0, expected_sum = 0.0;
   for (std::size_t i = 0; i < mean.size(); ++i) {
     sum += mean.data()[i];

@@ -1,5 +1,5 @@
 #pragma once
-/// Pairs of directions by which the ways to find a cell are compared, and how wrong they may be.
+/// Pairs of directions for comparing methods of finding a cell, and the largest allowed error.
 
 #include <gonio/table/grid.hpp>
 
@@ -11,7 +11,7 @@ namespace scattered {
 
 using gonio::direction;
 
-/// Uniform above the horizon, or close to each other's mirror direction, or to the normal, or to the horizon.
+/// Uniform above the horizon, or close to each other's mirror direction, to the normal or to the horizon.
 inline gonio::direction_pair scattered_pair(std::mt19937_64& generator, int kind) {
   std::uniform_real_distribution<double> uniform;
   const auto any = [&](double lowest, double highest) {
@@ -27,7 +27,7 @@ inline gonio::direction_pair scattered_pair(std::mt19937_64& generator, int kind
   return {wi, wo.normalized()};
 }
 
-/// How far exact angles are from a cell, in cells along the axis where that is most.
+/// Returns the distance, in cells, between exact angles and a cell, along the axis where it is largest.
 inline double outside(const gonio::grid& cells, const gonio::cell_index& cell, const gonio::half_difference& angles) {
   const auto beyond = [](double coordinate, int begin) {
     return std::max({0.0, begin - coordinate, coordinate - (begin + 1)});
@@ -36,7 +36,7 @@ inline double outside(const gonio::grid& cells, const gonio::cell_index& cell, c
   const double phi = cells.phi_d_coordinate(angles.phi_d) + 0.5;
   const double off_phi =
       std::min(beyond(phi, cell.phi_d), beyond(phi < 1.0 ? phi + columns : phi - columns, cell.phi_d));
-  // How much phi_d is worth shrinks with the difference vector's length, as it does where directions are equal.
+  // Errors of phi_d count less as the difference vector shrinks, since phi_d is undefined for equal directions.
   return std::max({beyond(cells.theta_h_coordinate(angles.theta_h) + 0.5, cell.theta_h),
                    beyond(cells.theta_d_coordinate(angles.theta_d) + 0.5, cell.theta_d),
                    off_phi * std::sin(angles.theta_d) * std::sin(angles.theta_h)});

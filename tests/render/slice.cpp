@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Shows the angles at which it is evaluated.
+/// Returns the angles of evaluation as a colour.
 struct angles_as_colour {
   rgb operator()(const direction& wi, const direction& wo) const noexcept {
     const auto angles = gonio::to_half_difference(wi, wo);
@@ -39,7 +39,7 @@ TEST_CASE("theta_h runs to the right and theta_d upwards, at pixel centres, at p
     for (std::size_t column = 0; column < 9; ++column) {
       const double x = (static_cast<double>(column) + 0.5) / 9.0, y = (5.5 - static_cast<double>(row)) / 6.0;
       const rgb expected(x * x * pi / 2.0, y * pi / 2.0, pi / 2.0);
-      CHECK((pixel(root, row, column) / pi - expected).abs().maxCoeff() < 1e-6);  // floats
+      CHECK((pixel(root, row, column) / pi - expected).abs().maxCoeff() < 1e-6);  // pixels are floats
       CHECK((pixel(linear, row, column) / pi - rgb(x * pi / 2.0, expected.y(), expected.z())).abs().maxCoeff() < 1e-6);
       const auto angles = gonio::render::slice_angles({.rows = 6, .columns = 9}, row, column);
       CHECK((rgb(angles.theta_h, angles.theta_d, angles.phi_d) - expected).abs().maxCoeff() < 1e-12);
@@ -57,7 +57,7 @@ TEST_CASE("the default slice has one pixel for each cell of MERL's grid") {
   gonio::brdf_table table(cells);
   for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     const auto index = cells.grid().cell(cells.linear(cell));
-    // The two cells on either side of 90 degrees show themselves in blue: 89 is at 89.5 degrees, 90 at 90.5.
+    // The two cells on either side of 90 degrees are blue: 89 is at 89.5 degrees, 90 at 90.5.
     table.set(cell, rgb(index.theta_h, index.theta_d, index.phi_d == 89 || index.phi_d == 90 ? 1.0 : 0.0));
   }
   const image picture = gonio::render::render_slice(gonio::nearest_lookup(table));
@@ -67,7 +67,7 @@ TEST_CASE("the default slice has one pixel for each cell of MERL's grid") {
     for (std::size_t column = 0; column < 90; ++column) {
       CAPTURE(row);
       CAPTURE(column);
-      // Where a cell at 89.5 degrees is valid or not is where the one at 90.5 is: the cosine of both is 0.009 in size.
+      // Cells at 89.5 and 90.5 degrees are valid or invalid together: both cosines have the magnitude 0.009.
       const auto linear = cells.grid().linear({static_cast<int>(column), 89 - static_cast<int>(row), 90});
       const rgb expected = cells.contains(linear)
                                ? rgb(static_cast<double>(column), 89.0 - static_cast<double>(row), 1.0)

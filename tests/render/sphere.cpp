@@ -24,7 +24,7 @@ struct white_lambertian {
   }
 };
 
-/// A coloured highlight on a coloured ground, brighter towards grazing.
+/// A coloured highlight on a coloured diffuse part, brighter towards grazing.
 struct glossy {
   rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
@@ -54,7 +54,7 @@ gonio::render::directional_lighting light_from(const direction& towards) {
   return gonio::render::directional_lighting({{towards}});
 }
 
-/// Mean luminance over the pixels of the sphere.
+/// Returns the mean luminance over the pixels of the sphere.
 double mean_luminance(const image& picture, int size) {
   double sum = 0.0;
   const auto points = gonio::render::sphere_points(size);
@@ -62,7 +62,7 @@ double mean_luminance(const image& picture, int size) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Colours of an image at the points of an operator.
+/// Returns the colours of an image at the points of an operator.
 sphere_colours at_points(const image& picture, const sphere_operator& op) {
   sphere_colours colours(std::ssize(op.points()), 3);
   for (std::size_t i = 0; i < op.points().size(); ++i)
@@ -70,7 +70,7 @@ sphere_colours at_points(const image& picture, const sphere_operator& op) {
   return colours;
 }
 
-/// Image and operator round weights and results to float: a few units of 6e-8, relative to the brightest.
+/// Image and operator round weights and results to float: a few times 6e-8 of the brightest value.
 void check_equal(const sphere_colours& a, const sphere_colours& b) {
   REQUIRE(a.rows() == b.rows());
   CHECK((a - b).abs().maxCoeff() <= 5e-7 * b.abs().maxCoeff());
@@ -81,7 +81,7 @@ void check_equal(const sphere_colours& a, const sphere_colours& b) {
 
 TEST_CASE("the points of a sphere are those of the reference's grid") {
   const auto points = gonio::render::sphere_points(36);
-  // As render.py of the reference computes it; near pi 18^2 = 1018. (Its README speaks of 996 pixels.)
+  // As computed by the reference's render.py; near pi 18^2 = 1018. (Its README says 996 pixels.)
   REQUIRE(points.size() == 1020);
   for (const auto& point : points) {
     CHECK(point.normal.norm() == doctest::Approx(1.0).epsilon(1e-15));
@@ -108,8 +108,8 @@ TEST_CASE("a white Lambertian sphere has mean luminance 1, whatever the light") 
 }
 
 TEST_CASE("a Lambertian sphere under one light has the closed form's pixels") {
-  // The mean over the disc of max(n.l, 0), at phase angle g between light and camera, is
-  // 2 (sin g + (pi - g) cos g) / (3 pi): the exposure is its inverse times pi.
+  // At phase angle g between light and camera, the mean of max(n.l, 0) over the disc is 2 (sin g + (pi - g) cos g) / (3
+  // pi). The exposure is its inverse times pi.
   for (const double g : {0.0, 0.5, 1.3, 2.0}) {
     CAPTURE(g);
     const direction light = gonio::spherical_direction(g, 1.1);
@@ -118,7 +118,7 @@ TEST_CASE("a Lambertian sphere under one light has the closed form's pixels") {
     const double mean = 2.0 * (std::sin(g) + (pi - g) * std::cos(g)) / (3.0 * pi);
     for (const auto& point : gonio::render::sphere_points(size)) {
       const double expected = std::max(point.normal.dot(light), 0.0) / mean;
-      // The exposure is a sum over 31,000 pixels instead of an integral over the disc.
+      // The exposure is a sum over 31,000 pixels, not an integral over the disc.
       REQUIRE(pixel(picture, point.row, point.column).y() == doctest::Approx(expected).epsilon(2e-3).scale(1));
     }
   }
@@ -133,7 +133,7 @@ TEST_CASE("turning the light about the view direction turns the image") {
   double brightest = 0.0;
   for (std::size_t row = 0; row < size; ++row)
     for (std::size_t column = 0; column < size; ++column) {
-      // A point that was at (x, y) is at (-y, x): column c goes to row size - 1 - c, row r to column r.
+      // A point at (x, y) moves to (-y, x): column c goes to row size - 1 - c, row r to column r.
       const rgb expected = pixel(before, row, column), found = pixel(after, size - 1 - column, row);
       brightest = std::max(brightest, expected.maxCoeff());
       REQUIRE((found - expected).abs().maxCoeff() <= 1e-5 * (1.0 + expected.maxCoeff()));
@@ -159,7 +159,7 @@ TEST_CASE("light from behind shows at the lower left rim, more so on a glossy su
   const auto contrast = [&](const image& p) { return pixel(p, 54, 9).x() / pixel(p, 48, 3).x(); };
   CHECK(contrast(picture) != doctest::Approx(contrast(matte)).epsilon(0.1));
 
-  // Under both lights, on one exposure, the rim of the glossy sphere outshines its front.
+  // Under both lights and one exposure, the rim of the glossy sphere is brighter than its front.
   const image both = gonio::render::render_sphere(glossy(), gonio::render::two_lights(), {.size = size});
   CHECK(pixel(both, 54, 9).x() > pixel(both, 40, 24).x());
 }
@@ -214,7 +214,7 @@ TEST_CASE("without light everything is black and finite") {
 }
 
 TEST_CASE("the sphere operator is the image of the table at its nearest cells") {
-  // A coarse grid: many directions fall into cells whose centre is below the horizon, and those count as zero.
+  // A coarse grid: many directions are in cells whose centre is below the horizon. These cells count as zero.
   for (const auto& grid : {gonio::grid({20, 15, 30}), gonio::grid({12, 9, 8}, gonio::cell_anchor::lower_corner)}) {
     const valid_cells cells(grid);
     const brdf_table table = gonio::tabulate(glossy(), cells);
@@ -259,7 +259,7 @@ TEST_CASE("a table over other cells is refused") {
   const sphere_operator op(valid_cells(gonio::grid({20, 15, 30})), headlight(), 8);
   CHECK_THROWS_WITH_AS((void)op.apply(brdf_table(valid_cells(gonio::grid({20, 15, 31})))),
                        doctest::Contains("other cells"), gonio::error);
-  // Equal cells that are not the same object are fine.
+  // Equal cells need not be the same object.
   CHECK((op.apply(brdf_table(valid_cells(gonio::grid({20, 15, 30})))) == 0.0).all());
 }
 
@@ -269,4 +269,38 @@ TEST_CASE("operator images have the background around the sphere") {
   const image picture = op.to_image(op.apply(gonio::tabulate(white_lambertian(), cells)), {0.5, 0.25, 2.0});
   CHECK((pixel(picture, 0, 0) == rgb(0.5, 0.25, 2.0)).all());
   CHECK(pixel(picture, 6, 6).x() == doctest::Approx(1.5).epsilon(0.02));  // the mean of the cosine over a disc is 2/3
+}
+
+TEST_CASE("a frame around an axis is orthonormal, and its tangent runs about the axis, even near the poles") {
+  const direction axis = direction::UnitY();
+  for (const direction& n : {direction(0.6, 0.0, 0.8), direction(0.1, -0.9, 0.42), direction(0, 1, 0),
+                             direction(1e-9, 1.0, 0.0), direction(-0.95, 0.1, 0.29)}) {
+    const direction normal = n.normalized();
+    const auto frame = gonio::render::surface_frame::around(axis, normal);
+    CHECK(frame.tangent.norm() == doctest::Approx(1.0));
+    CHECK(frame.tangent.cross(frame.bitangent).dot(normal) == doctest::Approx(1.0));
+    if (std::abs(normal.y()) < 0.999) CHECK(std::abs(frame.tangent.dot(axis)) < 1e-12);
+    CHECK((frame.to_world(frame.to_local({0.2, 0.3, -0.4})) - direction(0.2, 0.3, -0.4)).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("grooves run about the vertical axis of a turned sphere; an isotropic sphere does not change") {
+  // Smooth along its x axis, rough along y: the highlight is long across the grooves.
+  const auto brushed = [](const direction& wi, const direction& wo) noexcept {
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb(0.0, 0.0, 0.0);
+    const direction h = (wi + wo).normalized();
+    const double x = h.x() / h.z() / 0.1, y = h.y() / h.z() / 0.5;
+    return rgb(rgb::Constant(std::exp(-x * x - y * y)));
+  };
+  const auto lights = light_from({0.0, 0.0, 1.0});
+  const image turned = gonio::render::render_sphere(brushed, lights, {.size = 64, .is_turned = true});
+  const auto brightness = [&](int row, int column) { return pixel(turned, row, column).y(); };
+  CHECK(brightness(16, 32) > 10.0 * brightness(32, 48));  // up from the middle, and as far to the right
+  for (const auto& [row, column] : {std::pair{20, 30}, {40, 25}, {32, 10}})
+    CHECK(brightness(row, column) == doctest::Approx(brightness(row, 63 - column)).epsilon(1e-9));
+  const image plain = gonio::render::render_sphere(glossy{}, lights, {.size = 32});
+  const image also = gonio::render::render_sphere(glossy{}, lights, {.size = 32, .is_turned = true});
+  for (int row = 0; row < 32; ++row)
+    for (int column = 0; column < 32; ++column)
+      CHECK((pixel(plain, row, column) - pixel(also, row, column)).abs().maxCoeff() < 1e-5);
 }

@@ -9,7 +9,7 @@ using gonio::corrected_brdf;
 using gonio::correction_factor;
 
 static_assert(gonio::tabulated_brdf<corrected_brdf<gonio::completed_table>>);
-// A corrected estimate can be the start of another correction.
+// The start of a correction may itself be a corrected estimate.
 static_assert(gonio::tabulated_brdf<corrected_brdf<corrected_brdf<gonio::completed_table>>>);
 
 namespace {
@@ -28,13 +28,13 @@ TEST_CASE("the estimate times the correction, with the rule's offset") {
   const auto estimate = synthetic_materials(small_cells(), 1).table(0);
   auto factors = factor_table(small_cells(), 1.0f);
   for (std::size_t i = 0; i < factors.values().size(); ++i)
-    factors.values()[i] = 0.1f * static_cast<float>(i % 37);  // zeros among them
+    factors.values()[i] = 0.1f * static_cast<float>(i % 37);  // including zeros
   const auto printed = corrected_by(factors, correction_factor::as_printed()).tabulate(small_cells());
   const auto shifted = corrected_by(factors, {}).tabulate(small_cells());
   for (std::size_t i = 0; i < factors.values().size(); ++i) {
     const double sigma = double{factors.values()[i]}, rho = double{estimate.values()[i]};
     REQUIRE(double{printed.values()[i]} == doctest::Approx(sigma * rho).epsilon(1e-6));
-    // Two roundings of a number as large as the product.
+    // Two roundings of a number of the size of the product.
     REQUIRE(std::abs(double{shifted.values()[i]} - std::max(sigma * (rho + 1e-3) - 1e-3, 0.0)) <=
             3e-7 * (1.0 + sigma) * (rho + 1e-3));
   }
@@ -51,7 +51,7 @@ TEST_CASE("evaluating and tabulating agree, on the correction's cells and on oth
     for (Eigen::Index cell = 0; cell < over.size(); ++cell) {
       const auto [wi, wo] = to_directions(over.angles(cell));
       const gonio::rgb direct = fit(wi, wo);
-      // Tables of the estimate and of the factors are rounded to float before they are multiplied.
+      // The tables of estimate and factors are rounded to float before they are multiplied.
       REQUIRE((table.at(cell) - direct).abs().maxCoeff() <= 5e-7 * (1e-3 + direct.maxCoeff()));
     }
   }

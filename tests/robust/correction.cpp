@@ -16,7 +16,7 @@ static_assert(gonio::channelwise_basis<correction> && !gonio::has_arbitrary_sign
 
 namespace {
 
-/// The approximation of a material by the others at a cell, in sr^-1, from the basis' own products.
+/// The approximation of a material by the others at a cell, in sr^-1, computed from the basis' products.
 template <class Metric>
 class approximations {
  public:
@@ -24,7 +24,7 @@ class approximations {
     for (std::size_t c = 0; c < 3; ++c) products_[c] = basis.channel(c).products();
   }
 
-  /// Of one channel over all cells.
+  /// Values of one channel at all cells.
   [[nodiscard]] std::vector<double> of(Eigen::Index target, std::size_t channel) const {
     std::vector<Eigen::Index> others(basis_.columns().begin(), basis_.columns().end());
     std::erase(others, target);
@@ -44,7 +44,7 @@ class approximations {
   std::array<Eigen::MatrixXd, 3> products_;
 };
 
-/// Corrections of materials under a metric must turn the approximations into the materials.
+/// Checks that the corrections of materials under a metric turn the approximations into the materials.
 template <class Metric>
 void check_that_materials_come_back(const gonio::material_set& set, const Metric& metric, const correction_rule& rule) {
   const gonio::measured basis{set, metric};
@@ -62,7 +62,7 @@ void check_that_materials_come_back(const gonio::material_set& set, const Metric
         largest = std::max(largest, std::abs(back - material) / (material + 1e-3));
       }
     }
-  // The approximation is a float sum of at most nine products of values below 5, and then goes through exp.
+  // The approximation is a float sum of at most nine products of values below 5, followed by exp.
   CHECK(largest < 2e-5);
   CHECK(largest > 0.0);
 }
@@ -90,7 +90,7 @@ TEST_CASE("golden: the corrections of eleven measured materials as printed") {
         const std::size_t column = corrections.columns()[i];
         largest = std::max(largest, std::abs(double{corrections.channel(c).row(cell)[column]} / expected - 1.0));
       }
-  // Tables and their logarithms are rounded to float here, and are double in the reference.
+  // Tables and their logarithms are float here and double in the reference.
   CHECK(largest < 1e-6);
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("a material that the basis leaves out is in no approximation") {
   auto set = synthetic_materials(small_cells(), 5);
   const gonio::measured basis{set, gonio::log{}};
   const correction fewer{basis.without({"material-1"})}, all{basis};
-  // The same without ever having had it.
+  // The same basis, made without that material.
   gonio::material_set rest{set.cells, {}, gonio::cell_matrix(set.values.rows(), 12)};
   for (Eigen::Index i = 0, to = 0; i < 5; ++i)
     if (i != 1) {
@@ -139,12 +139,12 @@ TEST_CASE("a material that the basis leaves out is in no approximation") {
     REQUIRE(std::ranges::equal(without_it.columns(), std::vector<Eigen::Index>{0, 2, 3, 4, 5}));
     for (std::size_t f = 0; f < 5; ++f) {
       const auto one = function_values(without_it, without_it.columns()[f]), other = function_values(direct, f);
-      // Gram matrices of other sizes are summed in another order, in double; the product of rows and weights in float
-      // has the zero weight of the material left out among its terms.
+      // Sums over Gram matrices of other sizes have another order, in double. The float product of rows and weights
+      // includes the zero weight of the material that was left out.
       for (std::size_t i = 0; i < one.size(); ++i) REQUIRE(one[i] == doctest::Approx(double{other[i]}).epsilon(2e-6));
     }
   }
-  // It would have been in some approximation.
+  // It would have contributed to some approximation.
   CHECK(function_values(all, 0) != function_values(fewer, 0));
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("leaving out is refused for unknown names, and below two materials") {
 TEST_CASE("zeros stay finite: 0/0 needs no correction, and x/0 is bounded by the offset") {
   auto set = synthetic_materials(small_cells(), 4);
   set.values.row(3).setZero();  // all materials: 0/0
-  set.values.row(5).setZero();  // all but one: x/0
+  set.values.row(5).setZero();  // all except one: x/0
   set.values.block(5, 0, 1, 3).setConstant(2);
   set.values.row(8).setConstant(-0.5f);  // negative measurements
   const gonio::measured basis{set, gonio::log{}};
@@ -222,10 +222,10 @@ TEST_CASE("correction factors: correcting an estimate by its quotient gives the 
       const values sigma = factor.quotient(measurement, estimates);
       const values back = factor.correct(estimates, sigma);
       RC_ASSERT((sigma >= 0.0f).all());
-      // A few roundings of numbers as large as measurement and offset together.
+      // A few roundings of numbers of the size of measurement plus offset.
       RC_ASSERT(std::abs(back[0] - rho) <= 4e-7f * (rho + factor.offset));
       RC_ASSERT(back[1] <= 1e-9f);  // a negative measurement counts as zero
-      // Sigma of 1 leaves an estimate as it is, up to the rounding of the offset; or at the smallest denominator.
+      // A sigma of 1 leaves an estimate unchanged, up to the rounding of the offset, even at the smallest denominator.
       const values ones = values::Ones(), same = factor.correct(estimates, ones);
       RC_ASSERT(std::abs(same[0] - std::max(estimate, factor.smallest - factor.offset)) <=
                 2e-7f * (estimate + factor.offset));

@@ -22,7 +22,7 @@ static_assert(gonio::estimator<correction_iteration<combination>>);
 static_assert(gonio::estimator<correction_iteration<combination, gonio::relative_deviation_weights>>);
 static_assert(gonio::tabulated_brdf<gonio::corrected_brdf<gonio::completed_table>>);
 
-/// Everything counts in full, but for the first sample, which counts for nothing (1e-30): always the same.
+/// Full weights, except that the first sample has always the same negligible weight, 1e-30.
 struct steady_ones {
   gonio::channel_values weigh(const gonio::channel_values& measured, const gonio::channel_values&) const {
     gonio::channel_values weights = gonio::channel_values::Ones(3, measured.cols());
@@ -31,8 +31,8 @@ struct steady_ones {
   }
 };
 
-/// The same, but the first sample counts for another nothing in each round: the normal equations are built anew, and
-/// must become the same ones.
+/// As steady_ones, but the negligible weight of the first sample changes in each round. The normal equations are
+/// rebuilt and must stay the same.
 struct restless_ones {
   gonio::channel_values weigh(const gonio::channel_values& measured, const gonio::channel_values& estimated) const {
     gonio::channel_values weights = steady_ones{}.weigh(measured, estimated);
@@ -44,7 +44,7 @@ static_assert(gonio::outlier_weighting<steady_ones> && gonio::outlier_weighting<
 
 constexpr std::size_t held_out = 4;
 
-/// Materials of which one is held out, which is to be found.
+/// Materials, one of which is held out and must be found.
 struct small_world {
   gonio::material_set set = synthetic_materials(small_cells(), 9);
   gonio::brdf_table truth = set.table(held_out);
@@ -63,7 +63,7 @@ const small_world& world() {
   return made;
 }
 
-/// Root mean square of the logarithmic error over all cells and channels.
+/// Returns the RMS logarithmic error over all cells and channels.
 double log_error(const gonio::brdf_table& estimate, const gonio::brdf_table& truth) {
   double sum = 0.0;
   for (std::size_t i = 0; i < truth.values().size(); ++i)
@@ -80,7 +80,7 @@ bool same_bytes(const gonio::brdf_table& one, const gonio::brdf_table& other) {
   return std::ranges::equal(one.values(), other.values());
 }
 
-/// Samples that nothing must break, by name.
+/// Returns difficult sample sets, with their names.
 std::vector<std::pair<std::string, gonio::sample_set>> difficult_samples() {
   const auto good = world().samples(40);
   const auto changed = [&](auto&& change) {
@@ -134,8 +134,8 @@ TEST_CASE("golden: ten rounds as printed, clean and with outliers") {
             doctest::Approx(expected["rms_map_lc"].get<double>()).epsilon(1e-5));
       CHECK(golden.mapped_error(table, c) == doctest::Approx(expected["rms_map_final"].get<double>()).epsilon(1e-5));
     }
-    // Tables, sigma and products are float here, off by 1e-7, and double in the reference. The Gram matrix of
-    // corrections magnifies that in the weights, in every round anew, but not in what they say together.
+    // Tables, sigma and products are float here (errors of 1e-7) and double in the reference. The Gram matrix of
+    // corrections amplifies the errors of the weights in every round, but not those of the estimate.
     CHECK(first < 1e-5);
     CHECK(last < 1e-4);
     CHECK(estimate < 1e-5);
@@ -155,7 +155,7 @@ TEST_CASE("a material that was held out is found better than by the initial esti
   CHECK(error_with(gonio::trust_all{}) < 0.5 * before);
   CHECK(error_with(gonio::automatic_weights{}) < 0.5 * before);
   CHECK(error_with(gonio::relative_deviation_weights{}) < 0.5 * before);
-  // To it the highlight, which the initial estimate does not have yet, looks like outliers.
+  // The weights take the highlight for outliers, since the initial estimate lacks it.
   CHECK(error_with(gonio::tukey_weights{}) < before);
 }
 
@@ -192,7 +192,7 @@ TEST_CASE("limits end the iteration, and the history has every round") {
   CHECK(generous.size() > 1);
   for (std::size_t i = 0; i + 1 < generous.size(); ++i) CHECK(generous[i].change >= 0.02);
   CHECK(generous.back().error < generous.front().error);
-  // Inertia without end: nothing is corrected.
+  // With infinite inertia, nothing is corrected.
   const auto inert = rounds_with({.rounds = 5, .inertia = 1e9});
   CHECK(inert.size() == 1);
   CHECK(inert[0].change < 1e-5);
@@ -203,7 +203,7 @@ TEST_CASE("no round: the result is the initial estimate") {
   const correction_run run{initial, world().corrections, gonio::locate_samples(small_cells(), world().samples(60))};
   CHECK_FALSE(run.converged());
   const auto one = run.result().tabulate(small_cells()), other = initial.tabulate(small_cells());
-  for (std::size_t i = 0; i < one.values().size(); ++i)  // the offset is added and taken off again
+  for (std::size_t i = 0; i < one.values().size(); ++i)  // the offset is added and subtracted again
     REQUIRE(std::abs(one.values()[i] - other.values()[i]) <= 2e-7f * (other.values()[i] + 1e-3f));
 }
 
@@ -256,7 +256,7 @@ TEST_CASE("what a run says of its estimates is what its result has at the sample
     const auto [wi, wo] = samples[i].directions.pair();
     const gonio::rgb value = fit(wi, wo);
     for (Eigen::Index c = 0; c < 3; ++c) {
-      // Sums of ten products in float, in another order, for each round, and products of these.
+      // Float sums of ten products in another order, for each round, and products of the results.
       CHECK(double{estimated(c, column)} == doctest::Approx(value[c]).epsilon(1e-5));
       CHECK(double{run.measured()(c, column)} == doctest::Approx(samples[i].value[c]).epsilon(1e-6));
     }
@@ -270,11 +270,11 @@ TEST_CASE("weights that stay the same: as if the normal equations were built ane
   const auto fixed = correction_iteration{initial, world().corrections, steady_ones{}, gonio::nnls{}, ten}.fit(samples);
   const auto unknown =
       correction_iteration{initial, world().corrections, restless_ones{}, gonio::nnls{}, ten}.fit(samples);
-  // The first rounds are the same computation.
+  // The first rounds are the same.
   CHECK(fixed.weights()[0] == unknown.weights()[0]);
   const auto one = fixed.tabulate(small_cells()), other = unknown.tabulate(small_cells());
   for (std::size_t i = 0; i < one.values().size(); ++i)
-    // Moments are float sums in another order: 1e-6 of their size, which the Gram matrix magnifies.
+    // Right-hand sides are float sums in another order: relative errors of 1e-6, which the Gram matrix amplifies.
     REQUIRE(one.values()[i] == doctest::Approx(double{other.values()[i]}).epsilon(1e-3));
 }
 
@@ -293,7 +293,7 @@ TEST_CASE("weights given by hand are taken, whatever the weighting, and are not 
     return fixed.result().weights().back().isApprox(unknown.result().weights().back(), tolerance);
   };
   CHECK(same_weights(0.0));
-  fixed.step();  // the first round with weights of its own: nothing is known of it yet
+  fixed.step();  // the first round that computes its own weights
   unknown.step();
   CHECK(same_weights(0.0));
   fixed.step(first_half);
@@ -311,7 +311,7 @@ TEST_CASE("results: cells and directions agree, between cells and on other grids
       const auto [wi, wo] = to_directions(over.angles(cell));
       const gonio::rgb direct = fit(wi, wo);
       REQUIRE((direct >= 0.0).all());
-      // Float products of the initial estimate's rows, and the interpolated factor.
+      // Float products of the initial estimate's rows, times the interpolated factor.
       REQUIRE((table.at(cell) - direct).abs().maxCoeff() <= 4e-6 * (1e-3 + direct.maxCoeff()));
     }
   }
@@ -353,7 +353,7 @@ TEST_CASE("a sample of weight zero changes no byte, and other weights matter") {
   const correction_iteration tukey{combination{world().others}, world().corrections, gonio::tukey_weights{}};
   const auto samples = world().samples(60);
   auto with_ignored = samples;
-  // Far out, at the beginning, in between and at the end.
+  // Extreme samples of weight zero at the beginning, in the middle and at the end.
   const gonio::sample ignored{samples[3].angles(), gonio::rgb(50, 60, 70), 0.0};
   with_ignored.insert(with_ignored.begin(), 1, ignored);
   with_ignored.insert(with_ignored.begin() + 30, 5, ignored);

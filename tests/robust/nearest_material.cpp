@@ -47,8 +47,8 @@ TEST_CASE("which material it is, and how bright, is found among 60 % outliers") 
     const auto chosen = choice_for(nearest, samples_of(scaled_table(material, factors), 300, 0.6, material));
     for (std::size_t c = 0; c < 3; ++c) {
       CHECK(chosen[c].material == material);
-      // Without noise a good sample is exact, but for the offset, a hundredth of the median, in its logarithm, which
-      // the factor does not multiply.
+      // Without noise an inlier is exact, except for the offset, a hundredth of the median. The logarithm includes the
+      // offset, which the factor does not multiply.
       CHECK(chosen[c].factor == doctest::Approx(factors[c]).epsilon(0.02));
     }
   }
@@ -80,7 +80,7 @@ TEST_CASE("the fit is the chosen material times the factor of each channel") {
     for (std::size_t c = 0; c < 3; ++c) {
       const Eigen::Index row = c;
       REQUIRE(table.values()[3 * cell + c] == doctest::Approx(chosen[c].factor * double{found(row, 0)}).epsilon(1e-6));
-      REQUIRE(second(row, 0) ==  // float logarithms, and back
+      REQUIRE(second(row, 0) ==  // logarithm and exponential in float
               doctest::Approx(double{nine_materials().values(cell, 6 + row)}).epsilon(2e-6));
     }
   }
@@ -103,7 +103,7 @@ TEST_CASE("the same seed chooses the same from many samples, for any number of t
   auto samples = gonio::sample_table(nine_materials().table(1), every, {.outlier_ratio = 0.5}, 1);
   const auto more = gonio::sample_table(nine_materials().table(1), every, {.outlier_ratio = 0.5}, 2);
   while (samples.size() <= 20'000) samples.insert(samples.end(), more.begin(), more.end());
-  REQUIRE(samples.size() > 20'000);  // else all are looked at, whatever the seed
+  REQUIRE(samples.size() > 20'000);  // otherwise all are used, for any seed
   const auto one = choice_for(nearest_material{nine_in_log(), 5, {1}}, samples);
   const auto three = choice_for(nearest_material{nine_in_log(), 5, {3}}, samples);
   const auto other_seed = choice_for(nearest_material{nine_in_log(), 6}, samples);
@@ -112,7 +112,7 @@ TEST_CASE("the same seed chooses the same from many samples, for any number of t
     CHECK(one[c].material == three[c].material);
     CHECK(one[c].factor == three[c].factor);
     CHECK(other_seed[c].material == 1);
-    CHECK(other_seed[c].factor != one[c].factor);  // other samples
+    CHECK(other_seed[c].factor != one[c].factor);  // another choice of samples
   }
 }
 
@@ -126,7 +126,7 @@ TEST_CASE("the factor of a mixture is found from the differences alone") {
     std::vector<double> differences(400);
     for (Eigen::Index i = 0; i < 400; ++i) differences[i] = i % 2 == 0 ? normal(generator) : uniform(generator);
     const auto found = gonio::detail::best_factor(differences, std::vector<double>(400, 1.0 / 16.0));
-    // The standard error of the mean of 200 is 0.007; six of these.
+    // The standard error of the mean of 200 is 0.007; the limit is six times that.
     RC_ASSERT(std::abs(found.logarithm_of_factor - logarithm) < 0.045);
     RC_ASSERT(std::isfinite(found.log_likelihood));
   }));
@@ -148,7 +148,7 @@ TEST_CASE("one sample, none but zeros, negative ones, equal ones: a finite mater
   check({samples.begin(), samples.begin() + 2});
   for (auto& s : samples) s.value.setZero();
   check(samples);
-  // Black: no material may be bright.
+  // For black samples the result must be dark.
   CHECK(std::ranges::max(nearest.fit(samples).table().values()) < 1.0f);
   for (auto& s : samples) s.value.setConstant(-2.0);
   check(samples);

@@ -8,7 +8,7 @@ using gonio::channel_values;
 
 namespace {
 
-/// The smallest model, as the concept's documentation shows it.
+/// The smallest model, from the concept's documentation.
 struct user_made_trust {
   channel_values weigh(const channel_values& measured, const channel_values&) const {
     return channel_values::Ones(3, measured.cols());
@@ -21,7 +21,7 @@ struct no_weighting {
 };
 static_assert(!gonio::outlier_weighting<no_weighting>);
 
-/// Reflectances from 1e-4 to 1e2, and now and then zero.
+/// Returns reflectances from 1e-4 to 1e2, and occasionally zero.
 channel_values any_reflectances(Eigen::Index count) {
   channel_values values(3, count);
   for (float& value : values.reshaped()) {
@@ -50,7 +50,7 @@ TEST_CASE("relative deviation: Eq. 13 by hand") {
   const auto measured = row_in_each_channel({1.0f, 1.5f, 0.5f, 3.0f, 0.0f, -1.0f, 0.0f, 1e-6f});
   const auto estimated = row_in_each_channel({1.0f, 1.0f, 1.0f, 1.0f, 2.0f, 1.0f, 0.0f, 0.0f});
   const auto weights = gonio::relative_deviation_weights{3.0}.weigh(measured, estimated);
-  const double exponents[] = {0.0, -1.5, -1.5, -6.0, -3.0, -6.0, -3.0, 0.0};  // the last two at the least estimate 1e-6
+  const double exponents[] = {0.0, -1.5, -1.5, -6.0, -3.0, -6.0, -3.0, 0.0};  // the last two: at the least, 1e-6
   for (Eigen::Index i = 0; i < 8; ++i)
     for (Eigen::Index c = 0; c < 3; ++c)
       CHECK(double{weights(c, i)} == doctest::Approx(std::exp(exponents[i])).epsilon(1e-6));
@@ -84,7 +84,7 @@ TEST_CASE("relative deviation: weights fall as measurements go away, to zero far
 }
 
 TEST_CASE("tukey: by hand") {
-  // Deviations of the logarithm 0, 0.1, 0.2, 0.3, 10 have the median 0.2: the limit is 4.685 x 1.4826 x 0.2 = 1.3892.
+  // The logarithmic deviations 0, 0.1, 0.2, 0.3, 10 have the median 0.2, so the limit is 4.685 x 1.4826 x 0.2 = 1.3892.
   std::initializer_list<double> deviations = {0.0, 0.1, -0.2, 0.3, 10.0};
   channel_values measured(3, 5), estimated = channel_values::Constant(3, 5, 0.5f);
   Eigen::Index i = 0;
@@ -107,23 +107,23 @@ TEST_CASE("tukey: channels are judged by themselves, from 0 to 1, and only relat
     const Eigen::Index count = *rc::gen::inRange(1, 30);
     const auto measured = any_reflectances(count), estimated = any_reflectances(count);
     const gonio::tukey_weights tukey{4.685, 0.0f};
-    // Without the offset a zero has no logarithm.
+    // Without the offset, zero has no logarithm.
     const channel_values m = measured.max(1e-4f), e = estimated.max(1e-4f);
     const auto weights = tukey.weigh(m, e);
     RC_ASSERT((weights >= 0.0f && weights <= 1.0f).all());
-    // Deviations to the power of two are twice as large, and so is their median.
+    // Squaring doubles all logarithmic deviations and their median.
     const auto squared = tukey.weigh(m.square(), e.square());
     RC_ASSERT(((squared - weights).abs() <= 2e-4f).all());
-    // Brightening all by a factor changes nothing.
+    // A common brightness factor changes nothing.
     const auto brighter = tukey.weigh(8.0f * m, 8.0f * e);
     RC_ASSERT(((brighter - weights).abs() <= 2e-4f).all());
-    // Another green changes neither red nor blue.
+    // Changing green changes neither red nor blue.
     channel_values other = m;
     other.row(1) = other.row(1).reverse().eval() + 1.0f;
     const auto changed = tukey.weigh(other, e);
     RC_ASSERT((changed.row(0) == weights.row(0)).all());
     RC_ASSERT((changed.row(2) == weights.row(2)).all());
-    // At least half of the samples are good: the median is 1 / 6.9 of the limit.
+    // At least half of the samples are inliers: the median is 1 / 6.9 of the limit.
     RC_ASSERT((weights.row(0) > 0.9f).count() >= (count + 1) / 2);
   }));
 }
@@ -136,6 +136,6 @@ TEST_CASE("tukey: a perfect fit is trusted, and what is off nonetheless is not")
   const auto weights = gonio::tukey_weights{}.weigh(measured, estimated);
   CHECK(weights(1, 3) == 0.0f);
   CHECK(weights.sum() == 14.0f);
-  // Zeros and negative measurements, on an estimate of zero, are perfect as well.
+  // Zeros and negative measurements agree perfectly with an estimate of zero.
   CHECK((gonio::tukey_weights{}.weigh(row_in_each_channel({0, -1}), row_in_each_channel({0, 0})) == 1.0f).all());
 }

@@ -16,7 +16,7 @@ static_assert(gonio::estimator<robust_reconstruction<gonio::log_relative>>);
 
 namespace {
 
-/// Forty materials, one of which the estimator does not know.
+/// Forty materials, one of which is not in the estimator's basis.
 struct robust_world {
   static constexpr std::size_t unknown = 3;
   gonio::material_set set = synthetic_materials(small_cells(), 40, 11);
@@ -35,7 +35,7 @@ const robust_world& robust() {
   return made;
 }
 
-/// Root mean square of the logarithmic error over all cells and channels.
+/// Returns the RMS logarithmic error over all cells and channels.
 double robust_error(const gonio::brdf_table& estimate) {
   double sum = 0.0;
   const auto truth = robust().truth.values();
@@ -84,14 +84,14 @@ TEST_CASE("clean samples are fitted at least as well as by the combination, and 
   const robust_reconstruction knowing{gonio::measured{robust().set, gonio::log{}}};
   const auto known = knowing.fit(samples);
   CHECK(error_of(known) < 1e-5);  // float rounding
-  // Outliers that are right to a few per cent, which is what the mixture's least scale of 1 % cannot tell, pull a
-  // little.
+  // Outliers that are right to a few per cent have a slight effect: the least scale of the mixture, 1 %, cannot
+  // separate them.
   CHECK(error_of(knowing.fit(robust().samples(300, {.outlier_ratio = 0.4}))) < 5e-3);
 }
 
 TEST_CASE("outliers are recognised: their share of the samples is what counts little") {
   const auto fit = robust().estimator.fit(robust().samples(300, {.outlier_ratio = 0.4, .noise = 0.1}));
-  // Some outliers have about the right value by chance, and some good samples are out on the tail.
+  // Some outliers are about right by chance, and some inliers are in the tail.
   CHECK(fit.history().back().down_weighted > 0.3);
   CHECK(fit.history().back().down_weighted < 0.45);
 }
@@ -122,7 +122,7 @@ TEST_CASE("any metric of the materials will do") {
     const auto materials = gonio::measured{robust().set, metric}.without({robust().set.names[robust_world::unknown]});
     const double plain = error_of(gonio::decomposition{materials, gonio::nnls{}}.fit(samples));
     const double found = error_of(robust_reconstruction{materials}.fit(samples));
-    // Log-relative combinations are none of Noell's, and non-negative ones of differences from a median fit badly.
+    // Noell's combinations are not log-relative, and non-negative combinations of differences from a median fit badly.
     CHECK(found < 0.7 * plain);
   };
   check(gonio::lin{});
@@ -139,7 +139,7 @@ TEST_CASE("the same bytes for any number of threads, and the seed matters only w
   const auto samples = robust().samples(250, {.outlier_ratio = 0.3});
   check_same(with(0, 20'000, 1), with(0, 20'000, 3), samples, samples);
   check_same(with(0, 100, 1), with(0, 100, 2), samples, samples);
-  check_same(with(1, 20'000, 1), with(2, 20'000, 1), samples, samples);  // all samples are looked at
+  check_same(with(1, 20'000, 1), with(2, 20'000, 1), samples, samples);  // uses all samples
   check_same(robust_reconstruction{robust().others}, with(0, 20'000, 1), samples, samples);
   CHECK_FALSE(std::ranges::equal(with(1, 100, 1).fit(samples).correction().values(),
                                  with(2, 100, 1).fit(samples).correction().values()));

@@ -17,7 +17,7 @@ const gonio::measured<gonio::log>& seven_materials() {
   return basis;
 }
 
-/// Cells, and locations between them, of which there are more than a block of rows has.
+/// Returns cells, and locations between them: more than one block of rows.
 std::vector<gonio::location> mixed_places(std::size_t count, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_int_distribution<std::size_t> any(0, small_cells().size() - 1);
@@ -68,7 +68,7 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
       const Eigen::MatrixXd gram = rows.transpose() * w.asDiagonal() * rows;
       const Eigen::VectorXd rhs = rows.transpose() * w.asDiagonal() * b;
       const auto normal = functions.normal(c, system.weights, system.values);
-      // Interpolated rows are rounded to float, and all terms are positive.
+      // Interpolated rows are rounded to float. All terms are positive.
       const double tolerance = 5e-7;
       RC_ASSERT(((normal.gram() - gram).array().abs() <= tolerance * gram.array()).all());
       RC_ASSERT(((normal.rhs() - rhs).array().abs() <= tolerance * rhs.array()).all());
@@ -128,10 +128,10 @@ TEST_CASE("rows of weight zero are skipped, whatever is there") {
   const auto without = sampled_functions(seven_materials(), kept)
                            .normal(0, Eigen::Map<const Eigen::ArrayXf>(weights.data(), count),
                                    Eigen::Map<const Eigen::ArrayXf>(values.data(), count));
-  // Blocks of 128 rows begin elsewhere.
+  // Blocks of 128 rows start at other rows.
   CHECK(without.gram().isApprox(before.gram(), 1e-6));
   CHECK(without.rhs().isApprox(before.rhs(), 1e-6));
-  // Nothing at all.
+  // All weights zero.
   const Eigen::ArrayXf none = Eigen::ArrayXf::Zero(300);
   CHECK(functions.normal(1, none, none).gram().isZero(0.0));
 }

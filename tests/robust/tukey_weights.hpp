@@ -1,5 +1,5 @@
 #pragma once
-/// Tukey's biweight, with which the iteration's weights are compared.
+/// Tukey's biweight, for comparison with the iteration's weights.
 
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
@@ -9,9 +9,9 @@
 
 namespace gonio {
 
-/// Tukey's biweight of the logarithmic deviation, (1 - (u/c)^2)^2 within c and 0 beyond: a redescending M-estimator
-/// with 95 % efficiency for Gaussian errors (Huber, Robust Statistics, 1981). u is in units of the median deviation of
-/// the data, times 1.4826, for each channel by itself. Breaks down when half of the measurements are outliers.
+/// Tukey's biweight of the logarithmic deviation, (1 - (u/c)^2)^2 within c and 0 outside: a redescending M-estimator
+/// with 95 % efficiency for Gaussian errors (Huber, Robust Statistics, 1981). u is the deviation divided by 1.4826
+/// times the median deviation, for each channel separately. Breaks down if half of the measurements are outliers.
 struct tukey_weights {
   double cutoff = 4.685;
   /// Added to measurement and estimate before the logarithm, in sr^-1.
@@ -26,7 +26,7 @@ inline channel_values tukey_weights::weigh(const channel_values& measured, const
   const channel_values deviation = ((measured.max(0.0f) + offset).log() - (estimated + offset).log()).abs();
   channel_values weights(3, measured.cols());
   for (Eigen::Index c = 0; c < 3; ++c) {
-    // Rounding is no deviation.
+    // Ignores deviations due to rounding.
     std::vector<float> sorted;
     for (const float value : deviation.row(c)) sorted.push_back(value);
     const float limit = static_cast<float>(cutoff) * std::max(1.4826f * upper_median(sorted), 1e-6f);

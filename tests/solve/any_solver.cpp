@@ -8,7 +8,7 @@
 
 using gonio::any_solver;
 
-// What it holds is known at run time only.
+// The held solver is known only at run time.
 static_assert(!gonio::solves_non_negative<any_solver>);
 
 TEST_CASE("the solver held solves, and says whether its weights can be negative") {

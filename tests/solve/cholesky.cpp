@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Symmetric and positive definite, with eigenvalues of at least 1.
+/// Returns a symmetric positive definite matrix with eigenvalues of at least 1.
 Eigen::MatrixXd positive_definite(Eigen::Index size) {
   const Eigen::MatrixXd a = Eigen::MatrixXd::Random(size, size + 3);
   return Eigen::MatrixXd::Identity(size, size) + a * a.transpose();
@@ -15,7 +15,7 @@ Eigen::MatrixXd positive_definite(Eigen::Index size) {
 
 }  // namespace
 
-// Sizes around the 64 columns that are factorised at once, and around the tiles of products.
+// Sizes near multiples of 64, the number of columns factorised together, and of the tiles of products.
 TEST_CASE("Cholesky factors are Eigen's") {
   for (const Eigen::Index size : {1, 2, 5, 63, 64, 65, 127, 128, 129, 200}) {
     CAPTURE(size);

@@ -22,7 +22,7 @@ namespace {
 
 constexpr eta_criterion criteria[] = {eta_criterion::generalised_cross_validation, eta_criterion::leave_one_out};
 
-/// Rows of columns whose lengths fall, right-hand sides with noise, and weights of which some are zero.
+/// Rows of columns with falling lengths, noisy right-hand sides, and weights, some of them zero.
 least_squares_problem noisy_problem(Eigen::Index n, Eigen::Index k, double noise, unsigned seed) {
   Eigen::MatrixXd rows = random_matrix(n, k, seed);
   for (Eigen::Index column = 0; column < k; ++column) rows.col(column) *= std::pow(0.8, static_cast<double>(column));
@@ -33,7 +33,7 @@ least_squares_problem noisy_problem(Eigen::Index n, Eigen::Index k, double noise
   return {rows, right, weights};
 }
 
-/// The squared error of each row predicted from a fit without it.
+/// Returns the squared error of predicting each row from a fit without it.
 double by_refitting(const least_squares_problem& problem, double eta) {
   double sum = 0.0;
   for (Eigen::Index left_out = 0; left_out < problem.equations(); ++left_out) {
@@ -50,7 +50,7 @@ double by_refitting(const least_squares_problem& problem, double eta) {
   return sum;
 }
 
-/// The definition, with the hat matrix W^(1/2) A (A'WA + eta I)^-1 A'W^(1/2) and rows of positive weight alone.
+/// The definition, with the hat matrix W^(1/2) A (A'WA + eta I)^-1 A'W^(1/2), for rows of positive weight.
 double by_hat_matrix(const least_squares_problem& problem, double eta) {
   const Eigen::Index n = problem.equations();
   Eigen::MatrixXd root = Eigen::MatrixXd::Zero(n, n);
@@ -158,7 +158,7 @@ TEST_CASE("equations that the unknowns explain need no penalty; noise that they 
         dense_reference::symmetric_eigen(least_squares_problem(rows, right).normal().gram()).values.maxCoeff();
     CHECK(choose_eta({rows, right}, criterion) < 0.1 * largest);
     CHECK(automatic_tikhonov(criterion).solve({rows, right}).report.residual[0] < 0.02 * right.norm());
-    // The mean of the others predicts worse than zero does if signs alternate.
+    // If signs alternate, the mean of the others predicts worse than zero does.
     Eigen::MatrixXd alternating = Eigen::MatrixXd::Ones(10, 1);
     for (Eigen::Index row = 0; row < 10; row += 2) alternating(row, 0) = -1.0;
     CHECK(choose_eta({Eigen::MatrixXd::Ones(10, 1), alternating}, criterion) == doctest::Approx(1000.0));
@@ -167,7 +167,7 @@ TEST_CASE("equations that the unknowns explain need no penalty; noise that they 
 
 TEST_CASE("where no eta is better than another the largest is chosen") {
   for (const eta_criterion criterion : criteria) {
-    // b = 0; and orthogonal rows, of which none predicts another.
+    // b = 0; then orthogonal rows, which do not predict each other.
     CHECK(choose_eta({Eigen::MatrixXd::Identity(3, 3), Eigen::MatrixXd::Zero(3, 1)}, criterion) ==
           doctest::Approx(100.0));
     CHECK(choose_eta({Eigen::MatrixXd::Identity(3, 5), Eigen::MatrixXd::Ones(3, 1)}, criterion) ==
@@ -221,7 +221,7 @@ TEST_CASE("a choice among plausible etas is the best of these") {
       CHECK(score(problem, criterion, eta) <= 1.001 * cross_validate(problem, criterion, scan).minCoeff());
       CHECK(automatic_tikhonov(criterion, range).solve(problem).weights == tikhonov(eta).solve(problem).weights);
     }
-  // Nothing speaks for less.
+  // Nothing favours a smaller eta.
   const least_squares_problem single(random_matrix(1, 2, 1), random_matrix(1, 1, 2));
   CHECK(choose_eta(single, eta_criterion::leave_one_out, {1.0, 7.0}) == 7.0);
   for (const gonio::eta_range& impossible :

@@ -42,7 +42,7 @@ TEST_CASE("a column that depends on those present is refused and changes nothing
   gonio::growing_cholesky factor(3);
   Eigen::VectorXd none(0), one = Eigen::VectorXd::Constant(1, 6.0);
   REQUIRE(factor.append(none, 4.0));
-  CHECK_FALSE(factor.append(one, 9.0));  // (3, 0) beside (2, 0)
+  CHECK_FALSE(factor.append(one, 9.0));  // (3, 0), parallel to (2, 0)
   CHECK(factor.size() == 1);
   one[0] = 6.0;
   CHECK(factor.append(one, 9.0 + 1e-10));

@@ -1,6 +1,6 @@
 #pragma once
-/// Random least-squares problems of sixteen families on which solvers went wrong, here or elsewhere, and the judge of
-/// their solutions: from the rows, in extended precision, knowing no solver.
+/// Random least-squares problems of sixteen families on which solvers have failed, here or elsewhere. Solutions are
+/// judged from the rows in extended precision, independently of any solver.
 
 #include "random_problems.hpp"
 #include <gonio/solve/least_squares_problem.hpp>
@@ -19,17 +19,17 @@ enum class family {
   non_negative_data,
   near_duplicates,  // columns that differ by 1e-4 to 1e-12
   monotone,         // lower triangular, rows weighted by the roots of counts: monotone regression (scipy 20168)
-  nearly_low_rank,  // low rank + 1e-12
+  nearly_low_rank,  // low rank plus 1e-12
   row_weights,      // rows times 1e-8 to 1e8
   column_scales,    // columns times 1e-12 to 1e12
   tiny,             // everything times 1e-120
   huge,             // everything times 1e120
   wide,             // fewer rows than columns
-  duplicated,       // columns twice, or with the other sign
+  duplicated,       // each column twice, or with the opposite sign
   zero_columns,
   ill_conditioned,      // condition up to 1e12
-  kahan,                // triangles whose condition no pivot shows
-  nearly_antiparallel,  // columns that cancel but for 1e-3 to 1e-9
+  kahan,                // triangles whose condition number pivots do not reveal
+  nearly_antiparallel,  // columns that cancel up to 1e-3 to 1e-9
   degenerate            // small integers: weights and gradients that are exactly zero
 };
 inline constexpr int families = 16;
@@ -114,7 +114,7 @@ class generator : random_problems::generator {
       const auto count = static_cast<double>(integer(0, 12));
       for (Eigen::Index j = 0; j <= row; ++j) made.matrix(row, j) = count;
       made.right[row] = std::floor(uniform(0.0, count + 1.0));
-      if (count == 0.0) {  // nothing was counted: no step upwards is wanted
+      if (count == 0.0) {  // no count: no step upwards is wanted
         made.matrix(row, row) = 1.0;
         if (row + 1 < k) made.matrix(row, row + 1) = -1.0;
         made.right[row] = 0.0;
@@ -140,9 +140,9 @@ class generator : random_problems::generator {
   }
 };
 
-/// What a solution is worth: all relative, in extended precision.
+/// The quality of a solution: all relative, in extended precision.
 struct verdict {
-  double violation = 0.0;  ///< of the KKT conditions, in columns of length 1, relative to |b| + sum of |a_j| |x_j|
+  double violation = 0.0;  ///< of the KKT conditions, for columns of length 1, relative to |b| + sum of |a_j| |x_j|
   double residual = 0.0;   ///< |A x - b| / |b|
   double objective = 0.0;  ///< (|A x - b|^2 / 2 + lambda |x|_1) / (|b|^2 / 2)
 };

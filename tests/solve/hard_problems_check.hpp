@@ -1,5 +1,5 @@
 #pragma once
-/// Every solver on problems of `hard_problems`, judged from the rows.
+/// Runs every solver on the problems of `hard_problems` and judges the results from the rows.
 
 #include "hard_problems.hpp"
 #include "oracles/nnls_block_pivoting.hpp"
@@ -32,12 +32,12 @@ struct tally {
 struct way {
   std::string name;
   std::function<gonio::solution(const gonio::least_squares_problem&)> solve;
-  bool judged = true;  ///< by `judge`: the optimum of least squares with |x|_1, with or without x >= 0
+  bool judged = true;  ///< by `judge`, as an optimum of least squares plus |x|_1, with or without x >= 0
   bool non_negative = true;
   double lambda = 0.0;
 };
 
-/// Without a penalty, and with 1e-6 to 1 times the largest. Ways of the same group have the same optimum.
+/// Returns all methods, without a penalty and with 1e-6 to 1 times the largest. Methods of one group share the optimum.
 [[nodiscard]] inline std::vector<std::vector<way>> all_ways(const gonio::least_squares_problem& problem, double share) {
   const auto by = [](const auto& solver) {
     return [solver](const gonio::least_squares_problem& given) { return solver.solve(given); };
@@ -60,7 +60,7 @@ struct way {
   return groups;
 }
 
-/// Solves problem `seed` of a family in all ways and adds what comes of it to the tallies, which are by solver.
+/// Solves problem `seed` of a family by all methods and adds the results to the tallies of the solvers.
 inline void check(family what, unsigned seed, std::map<std::string, tally>& tallies) {
   generator random(seed);
   const auto problem = random.make(what);

@@ -75,7 +75,7 @@ TEST_CASE("of two equal columns the penalty needs only one, and of two opposite 
 }
 
 TEST_CASE("a column that could shorten the weights takes the place of the two it is the sum of") {
-  // Column 2 is the sum of columns 0 and 1: reaching b = a0 + a1 through it costs half as much.
+  // Column 2 is the sum of columns 0 and 1. Reaching b = a0 + a1 by column 2 has half the penalty.
   Eigen::MatrixXd a(2, 3);
   a << 1, 0, 1, 0, 1, 1;
   const normal_equations normal(a.transpose() * a, a.transpose() * Eigen::Vector2d(1, 1));

@@ -9,7 +9,7 @@
 
 namespace {
 
-/// A random rotation of eigenvalues that fall by a factor: 1, factor, factor^2, ...
+/// A random rotation of a diagonal matrix with the eigenvalues 1, factor, factor^2, ...
 Eigen::MatrixXd falling_matrix(Eigen::Index size, double factor) {
   std::srand(5);
   const Eigen::MatrixXd random = Eigen::MatrixXd::Random(size, size);
@@ -64,7 +64,8 @@ TEST_CASE("the same seed gives the same eigenpairs, more products better ones") 
 }
 
 TEST_CASE("seeds stand for the same random vectors everywhere") {
-  // By another program: three vectors of six normal numbers, by Box and Muller from the standard's numbers.
+  // Computed by another program from three vectors of six normal numbers (Box and Muller, from the standard's
+  // generator).
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(6, 6);
   for (Eigen::Index i = 0; i < 6; ++i) matrix(i, i) = std::pow(0.5, double(i));
   const auto of_seed = [&](std::uint64_t seed) {

@@ -16,19 +16,19 @@ using gonio::row_matrix;
 
 namespace {
 
-/// Orthonormal columns.
+/// Returns a matrix with orthonormal columns.
 Eigen::MatrixXd random_orthonormal(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
   return dense_reference::orthonormal_columns(random_matrix(rows, columns, seed));
 }
 
-/// Weights of which about every fifth is zero.
+/// Returns weights, about every fifth of which is zero.
 Eigen::VectorXd random_weights(Eigen::Index rows, unsigned seed) {
   return random_matrix(rows, 1, seed).unaryExpr([](double value) {
     return value < -0.8 ? 0.0 : std::abs(value) + 0.1;
   });
 }
 
-/// A problem of any shape, some of whose columns are copies or sums of others, or zeros.
+/// A problem of any shape. Some columns are copies or sums of others, or zero.
 Eigen::MatrixXd random_dependent(Eigen::Index n, Eigen::Index k, unsigned seed) {
   Eigen::MatrixXd rows = random_matrix(n, k, seed);
   std::mt19937 generator(seed);
@@ -56,7 +56,7 @@ struct reference {
   Eigen::Index rank;
 };
 
-/// The minimum-norm solution from the singular value decomposition, which the eigenvectors of [0 A; A' 0] hold.
+/// The minimum-norm solution by the singular value decomposition, from the eigenvectors of [0 A; A' 0].
 reference by_svd(const least_squares_problem& problem) {
   const Eigen::Index n = problem.equations(), k = problem.unknowns(), r = problem.right_hand_side().cols();
   const Eigen::VectorXd root = problem.weights().cwiseSqrt();

@@ -80,7 +80,7 @@ TEST_CASE("whatever reads a row that is not finite refuses it by name, and large
   refused([&] { (void)problem.residual(Eigen::MatrixXd::Zero(4, 1)); });
   refused([&] { (void)problem.normal(); });
   refused([&] { (void)problem.subset(last).rows(); });
-  // Their sum overflows.
+  // The sum of the elements overflows.
   CHECK(least_squares_problem(row_matrix::Constant(2, 2, 1e308), Eigen::MatrixXd::Ones(2, 1)).rows()(1, 1) == 1e308);
 }
 

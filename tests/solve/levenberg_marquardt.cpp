@@ -35,7 +35,7 @@ TEST_CASE("Levenberg and Marquardt find the bottom of Rosenbrock's valley") {
 }
 
 TEST_CASE("bounds hold, also at the start, and equal ones fix an unknown") {
-  // Below x = 0.5 the valley's floor is y = x^2: the minimum is at the corner (0.5, 0.25).
+  // Below x = 0.5 the bottom of the valley is y = x^2, so the minimum is at the corner (0.5, 0.25).
   gonio::unknown_bounds bounds = box(2, -2.0, 0.5);
   const auto watched = [&](const Eigen::VectorXd& x) {
     CHECK((x.array() >= bounds.lowest.array()).all());

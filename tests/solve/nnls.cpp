@@ -15,8 +15,8 @@ using gonio::normal_equations;
 
 namespace {
 
-/// Every way to solve NNLS, certified. There are four: the non-negative Lasso without a penalty is coordinate descent
-/// under another name, and is here to show that it is.
+/// All four methods for NNLS, certified. The non-negative Lasso without a penalty is the same as coordinate descent;
+/// the tests show that it is.
 std::vector<std::pair<std::string, gonio::solution>> all_ways(const normal_equations& normal) {
   return {{"active set", gonio::nnls().solve(normal)},
           {"block principal pivoting", gonio::nnls_block_pivoting().solve(normal)},
@@ -25,8 +25,8 @@ std::vector<std::pair<std::string, gonio::solution>> all_ways(const normal_equat
           {"non-negative Lasso without a penalty", gonio::non_negative_lasso(0.0).solve(normal)}};
 }
 
-/// By all supports of independent columns, one of which has the optimum: the feasible one with the least objective. For
-/// a handful of columns.
+/// Returns the least objective of the feasible solutions on all supports of independent columns, one of which is the
+/// optimum. For a few columns only.
 double least_objective(const random_problems::problem& problem) {
   const Eigen::Index k = problem.matrix.cols();
   double least = 0.0;
@@ -37,7 +37,7 @@ double least_objective(const random_problems::problem& problem) {
     const Eigen::MatrixXd part = problem.matrix(Eigen::all, columns);
     const auto x = dense_reference::least_squares(part, problem.right, 1e-10);
     if (!x || (x->array() < 0.0).any()) continue;
-    // From the rows: where columns nearly depend on each other weights are large, and normal equations cancel.
+    // Computed from the rows: with nearly dependent columns the weights are large, and normal equations cancel.
     const Eigen::VectorXd off = part * *x - problem.right;
     least = std::min(least, 0.5 * (off.squaredNorm() - problem.right.squaredNorm()));
   }
@@ -110,7 +110,7 @@ TEST_CASE("the golden instances, a real 99 x 99 Gram matrix of condition 4e7 amo
       CAPTURE(name);
       CHECK(found.report.kkt_residual[0] <= 1e-9);
       CHECK(found.report.objective[0] == doctest::Approx(objective).epsilon(1e-10));
-      if (instance["kind"] != "dup")  // whose optimum is not unique
+      if (instance["kind"] != "dup")  // the optimum of "dup" is not unique
         CHECK((found.weights.col(0) - expected).cwiseAbs().maxCoeff() <= 1e-6 * (1.0 + expected.maxCoeff()));
     }
   }
@@ -118,7 +118,7 @@ TEST_CASE("the golden instances, a real 99 x 99 Gram matrix of condition 4e7 amo
 
 TEST_CASE(
     "the linear combinations of the small golden instance, with outliers and without, and each of its leave-one-outs") {
-  // Eleven materials, the twelfth measured on every third row; see /shared/reference/python/golden.py.
+  // Eleven materials; the twelfth is measured at every third row. See /shared/reference/python/golden.py.
   const auto golden = golden_json("small_noell.json");
   const auto names = golden_json("small_ridge.json")["materials"].get<std::vector<std::string>>();
   const auto table = golden_csv("small_brdf.csv");

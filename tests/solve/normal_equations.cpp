@@ -59,7 +59,7 @@ TEST_CASE("normal equations that cannot be solved are refused with the offending
   refuse(good, Eigen::MatrixXd(3, 0), {}, "empty");
   refuse(Eigen::MatrixXd::Ones(3, 2), right, {}, "3 x 2");
   refuse(good, Eigen::MatrixXd::Ones(2, 1), {}, "2 x 1");
-  refuse(good, right, Eigen::VectorXd::Ones(2), "and 2 of them have a squared norm");
+  refuse(good, right, Eigen::VectorXd::Ones(2), "and there are 2 squared norms of right-hand sides");
   Eigen::MatrixXd broken = good;
   broken(0, 2) = std::nan("");
   refuse(broken, right, {}, "column 2");

@@ -63,22 +63,22 @@ normal_equations golden_equations(const nlohmann::json& instance) {
   return {gram, matrix(Eigen::Map<const vector>(m.data(), k))};
 }
 
-/// For random numbers that start from random seeds. Takes any property, so that RapidCheck is compiled once.
+/// Checks a property for random seeds. The type of the property is erased, so that RapidCheck is compiled once.
 bool for_all_seeds(const std::function<void(unsigned)>& property) { return rc::check(property); }
 
-/// What one seed stands for.
+/// Random numbers derived from one seed.
 struct draw {
   std::mt19937 generator;
   unsigned seed;
   explicit draw(unsigned from) : generator(from), seed(static_cast<unsigned>(generator()) >> 2) {}
 
-  /// At least `from`, less than `to`.
+  /// Returns a number of at least `from` and less than `to`.
   Eigen::Index number(Eigen::Index from, Eigen::Index to) { return from + generator() % (to - from); }
   bool coin() { return number(0, 2) == 1; }
   random_problem problem(Eigen::Index k) { return {k, static_cast<int>(number(0, random_problem::kinds)), seed}; }
 };
 
-/// Is the solution as good as the best of all active sets?
+/// Returns true if the solution is as good as the best of all active sets.
 bool is_best(const gonio::solution& found, const random_problem& problem, const linear_constraints& constraints,
              const scaled& units) {
   const vector unscaled = units.by.cwiseProduct(found.weights.col(0));
@@ -147,7 +147,7 @@ TEST_CASE("x >= 0 is the best of all supports") {
     const auto found = quadratic_program<>().solve(units.equations(problem));
     RC_ASSERT(found.report.kkt_residual[0] <= 1e-9);
     RC_ASSERT(found.weights.minCoeff() >= 0.0);
-    // At conditions beyond 1e10 elimination does not tell noise from data any more.
+    // For condition numbers above 1e10, elimination no longer separates data from noise.
     RC_ASSERT(problem.decades > 5.0 || is_best(found, problem, {.non_negative = true}, units));
   }));
 }
@@ -184,7 +184,7 @@ TEST_CASE("larger problems are certified, whatever their rank, condition and sca
 }
 
 TEST_CASE("a linear program: no curvature at all") {
-  // Maximise m'x over the simplex: the best corner.
+  // Maximises m'x over the simplex: the solution is the best corner.
   const matrix nothing = matrix::Zero(4, 4);
   const Eigen::Vector4d m(1, 7, -2, 3);
   const auto corner = quadratic_program<convex_weights>().solve(normal_equations(nothing, m));
@@ -205,13 +205,13 @@ TEST_CASE("redundant rows and a degenerate corner") {
   rows.D.row(2) << 1, 0;
   const auto found = quadratic_program(rows).solve(identity_with(numbers({4, 0})));
   CHECK(near(found.weights, numbers({1, 0}), 1e-14));
-  // Nothing but zero is allowed.
+  // Only zero is feasible.
   const linear_constraints zero{.D = matrix::Ones(1, 2), .d = vector::Zero(1), .non_negative = true};
   CHECK(quadratic_program(zero).solve(identity_with(numbers({4, 1}))).weights == numbers({0, 0}));
 }
 
 TEST_CASE("a row that follows from two almost parallel ones is redundant") {
-  // a, a + b / 2^20 and a + b, without rounding; what is left is a line along (1, 1, -2).
+  // a, a + b / 2^20 and a + b, without rounding. The minimisers form a line along (1, 1, -2).
   const double tiny = std::ldexp(1.0, -20);
   linear_constraints rows{.E = matrix(3, 3), .e = numbers({6, 6 - tiny, 5})};
   rows.E << 1, 1, 1,  //
@@ -222,7 +222,7 @@ TEST_CASE("a row that follows from two almost parallel ones is redundant") {
 }
 
 TEST_CASE("a row's violation is relative to its bound, and its coefficients times the weights") {
-  // At the optimum x = 2 of x^2 / 2 - 2 x, 3 x = 6 is above 4: by 2 / (4 + 3 * 2).
+  // At the optimum x = 2 of x^2 / 2 - 2 x, 3 x = 6 exceeds 4, by 2 / (4 + 3 * 2) relative to the terms.
   const auto violation = [](const linear_constraints& constraints) {
     return kkt_violation(identity_with(numbers({2})), 0, numbers({2}), constraints,
                          {vector::Zero(constraints.d.size()), vector::Zero(constraints.e.size())});
@@ -275,10 +275,10 @@ TEST_CASE("an objective that falls for ever is refused") {
   const normal_equations zero_column(diagonal, numbers({1, 1}));
   CHECK(contains(refusal(zero_column, none), "unbounded"));
   CHECK(contains(refusal(zero_column, positive), "unbounded"));
-  // Downwards it is bounded by zero.
+  // Downwards, zero is the bound.
   const auto bounded = quadratic_program<>().solve(normal_equations(diagonal, numbers({1, -1})));
   CHECK(bounded.weights == numbers({1, 0}));
-  // x1 - x2 costs nothing and pays.
+  // x1 - x2 has no curvature and a gain.
   const normal_equations same(matrix::Ones(2, 2), numbers({1, 0.5}));
   CHECK(contains(refusal(same, none), "unbounded"));
   CHECK(near(quadratic_program<>().solve(same).weights, numbers({1, 0}), 1e-12));
@@ -286,7 +286,7 @@ TEST_CASE("an objective that falls for ever is refused") {
   CHECK(quadratic_program(capped).solve(same).report.kkt_residual[0] < 1e-10);
   CHECK(for_all_seeds([](unsigned seed) {
     draw any(seed);
-    // A ray into x > 0 without curvature and with gain.
+    // A ray in x > 0 without curvature and with a gain.
     const Eigen::Index k = any.number(2, 12), n = any.number(1, k + 3);
     const vector ray = random_matrix(k, 1, any.seed + 7).cwiseAbs() + vector::Constant(k, 0.1);
     matrix A = random_matrix(n, k, any.seed);
@@ -328,7 +328,7 @@ TEST_CASE("every start ends at the same optimum, and at once from the optimum's 
     RC_ASSERT(kkt_violation(normal, 0, optimum.weights, constraints, optimum.multipliers) <= 1e-10);
   };
   CHECK(for_all_seeds(ends_at_the_optimum));
-  // The optimum is zero: all violations are rounding.
+  // The optimum is zero, so all violations are rounding errors.
   CHECK_NOTHROW(ends_at_the_optimum(266832711));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Random least-squares problems, the awkward ones included, on which solvers must agree.
+/// Random least-squares problems, including difficult ones, on which all solvers must agree.
 
 #include "../dense_reference.hpp"
 #include <gonio/solve/normal_equations.hpp>
@@ -18,17 +18,17 @@ inline Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, un
   return matrix;
 }
 
-/// How far two solutions are apart, relative to their size but where they are small.
+/// Returns the distance between two solutions, relative to their size unless they are small.
 inline double relative_distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).norm() / (1.0 + b.norm());
 }
 
 namespace random_problems {
 
-/// What is special about a problem.
+/// The special property of a problem.
 enum class kind {
   ordinary,
-  non_negative_data,  // like reflectance: all entries >= 0, columns alike
+  non_negative_data,  // like reflectance: all entries >= 0, similar columns
   rank_deficient,
   duplicated_columns,
   zero_columns,

@@ -1,5 +1,5 @@
 #pragma once
-/// Random quadratic programs of every kind that solvers find hard, and their optimum by brute force.
+/// Random quadratic programs of every kind that is hard for solvers, and their optima by brute force.
 
 #include "random_problems.hpp"
 #include <gonio/solve/linear_constraints.hpp>
@@ -21,14 +21,14 @@ namespace programs {
 using matrix = Eigen::MatrixXd;
 using vector = Eigen::VectorXd;
 
-/// One product for all, compiled once.
+/// The product, compiled once.
 inline matrix times(const matrix& a, const matrix& b) { return a * b; }
 
 inline vector numbers(std::initializer_list<double> list) {
   return Eigen::Map<const vector>(list.begin(), std::ssize(list));
 }
 
-/// Shrinks A along orthogonal random directions, the last by 10^-decades (the square of that in Q).
+/// Shrinks A along orthogonal random directions, the last one by 10^-decades (twice as many decades in Q).
 inline void worsen(matrix& A, double decades, unsigned seed) {
   const Eigen::Index k = A.cols();
   matrix directions = random_matrix(k, k, seed + 17);
@@ -42,7 +42,8 @@ inline void worsen(matrix& A, double decades, unsigned seed) {
   }
 }
 
-/// Normal equations of random data: well conditioned or not, with dependent columns, fewer rows than columns, or zeros.
+/// Normal equations of random data: well or ill-conditioned, with dependent columns, with fewer rows than columns, or
+/// zero.
 struct random_problem {
   matrix Q;
   vector m;
@@ -69,7 +70,7 @@ struct random_problem {
   [[nodiscard]] double scale() const { return m.cwiseAbs().maxCoeff(); }
 };
 
-/// In extended precision: the objective of an ill-conditioned problem cancels.
+/// Extended precision, because the objective of an ill-conditioned problem cancels.
 using extended = std::vector<long double>;
 
 inline double objective(const random_problem& problem, const extended& x) {
@@ -82,13 +83,13 @@ inline double objective(const random_problem& problem, const extended& x) {
   return static_cast<double>(sum);
 }
 
-/// Equations whose last column is the right-hand side.
+/// A linear system; the last column is the right-hand side.
 struct extended_system {
   std::vector<extended> rows;
 
   explicit extended_system(std::size_t size) : rows(size, extended(size + 1, 0.0L)) {}
 
-  /// A solution, if there is one, by elimination with complete pivoting.
+  /// Returns a solution, if one exists, by elimination with complete pivoting.
   [[nodiscard]] std::optional<extended> solve() {
     const std::size_t n = rows.size();
     std::vector<Eigen::Index> place(n);
@@ -127,7 +128,7 @@ struct extended_system {
   }
 };
 
-/// The KKT system with some inequalities as equations: first the bounds, then the rows.
+/// Returns the KKT system with the active inequalities as equations: first the bounds, then the rows.
 inline extended_system kkt_system(const random_problem& problem, const gonio::linear_constraints& constraints,
                                   unsigned active) {
   const auto at = [](Eigen::Index i) { return i; };
@@ -166,7 +167,7 @@ inline bool feasible(const extended& x, const gonio::linear_constraints& constra
   return true;
 }
 
-/// The lowest objective of all feasible points that are stationary on some set of active constraints.
+/// Returns the lowest objective of all feasible points that are stationary on some set of active constraints.
 inline double lowest_objective(const random_problem& problem, const gonio::linear_constraints& constraints) {
   const std::size_t k = problem.m.size();
   const std::size_t inequalities = constraints.d.size() + (constraints.non_negative ? k : 0);
@@ -180,7 +181,7 @@ inline double lowest_objective(const random_problem& problem, const gonio::linea
   return lowest;
 }
 
-/// Random rows that hold at some x >= 0, some of them with equality.
+/// Returns random rows that hold at some x >= 0, some with equality.
 inline gonio::linear_constraints random_constraints(Eigen::Index k, Eigen::Index rows, Eigen::Index equalities,
                                                     bool non_negative, unsigned seed) {
   gonio::linear_constraints made{.non_negative = non_negative};
@@ -193,7 +194,7 @@ inline gonio::linear_constraints random_constraints(Eigen::Index k, Eigen::Index
   return made;
 }
 
-/// The same problem in other units of its columns; objectives do not change.
+/// The same problem with rescaled columns; objectives do not change.
 struct scaled {
   vector by;
   scaled(Eigen::Index k, unsigned seed) : by(k) {

@@ -28,7 +28,7 @@ random_problems::problem two_by_two(double c, double value) {
   return made;
 }
 
-/// The standard normal numbers of numpy's RandomState, with which instances are published: Marsaglia's polar method.
+/// The standard normal numbers of numpy's RandomState (Marsaglia's polar method), with which instances are published.
 class numpy_normal {
  public:
   explicit numpy_normal(unsigned seed) : engine_(seed) {}
@@ -47,7 +47,7 @@ class numpy_normal {
   }
 
  private:
-  /// 53 bits of two draws.
+  /// Combines two draws to 53 bits.
   double uniform() {
     const auto high = static_cast<double>(engine_() >> 5), low = static_cast<double>(engine_() >> 6);
     return (high * 67108864.0 + low) / 9007199254740992.0;
@@ -57,7 +57,7 @@ class numpy_normal {
   std::optional<double> kept_;
 };
 
-/// The first tally of a family that found something wrong, as a sentence.
+/// Describes the first tally of a family that found an error.
 std::string first_wrong(family what, unsigned from, unsigned to) {
   std::map<std::string, hard_problems::tally> tallies;
   for (unsigned seed = from; seed < to; ++seed) hard_problems::check(what, seed, tallies);
@@ -66,7 +66,7 @@ std::string first_wrong(family what, unsigned from, unsigned to) {
   return "";
 }
 
-/// Every way to solve NNLS of a problem is right from its rows.
+/// Checks from the rows that every NNLS method solves the problem.
 void check_nnls(const random_problems::problem& problem, const least_squares_problem& given) {
   const auto nnls_ways = hard_problems::all_ways(given, 1.0).front();
   for (const hard_problems::way& each : nnls_ways) {
@@ -142,7 +142,7 @@ TEST_CASE("a KKT residual of 1e-13 does not hide a column too many where weights
 }
 
 TEST_CASE("large weights are found in the rows, larger ones refused, and still larger ones are not wanted") {
-  // The second column is the first with the other sign, but for 1e-9: it takes 1e9 of each to reach b.
+  // The second column is the negative of the first, up to 1e-9, so reaching b needs weights of 1e9.
   random_problems::problem problem{Eigen::MatrixXd(2, 2), Eigen::Vector2d(0.0, 1.0)};
   problem.matrix << 1, -1, 0, 1e-9;
   const auto found = gonio::nnls().solve(hard_problems::equations(problem));
@@ -151,7 +151,7 @@ TEST_CASE("large weights are found in the rows, larger ones refused, and still l
   problem.matrix(1, 1) = 3.5e-11;
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::nnls().solve(hard_problems::equations(problem))),
                        doctest::Contains("rounding them moves A x"), gonio::error);
-  problem.matrix(1, 1) = 1e-11;  // less is no column of its own
+  problem.matrix(1, 1) = 1e-11;  // smaller values count as dependent
   CHECK(gonio::nnls().solve(hard_problems::equations(problem)).weights.maxCoeff() <= 1.0);
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("normal equations are resolved where nothing hinges on their rounding"
   random_problems::problem problem{Eigen::MatrixXd(3, 2), Eigen::Vector3d(1, 0, 1)};
   problem.matrix << 1, 0, 0, 1, 0, 0;
   CHECK(resolved(problem, Eigen::Vector2d(1, 0), nnls));
-  problem.matrix.col(1) = problem.matrix.col(0);  // twins: only weights without a sign can grow without end
+  problem.matrix.col(1) = problem.matrix.col(0);  // equal columns: only signed weights can grow without limit
   CHECK(resolved(problem, Eigen::Vector2d(1, 0), nnls));
   CHECK_FALSE(resolved(problem, Eigen::Vector2d(1, 0), free));
   CHECK(resolved(problem, Eigen::Vector2d(0.9, 0), penalised));

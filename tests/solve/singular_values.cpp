@@ -12,7 +12,7 @@
 
 namespace {
 
-/// The largest difference from Eigen's values, as a share of the largest value.
+/// Returns the largest difference from Eigen's values, relative to the largest value.
 double off_from_reference(const Eigen::MatrixXd& a, double scale = 1.0) {
   const Eigen::VectorXd found = gonio::singular_values(scale * a, "a test"), wanted = dense_reference::svd(a).values;
   return (found / scale - wanted.reverse()).cwiseAbs().maxCoeff() / wanted[0];

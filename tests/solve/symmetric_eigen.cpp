@@ -20,7 +20,7 @@ Eigen::MatrixXd random_symmetric(Eigen::Index size, std::uint64_t seed) {
   return a;
 }
 
-/// A V = V diag(values), V orthonormal, and the values are those of Eigen's own solver.
+/// Checks that A V = V diag(values), that V is orthonormal, and that the values equal those of Eigen's solver.
 void check_decomposition(const Eigen::MatrixXd& a) {
   const gonio::symmetric_eigen found = gonio::decompose_symmetric(a, "a test");
   const double size = std::max(a.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());

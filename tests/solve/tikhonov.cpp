@@ -48,8 +48,8 @@ TEST_CASE("a sample of weight zero does not count, one of weight two counts twic
 }
 
 TEST_CASE("the ridge reconstruction of the small golden instance") {
-  // The 11 materials x RGB that the reference trains on, mapped by the log-relative metric of their median;
-  // "yellow-paint" is the test. See /shared/reference/python/golden.py for how the file came about.
+  // The 11 materials x RGB on which the reference trains, mapped by the log-relative metric of their median;
+  // "yellow-paint" is the test. /shared/reference/python/golden.py made the file.
   const auto golden = golden_json("small_ridge.json");
   const auto table = golden_csv("small_brdf.csv");
   const auto names = golden["materials"].get<std::vector<std::string>>();
@@ -79,8 +79,8 @@ TEST_CASE("the ridge reconstruction of the small golden instance") {
 
   for (const double eta : {40.0, 1.0}) {
     const auto& expected = golden[eta == 40.0 ? "eta_40" : "eta_1"];
-    // With all components kept the scaled components are a rotation of the observations themselves, so the
-    // dual weights of the reference are this problem's weights.
+    // With all components kept, the scaled components are a rotation of the observations, so the reference's dual
+    // weights are the weights of this problem.
     const auto samples = golden["rows_of_small_brdf"].get<std::vector<Eigen::Index>>();
     row_matrix rows(5, 33);
     Eigen::MatrixXd right(5, 3);

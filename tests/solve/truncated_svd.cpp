@@ -16,7 +16,7 @@ using gonio::truncated_svd;
 
 namespace {
 
-/// Columns whose lengths fall by `factor` each, times a random matrix; about every fifth weight is zero.
+/// Columns whose lengths fall by `factor` each, times a random matrix. About every fifth weight is zero.
 least_squares_problem fading_problem(Eigen::Index n, Eigen::Index k, double factor, unsigned seed) {
   Eigen::MatrixXd rows = random_matrix(n, k, seed);
   for (Eigen::Index column = 0; column < k; ++column) rows.col(column) *= std::pow(factor, static_cast<double>(column));
@@ -29,8 +29,8 @@ least_squares_problem fading_problem(Eigen::Index n, Eigen::Index k, double fact
 struct truncated_reference {
   Eigen::MatrixXd x;
   Eigen::Index kept;
-  double margin;     // how far the sums of squares stay from the share: less, and rounding decides
-  double condition;  // of what is kept
+  double margin;     // distance of the sums of squares from the threshold; if it is too small, rounding decides
+  double condition;  // of the kept part
 };
 
 truncated_reference by_truncated_svd(const least_squares_problem& problem, double share) {
@@ -68,7 +68,7 @@ TEST_CASE("tall and wide problems agree with the truncated singular value decomp
     RC_ASSERT(relative_distance(found.report.residual, problem.residual(expected.x)) < 1e-9);
     RC_ASSERT(relative_distance(found.report.objective, problem.normal().objective(expected.x)) < 1e-9);
     RC_ASSERT(found.report.kkt_residual.maxCoeff() < 1e-12);
-    // Without the rows, through the k x k normal equations in any case.
+    // Without rows, it always uses the k x k normal equations.
     const auto primal = truncated_svd(share).solve(problem.normal());
     RC_ASSERT(truncated_svd(share).kept(problem.normal()) == expected.kept);
     RC_ASSERT(relative_distance(primal.weights, expected.x) < 1e-8);
@@ -89,7 +89,7 @@ TEST_CASE("KKT residuals hold for any share, also where singular values fall to 
 
 TEST_CASE("a closed form: on a diagonal matrix unknowns are solved for or left at zero") {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(4, 3);
-  rows.diagonal() << 1, 3, 2;  // squares 9, 4, 1 of 14
+  rows.diagonal() << 1, 3, 2;  // squares 9, 4 and 1, of a total of 14
   const least_squares_problem problem(rows, Eigen::Vector4d(5, 6, 8, 1));
   CHECK(relative_distance(truncated_svd(9.0 / 14 - 1e-9).solve(problem).weights, Eigen::Vector3d(0, 2, 0)) < 1e-14);
   CHECK(relative_distance(truncated_svd(9.0 / 14 + 1e-9).solve(problem).weights, Eigen::Vector3d(0, 2, 4)) < 1e-14);

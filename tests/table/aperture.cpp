@@ -27,7 +27,7 @@ TEST_CASE("pairs lie within both cones, as many in each equal part of either") {
     direction mean_light = direction::Zero(), mean_receiver = direction::Zero();
     int inner = 0, both_inner = 0;
     const auto is_inner = [](const direction& w, const direction& axis, double half_angle) {
-      return w.dot(axis) > 0.5 + 0.5 * std::cos(half_angle);  // half of the solid angle
+      return w.dot(axis) > 0.5 + 0.5 * std::cos(half_angle);  // the inner half of the solid angle
     };
     for (const auto& [wi, wo] : pairs) {
       RC_ASSERT(gonio::angle_between(wi, axes.wi) <= cones.source + 1e-9);
@@ -41,7 +41,7 @@ TEST_CASE("pairs lie within both cones, as many in each equal part of either") {
     RC_ASSERT(gonio::angle_between(mean_light, axes.wi) < 0.02 * cones.source);
     RC_ASSERT(gonio::angle_between(mean_receiver, axes.wo) < 0.02 * cones.receiver);
     RC_ASSERT(inner == count / 2);
-    RC_ASSERT(std::abs(both_inner - count / 4) <= 5);  // the cones are not tied to one another
+    RC_ASSERT(std::abs(both_inner - count / 4) <= 5);  // the directions in the two cones are independent
   }));
 }
 

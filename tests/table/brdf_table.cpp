@@ -12,7 +12,7 @@ using gonio::valid_cells;
 
 namespace {
 
-/// Smooth, reciprocal, with a different value in each channel.
+/// A smooth, reciprocal BRDF with different values in each channel.
 struct smooth_brdf {
   rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
@@ -59,7 +59,7 @@ TEST_CASE("resampling keeps a table on its own cells and approximates it on othe
   CHECK(std::ranges::equal(gonio::resample(table, valid_cells(gonio::grid({60, 60, 60}))).values(), table.values()));
   const brdf_table other = gonio::resample(table, coarse), exact = gonio::tabulate(smooth_brdf(), coarse);
   for (Eigen::Index cell = 0; cell < std::ssize(coarse); ++cell) {
-    // At the horizon the last valid value is held over at most one cell; away from it the error is quadratic.
+    // At the horizon, the last valid value extends over at most one cell. Elsewhere the error is quadratic.
     const auto cosine = cosines(coarse.angles(cell));
     const double tolerance = std::min(cosine.i, cosine.o) > 0.2 ? 2e-3 : 5e-2;
     REQUIRE((other.at(cell) - exact.at(cell)).abs().maxCoeff() < tolerance);

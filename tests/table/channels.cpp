@@ -63,7 +63,7 @@ TEST_CASE("wavelengths that nobody sees are black, and refused where a colour is
   CHECK(bands[0] == doctest::Approx(0.3));
   CHECK(bands[1] == doctest::Approx(0.5));
   CHECK(bands[2] == doctest::Approx(0.9));
-  // Of two, each makes one of the three at least.
+  // If there are two channels, each supplies at least one of the three.
   const gonio::rgb of_two = channels({905.0, 1550.0}).three(std::array{0.3, 0.7});
   CHECK((of_two == gonio::rgb(0.3, 0.3, 0.7)).all());
   CHECK_THROWS_WITH_AS(gonio::require_colour(unseen, "ir.csv"), doctest::Contains("ir.csv: its wavelengths, 905 to"),

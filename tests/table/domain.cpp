@@ -6,7 +6,7 @@
 
 namespace {
 
-/// The smallest model: the example of the concept's documentation.
+/// The smallest model, from the concept's documentation.
 struct wavelengths {
   std::vector<double> nanometres;
   static constexpr int channels = 1;

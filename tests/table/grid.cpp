@@ -14,7 +14,7 @@ TEST_CASE("nearest cells agree with the reference") {
     CAPTURE(i);
     const auto cell = merl.nearest({golden.at("theta_h")[i], golden.at("theta_d")[i], golden.at("phi_d")[i]});
     CHECK(cell.theta_h == static_cast<int>(golden.at("ith")[i]));
-    // Two of the special pairs sit on a border between cells, where rounding decides.
+    // Two of the special pairs are on a border between cells, where rounding decides.
     const double theta_d = merl.theta_d_coordinate(golden.at("theta_d")[i]) + 0.5;
     if (std::abs(theta_d - std::round(theta_d)) < 1e-9) continue;
     CHECK(cell.theta_d == static_cast<int>(golden.at("itd")[i]));
@@ -50,7 +50,7 @@ TEST_CASE("angles beyond the grid go to its border, phi_d wraps") {
   const grid merl;
   CHECK(merl.nearest({3.0, 3.0, 0.0}) == gonio::cell_index{89, 89, 0});
   CHECK(merl.nearest({0.0, 0.0, -0.001}) == gonio::cell_index{0, 0, 179});
-  // With values at lower corners the node nearest to phi_d just below pi is that of phi_d = 0.
+  // With values at lower corners, the node nearest to a phi_d just below pi is the one at phi_d = 0.
   CHECK(grid({}, cell_anchor::lower_corner).nearest({0.0, 0.0, std::numbers::pi - 1e-4}).phi_d == 0);
 }
 

@@ -15,7 +15,7 @@ TEST_CASE("an image of one colour, and one changed pixel") {
   for (std::size_t row = 0; row < 2; ++row)
     for (std::size_t column = 0; column < 3; ++column)
       CHECK((gonio::pixel(picture, row, column) == (row == 1 && column == 2 ? red : grey)).all());
-  // The same locations through xtensor's own indices.
+  // The same locations by xtensor's indices.
   CHECK(picture(1, 2, 0) == 1.0f);
   CHECK(picture(1, 2, 1) == 0.0f);
   CHECK(picture(0, 2, 1) == 0.5f);

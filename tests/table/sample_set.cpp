@@ -43,7 +43,7 @@ TEST_CASE("what no estimator can use is refused with the sample's number") {
   refused({{0.1, 0.2, 0.3}, rgb::Ones(), inf}, "weight");
   refused({{1.0, 1.2, 0.0}, rgb::Ones(), 1.0}, "horizon");
   refused({{0.1, -0.2, 0.0}, rgb::Ones(), 1.0}, "horizon");
-  refused({{6.9, 0.2, 0.0}, rgb::Ones(), 1.0}, "horizon");  // 400 degrees, whose cosines look innocent
+  refused({{6.9, 0.2, 0.0}, rgb::Ones(), 1.0}, "horizon");  // 400 degrees: its cosines look valid
   refused({{0.1, 0.2, 0.3}, rgb::Ones(), 1.0, {gonio::radians(46.0), 0.0}}, "from 0 to 45 degrees");
   refused({{0.1, 0.2, 0.3}, rgb::Ones(), 1.0, {0.0, -0.1}}, "from 0 to 45 degrees");
   CHECK_NOTHROW(gonio::require_usable(

@@ -14,7 +14,7 @@ const gonio::valid_cells& cells() {
   return small;
 }
 
-/// Reflectances that grow along the cells and fall along the wavelengths.
+/// Reflectances that increase along the cells and decrease along the wavelengths.
 spectral_table table() {
   spectral_table made(cells(), {400.0, 500.0, 600.0, 700.0});
   for (Eigen::Index cell = 0; cell < cells().size(); ++cell)

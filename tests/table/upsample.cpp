@@ -25,14 +25,14 @@ std::vector<valid_cells> targets() {
           valid_cells(gonio::grid({11, 28, 12}, gonio::cell_anchor::lower_corner), 0.02)};
 }
 
-/// Two smooth fields at a cell, of which the second spans `size`.
+/// Two smooth fields at a cell; the second has the range `size`.
 std::array<float, 2> smooth_fields(Eigen::Index cell, double size) {
   const auto angles = coarse().angles(cell);
   return {static_cast<float>(std::cos(angles.theta_h + angles.theta_d)),
           static_cast<float>(size * std::cos(2 * angles.phi_d) * std::cos(4 * angles.theta_d))};
 }
 
-/// The interpolated fields or their exponentials beside what `upsample` gives, at each cell of a target.
+/// Compares `upsample` with interpolated fields or their exponentials at each cell of a target.
 template <weighted_mean Mean>
 void check_mean(const valid_cells& to, double size) {
   std::vector<std::atomic<int>> visits(to.size());
@@ -80,7 +80,7 @@ TEST_CASE("a geometric mean of the largest and the smallest exponentials is as e
 
 TEST_CASE("a geometric mean beyond what a progression holds is that of each value, up to infinity") {
   for (const double size : {50.0, 80.0, 200.0, 1e30}) {
-    // Far apart from each cell to the next, so that ratios of neighbours are out of the range of floats.
+    // Values alternate strongly from cell to cell, so that ratios of neighbours exceed the range of float.
     const auto field = [&](Eigen::Index cell) { return static_cast<float>(cell % 2 == 0 ? size : -size); };
     for (const auto& to : targets())
       gonio::upsample<1, weighted_mean::geometric>(
@@ -131,8 +131,8 @@ TEST_CASE("runs of an axis cover its nodes in order, and are neither long nor of
       CHECK(next == extent);
     }
   }
-  // Five nodes of MERL's between two of the prior's along phi_d, of which the first is cut; three along theta_d, where
-  // the first two are before the prior's.
+  // Along phi_d, five MERL nodes between two nodes of the prior; the first run is cut. Along theta_d, three; the first
+  // two nodes are before the prior's first.
   const gonio::detail::grid_runs shipped(gonio::grid({90, 30, 36}), gonio::grid());
   CHECK(shipped.phi_d.size() == 37);
   CHECK(shipped.theta_d.size() == 31);

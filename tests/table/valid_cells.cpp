@@ -34,7 +34,7 @@ TEST_CASE("a row's first valid cell is told with its linear index") {
 
 TEST_CASE("lower corners, and the stricter rule of one database") {
   const gonio::grid corner({}, gonio::cell_anchor::lower_corner);
-  // Two more have a cosine of 1e-17 that is zero but for rounding.
+  // Two more cells are valid because rounding turns a cosine of zero into 1e-17.
   CHECK(valid_cells(corner).size() == 1'111'430);
   CHECK(valid_cells(corner, 0.0200023).size() == 1'089'356);
 }

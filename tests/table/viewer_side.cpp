@@ -28,9 +28,9 @@ sample_set samples_of(const std::vector<reading>& readings) {
 TEST_CASE("the light's side is compared with the mirror direction, or with the other side where that is missing") {
   CHECK(brightness_towards_light(samples_of({{30, 28, 0, 6}, {30, 31, 180, 2}, {30, 60, 180, 9}})) == 3.0);
   CHECK(brightness_towards_light(samples_of({{30, 28, 0, 6}, {30, 60, 180, 3}})) == 2.0);
-  // A viewer at the normal is not on the light's side.
+  // A viewer at the normal is not counted as on the light's side.
   CHECK(brightness_towards_light(samples_of({{30, 28, 0, 6}, {30, 0, 0, 3}})) == 2.0);
-  // The median over incidences; a side that is dark counts as a thousandth of the brightest.
+  // The median over incidences. A dark side counts as a thousandth of the brightest.
   CHECK(brightness_towards_light(samples_of(
             {{30, 30, 0, 6}, {30, 30, 180, 2}, {40, 40, 0, 9}, {40, 40, 180, 1}, {50, 50, 0, 1}, {50, 50, 180, 0}})) ==
         9.0);
@@ -39,7 +39,7 @@ TEST_CASE("the light's side is compared with the mirror direction, or with the o
 TEST_CASE("samples that say nothing of a side do not count") {
   CHECK(brightness_towards_light({}) == 0.0);
   CHECK(brightness_towards_light(samples_of({{5, 5, 0, 6}, {5, 5, 180, 2}})) == 0.0);       // nearly along the normal
-  CHECK(brightness_towards_light(samples_of({{30, 30, 20, 6}, {30, 30, 180, 2}})) == 0.0);  // out of the plane
+  CHECK(brightness_towards_light(samples_of({{30, 30, 20, 6}, {30, 30, 180, 2}})) == 0.0);  // out of plane
   CHECK(brightness_towards_light(samples_of({{30, 50, 0, 6}, {30, 30, 180, 2}})) == 0.0);   // far from the light
 }
 

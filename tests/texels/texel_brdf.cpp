@@ -52,7 +52,7 @@ TEST_CASE("texels for renderers: one that is not of the sample is black") {
   const auto prior = learn(synthetic_materials(small_cells(), 8), 5);
   const gonio::render::shared_components<float> components(prior);
   std::vector<std::uint16_t> weights(30);
-  weights[29] = 1;  // which is enough to be of it
+  weights[29] = 1;  // one non-zero weight is enough
   const gonio::render::texel_brdf sample(components, weights);
   const gonio::direction up(0, 0, 1);
   CHECK((sample(0, up, up) == 0.0).all());
@@ -80,5 +80,5 @@ TEST_CASE("texels for renderers: functions that combine components are the compo
     CHECK(((combined(wi, wo) - expected(wi, wo)).abs() < 1e-4 * expected(wi, wo)).all());
   }
   CHECK_THROWS_WITH_AS((gonio::render::shared_components<float>(prior, combinations.topRows(3))),
-                       doctest::Contains("3 components"), gonio::error);
+                       doctest::Contains("have 3 rows"), gonio::error);
 }

@@ -13,7 +13,7 @@
 
 namespace {
 
-/// Texels that change from one material to another, with noise, in the same directions.
+/// Texels that blend from one material to another, with noise, in the same directions.
 struct textured_sample {
   gonio::log_relative_pca prior = learn(synthetic_materials(small_cells(), 20), 12);
   std::vector<gonio::location> locations;
@@ -50,7 +50,7 @@ struct textured_sample {
 }  // namespace
 
 TEST_CASE("texels: the weights are those of a decomposition of each texel") {
-  for (const Eigen::Index n : {5, 20, 40})  // fewer images than components, and more
+  for (const Eigen::Index n : {5, 20, 40})  // fewer and more images than components
     for (const double eta : {0.5, 40.0}) {
       CAPTURE(n);
       CAPTURE(eta);

@@ -1,4 +1,5 @@
-/// Replaces the experiments with shapes if dlib or nanoflann is missing: they say what they need.
+/// Stands in for the experiments on shapes if dlib or nanoflann is missing. Each experiment prints which libraries it
+/// needs.
 
 #include "papers/experiments.hpp"
 #include <gonio/core/error.hpp>
@@ -21,5 +22,6 @@ void add_absent(command& app, const char* name) {
 
 void add_shape_poses(command& app) { add_absent(app, "shape-poses"); }
 void add_shape_fields(command& app) { add_absent(app, "shape-fields"); }
+void add_shape_causes(command& app) { add_absent(app, "shape-causes"); }
 
 }  // namespace papers

@@ -61,7 +61,7 @@ std::array<laboratory, 4> laboratories(double outliers) {
            {"noise, misplaced, outliers", lab::sensor::usual(), with_outliers, usual_noise}}};
 }
 
-/// Returns at most `most` poses of pairs that the machine can reach.
+/// Returns the poses of those pairs that the machine can reach, at most `most`.
 std::vector<gonio::direction_pair> reachable(const laboratory_options& options,
                                              const std::vector<gonio::direction_pair>& pairs, std::size_t most) {
   lab::dark_room room(lab::white(), {}, {});
@@ -202,14 +202,18 @@ void add_laboratory(command& app) {
   const auto options = std::make_shared<laboratory_options>();
   command.add_input("tables", options->tables, "Tables to put into the machine (.binary or .binary.gz)").required();
   command.add_input("--directions", options->directions, "A few directions, for pca (.csv)").required();
-  command.add_option("--many", options->many, "Number of random directions for correction; 0: not at all")
+  command.add_option("--many", options->many, "Number of random directions for correction; 0: do not run correction")
       .capture_default_str();
   add_prior_option(command, options->prior);
   add_machine_options(command, options->machine);
-  command.add_option("--outliers", options->outliers, "Share of poses with up to 10 times the light, or a tenth")
+  command
+      .add_option("--outliers", options->outliers,
+                  "Share of poses that are outliers: their light is multiplied by a random factor from 0.1 to 10")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
-  command.add_option("--repetitions", options->repetitions, "Laboratories of which pca's errors are the mean")
+  command
+      .add_option("--repetitions", options->repetitions,
+                  "Number of laboratories over which the errors of pca are averaged")
       .check(check::positive_number())
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of the first laboratory").capture_default_str();

@@ -41,7 +41,8 @@ std::string significant(double value) {
   return text.str();
 }
 
-/// Returns every third theta_d and fifth phi_d. Lobes are smooth there, and the fit takes a fifteenth of the time.
+/// Returns cells with every third theta_d and fifth phi_d. Lobes are smooth there, and a fit takes a fifteenth of the
+/// time.
 gonio::valid_cells cells_of_fit() { return gonio::valid_cells(gonio::grid({90, 30, 36})); }
 
 json fit_one(const models_options& given, const std::string& model, const std::string& loss,
@@ -62,7 +63,7 @@ json fit_one(const models_options& given, const std::string& model, const std::s
 /// Returns all fits in the order of the materials.
 json fit_all(const models_options& given, progress_bar& bar) {
   const auto all = gonio::io::read_networks(given.networks);
-  const auto networks = given.only.empty() ? all : networks_in(all, given.only);
+  const auto networks = given.only.empty() ? all : networks_in(all, given.only, given.networks);
   const gonio::valid_cells cells = cells_of_fit();
   const gonio::material_set materials = gonio::model::tabulate_networks(networks, cells, given.threads);
   const gonio::appearance_metric appearance(cells, 36, given.threads);
@@ -132,7 +133,7 @@ void print_means(const models_options& given, const json& rows) {
       }
 }
 
-/// Prints by material the variants' alpha, and each model's loss and Delta E.
+/// Prints for each material the variants' alpha, and each model's loss and Delta E.
 void print_materials(const models_options& given, const json& rows) {
   std::cout << "\n| material | loss | alpha | alpha with Fresnel |";
   for (const std::string& model : given.models) std::cout << ' ' << model << ": loss | Delta E lights |";
@@ -176,19 +177,19 @@ void add_models(command& app, const team& processes) {
       "models", "Analytic models fitted to 100 materials: which are like Phong, which like Blinn-Phong (Nielsen 2014)");
   const auto options = std::make_shared<models_options>();
   add_networks_option(command, options->networks);
-  command.add_option("--models", options->models, "As `gonio fit --model` has them").capture_default_str();
+  command.add_option("--models", options->models, "Models, named as in `gonio fit --model`").capture_default_str();
   command.add_option("--losses", options->losses, "l1 and l2").check(check::one_of({"l1", "l2"})).capture_default_str();
   command
       .add_option("--last-stage", options->last_stages,
-                  "What the last of the three stages of a fit finds: all parameters, or as printed all but the diffuse "
-                  "colours")
+                  "Parameters that the last of the three stages of a fit finds: all, or printed (all but the diffuse "
+                  "colours, as in the paper)")
       .check(check::one_of({"all", "printed"}))
       .capture_default_str();
-  command.add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log or cubic")
+  command.add_option("--metric", options->metric, "Metric that compares reflectance: lin (as it is), log or cubic")
       .check(check::one_of({"lin", "log", "cubic"}))
       .capture_default_str();
   add_cell_weights_option(command, options->cell_weights);
-  command.add_option("--materials", options->only, "Only these materials");
+  command.add_option("--materials", options->only, "Materials to fit (default: all)");
   command.add_flag("--json", options->print_json, "Print every fit as JSON");
   add_resumable_options(command, *options);
   do_together(command, processes, options, run);

@@ -35,14 +35,14 @@ struct components_options {
   gonio::thread_count threads;
 };
 
-/// Directions with theta_h up to this are in the specular peak.
+/// The largest theta_h of the specular peak, radians.
 constexpr double peak = gonio::radians(5.0);
 
-/// The printed results of the components under one metric, and their images.
+/// The components under one metric: printed results, and images.
 struct learned_components {
   std::string label;
-  std::vector<double> shares;   ///< of the variance, of each component
-  std::vector<double> in_peak;  ///< the share of a component's squared values that lie in the specular peak
+  std::vector<double> shares;   ///< each component's share of the variance
+  std::vector<double> in_peak;  ///< share of each component's squared values in the specular peak
   gonio::image slices;
 };
 
@@ -70,7 +70,7 @@ learned_components learn(const components_options& options, gonio::material_set 
   const Eigen::VectorXd shares = gonio::variance_shares(prior);
   learned_components learned{label, {shares.begin(), shares.end()}, shares_in_peak(prior), {}};
   if (!options.image.empty())
-    learned.slices = draw_component_slices(prior, prior.size(), options.size, options.threads).image;
+    learned.slices = draw_component_slices(prior, prior.size(), options.size, options.threads, label).image;
   return learned;
 }
 
@@ -109,7 +109,7 @@ void run(const components_options& options) {
   const auto tabulate = [&] { return gonio::model::tabulate_networks(networks, cells, options.threads, listener); };
   auto materials = tabulate();
   const auto metric = gonio::log_relative::to_median_of(materials, options.threads);
-  // Tabulate the materials twice, so that only one copy is in memory: learning consumes them.
+  // Tabulate the materials twice: learning consumes them, so only one copy is in memory.
   auto mapped = learn(options, std::move(materials), metric, "mapped", listener);
   const std::array both{std::move(mapped), learn(options, tabulate(), gonio::lin(), "as it is", listener)};
   bar.wipe();
@@ -126,18 +126,18 @@ void run(const components_options& options) {
 }  // namespace
 
 void add_components(command& app) {
-  auto command = app.add_subcommand(
-      "components",
-      "The first principal components, mapped and not: how much of the variance, and where (Nielsen 2015)");
+  auto command = app.add_subcommand("components",
+                                    "The first principal components with and without mapping: their shares of the "
+                                    "variance, and where it lies (Nielsen 2015)");
   const auto options = std::make_shared<components_options>();
   add_networks_option(command, options->networks);
   command.add_option("--count", options->count, "Number of components")
       .check(check::positive_number())
       .capture_default_str();
   command.add_output("--image", options->image, {".png"},
-                     "Slices at phi_d = 90 degrees to write (.png): above the reference BRDF and mapped components, "
-                     "below the mean and components without a mapping; what one standard deviation adds, from blue "
-                     "(less) over white to red (more)");
+                     "Image to write (.png) of slices at phi_d = 90 degrees. Above: the reference BRDF and the mapped "
+                     "components. Below: the mean and the components without mapping. A component's slice shows what "
+                     "one standard deviation adds, from blue (less) over white to red (more)");
   command.add_option("--size", options->size, "Rows and columns of each slice")
       .check(check::range(8, 1024))
       .capture_default_str();

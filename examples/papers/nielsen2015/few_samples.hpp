@@ -16,8 +16,8 @@
 
 namespace papers {
 
-/// Reconstructs each truth by an estimator from `measure(truth, its number)`. Compares over the truth's cells in the
-/// domain of `metric`.
+/// Reconstructs each truth, a material's full table, from the samples that `measure(truth, its number)` returns.
+/// Compares the result with the truth at the truth's cells, mapped by `metric`.
 template <gonio::estimator Estimator, gonio::error_metric Metric, class Measure>
 requires std::is_invocable_r_v<gonio::sample_set, Measure&, const gonio::brdf_table&, std::size_t>
 [[nodiscard]] std::vector<material_result> reconstruct_each(const Estimator& estimator, Measure&& measure,
@@ -68,8 +68,8 @@ template <gonio::basis Basis, gonio::error_metric Metric>
                                 threads);
 }
 
-/// Projects each truth on the prior's components: the lower bound of the error. Prior and truths must share their
-/// cells.
+/// Projects each truth on the prior's components, which gives a lower bound of the error. Prior and truths must share
+/// their cells.
 template <gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> project_on(const gonio::pca<Metric>& prior,
                                                       const gonio::material_set& truths,

@@ -17,7 +17,7 @@ namespace papers::figures {
 
 namespace {
 
-/// With more components, all pairs of images would take minutes.
+/// Compares all pairs of images up to this number of components; more would take minutes.
 constexpr Eigen::Index most_of_pairs = 100;
 
 std::vector<Eigen::Index> swept(const options& given, const laboratory& lab) {
@@ -26,7 +26,7 @@ std::vector<Eigen::Index> swept(const options& given, const laboratory& lab) {
   return numbers;
 }
 
-/// Returns R of a QR decomposition. The first columns of R have the singular values of the first columns of the whole.
+/// Returns R of a QR decomposition. The first k columns of R have the singular values of the first k columns of `rows`.
 Eigen::MatrixXd triangle_of(Eigen::MatrixXd rows) {
   const gonio::householder_qr decomposed(std::move(rows));
   const Eigen::Index n = std::min(decomposed.rows(), decomposed.cols());
@@ -87,7 +87,6 @@ std::string printed(const gonio::design::sphere_geometry& geometry, slices chose
   return text;
 }
 
-/// Returns the condition number of each set of images.
 std::vector<double> values_of(const sphere_conditions& condition, const std::vector<slices>& sets,
                               gonio::thread_count threads) {
   std::vector<double> values(sets.size());
@@ -96,7 +95,7 @@ std::vector<double> values_of(const sphere_conditions& condition, const std::vec
   return values;
 }
 
-/// Adds the best of all sets of one size, and the rank of the published one.
+/// Adds to a row the best of all sets of one size, and the rank of the published set.
 void add_ranks(std::vector<json>& row, const sphere_conditions& condition, const std::vector<slices>& sets,
                const slices& published, gonio::thread_count threads) {
   const std::vector<double> values = values_of(condition, sets, threads);
@@ -108,7 +107,7 @@ void add_ranks(std::vector<json>& row, const sphere_conditions& condition, const
   row.emplace_back(1 + std::ranges::count_if(values, [&](double value) { return value < reached; }));
 }
 
-/// Returns all sets of one slice and of two slices.
+/// Returns all sets of one slice, and all sets of two slices.
 std::array<std::vector<slices>, 2> small_sets(const gonio::design::sphere_geometry& geometry) {
   std::array<std::vector<slices>, 2> sets;
   for (Eigen::Index a = 0; a < geometry.size(); ++a) {

@@ -27,13 +27,13 @@ using angles = std::vector<gonio::half_difference>;
 
 constexpr double light_angle = 45.0;
 
-/// The viewer's angle in degrees, negative on the light's side, and the sample there.
+/// A sample, and its viewer's angle in degrees, negative on the light's side.
 struct seen_sample {
   double view = 0.0;
   gonio::sample sample;
 };
 
-/// A material: the samples of each set of directions, by the set's name, and its scan.
+/// A material's name, its samples for each set of directions (by the set's name), and its scan.
 struct scanned_material {
   std::string name;
   std::map<std::string, gonio::sample_set> sets;
@@ -62,8 +62,8 @@ scanned_material of_table(const std::string& name, const gonio::brdf_table& trut
   return material;
 }
 
-/// Returns a material from scattered measurements. Each direction takes its nearest measurement. The scan takes those
-/// in the plane with light or, by reciprocity, viewer within 6 degrees of 45.
+/// Returns a material from scattered measurements. Each direction takes its nearest measurement. The scan takes the
+/// measurements in the plane of incidence whose light or, by reciprocity, viewer is within 6 degrees of 45.
 scanned_material of_samples(const std::string& name, const gonio::sample_set& all) {
   constexpr double near_the_light = 6.0, in_plane = 1.0;
   scanned_material material{name, {}, {}};
@@ -104,7 +104,8 @@ std::vector<scanned_material> materials_of(const options& given) {
   return materials;
 }
 
-/// Returns the errors of a reconstruction on a scan, in all and by parts.
+/// Returns the errors of a reconstruction on a scan: in all directions, near the mirror direction, in the other
+/// directions, and cosine-weighted.
 std::vector<json> errors_on(const scanned_material& material, const std::string& set, const gonio::brdf auto& fit) {
   constexpr double highlight = 15.0;  // degrees from the mirror direction
   logarithmic_error all, mirror, others;

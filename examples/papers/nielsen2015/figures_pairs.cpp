@@ -19,18 +19,17 @@ namespace {
 
 using angles = std::vector<gonio::half_difference>;
 
-/// Two cells and their value.
+/// Two cells and their value by a criterion.
 struct cell_pair {
   std::array<Eigen::Index, 2> cells{};
   double value = std::numeric_limits<double>::infinity();
 };
 
-/// Sorts the best pair first.
 void sort(std::vector<cell_pair>& pairs) {
   std::ranges::sort(pairs, {}, [](const cell_pair& pair) { return std::tuple(pair.value, pair.cells); });
 }
 
-/// Returns the cells nearest to those of a grid with the given step of theta_d and phi_d in degrees.
+/// Returns the cells nearest to those of a coarse grid, with `step` degrees in theta_d and phi_d.
 std::vector<Eigen::Index> coarse_cells(const gonio::valid_cells& cells, double step) {
   const auto along = [&](double all) { return std::max(1, static_cast<int>(std::lround(all / step))); };
   const gonio::valid_cells coarse(gonio::grid({along(90.0), along(90.0), along(180.0)}));
@@ -46,21 +45,20 @@ angles angles_of(const laboratory& lab, const std::array<Eigen::Index, 2>& cells
   return {lab.prior().cells().angles(cells[0]), lab.prior().cells().angles(cells[1])};
 }
 
-/// Returns the components at some cells.
 Eigen::MatrixXd components_at(const laboratory& lab, const std::vector<Eigen::Index>& cells) {
   Eigen::MatrixXd rows(std::ssize(cells), lab.prior().size());
   for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i) = lab.prior().components().row(cells[i]).cast<double>();
   return rows;
 }
 
-/// Returns the condition number of two rows from their scalar products.
+/// Returns the condition number of two rows from their squared norms and scalar product.
 double condition_of_pair(double first, double second, double product) {
   const double mean = 0.5 * (first + second), radius = std::hypot(0.5 * (first - second), product);
   return radius < mean ? std::sqrt((mean + radius) / (mean - radius)) : std::numeric_limits<double>::infinity();
 }
 
-/// Calls `values(i)` for each cell i, from several threads. It returns the values of the pairs of that cell and each
-/// later one. Keeps the pairs with a value of at most `limit` and the best pair of each cell. Sorts the best first.
+/// Returns pairs of cells, the best first: the best pair of each cell, and all pairs with a value of at most `limit`.
+/// `values(i)`, called from several threads, returns the values of the pairs of cell i and each later cell.
 template <class Values>
 std::vector<cell_pair> best_pairs(const std::vector<Eigen::Index>& cells, double limit, Values&& values,
                                   gonio::thread_count threads) {
@@ -84,7 +82,8 @@ std::vector<cell_pair> best_pairs(const std::vector<Eigen::Index>& cells, double
 /// Keep all pairs up to this condition number.
 constexpr double good_condition = 1.01;
 
-/// Returns the pairs by the condition number of the first k components.
+/// Returns pairs ordered by the condition number of the first k components: the best pair of each cell, and all pairs
+/// up to `good_condition`.
 std::vector<cell_pair> pairs_by_condition(const laboratory& lab, const options& given, Eigen::Index k,
                                           const std::vector<Eigen::Index>& cells) {
   const Eigen::MatrixXd rows = components_at(lab, cells).leftCols(k);
@@ -119,7 +118,8 @@ std::vector<cell_pair> pairs_by_expected_error(const laboratory& lab, const opti
       given.threads);
 }
 
-/// Searches from successive seeds. Returns the best first; a pair's first direction has the smaller theta_h.
+/// Searches from successive seeds. Returns the pairs found, the best first. A pair's first direction has the smaller
+/// theta_h.
 template <gonio::design::design_criterion Criterion, class Search>
 std::vector<cell_pair> searched(const gonio::log_relative_pca& prior, const options& given, const Criterion& criterion,
                                 const Search& search) {
@@ -138,14 +138,14 @@ std::vector<cell_pair> searched(const gonio::log_relative_pca& prior, const opti
   return found;
 }
 
-/// Moves to the best neighbour, from the best of several tries.
+/// Returns a search that starts from the best of `tries` random candidates and moves to the best neighbour.
 auto to_best_neighbour(Eigen::Index tries) {
   return [tries](const auto& points, const auto& objective, std::uint64_t seed) {
     return gonio::design::grow_and_descend(points, objective, 2, tries, seed);
   };
 }
 
-/// The search as printed.
+/// The search along the gradient, as printed in the paper.
 constexpr auto along_gradient = [](const auto& points, const auto& objective, std::uint64_t seed) {
   return grow_along_gradient(points, objective, 2, seed);
 };
@@ -155,7 +155,7 @@ std::string printed(const gonio::half_difference& at) {
   return rounded(at.theta_h) + ' ' + rounded(at.theta_d) + ' ' + rounded(at.phi_d);
 }
 
-/// Returns the row of one pair: both criteria, and the errors of the ten materials.
+/// Returns the row of one pair: its name, both criteria, the mean error of the ten materials, and its two directions.
 std::vector<json> row_of(const laboratory& lab, const options& given, const std::string& name, const angles& pair) {
   const Eigen::MatrixXd rows = gonio::design::rows_at(lab.prior(), pair).components;
   return {name,
@@ -180,7 +180,7 @@ std::vector<json> reached(const std::string& name, const std::vector<cell_pair>&
           within(1.01)};
 }
 
-/// Adds the end points of the searches: their interquartile ranges.
+/// Adds the interquartile ranges of the directions where the searches end.
 void add_places(table& shown, const std::string& name, const laboratory& lab, const std::vector<cell_pair>& found) {
   for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
     std::vector<double> heights, differences;

@@ -17,7 +17,8 @@ namespace papers::figures {
 namespace {
 
 constexpr std::array etas{0.1, 1.0, 4.0, 10.0, 40.0, 100.0, 400.0, 1000.0};
-/// In units of `lasso`, which halves the squares. In Eq. 11 with |c|_1 in place of |c|^2 they would be twice as large.
+/// Penalties for `lasso`, which minimises half the sum of squared residuals plus lambda |x|_1. Without the factor 1/2,
+/// as in Eq. 11 with |c|_1 in place of |c|^2, the same penalties would be twice as large.
 constexpr std::array lambdas{0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0};
 
 /// The measurements of one set, and their least-squares problem.
@@ -27,7 +28,7 @@ struct measured_set {
   gonio::least_squares_problem problem;
 };
 
-/// Adds Gaussian noise of some deviation to mapped values. Small deviations correspond to relative noise.
+/// Adds Gaussian noise to mapped values. Small deviations correspond to relative noise.
 gonio::least_squares_problem with_noise(const gonio::least_squares_problem& problem, double deviation,
                                         std::uint64_t seed) {
   std::mt19937_64 generator(seed);
@@ -51,7 +52,8 @@ std::vector<measured_set> sets_of(const laboratory& lab, const options& given) {
 
 /// The result of one penalty.
 struct outcome {
-  double penalty = 0.0, error = 0.0, weights = 0.0;  ///< mean mapped error; mean number of nonzero weights
+  /// `error` is the mean mapped error, `weights` the mean number of nonzero weights.
+  double penalty = 0.0, error = 0.0, weights = 0.0;
 };
 
 template <gonio::solver Solver>

@@ -21,7 +21,7 @@ namespace {
 
 using angles = std::vector<gonio::half_difference>;
 
-/// Searches like Nielsen et al. 2015: returns the lowest condition number over several seeds.
+/// Searches like Nielsen et al. 2015 from several seeds. Returns the directions with the lowest condition number.
 angles by_condition(const laboratory& lab, const options& given, std::size_t n) {
   const gonio::design::point_geometry points(lab.prior().cells());
   const gonio::design::criterion_of_plan condition{lab.prior(), points, gonio::design::condition_number{}};
@@ -33,7 +33,7 @@ angles by_condition(const laboratory& lab, const options& given, std::size_t n) 
   return samples_of(points, best.candidates);
 }
 
-/// Returns the best 1 to `most` points by E.
+/// Returns the best sets of 1 to `most` points by E.
 std::vector<angles> points_by_expected_error(const laboratory& lab, const options& given, std::size_t most,
                                              const gonio::progress& listener) {
   const gonio::design::cell_candidates candidates(lab.prior(), criterion_of(lab, given), {}, given.threads);
@@ -43,7 +43,7 @@ std::vector<angles> points_by_expected_error(const laboratory& lab, const option
   return sets;
 }
 
-/// Returns the best 1 to `most` spheres by E.
+/// Returns the best sets of 1 to `most` spheres by E.
 std::vector<gonio::design::capture_plan> spheres_by_expected_error(const laboratory& lab, const options& given,
                                                                    std::size_t most, const gonio::progress& listener) {
   const gonio::design::image_candidates candidates(
@@ -53,7 +53,6 @@ std::vector<gonio::design::capture_plan> spheres_by_expected_error(const laborat
   return best_plans(candidates, most, most, given.seed, listener);
 }
 
-/// Returns a random set of cells.
 angles random_points(const laboratory& lab, std::size_t n, std::uint64_t seed) {
   angles directions;
   for (const Eigen::Index cell : gonio::random_cells(lab.prior().cells(), n, seed))
@@ -114,7 +113,7 @@ table against_spheres(const laboratory& lab, const options& given, const gonio::
   return shown;
 }
 
-/// The bounds on the error: without any measurement, and with all of them.
+/// Returns the bounds of the error: without any measurement, and with all measurements.
 table bounds(const laboratory& lab) {
   return {"Bounds",
           {{"measured"}, {"mean mapped error"}},

@@ -63,7 +63,6 @@ void add_row(table& shown, std::size_t n, const record& searched, const Objectiv
                         lab.error(samples_of(objective.geometry(), best->plan.candidates))});
 }
 
-/// Runs a search from several seeds.
 template <class Search>
 record timed_record(const char* name, const options& given, const Search& search) {
   record timings{name};
@@ -94,7 +93,7 @@ std::vector<Eigen::Index> race_counts(const options& given) {
   return counts;
 }
 
-/// Compares searches that use the first k components. All components judge the directions found.
+/// Compares searches that use the first k components. The errors are those of reconstructions with all components.
 table race_by_condition(const laboratory& lab, const options& given, Eigen::Index k, const gonio::progress& listener) {
   table shown{"By condition number of the first " + std::to_string(k) +
                   " components (the figure's): reached from "

@@ -34,7 +34,7 @@ double out_of_plane(const gonio::half_difference& at) {
 /// An image of a sphere contains the measured directions whose theta_d is within this many degrees.
 constexpr double half_slice = 2.5;
 
-/// The measurements that an image of a sphere would contain, and the rest.
+/// The measurements that an image of a sphere would contain, and all other measurements.
 struct parted_samples {
   gonio::sample_set seen, others;
 };
@@ -51,7 +51,6 @@ parted_samples part(const gonio::sample_set& all, const angles& slices) {
   return parted;
 }
 
-/// Returns the slices of a set as angles.
 angles slices_of(const gonio::valid_cells& cells, const std::string& set, Eigen::Index n) {
   const gonio::design::sphere_geometry spheres(cells);
   angles slices;

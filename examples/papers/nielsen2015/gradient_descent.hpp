@@ -48,8 +48,8 @@ template <gonio::design::capture_geometry Geometry, class Value>
   return step;
 }
 
-/// Returns the end of a step. If there is none, drops the axes along which the step alone has none ("clip
-/// accordingly").
+/// Returns the candidate at the end of a step. If there is no candidate, first sets the step to 0 along each axis whose
+/// step alone leads to no candidate ("clip accordingly").
 template <gonio::design::capture_geometry Geometry>
 [[nodiscard]] std::optional<Eigen::Index> stepped_or_clipped(const Geometry& geometry, Eigen::Index from,
                                                              gonio::design::grid_step step) {

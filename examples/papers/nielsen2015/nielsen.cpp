@@ -100,9 +100,9 @@ void run(const nielsen_options& options) {
 }  // namespace
 
 void add_nielsen_test_materials(command& app) {
-  auto command =
-      app.add_subcommand("nielsen-test-materials",
-                         "Nielsen et al. 2015: ten materials from 1 to 20 published directions, 90 others learned");
+  auto command = app.add_subcommand(
+      "nielsen-test-materials",
+      "Nielsen et al. 2015: ten materials from 1 to 20 published directions; the prior has learned 90 others");
   const auto options = std::make_shared<nielsen_options>();
   add_networks_option(command, options->networks);
   command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();

@@ -22,12 +22,12 @@ gonio::log_relative_pca learn_all_components(const gonio::model::named_networks&
 }
 
 nielsen_split nielsen_split::learn(const studied_networks& networks, gonio::thread_count threads,
-                                   const gonio::progress& listener) {
+                                   const gonio::progress& listener, gonio::cosine_weighting weighting) {
   const auto all = networks.read();
   const auto& tested = gonio::nielsen_test_materials();
   const auto cells = networks.cells();
-  return {learn_all_components(networks_except(all, tested), cells, threads, listener),
-          gonio::model::tabulate_networks(networks_in(all, tested), cells, threads)};
+  return {learn_all_components(networks_except(all, tested, networks.file), cells, threads, listener, weighting),
+          gonio::model::tabulate_networks(networks_in(all, tested, networks.file), cells, threads)};
 }
 
 std::filesystem::path shipped_directions() { return shipped_file("directions"); }

@@ -23,22 +23,23 @@ namespace papers {
 
 /// The learned prior and the materials to test.
 struct nielsen_split {
-  gonio::log_relative_pca prior;  ///< of the 90, with all components
+  gonio::log_relative_pca prior;  ///< the prior of the 90 learned materials, with all components
   gonio::material_set truths;     ///< the ten
 
   /// Learns from a file of the 100 networks.
   static nielsen_split learn(const studied_networks& networks, gonio::thread_count threads,
-                             const gonio::progress& listener);
+                             const gonio::progress& listener,
+                             gonio::cosine_weighting weighting = gonio::cosine_weighting::product);
 };
 
 /// Returns the folder of the sets of directions that ship with the tool.
 [[nodiscard]] std::filesystem::path shipped_directions();
 
-/// Returns the file name of such a set.
+/// Returns the file name of a set of points.
 [[nodiscard]] std::string points_file(const std::string& set, std::size_t count);
 
-/// Reads a set of points: `published`, or a file of a folder, named after its number and criterion as by `gonio-papers
-/// directions --write`. Returns nothing if there is no set of that size.
+/// Reads a set of `count` points: the published one if `set` is `published`, otherwise the file that `gonio-papers
+/// directions --write` writes to the folder. Returns nothing if there is no such set.
 [[nodiscard]] std::optional<std::vector<gonio::half_difference>> written_points(const std::filesystem::path& folder,
                                                                                 const std::string& set,
                                                                                 std::size_t count);

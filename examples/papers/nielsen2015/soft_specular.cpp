@@ -99,7 +99,8 @@ std::vector<material_result> better(const std::vector<material_result>& first,
 double mapped_rms(const gonio::comparison& errors) { return errors.mapped_rms.mean(); }
 double delta_e_env(const gonio::comparison& errors) { return errors.delta_e_env; }
 
-/// Returns all rows of one number of directions. The switch has none if the directions cannot tell soft from specular.
+/// Returns all rows for `count` directions. If these directions cannot tell soft from specular materials, the switch by
+/// samples has no row.
 std::vector<chosen_results> reconstruct_all_ways(const rivals& from, const gonio::material_set& truths,
                                                  const gonio::appearance_metric& appearance, std::size_t count,
                                                  gonio::thread_count threads) {
@@ -151,10 +152,13 @@ void run(const soft_specular_options& options) {
   const auto networks = options.networks.read();
   const auto cells = options.networks.cells();
   const auto& names = gonio::nielsen_test_materials();
-  const auto truths = gonio::model::tabulate_networks(networks_in(networks, names), cells, options.threads);
-  const rivals from = learn_rivals(
-      options, gonio::model::tabulate_networks(networks_except(networks, names), cells, options.threads, listener),
-      listener);
+  const auto truths =
+      gonio::model::tabulate_networks(networks_in(networks, names, options.networks.file), cells, options.threads);
+  const rivals from =
+      learn_rivals(options,
+                   gonio::model::tabulate_networks(networks_except(networks, names, options.networks.file), cells,
+                                                   options.threads, listener),
+                   listener);
   const gonio::appearance_metric appearance(cells, 36, options.threads);
 
   json result{{"threshold", from.halves.threshold()},
@@ -177,19 +181,20 @@ void run(const soft_specular_options& options) {
 }  // namespace
 
 void add_soft_specular(command& app) {
-  auto command = app.add_subcommand(
-      "soft-specular",
-      "One prior against a soft and a specular one on ten materials, 90 others learned (Nielsen 2015)");
+  auto command = app.add_subcommand("soft-specular",
+                                    "Compare one prior with a soft and a specular prior on ten materials; the priors "
+                                    "have learned 90 others (Nielsen 2015)");
   const auto options = std::make_shared<soft_specular_options>();
   add_networks_option(command, options->networks);
   command.add_option("-n,--counts", options->counts, "Numbers of the published directions: 1, 2, 5, 10, 20")
       .check(check::one_of({1, 2, 5, 10, 20}))
       .capture_default_str();
-  command.add_option("--eta", options->eta, "Tikhonov's penalty of the one prior").capture_default_str();
-  command.add_option("--eta-of-halves", options->eta_of_halves,
-                     "That of the soft and the specular one (default: in proportion to their materials)");
+  command.add_option("--eta", options->eta, "Tikhonov's penalty of the single prior").capture_default_str();
+  command.add_option(
+      "--eta-of-halves", options->eta_of_halves,
+      "Penalties of the soft and the specular prior (default: in proportion to their numbers of materials)");
   command.add_option("--threshold", options->threshold,
-                     "Contrast from which on a material is specular (default: the median of the 90)");
+                     "Contrast above which a material is specular (default: the median of the 90)");
   command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] { run(*options); });

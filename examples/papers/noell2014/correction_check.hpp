@@ -1,5 +1,6 @@
 #pragma once
-/// How expressive correction functions are: Noell, Koehler and Stricker 2014, section 2, describe each by the others.
+/// The expressiveness of correction functions: Noell, Koehler and Stricker 2014, section 2, combine each function from
+/// the other functions.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/robust/correction.hpp>
@@ -13,8 +14,9 @@
 
 namespace papers {
 
-/// Returns the weights, k x 3, of the other functions that best describe a correction function, by a solver of normal
-/// equations. The function's own weights are zero. The constant function, if there is one, is among the others.
+/// Returns the weights, k x 3 for k functions, with which the other functions best describe the function `target`, by a
+/// solver of normal equations. The weights of `target` itself are zero. If there is a constant function, it is among
+/// the others.
 template <gonio::normal_solver Solver>
 [[nodiscard]] Eigen::MatrixXd weights_of_others(const gonio::correction& functions, Eigen::Index target,
                                                 const Solver& solver, gonio::thread_count threads = {}) {
@@ -29,8 +31,8 @@ template <gonio::normal_solver Solver>
   return weights;
 }
 
-/// Returns for each participating material the mean over all cells and channels of |C - its combination of the others|,
-/// by a solver of normal equations. O(cells functions^2).
+/// Returns, for each material in use, the mean over all cells and channels of |C - D|. D is the combination of the
+/// other functions that best describes the correction function C. O(cells functions^2).
 template <gonio::normal_solver Solver>
 [[nodiscard]] std::vector<double> deviations_from_others(const gonio::correction& functions, const Solver& solver,
                                                          gonio::thread_count threads = {}) {
@@ -44,7 +46,7 @@ template <gonio::normal_solver Solver>
   Eigen::ArrayXd sums = Eigen::ArrayXd::Zero(std::ssize(targets));
   for (std::size_t c = 0; c < 3; ++c) {
     const auto channel = functions.channel(c);
-    Eigen::MatrixXf residual(size, std::ssize(targets));  // the deviations are its products with the functions
+    Eigen::MatrixXf residual(size, std::ssize(targets));  // the functions times these weights are the deviations
     for (std::size_t i = 0; i < targets.size(); ++i) {
       residual.col(i) = -combinations[i].col(c).template cast<float>();
       residual(targets[i], i) = 1.0f;

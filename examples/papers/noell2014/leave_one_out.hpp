@@ -1,6 +1,7 @@
 #pragma once
-/// Reconstructs each material of a database from the others: Noell, Koehler and Stricker 2014, section 2. The paper
-/// thereby generates the correction functions, and the linear-combination rival's estimate from full data.
+/// Reconstructs each material of a database from all other materials (Noell, Koehler and Stricker 2014, section 2). In
+/// this way, the paper obtains its correction functions, and also the linear combination from full data with which it
+/// compares.
 
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/decomposition.hpp>
@@ -11,8 +12,8 @@
 
 namespace papers {
 
-/// Fits each material of a basis by the other ones, over all cells, with weight 1. The first fit computes the basis's
-/// own Gram matrices of the three channels, O(cells size^2). Later fits touch no data and only cost the solver.
+/// Fits each material of a basis by the other ones, over all cells, with weight 1. The first fit computes the Gram
+/// matrices of the three channels, O(cells size^2). Later fits use these matrices and only cost the solver.
 ///
 /// ```cpp
 /// const papers::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}, gonio::nnls{}};
@@ -32,7 +33,7 @@ class leave_one_out_decomposition {
     return gonio::leave_one_out(basis_.channel(channel).products(threads_), material, others(material));
   }
 
-  /// Reconstructs a material from all others. Throws gonio::error if there are none, or if the solver gives up.
+  /// Reconstructs a material from all others. Throws gonio::error if there are no others, or if the solver gives up.
   [[nodiscard]] gonio::fitted_brdf<gonio::measured<Metric>> reconstruct(Eigen::Index material) const {
     const std::vector<Eigen::Index> columns = others(material);
     std::array<gonio::solution, 3> found;

@@ -8,8 +8,8 @@
 
 namespace papers {
 
-/// Reconstructs the named materials from the others and compares with their tables in `truths`. `truths` must have the
-/// materials of the basis in the same order over the same cells.
+/// Reconstructs each named material from all other materials, and compares the result with its table in `truths`.
+/// `truths` must have the materials of the basis in the same order over the same cells.
 template <gonio::error_metric Metric, gonio::normal_solver Solver, gonio::error_metric Judged>
 [[nodiscard]] std::vector<material_result> combine_others(
     const papers::leave_one_out_decomposition<Metric, Solver>& others, std::span<const std::string> names,

@@ -61,8 +61,8 @@ struct noell_setting {
   }
 };
 
-/// Returns a row's cells: mean (with its range over several seeds), median, worst, and range of the peak ratio. The
-/// results of the first seed come first, followed by those of the second, and so on.
+/// Returns a row's cells: mean (with its range over several seeds), median, worst, and range of the peak ratio. In
+/// `results`, those of the first seed come first, then those of the second, and so on.
 [[nodiscard]] std::string summary(const std::vector<json>& results, const std::string& measure, std::size_t seeds) {
   std::vector<double> values, peaks, means;
   for (const json& result : results) {
@@ -98,7 +98,7 @@ class noell_sweep {
     const std::size_t total = all.size() * materials_.size() * options_.seeds.size();
     std::size_t done = 0;
     prepare();
-    // Loop over materials outermost: each has its own corrections.
+    // Materials are the outermost loop, because each has its own corrections.
     for (std::size_t m = 0; m < materials_.size(); ++m)
       for (const noell_setting& setting : all)
         for (const std::uint64_t seed : options_.seeds) {
@@ -109,7 +109,7 @@ class noell_sweep {
         }
   }
 
-  /// Returns a setting for each row of the table. Those that differ only in iterations are adjacent.
+  /// Returns a setting for each row of the table. Settings that differ only in iterations are adjacent.
   [[nodiscard]] std::vector<noell_setting> settings() const {
     std::vector<noell_setting> all;
     for (const std::string& method : options_.methods)
@@ -135,13 +135,13 @@ class noell_sweep {
   [[nodiscard]] const std::vector<std::string>& materials() const noexcept { return materials_; }
 
  private:
-  /// Returns the values of an option, if a method uses them.
+  /// Returns the values of an option if a method uses it, otherwise one empty value.
   [[nodiscard]] static std::vector<std::optional<int>> choices(const std::vector<int>& given, bool of_use) {
     if (given.empty() || !of_use) return {std::nullopt};
     return {given.begin(), given.end()};
   }
 
-  /// Prepares the parts common to this process' missing cases of a method, a share of data and a seed.
+  /// Prepares this process's missing cases, in groups of the same method, share of data and seed.
   void prepare() {
     for (const std::string& method : options_.methods)
       for (const double data_ratio : options_.data_ratios)
@@ -197,7 +197,8 @@ void print_json(const noell_options& options, const noell_sweep& sweep) {
   std::cout << all.dump(1) << '\n';
 }
 
-/// Prints the harm of the last number of iterations: each reconstruction's error over the least of all numbers.
+/// Prints how much the last number of iterations harms: the error after it, relative to the least error after any of
+/// the given numbers.
 void print_harm(const noell_options& options, const noell_sweep& sweep) {
   for (const noell_setting& last : sweep.settings()) {
     if (last.iterations != options.iterations.back()) continue;
@@ -218,7 +219,7 @@ void print_harm(const noell_options& options, const noell_sweep& sweep) {
   }
 }
 
-/// Prints the time of a round, from the longest and the shortest runs. A method may stop before its last round.
+/// Prints the time per round, from the longest and the shortest runs. It is too short if a method stops early.
 void print_seconds(const noell_options& options, const noell_sweep& sweep) {
   const auto [fewest, most] = std::ranges::minmax(options.iterations);
   std::cout << "\nSeconds per iteration: mean (least - most). The paper: \"a few seconds\".\n\n"
@@ -251,8 +252,9 @@ void print_seconds(const noell_options& options, const noell_sweep& sweep) {
 void print_table(const noell_options& options, const noell_sweep& sweep, std::span<const std::string> materials,
                  const std::string& which) {
   const bool natural = !options.environment.empty();
-  std::cout << "Mean Delta E over the sphere; mean, median and worst of " << materials.size() << ' ' << which << " x "
-            << options.seeds.size() << " outlier seeds, and the range of the peak ratio (green).\n\n"
+  std::cout << "Delta E, averaged over the sphere: mean, median and worst over " << materials.size() << ' ' << which
+            << " x " << counted(std::ssize(options.seeds), "outlier seed")
+            << ", and the range of the peak ratio in the green channel.\n\n"
             << "| method | data | outliers | paper | formula light: mean | median | worst | peak ratio |"
             << (natural ? " natural light: mean | median | worst | peak ratio |\n" : "\n")
             << "|---|---|---|---|---|---|---|---|" << (natural ? "---|---|---|---|\n" : "\n");
@@ -268,7 +270,7 @@ void print_table(const noell_options& options, const noell_sweep& sweep, std::sp
   }
 }
 
-/// Prints the share of outliers that each estimate reports, beside the true one, one row per amount of data.
+/// Prints the share of outliers that each estimate reports, beside the true share. Each row has one amount of data.
 void print_outliers(const noell_options& options, const noell_sweep& sweep) {
   const auto reports = [&](const noell_setting& setting) {
     return sweep.results(setting).front().contains("outliers");
@@ -309,7 +311,7 @@ void run_noell(const noell_options& options) {
   print_table(options, sweep, sweep.materials(), "materials");
   if (const auto others = unseen(sweep.materials()); !others.empty() && others.size() < sweep.materials().size()) {
     std::cout << '\n';
-    print_table(options, sweep, others, "of them, on which no default was chosen,");
+    print_table(options, sweep, others, "materials (on which no default was chosen)");
   }
   if (options.iterations.size() > 1) {
     std::cout << '\n';
@@ -326,14 +328,15 @@ void add_noell(command& app, const std::string& name, const std::string& descrip
   // Declare the materials, their methods and the environment.
   add_networks_option(command, options->networks);
   add_environment_option(command, options->environment);
-  command.add_option("--materials", options->materials, "test (ten of them), all, or the name of one")
+  command
+      .add_option("--materials", options->materials,
+                  "Materials: test (the ten test materials), all, or the name of one material")
       .capture_default_str();
   command
-      .add_option(
-          "--methods", options->methods,
-          "Any of: our, printed (the paper's method as printed), gamma-G (our corrections with the paper's weights), "
-          "lc, rbf, pull-push, scattered; all but gamma-G and the last two with -lin or -root for another metric than "
-          "log")
+      .add_option("--methods", options->methods,
+                  "Methods: our, printed (the paper's method as printed), gamma-G (our corrections with the paper's "
+                  "weights), lc, rbf, pull-push, scattered. The metric is log; our, printed, lc and rbf use another "
+                  "metric if -lin or -root follows")
       .check(check::without([](const std::string& method) { return noell_experiment::complaint(method); }, "METHOD"))
       .capture_default_str();
   // Declare the measurements.
@@ -349,12 +352,12 @@ void add_noell(command& app, const std::string& name, const std::string& descrip
   // Declare the run and its output.
   command
       .add_option("--iterations", options->iterations,
-                  "Numbers of rounds to compare, 0 being the initial estimate; otherwise a method stops by itself, "
-                  "after at most 10")
+                  "Numbers of rounds to compare; 0 is the initial estimate. Default: a method stops by itself, after "
+                  "at most 10 rounds")
       .check(check::non_negative_number());
   command
       .add_option("--basis", options->basis,
-                  "Numbers of other materials, drawn at random, that a method combines; otherwise all")
+                  "Numbers of other materials, drawn at random, that a method combines (default: all)")
       .check(check::positive_number());
   command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
   add_resumable_options(command, *options);

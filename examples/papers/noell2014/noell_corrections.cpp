@@ -38,7 +38,7 @@ void run_corrections(const corrections_options& options) {
     std::vector<double> deviations;
   };
   std::vector<row> rows;
-  // Make the correction functions by both rules, and combine each from the others.
+  // Make the correction functions by both rules, and combine each function from the other functions.
   const auto check = [&](const std::string& rule, const gonio::correction_rule& how) {
     gonio::report(listener, "making correction functions", 0.0);
     const gonio::correction functions{materials, how, gonio::nnls{}, options.threads};

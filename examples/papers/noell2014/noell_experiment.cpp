@@ -53,8 +53,8 @@ struct method_name {
   return material.empty() ? std::vector<std::string>() : std::vector{material};
 }
 
-/// Returns the names that a case leaves out: its material and all others that are not drawn. Smaller bases are subsets
-/// of the larger ones with the same seed.
+/// Returns the names that a case leaves out: its material, and all materials that its basis does not draw. Smaller
+/// bases are subsets of the larger ones with the same seed.
 [[nodiscard]] std::vector<std::string> left_out(const noell_case& which, const std::vector<std::string>& names) {
   std::vector<std::string> out = names_of(which.material);
   if (!which.basis) return out;
@@ -74,7 +74,6 @@ using case_key = std::tuple<std::string, double, double, std::uint64_t>;
   return {which.material, which.data_ratio, which.outlier_ratio, which.seed};
 }
 
-/// A value that is made on first use.
 template <class Value>
 class made_on_demand {
  public:
@@ -100,7 +99,7 @@ struct combinations_under {
 
 }  // namespace
 
-/// Only keeps the system solvable when there are few samples.
+/// Keeps the system solvable when there are few samples.
 const gonio::tikhonov radial_penalty{1e-6};
 
 struct noell_experiment::parts {
@@ -109,7 +108,8 @@ struct noell_experiment::parts {
   noell_measures measures;
   std::tuple<combinations_under<gonio::lin>, combinations_under<gonio::root>, combinations_under<gonio::log>>
       combinations;
-  /// Corrections of all materials, and those without the materials left out last: many consecutive runs share them.
+  /// The corrections of all materials, and the corrections without the materials that were last left out. Many
+  /// consecutive runs share them.
   struct correction_cache {
     made_on_demand<gonio::correction> all, fewer;
     std::vector<std::string> left_out;
@@ -266,7 +266,8 @@ Eigen::Index noell_experiment::samples_of(double data, Eigen::Index cells) noexc
 
 namespace {
 
-/// Returns the share of samples more than 5 % off the truth: an outlier has another cell's value, which may be right.
+/// Returns the share of samples more than 5 % off the truth. Not all outliers are off the truth: another cell's value
+/// may be right.
 [[nodiscard]] double share_off(const gonio::sample_set& samples, const gonio::sample_set& right) {
   constexpr double offset = 0.001, limit = 0.05;
   Eigen::Index off = 0;

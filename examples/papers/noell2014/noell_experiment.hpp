@@ -39,11 +39,10 @@ class noell_experiment {
 
   [[nodiscard]] const std::vector<std::string>& names() const noexcept;
 
-  /// Returns the materials' tables.
   [[nodiscard]] const gonio::material_set& materials() const noexcept;
 
-  /// Estimates by a method from samples and the other materials that a case draws; from all if the case has no
-  /// material.
+  /// Returns a method's estimate from samples and the other materials that a case draws; from all materials if the case
+  /// names no material to leave out.
   [[nodiscard]] gonio::brdf_table estimate(const std::string& method, const noell_case& which,
                                            const gonio::sample_set& samples);
 
@@ -53,12 +52,12 @@ class noell_experiment {
   /// Returns the correction functions of all materials except one, by gonio's rule.
   [[nodiscard]] const gonio::correction& corrections_without(const std::string& material);
 
-  /// Measures the material, reconstructs it by a method from the other materials that the case draws, and judges it
-  /// (`noell_measures::judge`). The seconds are those of the fit.
+  /// Measures the material, reconstructs it by a method from the other materials that the case draws, and returns its
+  /// errors (`noell_measures::judge`) and the seconds of the fit.
   [[nodiscard]] json run(const std::string& method, const noell_case& which);
 
-  /// Prepares cases with the same share of data and seed, which then run faster: their radial basis functions share the
-  /// normal equations.
+  /// Prepares cases with the same share of data and seed, which makes `run` faster for them: their radial basis
+  /// functions share the normal equations.
   void prepare(const std::string& method, std::span<const noell_case> cases);
 
   /// Returns the number of cells to measure, at least 1. `data` is a share of them or, above 1, a number.

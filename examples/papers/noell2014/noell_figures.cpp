@@ -90,28 +90,32 @@ class noell_figures {
   void compare(const gonio::brdf_table& truth, const gonio::sample_set& samples, const std::string& left_out,
                gonio::sphere_delta_e delta_e) {
     const sphere_tiles spheres(std::move(delta_e), truth, options_.threads);
-    std::vector<std::vector<gonio::image>> columns{{measurements_tile(samples)},
-                                                   {slice_tile(truth, options_.threads), spheres.sphere(truth)}};
-    std::cout << "Columns: measurements (red: none), truth";
+    std::vector<std::vector<labelled_tile>> columns{
+        {{measurements_tile(samples), "measurements"}},
+        {{slice_tile(truth, options_.threads), "truth"}, {spheres.sphere(truth), "truth"}}};
+    std::cout << "Columns: measurements (grey: none), truth";
     for (const std::string& method : all_methods) std::cout << ", " << method;
-    std::cout << ".\nRows: slice at phi_d = 90 degrees, sphere, its differences (blue 0, red 20 and more).\n\n"
+    std::cout << ".\nRows: slice at phi_d = 90 degrees, sphere, its differences (light 0, dark 20 and more).\n\n"
               << "| method | Delta E |\n|---|---|\n";
     for (const std::string& method : all_methods) {
       gonio::report(listener_, method, 0.0);
       const gonio::brdf_table estimate =
           experiment_.estimate(method, {.material = left_out, .data_ratio = options_.data_ratio}, samples);
       auto [image, mean] = spheres.difference(estimate);
-      columns.push_back({slice_tile(estimate, options_.threads), spheres.sphere(estimate), std::move(image)});
+      columns.push_back({{slice_tile(estimate, options_.threads), method},
+                         {spheres.sphere(estimate), method},
+                         {std::move(image), "Delta E " + fixed(mean, 2)}});
       std::cout << "| " << method << " | " << fixed(mean, 2) << " |\n";
     }
+    columns.back().push_back(delta_e_scale_tile());
     write(tiles_in_columns(columns));
   }
 
-  /// Fig. 2: eleven correction functions, and their approximations by the others.
+  /// Fig. 2: eleven correction functions, and the approximation of each by all other functions.
   void draw_corrections() {
     const gonio::correction& functions = experiment_.corrections_without("");
-    std::vector<std::vector<gonio::image>> columns;
-    std::cout << "First row: correction functions (blue: a half or less, green: 1, red: 2 or more). Second row: by the "
+    std::vector<std::vector<labelled_tile>> columns;
+    std::cout << "First row: correction functions (blue: a half or less, white: 1, red: 2 or more). Second row: by the "
                  "others, NNLS.\n\n| column | material |\n|---|---|\n";
     const Eigen::Index count = std::ssize(functions.names()), shown = std::min<Eigen::Index>(count, 11);
     for (Eigen::Index column = 0; column < shown; ++column) {
@@ -119,10 +123,12 @@ class noell_figures {
       Eigen::MatrixXd itself = Eigen::MatrixXd::Zero(functions.size(), 3);
       itself.row(material).setOnes();
       const Eigen::MatrixXd others = weights_of_others(functions, material, gonio::nnls{}, options_.threads);
-      columns.push_back({factor_tile(gonio::fitted_brdf{functions, itself}, options_.threads),
-                         factor_tile(gonio::fitted_brdf{functions, others}, options_.threads)});
+      columns.push_back(
+          {{factor_tile(gonio::fitted_brdf{functions, itself}, options_.threads), functions.names()[material]},
+           {factor_tile(gonio::fitted_brdf{functions, others}, options_.threads), "by the others"}});
       std::cout << "| " << columns.size() << " | " << functions.names()[material] << " |\n";
     }
+    columns.front().push_back(factor_scale_tile());
     write(tiles_in_columns(columns));
   }
 
@@ -186,13 +192,15 @@ void run_figures(const figure_options& options) {
 }  // namespace
 
 void add_noell_figures(command& app) {
-  auto command = app.add_subcommand("noell-figures", "Noell et al. 2014: a figure drawn");
+  auto command = app.add_subcommand("noell-figures", "Draw a figure of Noell et al. 2014");
   const auto options = std::make_shared<figure_options>();
   add_networks_option(command, options->networks);
   command.add_option("--figure", options->figure, "1 to 5").check(check::range(1, 5)).capture_default_str();
   command.add_input("--environment", options->environment, "Latitude-longitude image of a natural light (.hdr)");
   command.add_input("--table", options->table, "The measured table of --figure 5 (MERL's format)");
-  command.add_option("--material", options->material, "The material of the networks that is measured, but in 2 and 5")
+  command
+      .add_option("--material", options->material,
+                  "Material of the networks that is measured, except in --figure 2 and 5")
       .capture_default_str();
   command.add_option("--data", options->data_ratio, "Share of the table that is measured")
       .check(check::range(0.0, 1.0))

@@ -68,8 +68,7 @@ constexpr std::array cells_and_angles{all_sources[0], all_sources[3]};
 /// The locations of samples: random cells, a quarter of which have theta_h below 6 degrees, or random angles.
 enum class sampling { cells, angles };
 
-/// The exposure of the spheres: at the truth's own mean luminance, or at the exposure that gives a white sphere this
-/// value.
+/// The exposure of the spheres: the truth's sphere, or with `of_white` a white sphere, has this mean luminance.
 struct judgement {
   std::string name;
   double luminance = gonio::sphere_delta_e::middle_grey;
@@ -95,7 +94,7 @@ struct gap_options : resumable_options {
   return {radius * std::cos(phi), radius * std::sin(phi), z};
 }
 
-/// Returns directions above the horizon, uniform in each angle.
+/// Returns directions above the horizon, uniform in theta_h, theta_d and phi_d.
 [[nodiscard]] gonio::direction_pair random_angles(std::mt19937_64& generator) {
   std::uniform_real_distribution<double> right_angle(0.0, std::numbers::pi / 2.0), half_turn(0.0, std::numbers::pi);
   while (true) {
@@ -155,7 +154,7 @@ struct gap_options : resumable_options {
 /// Estimates a table from samples of a case's material, without using that material.
 using estimate_function = std::function<gonio::brdf_table(const gonio::sample_set&, const noell_case&)>;
 
-/// Mean Delta E by outlier ratio, one list per judgement.
+/// Mean Delta E by outlier ratio, one list for each of `judgements`.
 using judged_means = std::array<std::vector<double>, judgements.size()>;
 
 /// A row of the table: a method, the variation, and the sources of samples and outliers.
@@ -180,7 +179,7 @@ class gap_experiment {
                      90, 72, gonio::render::environment_map(gonio::io::read_hdr(options.environment))),
                  36, gonio::sphere_delta_e::middle_grey, options.threads) {}
 
-  /// Returns the locations of a share of the table.
+  /// Returns the locations of the samples, which are a share of the table.
   [[nodiscard]] std::vector<gonio::location> locations(sampling how) const {
     const Eigen::Index count = gonio::share_of(truths_.cells.size(), options_.data_ratio);
     std::vector<gonio::location> chosen;
@@ -208,21 +207,20 @@ class gap_experiment {
     };
   }
 
-  /// Returns a method of Table 1.
   [[nodiscard]] estimate_function method(const std::string& name) {
     return [this, name](const gonio::sample_set& samples, const noell_case& which) {
       return methods_.estimate(name, which, samples);
     };
   }
 
-  /// Returns the means in each setting. All settings must measure at the same locations.
+  /// Returns the mean errors in each setting. All settings must measure at the same locations.
   [[nodiscard]] std::vector<judged_means> run(const estimate_function& estimate,
                                               std::span<const gap_setting> settings) {
     const std::vector<gonio::location> measured_at = locations(settings.front().samples);
     judged_means none;
     none.fill(std::vector<double>(options_.outlier_ratios.size(), 0.0));
     std::vector<judged_means> means(settings.size(), none);
-    // Loop over materials outermost: each has its own corrections.
+    // Materials are the outermost loop, because each has its own corrections.
     for (std::size_t m = 0; m < options_.materials.size(); ++m)
       for (std::size_t s = 0; s < settings.size(); ++s)
         for (std::size_t r = 0; r < options_.outlier_ratios.size(); ++r) {
@@ -248,7 +246,7 @@ class gap_experiment {
             options_.environment.filename().string()};
   }
 
-  /// Returns the error by each judgement.
+  /// Returns the error for each of `judgements`.
   [[nodiscard]] json judged(const estimate_function& estimate, const gap_setting& setting, const noell_case& which,
                             std::span<const gonio::location> measured_at) {
     const std::size_t material = truths_.find(which.material);
@@ -276,7 +274,6 @@ class gap_experiment {
   gonio::sphere_delta_e delta_e_;
 };
 
-/// A row and its errors by outlier ratio.
 struct gap_row {
   gap_setting setting;
   judged_means means;
@@ -372,7 +369,7 @@ void add_noell_gap(command& app, const team& processes) {
   add_networks_option(command, options->networks);
   command.add_input("--environment", options->environment, "Latitude-longitude image of a natural light (.hdr)")
       .required();
-  command.add_option("--methods", options->methods, "Any of: lc, rbf, pull-push, printed")
+  command.add_option("--methods", options->methods, "Methods: lc, rbf, pull-push, printed")
       .check(check::without(
           [](const std::string& method) {
             constexpr std::array known{"lc", "rbf", "pull-push", "printed"};
@@ -380,9 +377,9 @@ void add_noell_gap(command& app, const team& processes) {
           },
           "METHOD"))
       .capture_default_str();
-  command.add_option("--materials", options->materials, "Names of those that are measured")
+  command.add_option("--materials", options->materials, "Names of the materials that are measured")
       .default_str("ten test materials");
-  command.add_option("--data", options->data_ratio, "Share of the table that is measured, as the paper has it")
+  command.add_option("--data", options->data_ratio, "Share of the table that is measured (the data ratio of the paper)")
       .capture_default_str();
   command.add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
       .check(check::range(0.0, 1.0))

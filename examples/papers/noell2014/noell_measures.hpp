@@ -16,7 +16,8 @@ namespace papers {
 
 /// Adds the optional `--environment FILE`.
 inline void add_environment_option(command& to, std::filesystem::path& environment) {
-  to.add_input("--environment", environment, "Latitude-longitude image of a natural light to judge under, too (.hdr)");
+  to.add_input("--environment", environment,
+               "Latitude-longitude image of a natural light (.hdr), under which errors are measured, too");
 }
 
 /// Compares tables over given cells under the formula environment and, if there is one, a natural light.

@@ -21,7 +21,7 @@ namespace papers {
 /// the locations once.
 ///
 /// ```cpp
-/// const auto plan = gonio::locate_samples(materials.cells(), first_surface).at;
+/// const auto plan = gonio::locate_samples(materials.cells(), first_surface).locations;
 /// const papers::planned_decomposition combination{materials, plan};
 /// const auto chrome = combination.without({"chrome"}).reconstruct(measurements_of_chrome);
 /// ```

@@ -1,9 +1,9 @@
 #!/bin/sh
-# What five adaptive rounds choose: adaptive_rounds.sh MATERIAL.bsdf... measures each material in the five directions that
-# gonio designs first and in five further ones, each chosen by what the samples read, and prints them.
+# The directions that five adaptive rounds choose. adaptive_rounds.sh MATERIAL.bsdf... measures each material in five
+# designed directions and five further ones, each chosen from the readings so far, and prints the further ones.
 #   PICTURES=docs/pictures gonio-papers run --markdown docs/results/adaptive-design.md -- \
 #     examples/papers/our_own/adaptive_rounds.sh chm_mint.bsdf acrylic_felt_white.bsdf
-# GONIO is the tool (default: gonio), PICTURES a folder for a drawing of each material (default: none is made).
+# GONIO is the tool (default: gonio), PICTURES a folder for a drawing of each material (default: no drawings).
 set -eu
 gonio=${GONIO:-gonio}
 folder=$(mktemp -d)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Spheres of fitted GGX models in Blender's Cycles beside gonio's own: the shader and the glTF file of `gonio fit`.
+"""Compares Blender's spheres of GGX models, from the shader and the glTF file of `gonio fit`, with gonio's.
 
   gonio-papers run --markdown docs/results/renderers.md -- examples/papers/our_own/blender_spheres.py \\
     -o spheres.png satin_purple.binary ...
@@ -11,7 +11,7 @@ import argparse
 import pathlib
 import tempfile
 
-import bpy  # before _cycles, which it brings
+import bpy  # before _cycles, which bpy provides
 import _cycles
 import mathutils
 import numpy as np
@@ -51,7 +51,7 @@ def rendered(scene, folder):
 
 
 def of_nodes(folder, add):
-    """A finely divided sphere; `add` makes the node of its surface and returns what it puts out."""
+    """Renders a finely divided sphere. `add` makes the node of its surface, and returns the node's output."""
     scene = new_scene()
     bpy.ops.mesh.primitive_uv_sphere_add(segments=512, ring_count=256, radius=1)
     sphere = bpy.context.object

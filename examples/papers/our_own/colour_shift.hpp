@@ -7,7 +7,8 @@
 
 namespace papers {
 
-/// Returns the factor of each channel that makes a table look `wanted` different, by the secant method.
+/// Returns the factors 1 + t `towards` of the channels that make a table look `wanted` Delta E different under the
+/// environment. Six secants through the origin find t.
 [[nodiscard]] inline gonio::rgb factor_of(const gonio::appearance_metric& judge, const gonio::brdf_table& table,
                                           const gonio::rgb& towards, double wanted, gonio::thread_count threads) {
   const gonio::appearance seen = judge.look(table, threads);

@@ -39,11 +39,11 @@ struct conformity_experiment_options : left_out_options {
 using directions = std::vector<gonio::half_difference>;
 using estimator = gonio::reconstruction<gonio::log_relative>;
 
-/// A measured surface, black outside the gamut.
+/// A measured surface. Negative values, of colours outside the gamut, are 0.
 struct known_surface {
   std::string name;
   reflectance measured;
-  /// Factors of the channels that make it look 1, 2, 4 and 8 Delta E lighter, redder and bluer.
+  /// Factors of the channels that make the surface look 1, 2, 4 and 8 Delta E lighter, redder and bluer.
   std::map<int, std::array<gonio::rgb, 3>> shifts = {};
 
   [[nodiscard]] reflectance times(const gonio::rgb& factor) const {
@@ -66,7 +66,7 @@ class conformity_experiment {
                            }});
     for (const Eigen::Index count : given.designed) {
       const auto points = written_points(given.folder, given.set, count);
-      if (!points) gonio::refuse("there is no set by " + given.set + " of " + std::to_string(count) + " directions");
+      if (!points) gonio::refuse("there is no set '" + given.set + "' of " + std::to_string(count) + " directions");
       designed_[count] = *points;
     }
   }
@@ -134,7 +134,8 @@ class conformity_experiment {
         .p_value;
   }
 
-  /// The noise is known if `stated`; otherwise it is estimated from repeats in `where`.
+  /// Returns the p-values of `times` comparisons. The noise is known if `stated`, otherwise estimated from repeats in
+  /// `where`.
   [[nodiscard]] std::vector<double> compared(const estimator& known, const reflectance& part,
                                              const reflectance& reference, const directions& where, double noise,
                                              Eigen::Index times, double tolerance = 0.0, bool stated = true) {
@@ -153,7 +154,6 @@ class conformity_experiment {
 
   [[nodiscard]] double middle_noise() const { return given_.noise[given_.noise.size() / 2]; }
 
-  /// Returns a tenth of the repetitions, at least one.
   [[nodiscard]] Eigen::Index few() const { return std::max<Eigen::Index>(given_.repetitions / 10, 1); }
 
   static std::string row_name(Eigen::Index count, double noise) {
@@ -188,7 +188,7 @@ class conformity_experiment {
       if (other.name != surface.name) results_.add(row + " others", surface.name, compared_with(other.measured, 1));
   }
 
-  /// Compares a part at the limit of the tolerance, and others outside it.
+  /// Compares parts within the tolerance, at its limit and outside it.
   void compare_with_tolerance(const estimator& known, const known_surface& surface) {
     constexpr double noise = 0.02;
     for (const auto& [count, where] : designed_)
@@ -261,7 +261,7 @@ class conformity_experiment {
     }
   }
 
-  /// Judges the samples as they are, and in a random order that matches no material.
+  /// Tests the familiarity of samples as measured, and with their values in a random order that matches no material.
   void judge_familiarity(const estimator& known, const known_surface& surface, const std::string& whether) {
     constexpr double noise = 0.02;
     const estimator noisy{known.prior(), {.noise = noise}};
@@ -412,14 +412,14 @@ void add_conformity(command& app) {
   const auto options = std::make_shared<conformity_experiment_options>();
   add_left_out_options(command, *options);
   command.add_input_folder("--directions", options->folder, {".csv"}, "Folder of designed sets");
-  command.add_option("--set", options->set, "Which designed sets: of point-20-perceived.csv, perceived")
+  command.add_option("--set", options->set, "Name of the designed sets: perceived for point-20-perceived.csv")
       .capture_default_str();
-  command.add_option("--designed", options->designed, "Numbers of the part's directions, which are designed")
+  command.add_option("--designed", options->designed, "Numbers of designed directions in which parts are measured")
       .capture_default_str();
-  command.add_option("--random", options->random, "Numbers of the reference's directions where they are random")
+  command.add_option("--random", options->random, "Numbers of random directions in which references are measured")
       .capture_default_str();
   command.add_option("--noise", options->noise, "Relative deviations of the measurements").capture_default_str();
-  command.add_option("--repetitions", options->repetitions, "Parts of each material that are like it")
+  command.add_option("--repetitions", options->repetitions, "Number of matching parts of each material")
       .check(check::range(2, 1'000'000))
       .capture_default_str();
   command.callback([options] {

@@ -1,5 +1,5 @@
 /// gonio-papers design: reconstructs measured materials by priors that have not seen their families. The directions are
-/// designed by several criteria, taken from the literature, or chosen by the readings so far.
+/// designed by several criteria, taken from the literature, or chosen from the readings so far.
 
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
@@ -40,7 +40,7 @@ struct design_experiment_options : left_out_options {
   std::filesystem::path folder, environment;
   std::vector<Eigen::Index> counts{5, 8, 10, 16, 20};
   std::vector<std::string> methods = all_methods();
-  Eigen::Index sets = 10;  ///< of random directions
+  Eigen::Index sets = 10;  ///< number of random sets of directions
   Eigen::Index first = 5;  ///< number of designed directions that begin an adaptive scan
   double noise = 0.0;
 };
@@ -91,7 +91,8 @@ std::vector<Eigen::Index> pursue(const gonio::design::point_geometry& points, co
   return chosen;
 }
 
-/// Chooses the least known candidate again and again: the most information about a Gaussian process.
+/// Repeatedly chooses the candidate with the largest variance over error variance: the most information about a
+/// Gaussian process.
 std::vector<Eigen::Index> most_information(const gonio::design::sequential_design<gonio::log_relative>& cells,
                                            Eigen::Index count) {
   gonio::design::candidate_posterior known = cells.prior();
@@ -171,7 +172,8 @@ class design_experiment : left_out_experiment {
  private:
   [[nodiscard]] Eigen::Index most() const { return std::ranges::max(given_.counts); }
 
-  /// Returns the setup without a family. It keeps only the last one: families are judged one after the other.
+  /// Returns the setup for the materials of a family, learned without this family. Keeps only the last setup, because
+  /// materials of one family follow one another.
   family_setup& setup_without(const std::string& family) {
     if (setup_ && family_ == family) return *setup_;
     setup_.reset();
@@ -255,8 +257,8 @@ class design_experiment : left_out_experiment {
     return measure(material.measured, set, given_.noise, material.number);
   }
 
-  /// Begins with exchanged directions. All readings so far choose the next ones; for "first-five", only the first
-  /// readings do.
+  /// Begins with exchanged directions. Chooses the next ones from all readings so far; for "first-five", from the first
+  /// readings alone.
   json followed(const judged_material& material, const std::string& method, family_setup& with) {
     json all = json::object();
     directions so_far = designed("exchanged-five", given_.first, with);
@@ -269,7 +271,7 @@ class design_experiment : left_out_experiment {
       const Eigen::Index batch = method == "adaptive" ? 1 : method == "adaptive-5" ? 5 : most() - count;
       for (const gonio::next_measurement& next : with.chooser.choose(samples, std::min(batch, most() - count)))
         so_far.push_back(next.angles);
-      // A count between two batches takes the first directions of the batch.
+      // A count that ends within a batch uses the first directions of that batch.
       for (const Eigen::Index between : given_.counts)
         if (batch > 1 && between > count && between < std::ssize(so_far))
           all[std::to_string(between)] =
@@ -293,7 +295,6 @@ class design_experiment : left_out_experiment {
   std::optional<family_setup> setup_;
 };
 
-/// Returns the worst material of a row.
 std::string worst_of(const json& row) {
   std::string worst;
   double most = -1.0;
@@ -305,7 +306,8 @@ std::string worst_of(const json& row) {
   return worst + " " + fixed(most, 1);
 }
 
-/// Finds for each family the criterion that is best for all others: the cost of a choice made without the material.
+/// Returns each material's errors with the criterion that is best for all other families. The difference from the best
+/// criterion is the cost of a choice made without the material.
 json chosen_by_others(const json& rows, double samples) {
   const std::vector<std::string> criteria{"pursuit",  "information", "expected-error", "residual",
                                           "variance", "worst-case",  "designed",       "exchanged-five"};
@@ -364,26 +366,28 @@ void print(const json& rows) {
 }  // namespace
 
 void add_design_experiment(command& app, const team& processes) {
-  auto command =
-      app.add_subcommand("design", "Measure materials in designed directions, and where the readings so far say");
+  auto command = app.add_subcommand(
+      "design", "Reconstruct materials from designed directions, and from directions chosen by the readings so far");
   const auto options = std::make_shared<design_experiment_options>();
   options->folder = shipped_directions();
   add_left_out_options(command, *options);
   command.add_input_folder("--directions", options->folder, {".csv"}, "Folder of sets of directions");
-  command.add_input("--environment", options->environment, "A light probe (.hdr): spheres in it are compared as well");
-  command.add_option("-n,--counts", options->counts, "Numbers of samples that are judged").capture_default_str();
+  command.add_input("--environment", options->environment, "Light probe (.hdr): compares spheres in its light, too");
+  command.add_option("-n,--counts", options->counts, "Numbers of samples").capture_default_str();
   command.add_option("--noise", options->noise, "Relative noise of the samples").capture_default_str();
-  command.add_option("--first", options->first, "Designed and exchanged directions that an adaptive scan begins with")
+  command
+      .add_option("--first", options->first,
+                  "Number of designed and exchanged directions with which an adaptive scan begins")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--sets", options->sets, "Random sets of each number").check(check::positive_number());
+  command.add_option("--sets", options->sets, "Number of random sets of each size").check(check::positive_number());
   command
-      .add_option(
-          "--methods", options->methods,
-          "pursuit (Miandji et al. 2024), information, expected-error, residual, variance, worst-case: other criteria "
-          "than that of designed, greedily; exchange: designed and exchanged; exchanged-five: the first are (--first); "
-          "adaptive: further ones than the first by what was read, one by one, adaptive-5 in batches, first-five "
-          "all by these; random; or a set of the folder: of point-20-published.csv, published")
+      .add_option("--methods", options->methods,
+                  "Methods. designed: greedy; pursuit (Miandji et al. 2024), information, expected-error, residual, "
+                  "variance, worst-case: greedy with another criterion; exchange: designed, then exchanged; "
+                  "exchanged-five: only the first (--first) are exchanged; adaptive: the directions after the first "
+                  "are chosen by the readings so far, one by one; adaptive-5: in batches; first-five: all of them by "
+                  "the first readings; random; or a set of the folder: published for point-20-published.csv")
       .capture_default_str();
   do_together(command, processes, options, [](const auto& given) {
     if (std::ranges::min(given.counts) < 1) gonio::refuse("--counts needs numbers of at least 1");

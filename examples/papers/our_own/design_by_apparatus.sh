@@ -1,5 +1,5 @@
 #!/bin/sh
-# The Delta E that `gonio design` expects to be seen of the prior's materials after measurements by each apparatus:
+# The Delta E that `gonio design` expects for the prior's materials after measurements by each apparatus:
 #   gonio-papers run --markdown docs/results/adaptive-design.md -- examples/papers/our_own/design_by_apparatus.sh
 # GONIO is the tool (default: gonio).
 set -eu

@@ -55,7 +55,8 @@ class p_values {
          fixed(100.0 * (centre + reach), 2) + ")";
 }
 
-/// Returns the area under the ROC curve: the probability that a part that differs has the smaller p-value.
+/// Returns the area under the ROC curve: the probability that a differing part has a smaller p-value than a matching
+/// one.
 [[nodiscard]] inline double area(const std::vector<double>& alike, std::vector<double> different) {
   std::ranges::sort(different);
   double sum = 0.0;

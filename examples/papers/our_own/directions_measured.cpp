@@ -45,7 +45,6 @@ struct directions_options : resumable_options {
   std::uint64_t seed = 0;
   Eigen::Index repetitions = 5;
   bool print_json = false;
-  gonio::thread_count threads;
 };
 
 /// The prior on some cells, and its appearance metric.
@@ -60,7 +59,7 @@ benchmark_setup open_benchmark_setup(const directions_options& given, const goni
           gonio::appearance_metric(cells, 36, given.threads)};
 }
 
-// ---- tables: judged as a whole -------------------------------------------------------------------------------------
+// ---- tables: errors over all cells ---------------------------------------------------------------------------------
 
 /// Returns the cells to measure, one list per draw of the set.
 std::vector<std::vector<Eigen::Index>> cells_of(const directions_options& given, const gonio::valid_cells& cells,
@@ -75,14 +74,12 @@ std::vector<std::vector<Eigen::Index>> cells_of(const directions_options& given,
   return drawn;
 }
 
-/// Returns Tikhonov's penalty for some samples.
 double eta_for(const directions_options& given, const gonio::log_relative_pca& prior,
                const gonio::sample_set& samples) {
   return given.eta == "auto" ? gonio::eta_of_unknown_noise(prior, samples, 0.3, given.threads)
                              : number_of_eta(given.eta);
 }
 
-/// Returns mean errors over the repetitions.
 json judge_table(const directions_options& given, const benchmark_setup& shop, const std::string& name,
                  const gonio::brdf_table& truth, const std::vector<std::vector<Eigen::Index>>& drawn) {
   std::vector<material_result> results;
@@ -100,12 +97,12 @@ json judge_table(const directions_options& given, const benchmark_setup& shop, c
   return means;
 }
 
-// ---- scattered measurements: judged on those that were not used ----------------------------------------------------
+// ---- scattered measurements: errors on those that were not used ----------------------------------------------------
 
 /// Returns the distance of two pairs of directions: the larger of the angles between the lights and between the
-/// viewers. A turn about the normal, which does not change an isotropic material, first brings both closest.
+/// viewers. A rotation about the normal, which does not change an isotropic material, first brings the pairs closest.
 double angle_between(const gonio::direction_pair& from, const gonio::direction_pair& to) {
-  // The turn maximises the sum of the cosines, A cos phi + B sin phi + C.
+  // The rotation maximises the sum of the cosines, A cos phi + B sin phi + C.
   const auto along = [](const gonio::direction& a, const gonio::direction& b) { return a.x() * b.x() + a.y() * b.y(); };
   const auto across = [](const gonio::direction& a, const gonio::direction& b) {
     return a.x() * b.y() - a.y() * b.x();
@@ -147,7 +144,7 @@ stand_ins nearest_measured(const gonio::sample_set& all, std::span<const gonio::
   return found;
 }
 
-/// Returns the measurements to use, one list per draw of the set. Random ones have a distance of zero.
+/// Returns the measurements to use, one list per draw of the set. Random measurements have distance 0.
 std::vector<stand_ins> samples_of(const directions_options& given, const gonio::sample_set& all, const std::string& set,
                                   std::size_t count) {
   std::vector<stand_ins> drawn;
@@ -160,7 +157,6 @@ std::vector<stand_ins> samples_of(const directions_options& given, const gonio::
   return drawn;
 }
 
-/// Returns mean errors over the repetitions.
 json judge_samples(const directions_options& given, const benchmark_setup& shop, const gonio::sample_set& all,
                    const std::vector<stand_ins>& drawn) {
   const auto times = static_cast<double>(drawn.size());
@@ -195,7 +191,7 @@ json judge_samples(const directions_options& given, const benchmark_setup& shop,
 
 // ---- the experiment ------------------------------------------------------------------------------------------------
 
-/// Computes the results that do not exist yet, and opens the benchmark_setup only if needed.
+/// Computes the results that do not exist yet, and learns the prior only if needed.
 class experiment {
  public:
   experiment(const directions_options& given, progress_bar& bar) : given_(given), bar_(bar), results_(given) {}
@@ -222,7 +218,8 @@ class experiment {
       const gonio::sample_set all = read_measurements(file);
       each_set(file.stem().string(), turn_++, rows, [&](const std::string& set, std::size_t count) -> json {
         if (count >= all.size())
-          gonio::refuse(file.string() + ": no sample is left to judge by after " + std::to_string(count));
+          gonio::refuse(file.string() + ": no sample is left for the comparison after fitting " +
+                        std::to_string(count));
         const auto drawn = samples_of(given_, all, set, count);
         if (drawn.empty()) return {};
         return judge_samples(given_, shop_for(gonio::valid_cells()), all, drawn);
@@ -232,7 +229,8 @@ class experiment {
   }
 
  private:
-  /// Adds a row for each number and existing set. `judge` returns nothing for a set that does not exist.
+  /// Adds a row for each number of directions and each set that exists. `judge` returns nothing for a set that does not
+  /// exist.
   template <class Judge>
   void each_set(const std::string& name, std::size_t turn, json& rows, Judge&& judge) {
     for (const Eigen::Index count : given_.counts)
@@ -330,7 +328,7 @@ void require_sets(const directions_options& given) {
     if (set != "random" && std::ranges::none_of(given.counts, [&](std::size_t count) {
           return written_points(given.folder, set, count).has_value();
         }))
-      gonio::refuse("--sets: there is no set by " + set + " of these numbers, no " +
+      gonio::refuse("--sets: there is no set '" + set + "' of these numbers, no " +
                     (given.folder / points_file(set, given.counts.front())).string());
 }
 
@@ -364,13 +362,13 @@ void add_directions_measured(command& app, const team& processes) {
                            "Folder of sets, as `gonio-papers directions --write` writes them");
   command
       .add_option("--sets", options->sets,
-                  "published, random, or what the folder has: of point-20-perceived.csv, perceived")
+                  "published, random, or a set of the folder: perceived for point-20-perceived.csv")
       .capture_default_str();
   add_counts_option(command, options->counts);
   command.add_option("--eta", options->eta, "Tikhonov's penalty: a number, or auto, as `gonio reconstruct` chooses it")
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of the first random set").capture_default_str();
-  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+  command.add_option("--repetitions", options->repetitions, "Number of random sets of each size")
       .check(check::positive_number())
       .capture_default_str();
   command.add_flag("--json", options->print_json, "Print as JSON");

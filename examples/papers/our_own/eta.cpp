@@ -32,7 +32,7 @@ struct eta_options {
   gonio::thread_count threads;
 };
 
-/// Ten materials in a prior's domain. Weights w leave the squared error |x|^2 - 2 w'Q'x + w'Sigma^2 w.
+/// Ten materials x in a prior's domain. A reconstruction Q w has the squared error |x|^2 - 2 w'Q'x + w'Sigma^2 w.
 struct mapped_truths {
   std::vector<gonio::brdf_table> tables;
   Eigen::MatrixXd products;  ///< Q'x, k x 3 for each table
@@ -57,8 +57,8 @@ mapped_truths map_truths(const gonio::log_relative_pca& prior, const gonio::mate
   return truths;
 }
 
-/// Errors of reconstructions from some rows A of the prior. In the eigenvectors U of A A', the weights are A'U g with g
-/// = U'y / (l + eta).
+/// Errors of reconstructions from measurements y at some rows A of the prior. With the eigenvectors U and eigenvalues l
+/// of A A', the weights are A'U g with g = U'y / (l + eta).
 class reconstruction_error {
  public:
   reconstruction_error(const gonio::log_relative_pca& prior, const mapped_truths& truths, const Eigen::MatrixXd& rows)
@@ -71,8 +71,8 @@ class reconstruction_error {
     products_ = turned * truths.products;
   }
 
-  /// Returns the root mean square error over all cells in the mapped domain, averaged over the channels, from mapped
-  /// values.
+  /// Returns the root mean square error over all cells in the mapped domain, averaged over the channels, for a
+  /// reconstruction from the mapped values `measured`.
   [[nodiscard]] double operator()(std::size_t material, const Eigen::MatrixXd& measured, double eta) const {
     double sum = 0.0;
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -94,11 +94,11 @@ class reconstruction_error {
 
 std::vector<gonio::half_difference> directions_of(const std::string& set, std::size_t count) {
   if (const auto found = written_points(shipped_directions(), set, count)) return *found;
-  gonio::refuse("there is no set of " + std::to_string(count) + " directions by " + set + ", no " +
+  gonio::refuse("there is no set '" + set + "' of " + std::to_string(count) + " directions, no " +
                 (shipped_directions() / points_file(set, count)).string());
 }
 
-/// The result of one rule that chooses eta.
+/// The mean result of one rule that chooses eta.
 struct eta_outcome {
   double rms = 0.0, log_eta = 0.0;
 
@@ -211,11 +211,13 @@ void compare_etas(const eta_options& options) {
 }  // namespace
 
 void add_eta(command& app) {
-  auto command =
-      app.add_subcommand("eta", "Tikhonov's penalty as it is chosen, against the best in hindsight on ten materials");
+  auto command = app.add_subcommand(
+      "eta", "Compare chosen penalties of Tikhonov with the best one in hindsight, on ten materials");
   const auto options = std::make_shared<eta_options>();
   add_networks_option(command, options->networks);
-  command.add_option("--sets", options->sets, "Directions: published (1, 2, 5, 10 or 20), or of which files ship")
+  command
+      .add_option("--sets", options->sets,
+                  "Sets of directions: published (1, 2, 5, 10 or 20 directions), or sets that ship as files")
       .check(check::one_of({"published", "expected-error", "perceived"}))
       .capture_default_str();
   add_counts_option(command, options->counts);

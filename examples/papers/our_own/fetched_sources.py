@@ -1,4 +1,4 @@
-"""Parts of the sources of other programs, cut out of a fetched git directory: nothing of them stands in the project."""
+"""Extracts parts of other programs' sources from a fetched git directory. The project contains none of them."""
 
 import re
 import subprocess
@@ -10,7 +10,7 @@ def git(repository, *words):
 
 
 def between(text, begin, end):
-    """The lines from the one that begins so up to the one that begins so."""
+    """Returns the lines from the one that starts with `begin` up to the one that starts with `end` (patterns)."""
     found = re.search(rf"^{begin}.*?(?=^{end})", text, re.MULTILINE | re.DOTALL)
     if not found:
         sys.exit(f"{sys.argv[0]}: the fetched sources have no lines from '{begin}' to '{end}'")

@@ -1,8 +1,8 @@
 #!/bin/sh
-# A renderer's GGX lobe beside Lambert's from 20 measurements: fitted to them, or to the table that is reconstructed:
+# GGX and Lambert lobes for a renderer from 20 measurements, fitted to these or to the table reconstructed from them:
 #   gonio-papers run --markdown docs/results/models.md -- examples/papers/our_own/from_samples_to_renderer.sh
 #     merl_networks.npy nielsen-20.csv
-# GONIO is the tool (default: gonio), MATERIALS the test materials, METRIC what residuals are of.
+# GONIO is the tool (default: gonio), MATERIALS the test materials, METRIC the metric of the residuals.
 set -eu
 [ $# -eq 2 ] || { echo "usage: from_samples_to_renderer.sh NETWORKS DIRECTIONS" >&2; exit 2; }
 networks=$1 directions=$2

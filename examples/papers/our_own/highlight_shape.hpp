@@ -1,5 +1,5 @@
 #pragma once
-/// Dips and rings: how a table's luminance departs from a monotonic decrease with theta_h, which most materials show.
+/// Dips and rings: departures of a table's luminance from the steady decrease with theta_h that most materials show.
 
 #include <gonio/core/rgb.hpp>
 #include <gonio/table/brdf_table.hpp>
@@ -11,11 +11,12 @@
 namespace papers {
 
 struct highlight_shape {
-  double mirror = 1.0;          ///< luminance at theta_h = 0 over the largest below 8 degrees, minimum over curves
-  double turning_points = 0.0;  ///< of the luminance at theta_h below 45 degrees, mean over curves
+  /// Luminance at theta_h = 0 relative to the largest luminance below 8 degrees: the smallest ratio of all curves.
+  double mirror = 1.0;
+  double turning_points = 0.0;  ///< number of turning points at theta_h below 45 degrees, averaged over the curves
 };
 
-/// Counts the turns of more than 2 % in a curve of logarithms.
+/// Counts the turning points of a curve of logarithms, with changes of more than 2 %.
 [[nodiscard]] inline int turning_points(const std::vector<double>& curve) {
   constexpr double visible = 0.02;
   int turns = 0, direction = 0;
@@ -37,7 +38,8 @@ struct highlight_shape {
   return turns;
 }
 
-/// Examines the curves of luminance over theta_h at theta_d up to 75 degrees, for `mirror` up to 65 degrees.
+/// Examines the curves of luminance over theta_h at theta_d up to 75 degrees. `mirror` uses only theta_d up to 65
+/// degrees.
 [[nodiscard]] inline highlight_shape highlight_shape_of(const gonio::brdf_table& table) {
   const gonio::valid_cells& cells = table.cells();
   const gonio::grid_extents size = cells.grid().extents();

@@ -59,13 +59,13 @@ direction_set random_directions(std::size_t count, std::uint64_t seed) {
   return set;
 }
 
-/// The number of materials and, by quantity, how often it is named correctly or mistaken for another one.
+/// The number of materials and, by quantity, how often that quantity is named correctly or mistaken for another one.
 struct tally {
   int materials = 0;
   std::array<int, gonio::io::sample_quantity_names.size()> named{}, mistaken{};
 };
 
-/// Writes each quantity of a material as a file, which is then read as a BRDF.
+/// Counts the doubts about a material's samples in each quantity, given as if they were BRDF values.
 template <gonio::brdf Brdf>
 void count(const Brdf& material, const direction_set& set, tally& sum) {
   ++sum.materials;

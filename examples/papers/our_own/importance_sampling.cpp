@@ -59,8 +59,9 @@ struct variances {
 };
 
 /// Returns the variances at a point of the sphere. The variance of f L cos / pdf is the integral of its square times
-/// pdf, minus its squared mean. Environment and material draw half of the directions each; both kinds share them. With
-/// either kind alone, the draws would miss a small lamp and chance would dominate the table.
+/// pdf, minus its squared mean. The environment draws half of the directions and the material the other half; both
+/// variances use the same directions. Without the directions from the environment, those of the material could miss a
+/// small lamp, and chance would dominate the table.
 variances variances_at(const gonio::render::surface_frame& surface, const sampled_material& f,
                        const gonio::render::environment_sampler& light, std::size_t draws, std::mt19937_64& generator) {
   const auto number = [&] { return gonio::uniform_number(generator); };
@@ -109,7 +110,7 @@ struct named_table {
 std::vector<named_table> tables_of(const sampling_options& options) {
   std::vector<named_table> tables;
   if (!options.networks.file.empty()) {
-    const auto networks = networks_in(options.networks.read(), gonio::nielsen_test_materials());
+    const auto networks = networks_in(options.networks.read(), gonio::nielsen_test_materials(), options.networks.file);
     const auto cells = options.networks.cells();
     for (std::size_t i = 0; i < networks.names.size(); ++i)
       tables.push_back({networks.names[i], gonio::tabulate(networks.networks[i], cells, options.threads)});
@@ -168,14 +169,14 @@ void add_importance_sampling(command& app) {
   const auto options = std::make_shared<sampling_options>();
   command.add_input("tables", options->tables, "Tables of materials (.binary or .binary.gz)");
   command.add_input("--networks", options->networks.file,
-                    "File of networks of the 100 materials (.npy): the ten test materials");
+                    "File of networks of the 100 materials (.npy), of which the ten test materials are used");
   add_thin_option(command, options->networks.thin);
   command.add_input("--environment", options->environments,
-                    "Light from all around: latitude-longitude images (.hdr), beside a white sky and a formula");
-  command.add_option("--points", options->points, "Points of the sphere")
+                    "Environments in addition to a white sky and a formula: latitude-longitude images (.hdr)");
+  command.add_option("--points", options->points, "Number of points of the sphere")
       .check(check::range(1, 1'000'000))
       .capture_default_str();
-  command.add_option("--draws", options->draws, "Directions for each point")
+  command.add_option("--draws", options->draws, "Number of directions for each point")
       .check(check::range(2, 100'000'000))
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of points and directions").capture_default_str();

@@ -27,8 +27,8 @@ struct in_plane_options : left_out_options {
   Eigen::Index more = 5;
 };
 
-/// The scans alone, and with further directions: in the plane; anywhere, chosen for the mean material; anywhere, chosen
-/// one by one.
+/// The methods: the scans alone, or with further directions. These are in the plane of incidence, anywhere (chosen for
+/// the mean material), or anywhere (chosen one by one from the readings so far).
 const std::vector<std::string> in_plane_methods{"scans", "more in the plane", "the same anywhere", "adaptive anywhere"};
 
 /// Returns viewing angles every few degrees on both sides of the normal, except where the viewer hides the light.
@@ -53,7 +53,7 @@ class in_plane_experiment : left_out_experiment {
   in_plane_experiment(const in_plane_options& given, progress_bar& bar)
       : left_out_experiment(given, bar), given_(given) {}
 
-  /// Returns the errors of each material by method.
+  /// Returns for each method the errors of each material.
   [[nodiscard]] std::map<std::string, json> run() {
     std::map<std::string, json> found;
     for (const judged_material& material : measured_materials(given_.materials, library_))
@@ -205,7 +205,7 @@ void add_in_plane(command& app, const team& processes) {
   command.add_option("--step", options->step, "Degrees of viewing angle between samples")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--more", options->more, "Further directions")
+  command.add_option("--more", options->more, "Number of further directions")
       .check(check::positive_number())
       .capture_default_str();
   do_together(command, processes, options, [](const auto& given) {

@@ -38,7 +38,7 @@ gonio::log_relative_pca material_library::prior_without(const std::string& famil
 void add_left_out_options(cli::command& to, left_out_options& options) {
   to.add_input("--networks", options.networks, "Files of networks (.npy): surrogates to learn from").required();
   to.add_input_folder("--materials", options.materials, {".bsdf"}, "Folder of measured materials (.bsdf)").required();
-  to.add_option("--components", options.components, "Components of the priors of all materials")
+  to.add_option("--components", options.components, "Number of components of the priors of all materials")
       .check(cli::check::positive_number())
       .capture_default_str();
   cli::add_thin_option(to, options.thin);

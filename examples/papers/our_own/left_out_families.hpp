@@ -25,10 +25,11 @@
 
 namespace papers {
 
-/// Tables of materials to judge or to learn from.
+/// Tables of materials to reconstruct or to learn from.
 class material_library {
  public:
-  /// Reads files of networks (.npy) and a folder of measured materials (.bsdf). Throws gonio::error if it holds none.
+  /// Reads files of networks (.npy) and a folder of measured materials (.bsdf). Throws gonio::error if the folder has
+  /// no material.
   material_library(const std::vector<std::filesystem::path>& networks, const std::filesystem::path& measured,
                    const cli::thinning& thin, const gonio::progress& listener, gonio::thread_count threads);
 
@@ -36,7 +37,8 @@ class material_library {
   [[nodiscard]] const gonio::material_set& measured() const noexcept { return sets_.back(); }
   [[nodiscard]] const gonio::material_set& first() const noexcept { return sets_.front(); }
 
-  /// Returns those materials of the first `sets` sets that `keep` accepts. The last set holds the measured materials.
+  /// Returns those materials of the first `sets` sets for which `keep` is true. The last set holds the measured
+  /// materials.
   template <class Keep>
   [[nodiscard]] gonio::material_set materials(Eigen::Index sets, const Keep& keep) const {
     gonio::material_set chosen{cells_, {}, {}};
@@ -54,7 +56,7 @@ class material_library {
   }
   [[nodiscard]] Eigen::Index all() const noexcept { return std::ssize(sets_); }
 
-  /// Returns the components of all materials outside a family, under log_relative of their median.
+  /// Returns the principal components of all materials outside a family, under log_relative to their median.
   [[nodiscard]] gonio::log_relative_pca prior_without(const std::string& family, Eigen::Index components) const;
 
  private:
@@ -63,7 +65,7 @@ class material_library {
   std::vector<gonio::material_set> sets_;
 };
 
-/// Options of the experiments that follow this protocol.
+/// Options of the experiments that leave out each material's family.
 struct left_out_options : resumable_options {
   std::vector<std::filesystem::path> networks;
   std::filesystem::path materials;
@@ -77,20 +79,21 @@ void add_left_out_options(cli::command& to, left_out_options& options);
 /// Reflectance in a pair of directions, sr^-1.
 using reflectance = std::function<gonio::rgb(const gonio::direction_pair&)>;
 
-/// A material to judge, and the family to leave out of its prior.
+/// A material to reconstruct, and the family to leave out of its prior.
 struct judged_material {
   std::string name, family;
   gonio::brdf_table truth;
   reflectance measured;
-  std::uint64_t number = 0;  ///< its position, which seeds its noise and its outliers
-  std::size_t turn = 0;      ///< its family's; one process judges the whole family by one prior
+  std::uint64_t number = 0;  ///< position in the list; seeds the noise and the outliers
+  std::size_t turn = 0;      ///< turn of the family: one process reconstructs the whole family by one prior
 };
 
 /// Returns the measured materials. The library must have been made from the same folder.
 [[nodiscard]] std::vector<judged_material> measured_materials(const std::filesystem::path& folder,
                                                               const material_library& library);
 
-/// Base of such an experiment: materials, measures of error, and results that survive an interruption.
+/// Base of the experiments that leave out each material's family: materials, errors, and results that survive an
+/// interruption.
 class left_out_experiment {
  protected:
   left_out_experiment(const left_out_options& given, cli::progress_bar& bar);
@@ -118,11 +121,11 @@ class left_out_experiment {
   resumable_results results_;
 };
 
-/// A named set of directions for each repetition.
+/// Sets of directions under one name, one for each repetition.
 struct sampling {
   std::string name;
   std::vector<std::vector<gonio::half_difference>> sets;
-  double judged_from = 0.0;  ///< theta_h in radians: coverage is counted only from there on
+  double judged_from = 0.0;  ///< smallest theta_h, in radians, at which coverage is counted
 };
 
 /// "20 random": random cells of MERL's grid, drawn anew for each repetition.

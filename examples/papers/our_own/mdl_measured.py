@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What NVIDIA's MDL SDK makes of .mbsdf files, its own and those that gonio writes, beside what gonio reads of them:
+"""Compares the values that NVIDIA's MDL SDK and gonio read from .mbsdf files, the SDK's own and gonio's:
   gonio-papers run --markdown docs/results/renderers.md -- examples/papers/our_own/mdl_measured.py MDL-SDK \\
     merl_networks.npy
-A git repository of github.com/NVIDIA/MDL-SDK, and networks. The SDK's loader and CPU run-time of measured BSDFs are cut
-out of its sources and compiled by themselves in a temporary folder. GONIO is the tool (default: gonio), NAMES are
-materials of the networks. Needs g++ and git."""
+The arguments are a git repository of github.com/NVIDIA/MDL-SDK and a file of networks. Extracts the SDK's loader and
+CPU run-time of measured BSDFs from its sources, and compiles them in a temporary folder. GONIO is the tool (default:
+gonio), NAMES are materials of the networks. Needs g++ and git."""
 
 import os
 import pathlib
@@ -19,7 +19,7 @@ NAMES = os.environ.get("NAMES", "white-fabric blue-rubber gold-metallic-paint").
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 EXAMPLES = ("carpaint_blue", "carpaint_green", "carpaint_red", "example_modules")
 
-# What the SDK's lines need around them, and the comparison.
+# The declarations that the SDK's lines need, and the comparison.
 PROGRAM = r"""
 #include <gonio/io/materials/mbsdf.hpp>
 
@@ -144,7 +144,7 @@ int main(int, char** arguments) {
 
 
 def compiled(sdk, folder):
-    """The program, of the SDK's sources at HEAD."""
+    """Returns the program, compiled with the SDK's sources at HEAD."""
     def show(path):
         return git(sdk, "show", f"HEAD:{path}")
 

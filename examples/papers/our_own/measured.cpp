@@ -6,6 +6,7 @@
 #include "tool/files/json.hpp"
 #include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
+#include "tool/pages/contact_sheet.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/progress_bar.hpp"
 #include <gonio/basis/pca.hpp>
@@ -40,7 +41,7 @@ struct measured_options {
   gonio::thread_count threads;
 };
 
-/// Samples for a lower bound on the prior's error: a fit to a random tenth of the cells.
+/// Enough samples for a lower bound on the prior's error: a fit to a random tenth of the cells.
 constexpr Eigen::Index many_samples = 100'000;
 
 gonio::brdf_table reconstruct(const measured_options& options, const gonio::log_relative_pca& prior,
@@ -87,8 +88,9 @@ void run(const measured_options& options) {
   // Read the prior, and list the tables.
   const auto prior = gonio::io::read_prior(options.prior);
   const auto files = gonio::io::list_merl_directory(options.tables);
-  // Reconstruct each table from random samples, and judge the results.
-  std::vector<gonio::image> rows;
+  // Reconstruct each table from random samples, and compare the results with it.
+  std::vector<gonio::image> all_spheres;
+  sheet_text text;
   std::vector<gonio::appearance_metric>
       appearances;  // on the cells of the last table, which the next table often shares
   json result = json::object();
@@ -103,10 +105,14 @@ void run(const measured_options& options) {
       means["peak_ratio"] = mean_over(errors[i], [](const auto& e) { return e.peak_ratio.mean(); });
       result[files[f].name][std::to_string(options.counts[i])] = means;
     }
-    if (!options.image.empty()) rows.push_back(gonio::render::side_by_side(spheres, 4));
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      all_spheres.push_back(spheres[i]);
+      text.labels.push_back(i < options.counts.size() ? std::to_string(options.counts[i]) + " samples" : files[f].name);
+    }
   }
   bar.wipe();
-  if (!options.image.empty()) gonio::io::write_png(options.image, gonio::render::stacked(rows));
+  if (!options.image.empty())
+    gonio::io::write_png(options.image, contact_sheet(all_spheres, options.counts.size() + 1, text));
 
   // Print the errors.
   if (options.print_json) {
@@ -139,7 +145,7 @@ void add_measured_materials(command& app) {
       .capture_default_str();
   command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();
   command.add_option("--seed", options->seed, "Seed of the first set of samples").capture_default_str();
-  command.add_option("--repetitions", options->repetitions, "Sets of samples for each count")
+  command.add_option("--repetitions", options->repetitions, "Number of sets of samples for each count")
       .check(check::positive_number())
       .capture_default_str();
   command.add_output("--spheres", options->image, {".png"},

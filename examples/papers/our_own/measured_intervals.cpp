@@ -92,7 +92,7 @@ void add_measured_intervals(command& app) {
   command.add_option("--counts", options->counts, "Numbers of measurements that are fitted")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+  command.add_option("--repetitions", options->repetitions, "Number of random sets of each size")
       .check(check::positive_number())
       .capture_default_str();
   add_threads_option(command, options->threads);

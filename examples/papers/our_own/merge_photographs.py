@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""How right `gonio lab merge` is on simulated photographs, beside pfstools, where its programs are there:
+"""Measures the errors of `gonio lab merge` on simulated photographs, and those of pfstools if it is installed:
   gonio-papers run --markdown docs/results/merged-photographs.md -- examples/papers/our_own/merge_photographs.py SCENE.hdr
-GONIO is the tool (default: gonio), SEEDS how many brackets of each kind. Needs nothing but Python."""
+GONIO is the tool (default: gonio), SEEDS the number of brackets of each camera (default: 3). Needs only Python."""
 
 import array
 import math
@@ -22,7 +22,7 @@ def run(*words):
 
 
 def floats_of(path):
-    """The elements of an .npy file of float32."""
+    """Returns the elements of an .npy file of float32."""
     content = path.read_bytes()
     start = 10 + int.from_bytes(content[8:10], "little")
     return array.array("f", content[start:])
@@ -33,13 +33,13 @@ def median(values):
 
 
 def usable(values, deviations, truth):
-    """The numbers of the values that are told apart from black, and neither saturated nor hot."""
+    """Returns the indices of the values above twice their deviation that are neither saturated nor hot."""
     return [i for i, (v, d, t) in enumerate(zip(values, deviations, truth)) if v > 2 * d and math.isfinite(d) and t > 0]
 
 
 def judge(values, truth, known, deviations=None, to_scale=False):
-    """Per cent of the 95 % intervals that hold the truth (of what has deviations), and the median and 95th percentile
-    of relative errors, in per cent. Each channel is brought to the truth's scale if that is unknown."""
+    """Returns the per cent of 95 % intervals that contain the truth (nan without deviations), and the median and 95th
+    percentile of the relative errors in per cent. With `to_scale`, first scales each channel to the truth."""
     errors, held = [], 0
     for channel in range(3):
         numbers = [i for i in known if i % 3 == channel]
@@ -60,7 +60,7 @@ def merge(folder, *options):
 
 
 def taken_off_level(source, target, level):
-    """A PPM file of 16 bits without the dark level: pfstools knows of none."""
+    """Writes a 16-bit PPM file without the dark level, which pfstools does not know."""
     content = source.read_bytes()
     header = re.match(rb"P6\s(\d+)\s(\d+)\s(\d+)\s", content)
     largest = int(header[3])
@@ -72,7 +72,7 @@ def taken_off_level(source, target, level):
 
 
 def merged_by_pfstools(folder, level):
-    """The radiance that pfshdrcalibrate makes of the photographs, with the linear response that is right."""
+    """Returns the radiance that pfshdrcalibrate merges from the photographs, with the correct linear response."""
     lines = []
     for source in sorted((folder / "light").iterdir()):
         target = folder / (source.stem + "_above.ppm")
@@ -102,7 +102,7 @@ def print_row(name, results):
 
 
 def measure(scene, camera, seed, folder, rows):
-    """Photographs a scene, and adds the figures of each way to merge the photographs to the rows."""
+    """Photographs a scene, merges the photographs by each method, and adds the errors to the rows."""
     def add(row, *judged, **how):
         rows.setdefault(row, []).append(judge(*judged, **how))
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""What Mitsuba 3 makes of the parameters that `gonio fit` writes, beside what gonio makes of the fit and of the table:
+"""Compares Mitsuba 3's spheres with the parameters that `gonio fit` writes with gonio's of the fit and of the table:
   gonio-papers run --markdown docs/results/renderers.md -- examples/papers/our_own/mitsuba_fits.py \\
     grace_probe_latlong.hdr cardboard.binary.gz satin_purple.binary.gz
-An environment, and tables; two materials by formulas come with gonio. GONIO, and what is needed: mitsuba_measured.py."""
+The arguments are an environment and tables; three materials by formulas come with gonio. mitsuba_measured.py explains
+GONIO and the requirements."""
 
 import json
 import math
@@ -14,11 +15,11 @@ from mitsuba_measured import TOOL, evaluate, mi, np, one_direction, run, sphere_
 
 
 def as_principled(gltf):
-    """A material of glTF 2.0 as Mitsuba's `principled`, which is Disney's BSDF: the nearest of what it ships."""
+    """Returns a glTF 2.0 material as Mitsuba's `principled` (Disney's BSDF), the nearest that Mitsuba ships."""
     material = json.loads(gltf.read_text())["materials"][0]
     rough = material["pbrMetallicRoughness"]
     extensions = material.get("extensions", {})
-    # Of the specular tint, which is a colour in glTF and a share in Disney's, the brightness.
+    # Use the brightness of the specular tint, which is a colour in glTF and a share in Disney's BSDF.
     tint = extensions.get("KHR_materials_specular", {}).get("specularColorFactor", [1.0])
     principled = {"type": "principled", "base_color": {"type": "rgb", "value": rough["baseColorFactor"][:3]},
                   "metallic": rough["metallicFactor"], "roughness": rough["roughnessFactor"]}
@@ -31,7 +32,7 @@ def as_principled(gltf):
 
 
 def albedo(bsdf, degrees, count=1 << 18):
-    """Directional albedo, red, green and blue, from directions by the cosine."""
+    """Returns the directional albedo in red, green and blue, from cosine-weighted directions."""
     random = np.random.default_rng(3)
     radius, phi = np.sqrt(random.random(count)), 2 * math.pi * random.random(count)
     light = radius * np.cos(phi), radius * np.sin(phi), np.sqrt(np.maximum(1 - radius**2, 1e-6))
@@ -40,7 +41,7 @@ def albedo(bsdf, degrees, count=1 << 18):
 
 
 def compare(name, source, environment, scratch):
-    """A row of the table: of what Mitsuba renders with the parameters, how far it is from the fit, and from the
+    """Prints a row of the table: the differences of Mitsuba's renderings with the parameters from the fit, and from the
     material."""
     table, fitted, xml, gltf = (scratch / f"{name}{end}" for end in (".binary", "_fit.binary", ".xml", ".gltf"))
     run(TOOL, *source, table)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What Mitsuba 3 makes of the .bsdf files that gonio writes, beside what gonio makes of the same materials:
+"""Compares Mitsuba 3's values and spheres from the .bsdf files that gonio writes with gonio's of the same materials:
   gonio-papers run --markdown docs/results/renderers.md -- examples/papers/our_own/mitsuba_measured.py \\
     grace_probe_latlong.hdr rgl-bsdf cardboard.binary.gz satin_purple.binary.gz
   gonio-papers run --markdown docs/results/renderers.md -- examples/papers/our_own/mitsuba_measured.py --spectra
-An environment, a folder of RGL materials, and tables; two materials by formulas come with gonio. GONIO is the tool
-(default: gonio). Needs Python with `pip install mitsuba numpy`, and LLVM's library for Mitsuba's variants on arrays."""
+The arguments are an environment, a folder of RGL materials and tables; three materials by formulas come with gonio.
+GONIO is the tool (default: gonio). Needs `pip install mitsuba numpy`, and LLVM's library for Mitsuba's variants."""
 
 import contextlib
 import io
@@ -47,7 +47,7 @@ def one_direction(degrees):
 
 
 def directions_of(theta_h, theta_d, phi_d):
-    """The pair of directions of half and difference angles, half vector in the plane y = 0."""
+    """Returns the pair of directions with these half and difference angles, and the half vector in the plane y = 0."""
     x, y, z = direction(theta_d, phi_d)
     sine, cosine = np.sin(theta_h), np.cos(theta_h)
     towards = lambda a, b, c: (cosine * a + sine * c, b, cosine * c - sine * a)
@@ -55,7 +55,7 @@ def directions_of(theta_h, theta_d, phi_d):
 
 
 def evaluate(bsdf, viewer, light, wavelengths=None):
-    """f in sr^-1 of many pairs, (pairs, channels)."""
+    """Returns f in sr^-1 of many pairs: (pairs, channels)."""
     si = dr.zeros(mi.SurfaceInteraction3f, len(viewer[0]))
     if wavelengths is not None:
         si.wavelengths = mi.Spectrum(mi.Float(wavelengths))
@@ -65,7 +65,7 @@ def evaluate(bsdf, viewer, light, wavelengths=None):
 
 
 def drawn_cells(table, count, least_cosine):
-    """Pairs of directions at cells of a table that are drawn with even directions, and the table's values there."""
+    """Draws cells of a table, uniformly in direction. Returns their pairs of directions and their values."""
     extents = table.shape[:3]
     random = np.random.default_rng(1)
     h, d, p = (random.integers(0, extent, 40 * count) for extent in extents)
@@ -81,7 +81,7 @@ def drawn_cells(table, count, least_cosine):
 
 
 def compare_files(folder, scratch):
-    """The RGL database's own files: Mitsuba's values beside gonio's, which takes the mean with the two exchanged."""
+    """Compares the values of the RGL database's own files. Gonio averages both orders of light and viewer."""
     print("| file of the database | Mitsuba beside gonio, largest difference | at 99.9 % of directions |")
     print("|---|---|---|")
     for path in sorted(pathlib.Path(folder).glob("*.bsdf")):
@@ -95,8 +95,9 @@ def compare_files(folder, scratch):
 
 
 def compare_values(material):
-    """Mean and 99th percentile of the difference to the table, in per cent of its largest value at the same angle of
-    incidence, and the largest difference to what gonio reads of the same file."""
+    """Returns the mean and 99th percentile of the difference from the table, in per cent of the table's largest value
+    at the same angle of incidence, and the 99.9th percentile of the relative difference from gonio's values of the
+    file."""
     bsdf = measured(material["bsdf"])
     viewer, light, truth = drawn_cells(material["table"], 20000, 0.1)
     found = evaluate(bsdf, viewer, light)
@@ -109,8 +110,8 @@ def compare_values(material):
 
 
 def furnace(material, count=1 << 19):
-    """The largest difference between the mean weight of Mitsuba's draws and gonio's albedo, in per cent of it: up to
-    60 degrees, and at 80."""
+    """Returns the largest difference of the mean weight of Mitsuba's draws from gonio's albedo, in per cent of the
+    albedo: up to 60 degrees, and at 80."""
     bsdf, off, sampler = measured(material["bsdf"]), [], mi.load_dict({"type": "independent"})
     sampler.seed(7, count)
     by_angle = {round(e["theta_i"]): e["albedo"] for e in material["properties"]["energy"]["by_angle"]}
@@ -124,7 +125,7 @@ def furnace(material, count=1 << 19):
 
 
 def chi_square(material):
-    """How many of Mitsuba's tests, whether draws have the density that is said, pass, at three angles."""
+    """Returns how many of Mitsuba's tests at three angles pass: whether draws have the stated density."""
     passed = 0
     for angle in (5, 40, 70):
         file = f'<string name="filename" value="{material["bsdf"]}"/>'
@@ -161,13 +162,13 @@ def linear(codes):
 
 
 def sphere_difference(table, bsdf, environment, scratch, size=32, white=0.4):
-    """The mean CIELAB 1976 difference of two spheres: gonio's of a table, and Mitsuba's of what it calls `bsdf`."""
+    """Returns the mean CIELAB 1976 difference between gonio's sphere of a table and Mitsuba's of a BSDF."""
     run(TOOL, "render", table, "--environment", environment, "--size", size, "--quality", 2048, "--exposure", white,
         "-o", scratch / "own.png")
     border = 8
     image = np.array(mi.Bitmap(str(scratch / "own.png")))[border:-border, border:-border, :3]
     ours = linear(image.astype(float))
-    # Mitsuba's images begin behind the camera where gonio's begin in front of it.
+    # The middle of gonio's image is behind the sphere, that of Mitsuba's behind the camera.
     pixels = np.array(mi.Bitmap(environment).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32))
     light = {"type": "envmap", "bitmap": mi.Bitmap(np.ascontiguousarray(np.roll(pixels, pixels.shape[1] // 2, axis=1)))}
     white_image = np.array(mi.render(scene_of({"type": "diffuse", "reflectance": {"type": "rgb", "value": 1.0}}, light,
@@ -180,7 +181,7 @@ def sphere_difference(table, bsdf, environment, scratch, size=32, white=0.4):
 
 
 def prepare(name, source, scratch):
-    """A material's table as gonio has it, and the file for Mitsuba."""
+    """Returns a material: its files, its table, the table read from its .bsdf file, and its properties."""
     material = {"name": name, "binary": scratch / f"{name}.binary", "bsdf": scratch / f"{name}.bsdf"}
     run(TOOL, *source, material["binary"])
     run(TOOL, "convert", material["binary"], material["bsdf"])
@@ -192,7 +193,7 @@ def prepare(name, source, scratch):
 
 
 def compare_spectra(scratch):
-    """Files with spectra: the colours that Mitsuba's observer has of them under D65 beside the tables in RGB."""
+    """Compares the colours of files with spectra, by Mitsuba's observer under D65, with the tables in RGB."""
     wavelengths = np.arange(360, 831, dtype=np.float32)
     observer = np.array(mi.cie1931_xyz(mi.Float(wavelengths)))
     daylight = mi.load_dict({"type": "d65"})

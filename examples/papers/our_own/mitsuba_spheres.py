@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Spheres of measured tables, and of what 20 samples make of them, in Mitsuba 3 beside gonio's own: Delta E of pixels.
+"""Compares Mitsuba 3's spheres of measured tables, and of reconstructions from 20 samples, with gonio's.
 
   gonio-papers run --markdown docs/results/renderers.md -- examples/papers/our_own/mitsuba_spheres.py \\
     --environment grace_probe_latlong.hdr --priors FOLDER -o spheres.png satin_purple.binary ...
 
 Mitsuba renders the table by the plug-in examples/python/mitsuba_table.py and the file that `gonio convert` makes for its
-`measured`. FOLDER has a prior for each material, NAME.prior, that was learned without its family. It needs `pip install
-mitsuba` and the module gonio.
+`measured`. FOLDER has a prior for each material, NAME.prior, that was learned without the material's family. Needs `pip
+install mitsuba` and the module gonio.
 """
 
 import argparse
@@ -37,7 +37,7 @@ def rendered(bsdf, light, spp, seed):
 
 
 class Lighting:
-    """Lights of Mitsuba, and how gonio renders the same."""
+    """Lights for Mitsuba, and gonio's rendering under the same lights."""
 
     def __init__(self, lights, spp, by_gonio):
         self.lights, self.spp, self.by_gonio, self.exposure = lights, spp, GonioSphere(by_gonio), 1.0
@@ -45,7 +45,7 @@ class Lighting:
         self.exposure = WHITE / luminance(white)
 
     def by_mitsuba(self, bsdf, seed=1):
-        # One light after the other: Mitsuba would choose one of them at random.
+        # Render one light at a time: of several, Mitsuba would choose one at random.
         return self.exposure * sum(rendered(bsdf, light, self.spp, seed) for light in self.lights)
 
 
@@ -57,7 +57,7 @@ def main():
     parser.add_argument("-o", "--output", required=True, help="picture of all spheres (.png)")
     arguments = parser.parse_args()
     environment = gonio.read_hdr(arguments.environment)
-    # The middle of gonio's image is behind the sphere, of Mitsuba's behind the camera.
+    # The middle of gonio's image is behind the sphere, that of Mitsuba's behind the camera.
     bitmap = mi.Bitmap(np.ascontiguousarray(np.roll(environment, environment.shape[1] // 2, axis=1)))
     lightings = {
         "two lights": Lighting([{"type": "directional", "direction": to, "irradiance": 1.0} for to in LIGHTS], 256,

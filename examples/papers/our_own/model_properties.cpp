@@ -14,7 +14,7 @@ namespace papers {
 
 namespace {
 
-/// Places each parameter of a lobe's sharpness at a share of its range, restricted to values of real materials.
+/// Returns typical parameters with a given sharpness from 0 to 1: exponents from 1 to 10^4, roughnesses from 1 to 0.01.
 gonio::model::lobe_kind::values of_sharpness(const gonio::model::lobe_kind& kind, double sharpness) {
   auto values = kind.typical();
   const auto about = kind.parameters();

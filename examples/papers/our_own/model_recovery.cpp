@@ -189,23 +189,26 @@ void run(const recovery_options& given) {
 
 void add_model_recovery(command& app) {
   auto command = app.add_subcommand(
-      "model-recovery", "Fits to what analytic models made: their parameters again, and the noise that is passed on");
+      "model-recovery",
+      "Whether fits to values of analytic models find the parameters again, and how much noise they pass on");
   const auto options = std::make_shared<recovery_options>();
-  command.add_option("--draws", options->draws, "Random materials of each kind")
+  command.add_option("--draws", options->draws, "Number of random materials for each kind of lobe")
       .check(check::range(1, 100'000))
       .capture_default_str();
-  command.add_option("--samples", options->samples, "Samples without noise")
+  command.add_option("--samples", options->samples, "Number of samples without noise")
       .check(check::range(4, 1'000'000))
       .capture_default_str();
-  command.add_option("--few", options->few, "Samples with noise")
+  command.add_option("--few", options->few, "Number of samples with noise")
       .check(check::range(4, 1'000'000))
       .capture_default_str();
-  command.add_option("--noise", options->noise, "Relative deviation")
+  command.add_option("--noise", options->noise, "Relative deviation of the noise")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--starts", options->starts, "Random starts of fits with noise, beside the consecutive one")
+  command
+      .add_option("--starts", options->starts,
+                  "Number of random starts of fits with noise, in addition to the consecutive start")
       .capture_default_str();
-  command.add_option("--seed", options->seed, "Seed of what is random").capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of all random numbers").capture_default_str();
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] { run(*options); });

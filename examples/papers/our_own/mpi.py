@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""gonio-mpi and gonio-papers-mpi with 1, 2 and 4 ranks on this machine: bytes, processor time, what is sent, ranks that
-are killed, and what 64 machines would take by these counts:
+"""Measures gonio-mpi and gonio-papers-mpi with 1, 2 and 4 ranks on this machine: bytes, processor time, traffic and
+killed ranks. Estimates the time on 16 and 64 machines from these counts:
   gonio-papers run --markdown docs/results/mpi.md -- examples/papers/our_own/mpi.py MATERIALS [NETWORKS]
-MATERIALS is a folder of the RGL database's .bsdf files, NETWORKS a file of networks (.npy), without which there is no
-row of gonio-papers-mpi. GONIO_BIN is the folder of the programs (default: those on the path), SIZE how many texels the
-sample of gonio svbrdf has each way, KILLS how often a rank is killed. Needs numpy, and mpirun of Open MPI."""
+MATERIALS is a folder of the RGL database's .bsdf files. NETWORKS is a file of networks (.npy); without it, there is no
+row of gonio-papers-mpi. GONIO_BIN is the folder of the programs (default: those on the path), SIZE the number of texels
+each way of the sample for gonio svbrdf, KILLS the number of killed ranks. Needs numpy, and mpirun of Open MPI."""
 
 import filecmp
 import json
@@ -42,7 +42,7 @@ def in_ranks(ranks, words, tool="gonio"):
 
 
 def write_images(folder):
-    """A sample without structure: what is computed of a texel does not depend on its values."""
+    """Writes images of a sample without structure: the work for a texel does not depend on its values."""
     generator = np.random.default_rng(1)
     images = []
     for i in range(IMAGES):
@@ -54,8 +54,8 @@ def write_images(folder):
 
 
 class Measured:
-    """A command in 1, 2 and 4 ranks: seconds of the clock, costs of each rank, and whether all wrote the same bytes into
-    what an option names."""
+    """The cost of a command with 1, 2 and 4 ranks: seconds of wall time, costs of each rank, and whether all runs wrote
+    the same bytes into the file that an option names."""
 
     def __init__(self, name, words, folder, tool="gonio", option="-o"):
         self.name = name
@@ -65,7 +65,7 @@ class Measured:
                        stdout=subprocess.DEVNULL)
         self.seconds, self.costs, self.same = {}, {}, True
         for ranks in RANKS:
-            (folder / words[end]).unlink(missing_ok=True)  # which a run may go on from
+            (folder / words[end]).unlink(missing_ok=True)  # a run would continue from this file
             start = time.monotonic()
             said = subprocess.run(in_ranks(ranks, [*words, "--traffic"], tool), check=True, cwd=folder, env=ENVIRONMENT,
                                   stdout=subprocess.PIPE, text=True).stdout
@@ -75,7 +75,7 @@ class Measured:
         self.size = alone.stat().st_size
 
     def work(self, ranks):
-        """Processor seconds of the busiest rank, without MPI's."""
+        """Returns the processor seconds of the busiest rank, without those in MPI."""
         return max(cost[3] - cost[4] for cost in self.costs[ranks])
 
     def efficiency(self, ranks):
@@ -88,7 +88,7 @@ class Measured:
         return sum(cost[1] for cost in self.costs[ranks])
 
     def parts(self):
-        """Seconds that each rank takes in any case, and those that are shared: a line through the measured ones."""
+        """Fits work = alone + shared / ranks to the measured seconds, and returns both terms."""
         shared, alone = np.polyfit([1 / ranks for ranks in RANKS], [self.work(ranks) for ranks in RANKS], 1)
         return max(alone, 0.0), shared
 
@@ -101,7 +101,7 @@ class Measured:
 
 
 def process_of_rank(mpirun, rank):
-    """The process of a rank that mpirun has begun, or nothing."""
+    """Returns the process of a rank that mpirun started, or None."""
     for child in pathlib.Path(f"/proc/{mpirun}/task/{mpirun}/children").read_text().split():
         try:
             words = pathlib.Path(f"/proc/{child}/environ").read_bytes().split(b"\0")
@@ -113,7 +113,7 @@ def process_of_rank(mpirun, rank):
 
 
 def print_kills(words, expected, folder):
-    """Kills one of two ranks at random moments, gives the command again to another number of ranks, and compares."""
+    """Kills one of two ranks at random moments, runs the command again with other numbers of ranks, and compares."""
     generator = random.Random(1)
     output, with_bands, same, killed = folder / "again.gsv", 0, True, 0
     part = folder / "again.gsv.part"
@@ -133,7 +133,7 @@ def print_kills(words, expected, folder):
             with_bands += part.exists() and part.stat().st_size > 65536
         else:
             output.unlink(missing_ok=True)
-        if killed % 2 == 0 or killed == KILLS:  # each second time the job comes to its end
+        if killed % 2 == 0 or killed == KILLS:  # after every second kill, let the job finish
             subprocess.run(in_ranks(1 + killed % 3, words), check=True, cwd=folder, env=ENVIRONMENT,
                            stdout=subprocess.DEVNULL)
             same = same and filecmp.cmp(expected, output, shallow=False)
@@ -144,18 +144,18 @@ def print_kills(words, expected, folder):
 
 
 def print_extrapolated(svbrdf, design, learn, materials):
-    """Seconds on N machines: what each does in any case, its share, and what the busiest link carries."""
+    """Prints estimated seconds on N machines: each one's own work, its share, and the busiest link's traffic."""
     columns, sweeps = 3 * materials, design.bytes(2) / 32
     exchanged, kept = 12.0 * materials * CELLS, CELLS * (4.0 * min(COMPONENTS, columns - 1) + 12.0)
     gram = 8.0 * columns ** 2
 
     def map_share(n):
-        """Of the map, what other ranks than the first compute: each n-th band is rank 0's."""
+        """Returns the share of the map that ranks other than 0 compute: rank 0 computes each n-th band."""
         bands = -(-SIZE // max(1, 16384 // SIZE))
         return (bands - -(-bands // n)) / bands
 
     def learn_bytes(n):
-        """All that is sent: rows of the tables, the prior's rows to rank 0, Gram matrices up and down the tree."""
+        """Returns all bytes sent: rows of tables, the prior's rows to rank 0, Gram matrices up and down the tree."""
         return (exchanged + kept) * (1 - 1 / n) + 2 * gram * (n - 1)
 
     print(f"\n| counted beside reckoned, MB | 2 ranks | 4 ranks |\n|---|---|---|")

@@ -1,6 +1,6 @@
 /// gonio-papers near-field-photographs: measured materials reconstructed from raw close-up photographs of a flat
 /// sample, compared with perfect images of radiance. The photographs are simulated: exposure brackets by a noisy sensor
-/// behind a lens with distortion and vignetting. Light and camera are slightly off their stated places.
+/// behind a lens with distortion and vignetting. Light and camera are slightly off their stated positions.
 
 #include "lab/near_field_lab.hpp"
 #include "lab/photographs.hpp"
@@ -59,7 +59,7 @@ class near_field_laboratory {
             .white_reflectance = reflectance_of_white};
   }
 
-  /// Returns the true setup, with light and camera off their stated places.
+  /// Returns the true setup, with light and camera off their stated positions.
   [[nodiscard]] gonio::capture::near_field_setup true_setup(const gonio::capture::near_field_setup& stated,
                                                             std::uint64_t seed) const {
     std::mt19937_64 generator(seed);
@@ -114,7 +114,7 @@ std::vector<bool> sound_pixels(const gonio::capture::merged_frames& one, const g
   return sound;
 }
 
-/// Returns the radiance with infinity at saturated values, which are only lower bounds: no block then averages over
+/// Returns the radiance with infinity at saturated values. These are only lower bounds, so no block may average over
 /// them.
 gonio::image with_infinite_saturation(const gonio::capture::merged_frames& merged) {
   gonio::image radiance = merged.radiance;
@@ -127,7 +127,7 @@ gonio::image with_infinite_saturation(const gonio::capture::merged_frames& merge
 /// The samples of all views.
 struct views {
   std::vector<gonio::sample_set> perfect;    ///< perfect images, light and camera as stated
-  std::vector<gonio::sample_set> misplaced;  ///< perfect images, light and camera off
+  std::vector<gonio::sample_set> misplaced;  ///< perfect images, light and camera off their stated positions
   std::vector<gonio::sample_set> raw;        ///< raw frames
 };
 
@@ -246,14 +246,17 @@ void add_near_field_photographs(command& app, const team& processes) {
   command.add_option("--fov", options->field_of_view, "Field of view in degrees")
       .check(check::range(1.0, 89.0))
       .capture_default_str();
-  command.add_option("--noise", options->noise, "Relative noise of a pixel beside that of the chip")
+  command.add_option("--noise", options->noise, "Relative noise of a pixel, in addition to the noise of the chip")
       .check(check::non_negative_number())
       .capture_default_str();
-  command.add_option("--angular-error", options->angular_error, "Degrees by which light and camera are off, each")
+  command
+      .add_option("--angular-error", options->angular_error, "Angle in degrees by which light and camera each are off")
       .check(check::range(0.0, 45.0))
       .capture_default_str();
-  command.add_option("--pixels", options->pixels, "Pixels a side").check(check::range(16, 2048)).capture_default_str();
-  command.add_option("--block", options->block, "Pixels a side of the blocks that become one sample")
+  command.add_option("--pixels", options->pixels, "Rows and columns of the image")
+      .check(check::range(16, 2048))
+      .capture_default_str();
+  command.add_option("--block", options->block, "Rows and columns of the blocks of pixels that become one sample each")
       .check(check::range(1, 64))
       .capture_default_str();
   do_together(command, processes, options, [](const auto& given) {

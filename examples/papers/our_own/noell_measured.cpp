@@ -55,7 +55,8 @@ struct benchmark_setup {
         printed_corrections(materials, gonio::correction_rule::as_printed(), gonio::nnls{}, threads),
         measures(cells, given.environment, threads) {}
 
-  /// Calls `use(name, fit)` for each method: ours, the paper's as printed, and those that the paper compares with.
+  /// Calls `use(name, fit)` for each method: ours, the paper's as printed, and the methods with which the paper
+  /// compares.
   template <class Use>
   void reconstruct(const gonio::sample_set& samples, double outlier_ratio, Use&& use) const {
     const gonio::decomposition combination{materials, gonio::nnls{}, threads};
@@ -80,7 +81,6 @@ struct benchmark_setup {
   noell_measures measures;
 };
 
-/// Returns the beginning of the row of one method and share of outliers.
 json row(const std::string& name, const std::string& method, std::size_t samples, double outlier_ratio) {
   return {{"name", name}, {"method", method}, {"samples", samples}, {"outlier_ratio", outlier_ratio}};
 }
@@ -95,7 +95,7 @@ void print_means(const measured_options& given, const json& rows) {
       double count = 0.0, error = 0.0, formula = 0.0, natural = 0.0;
       for (const json& result : rows.elements()) {
         if (result["method"].text() != method || result["outlier_ratio"].number() != outlier_ratio) continue;
-        if (!result.contains("delta_e_env")) continue;  // judged on samples
+        if (!result.contains("delta_e_env")) continue;  // errors on samples, not on a table
         count += 1.0;
         error += result["log_error"].number();
         formula += result["delta_e_env"].number();
@@ -108,7 +108,7 @@ void print_means(const measured_options& given, const json& rows) {
     }
 }
 
-/// Judges estimates on the whole table.
+/// Compares estimates with the whole table.
 void judge_table(const measured_options& given, const benchmark_setup& shop, const std::string& name,
                  const gonio::brdf_table& truth, json& rows) {
   const std::size_t count = gonio::share_of(truth.cells().size(), given.data_ratio);
@@ -127,13 +127,13 @@ void judge_table(const measured_options& given, const benchmark_setup& shop, con
                      });
 }
 
-/// Judges estimates on the measurements that were not used.
+/// Compares estimates with the measurements that were not used.
 void judge_samples(const measured_options& given, const benchmark_setup& shop, const std::filesystem::path& path,
                    json& rows) {
   const gonio::sample_set all = read_measurements(path);
   const std::size_t count = gonio::share_of(all.size(), given.data_ratio);
   const auto [some, others] = gonio::split_samples(all, count, given.seed);
-  if (others.empty()) gonio::refuse(path.string() + ": no sample is left to judge by, expected --data below 1");
+  if (others.empty()) gonio::refuse(path.string() + ": no sample is left for the comparison, expected --data below 1");
   std::uniform_int_distribution<std::size_t> any_sample(0, all.size() - 1);
   for (const double outlier_ratio : given.outlier_ratios) {
     const auto samples = gonio::corrupt(some, {.outlier_ratio = outlier_ratio}, given.seed,
@@ -218,7 +218,7 @@ void add_noell_measured(command& app) {
   command.add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
-  command.add_option("--methods", options->methods, "Any of: our, printed, lc, rbf, pull-push")
+  command.add_option("--methods", options->methods, "Methods: our, printed, lc, rbf, pull-push")
       .check(check::one_of({"our", "printed", "lc", "rbf", "pull-push"}))
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of cells and outliers").capture_default_str();

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What pbrt-v4's reader makes of the .bsdf files with spectra that gonio writes, beside what gonio makes of them:
+"""Compares the values that pbrt-v4 and gonio read from the .bsdf files with spectra that gonio writes:
   gonio-papers run --markdown docs/results/renderers.md -- examples/papers/our_own/pbrt_measured.py pbrt-v4 \\
     cardboard.binary.gz satin_purple.binary.gz
-A git repository of github.com/mmp/pbrt-v4, and tables; three materials by formulas come with gonio. pbrt's material
-`measured` is cut out of its sources and compiled with its own headers in a temporary folder. GONIO is the tool
-(default: gonio). Needs g++ and git."""
+The arguments are a git repository of github.com/mmp/pbrt-v4 and tables; three materials by formulas come with gonio.
+Extracts pbrt's material `measured` from its sources, and compiles it with pbrt's headers in a temporary folder. GONIO
+is the tool (default: gonio). Needs g++ and git."""
 
 import json
 import os
@@ -19,7 +19,7 @@ TOOL = os.environ.get("GONIO", "gonio")
 ANGLES = (0, 40, 60, 80)
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
-# Between pbrt, which is C++17, and gonio.
+# The interface between pbrt, which is C++17, and gonio.
 INTERFACE = r"""
 #include <array>
 #include <vector>
@@ -33,7 +33,7 @@ drawn draw(const vector3& wo, double u, double v, const std::vector<double>& wav
 }
 """
 
-# What pbrt's lines need around them.
+# The declarations that pbrt's lines need.
 PBRT = r"""
 #include <pbrt/pbrt.h>
 #include <pbrt/base/bxdf.h>
@@ -274,7 +274,7 @@ int main(int count, char** arguments) {
 
 
 def compiled(repository, folder):
-    """The program, of pbrt's sources at HEAD."""
+    """Returns the program, compiled with pbrt's sources at HEAD."""
     for path in git(repository, "ls-tree", "-r", "--name-only", "HEAD", "src/pbrt").splitlines():
         if path.endswith(".h"):
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
@@ -298,7 +298,7 @@ def run(*words):
 
 
 def row(name, source, beside, folder):
-    """A material's line of the table."""
+    """Prints a material's row of the table."""
     rgb, spectra = folder / "rgb.bsdf", folder / "spectra.bsdf"
     run(TOOL, *source, rgb)
     run(TOOL, "convert", "--spectra", rgb, spectra)
@@ -306,7 +306,7 @@ def row(name, source, beside, folder):
     (most, largest, near), *draws = lines
     by_angle = {round(e["theta_i"]): e["albedo"]
                 for e in json.loads(run(TOOL, "properties", spectra, "--json"))["energy"]["by_angle"]}
-    # What is drawn below the horizon is lost.
+    # Draws below the horizon are lost.
     integral = max(abs(draw[0] + draw[1] - 1) for draw in draws)
     off = [max(abs(found / ours - 1) for found, ours in zip(draw[3:], by_angle[angle]))
            for angle, draw in zip(ANGLES, draws)]

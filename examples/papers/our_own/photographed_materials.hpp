@@ -14,7 +14,7 @@
 
 namespace papers {
 
-/// A judged material as a BRDF.
+/// A measured material as a BRDF.
 struct measured_brdf {
   const reflectance& measured;
 
@@ -28,7 +28,7 @@ class photograph_experiment : protected left_out_experiment {
  protected:
   using estimator_type = gonio::reconstruction<gonio::log_relative>;
 
-  /// Throws gonio::error if the folder of materials lacks one of `names`; the message has its name.
+  /// Throws gonio::error if the folder of materials lacks one of `names`; the message has the missing name.
   photograph_experiment(const left_out_options& given, const std::vector<std::string>& names, cli::progress_bar& bar)
       : left_out_experiment(given, bar), given_(given), all_(measured_materials(given.materials, library_)) {
     for (const std::string& name : names) static_cast<void>(material(name));
@@ -48,7 +48,7 @@ class photograph_experiment : protected left_out_experiment {
     return estimator_type(std::move(prior), gonio::discrepancy_model{}, given_.threads);
   }
 
-  /// Judges the reconstruction that `gonio reconstruct` makes.
+  /// Returns the errors of the reconstruction that `gonio reconstruct` makes.
   [[nodiscard]] gonio::comparison judged(const estimator_type& estimator, const gonio::sample_set& samples,
                                          const judged_material& of) const {
     return compare(estimator.fit(samples).tabulate(library_.cells()), of);

@@ -1,8 +1,8 @@
 #!/bin/sh
-# What a file for renderers over polar angles (.mbsdf) loses of a table, by its steps, beside one that follows the
-# highlight (.bsdf):
+# The errors of a table as a renderer's file over polar angles (.mbsdf), by its number of steps, and as a file that
+# follows the highlight (.bsdf):
 #   gonio-papers run --markdown docs/results/renderers.md -- examples/papers/our_own/polar_steps.sh merl_networks.npy
-# Each table is converted and converted back. GONIO is the tool (default: gonio), NAMES are materials of the networks.
+# Converts each table to the file and back. GONIO is the tool (default: gonio), NAMES are materials of the networks.
 set -eu
 [ $# -eq 1 ] || { echo "usage: polar_steps.sh NETWORKS" >&2; exit 2; }
 networks=$1 gonio=${GONIO:-gonio}

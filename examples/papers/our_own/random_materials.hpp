@@ -17,7 +17,6 @@
 
 namespace papers {
 
-/// The random parameters of a material.
 struct random_parameters {
   gonio::model::lambertian base;
   gonio::model::ggx second;
@@ -54,9 +53,9 @@ inline gonio::brdf_table tabulate_parameters(const random_parameters& drawn, con
   return gonio::tabulate(gonio::model::sum_of_lobes{base, gloss, second}, cells, threads);
 }
 
-/// Tabulates a Lambertian base below two lobes. The second lobe is GGX; the first is GGX or Ward (bounded albedo).
-/// Albedos are uniform. Roughnesses from 0.03 to 0.8 and reflectances from 0.01 to 0.8 are uniform in their logarithm.
-/// A third of the lobes are coloured.
+/// Tabulates the sum of a Lambertian lobe and two others. The second of these is GGX; the first is GGX or Ward (bounded
+/// albedo). Albedos are uniform. Roughnesses from 0.03 to 0.8 and reflectances from 0.01 to 0.8 are uniform in their
+/// logarithm. A third of the lobes are coloured.
 inline gonio::brdf_table random_material(std::uint64_t number, const gonio::valid_cells& cells,
                                          gonio::thread_count threads) {
   return tabulate_parameters(draw_parameters(number), cells, threads);

@@ -161,8 +161,7 @@ void print(const real_fits_options& given, const json& rows) {
 }  // namespace
 
 void add_real_fits(command& app, const team& processes) {
-  auto command =
-      app.add_subcommand("real-fits", "Fit analytic models to measured materials, by every way to add up errors");
+  auto command = app.add_subcommand("real-fits", "Fit analytic models to measured materials, with every error measure");
   const auto options = std::make_shared<real_fits_options>();
   command.add_input_folder("--materials", options->materials, {".bsdf"}, "Folder of measured materials (.bsdf)")
       .required();
@@ -170,14 +169,14 @@ void add_real_fits(command& app, const team& processes) {
   command.add_option("--metrics", options->metrics, "Metrics")
       .check(check::one_of({"lin", "log", "cubic"}))
       .capture_default_str();
-  command.add_option("--losses", options->losses, "How residuals add up")
+  command.add_option("--losses", options->losses, "Loss functions of the residuals")
       .check(check::one_of({"l1", "l2", "huber"}))
       .capture_default_str();
   command.add_option("--random", options->random, "Numbers of random directions").capture_default_str();
-  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+  command.add_option("--repetitions", options->repetitions, "Number of random sets of each size")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_flag("--tables", options->tables, "Fit all cells, with each of the weights that a cell may have");
+  command.add_flag("--tables", options->tables, "Fit all cells of tables, with each kind of cell weight");
   add_thin_option(command, options->thin);
   add_resumable_options(command, *options);
   do_together(command, processes, options, [](const auto& given) {

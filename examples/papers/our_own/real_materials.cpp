@@ -34,8 +34,8 @@ struct real_materials_options : left_out_options {
   std::string set = "perceived";
   std::vector<Eigen::Index> designed{5, 10, 20}, random{20, 100, 500, 2000};
   std::vector<std::string> methods{"first", "all", "discrepancy", "default"};
-  Eigen::Index first_components = 60, repetitions = 2, wrong = 0;
-  double noise = 0.0, receiver_half_angle = 0.0, lobe_width = 1.0;
+  Eigen::Index first_components = 60, repetitions = 2, wrong = 0, wrong_channels = 3;
+  double noise = 0.0, receiver_half_angle = 0.0, lobe_width = 1.0, wrong_factor = 10.0;
   bool surrogates = false, scans = false;
 
   [[nodiscard]] gonio::aperture aperture() const { return {0.0, gonio::radians(receiver_half_angle)}; }
@@ -46,15 +46,15 @@ std::vector<sampling> samplings(const real_materials_options& given) {
   std::vector<sampling> all;
   for (const Eigen::Index count : given.designed) {
     const auto points = written_points(given.folder, given.set, count);
-    if (!points) gonio::refuse("there is no set by " + given.set + " of " + std::to_string(count) + " directions");
+    if (!points) gonio::refuse("there is no set '" + given.set + "' of " + std::to_string(count) + " directions");
     all.push_back({std::to_string(count) + " designed", {*points}});
   }
   for (const Eigen::Index count : given.random) all.push_back(random_sampling(count, given.repetitions));
   return all;
 }
 
-/// Returns a material with lobes `width` times as wide: it scales theta_h by 1 / width at the highlight, and less
-/// further out.
+/// Returns a material with lobes `width` times as wide: scales theta_h by 1 / width at the highlight, and by a factor
+/// nearer to 1 farther from it.
 judged_material with_lobes(judged_material material, double width) {
   material.measured = [of = material.measured, width](const gonio::direction_pair& pair) {
     gonio::half_difference angles = gonio::to_half_difference(pair.wi, pair.wo);
@@ -67,10 +67,14 @@ judged_material with_lobes(judged_material material, double width) {
   return material;
 }
 
-/// Makes some random samples alternately ten times too bright and ten times too dark. Returns their indices.
-std::vector<Eigen::Index> corrupt_some(gonio::sample_set& samples, Eigen::Index count, std::uint64_t seed) {
-  const std::vector<Eigen::Index> chosen = gonio::random_choice(samples.size(), count, seed);
-  for (Eigen::Index i = 0; i < std::ssize(chosen); ++i) samples[chosen[i]].value *= i % 2 == 0 ? 10.0 : 0.1;
+/// Makes some random samples alternately too bright and too dark, in the first channels after a random one. Returns
+/// their indices.
+std::vector<Eigen::Index> corrupt_some(gonio::sample_set& samples, const real_materials_options& given,
+                                       std::uint64_t seed) {
+  const std::vector<Eigen::Index> chosen = gonio::random_choice(samples.size(), given.wrong, seed);
+  for (Eigen::Index i = 0; i < std::ssize(chosen); ++i)
+    for (Eigen::Index c = 0; c < given.wrong_channels; ++c)
+      samples[chosen[i]].value[(chosen[i] + c) % 3] *= i % 2 == 0 ? given.wrong_factor : 1.0 / given.wrong_factor;
   return chosen;
 }
 
@@ -86,12 +90,20 @@ class experiment : left_out_experiment {
       for (const std::string& method : given_.methods) {
         json by_material = json::object();
         for (const judged_material& material : materials) {
-          const json key{method,        where.name,
-                         material.name, given_.components,
-                         given_.noise,  given_.repetitions,
-                         given_.set,    given_.surrogates,
-                         given_.wrong,  given_.receiver_half_angle,
-                         "shape",       given_.lobe_width};
+          const json key{method,
+                         where.name,
+                         material.name,
+                         given_.components,
+                         given_.noise,
+                         given_.repetitions,
+                         given_.set,
+                         given_.surrogates,
+                         given_.wrong,
+                         given_.receiver_half_angle,
+                         "shape",
+                         given_.lobe_width,
+                         given_.wrong_factor,
+                         given_.wrong_channels};
           by_material[material.name] = once(key, material.turn, where.name + " " + method + " " + material.name,
                                             [&] { return errors_of(material, where, method); });
         }
@@ -118,7 +130,8 @@ class experiment : left_out_experiment {
     return all;
   }
 
-  /// Learns from the first file of networks, or from everything. For surrogates, leaves out the ten test materials.
+  /// Returns a prior that has not learned a family: of all materials if `everything`, otherwise of the first file of
+  /// networks. With --surrogates, it has not learned the ten test materials.
   const gonio::log_relative_pca& prior(bool everything, const std::string& family) {
     const std::string key = everything ? "all " + family : "first";
     if (const auto known = priors_.find(key); known != priors_.end()) return known->second;
@@ -143,17 +156,18 @@ class experiment : left_out_experiment {
     };
   }
 
-  /// A table, and the samples that were left out, the worst first.
+  /// An estimate, and the samples that it rejects, the worst first.
   struct estimated {
     gonio::brdf_table table;
     std::vector<Eigen::Index> left_out = {};
-    /// Number of values in each of eight regions, and of those within the 68 and 95 % intervals.
+    /// For each of eight regions: the number of values, and how many are within their 68 % and 95 % intervals.
     std::vector<double> values = std::vector<double>(8, 0.0), within_68 = values, within_95 = values;
-    double rank = 0.0;    ///< correlation of deviations and errors
+    double rank = 0.0;    ///< rank correlation of deviations and errors
     bool warned = false;  ///< whether the highlight is known only to a factor of 4 or worse
   };
 
-  /// Counts over every 37th cell. The regions are split by theta_h (2, 10 and 30 degrees) and theta_d (45 degrees).
+  /// Counts values within their intervals at every 37th cell. The regions are split by theta_h (2, 10 and 30 degrees)
+  /// and theta_d (45 degrees).
   void count_within(estimated& found, const gonio::reconstruction<gonio::log_relative>::result_type& known,
                     const gonio::brdf_table& truth, double judged_from) const {
     std::vector<double> deviations, errors;
@@ -183,7 +197,7 @@ class experiment : left_out_experiment {
     found.rank = rank_correlation(deviations, errors);
   }
 
-  /// Returns for each channel whether the highlight is within the gamut, so that a ratio of peaks is meaningful.
+  /// Returns for each channel whether the highlight is within the gamut. Only then is a ratio of peaks meaningful.
   [[nodiscard]] static std::array<bool, 3> in_gamut(const judged_material& material) {
     std::array<bool, 3> inside{true, true, true};
     for (const double theta_d : {5.0, 25.0, 45.0, 65.0}) {
@@ -220,7 +234,7 @@ class experiment : left_out_experiment {
     for (Eigen::Index r = 0; r < std::ssize(where.sets); ++r) {
       const std::uint64_t seed = 1000 * material.number + r;
       gonio::sample_set samples = measure(reading_of(material), where.sets[r], given_.noise, seed);
-      const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_.wrong, seed + 100);
+      const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_, seed + 100);
       const estimated found = estimate(method, samples, material, where.judged_from);
       const gonio::comparison errors = compare(found.table, material);
       rms += errors.mapped_rms.mean() / times;
@@ -276,7 +290,7 @@ class experiment : left_out_experiment {
   std::map<std::string, gonio::log_relative_pca> priors_;
 };
 
-/// Returns the coverage of the 68 and 95 % intervals, and that of the latter in the worst region.
+/// Returns the coverage of the 68 and 95 % intervals, and the coverage of 95 % intervals in the worst region.
 std::string coverage(const json& materials) {
   std::vector<double> values(8, 0.0), within_68 = values, within_95 = values;
   for (const auto& [name, errors] : materials.items())
@@ -298,7 +312,9 @@ void print(const real_materials_options& given, const json& rows) {
   std::cout << "Means (medians) over " << rows[0]["materials"].size() << " materials";
   if (!given.scans) std::cout << ", " << given.repetitions << " random sets each";
   if (given.noise > 0.0) std::cout << ", noise of " << fixed(100.0 * given.noise, 0) << " %";
-  if (given.wrong > 0) std::cout << ", " << given.wrong << " samples ten times too bright or too dark";
+  if (given.wrong > 0)
+    std::cout << ", " << (given.wrong_channels < 3 ? std::to_string(given.wrong_channels) + " of the channels of " : "")
+              << given.wrong << " samples " << fixed(given.wrong_factor, 0) << " times too bright or too dark";
   if (given.lobe_width != 1.0) std::cout << ", lobes " << fixed(given.lobe_width, 1) << " times as wide";
   if (given.receiver_half_angle > 0.0)
     std::cout << ", a receiver of a half angle of " << fixed(given.receiver_half_angle, 1) << " degrees";
@@ -338,37 +354,48 @@ void add_real_materials(command& app, const team& processes) {
   const auto options = std::make_shared<real_materials_options>();
   add_left_out_options(command, *options);
   command.add_input_folder("--directions", options->folder, {".csv"}, "Folder of designed sets");
-  command.add_option("--set", options->set, "Which designed sets: of point-20-perceived.csv, perceived")
+  command.add_option("--set", options->set, "Name of the designed sets: perceived for point-20-perceived.csv")
       .capture_default_str();
   command.add_option("--designed", options->designed, "Numbers of designed directions").capture_default_str();
   command.add_option("--random", options->random, "Numbers of random directions").capture_default_str();
   command
       .add_option("--methods", options->methods,
-                  "first: components of the first file of networks; all: of all networks and the other measured "
-                  "materials; discrepancy: the same and a discrepancy; default: and without samples that the others "
-                  "contradict, as gonio reconstruct does; untold: and without the half angle of the receiver")
+                  "first: components of the first file of networks; all: components of all networks and of the other "
+                  "measured materials; discrepancy: as all, with a discrepancy; default: as discrepancy, without "
+                  "samples that contradict the others, as gonio reconstruct does; untold: as default, but without "
+                  "knowing the half angle of the receiver")
       .check(check::one_of({"first", "all", "discrepancy", "default", "untold"}))
       .capture_default_str();
-  command.add_option("--first-components", options->first_components, "Components of the prior of the first file")
+  command
+      .add_option("--first-components", options->first_components,
+                  "Number of components of the prior of the first file")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--wrong", options->wrong, "So many samples, at random, are ten times too bright or too dark")
+  command.add_option("--wrong", options->wrong, "Number of random samples that are made too bright or too dark")
       .capture_default_str();
-  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+  command.add_option("--wrong-factor", options->wrong_factor, "Factor by which they are too bright or too dark")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--wrong-channels", options->wrong_channels, "Number of channels in which they are wrong")
+      .check(check::range(1.0, 3.0))
+      .capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "Number of random sets of each size")
       .check(check::positive_number())
       .capture_default_str();
   command.add_option("--noise", options->noise, "Relative deviation of the measurements, which the methods know")
       .capture_default_str();
   command
       .add_option("--receiver-half-angle", options->receiver_half_angle,
-                  "Degrees: samples are means over the cone of such a receiver")
+                  "Half angle of the receiver in degrees: samples are means over its cone")
       .check(check::range(0.0, 45.0));
   command.add_flag("--scans", options->scans,
-                   "Samples below some theta_h, where what lies 8 degrees beyond is judged, and in planes");
-  command.add_option("--lobe-width", options->lobe_width, "The lobes of materials are so many times as wide")
+                   "Use samplings like scans: in planes, and below some theta_h, where coverage is counted from 8 "
+                   "degrees farther out");
+  command.add_option("--lobe-width", options->lobe_width, "Factor by which the lobes of materials are widened")
       .check(check::range(0.1, 10.0));
-  command.add_flag("--surrogates", options->surrogates,
-                   "Judge the ten test materials of Nielsen et al. among the networks, not the measured ones");
+  command.add_flag(
+      "--surrogates", options->surrogates,
+      "Reconstruct the ten test materials of Nielsen et al. from the networks, instead of the measured materials");
   do_together(command, processes, options, [](const auto& given) {
     run_and_print<experiment>(given, [&](const json& rows) { print(given, rows); });
   });

@@ -61,7 +61,6 @@ class learned {
   std::optional<gonio::correction> corrections_;
 };
 
-/// Estimates by the methods of the tool.
 class tool_methods {
  public:
   tool_methods(learned& known, gonio::thread_count threads) : known_(known), threads_(threads) {}
@@ -137,7 +136,8 @@ class methods_experiment : left_out_experiment {
     return json{count, wrong, method}.dump();
   }
 
-  /// Keeps only the last family: the families come one after the other.
+  /// Returns everything learned without a family. Keeps only the last result, because materials of one family follow
+  /// one another.
   [[nodiscard]] learned& without(const std::string& family) {
     if (!known_ || family_ != family) {
       known_.reset();
@@ -175,7 +175,6 @@ class methods_experiment : left_out_experiment {
   std::optional<learned> known_;
 };
 
-/// Returns the Delta E of each material under the environment.
 std::map<std::string, double> environment_of(const json& materials) {
   std::map<std::string, double> found;
   if (materials.is_object())
@@ -183,7 +182,7 @@ std::map<std::string, double> environment_of(const json& materials) {
   return found;
 }
 
-/// Returns the ratios of these errors to others, material by material; empty if there are no others.
+/// Returns the ratios of `errors` to `others`, material by material; empty if `others` is empty.
 std::vector<double> ratios_of(const std::map<std::string, double>& errors,
                               const std::map<std::string, double>& others) {
   std::vector<double> ratios;
@@ -241,12 +240,12 @@ void add_real_methods(command& app, const team& processes) {
       .capture_default_str();
   command
       .add_option("--methods", options->methods,
-                  "Those of gonio reconstruct; keeping: pca without looking for wrong samples; median: the median of "
+                  "Methods of gonio reconstruct; keeping: pca without looking for wrong samples; median: the median of "
                   "all materials, whatever the samples; nearest: the nearest sample")
       .check(check::one_of(
           {"median", "pca", "keeping", "linear", "correction", "rbf", "pull-push", "scattered", "nearest"}))
       .capture_default_str();
-  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+  command.add_option("--repetitions", options->repetitions, "Number of random sets of each size")
       .check(check::positive_number())
       .capture_default_str();
   do_together(command, processes, options, [](const auto& given) {

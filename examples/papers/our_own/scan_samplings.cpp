@@ -10,7 +10,7 @@ namespace papers {
 
 namespace {
 
-/// Returns random cells of MERL's grid below some theta_h in degrees, judged only from 8 degrees further out.
+/// Returns random cells of MERL's grid below some theta_h in degrees. Coverage is counted from 8 degrees farther out.
 sampling below(Eigen::Index count, double theta_h) {
   const gonio::valid_cells cells;
   std::vector<gonio::half_difference> all, directions;
@@ -20,8 +20,8 @@ sampling below(Eigen::Index count, double theta_h) {
   return {std::to_string(count) + " below " + cli::fixed(theta_h, 0), {directions}, gonio::radians(theta_h + 8.0)};
 }
 
-/// Returns viewers from -80 to 80 degrees, except close to the light, in planes at some azimuths from that of
-/// incidence.
+/// Returns directions whose viewers are from -80 to 80 degrees, except close to the light. They are in planes at the
+/// angles `azimuths`, in degrees, to the plane of incidence.
 sampling in_planes(const std::vector<double>& incidences, const std::vector<double>& azimuths, double step) {
   std::vector<gonio::half_difference> directions;
   for (const double theta_i : incidences)

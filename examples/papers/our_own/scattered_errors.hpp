@@ -23,8 +23,8 @@ class logarithmic_error {
   double sum_ = 0.0, count_ = 0.0;
 };
 
-/// Square root of the sum of squares of (estimate - truth) cos_i cos_o over that of truth cos_i cos_o, all channels
-/// together. A black estimate has an error of 1.
+/// Square root of the ratio of two sums of squares over all channels: of (estimate - truth) cos_i cos_o, and of truth
+/// cos_i cos_o. A black estimate has an error of 1.
 class cosine_weighted_error {
  public:
   void add(const gonio::rgb& estimate, const gonio::rgb& truth, const gonio::direction_pair& pair) {

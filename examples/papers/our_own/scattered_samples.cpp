@@ -36,7 +36,7 @@ struct scattered_samples_options {
   gonio::thread_count threads;
 };
 
-/// Samples to interpolate, and others of the same material to judge by.
+/// Samples to interpolate, and other samples of the same material for comparison.
 struct judged_samples {
   std::string name, family;
   Eigen::Index count = 0;  ///< of samples to interpolate; 0: readings
@@ -67,7 +67,6 @@ std::string scales_of(const gonio::scattered_options& options) {
   return "a " + fixed(options.embedding.theta_d_scale, 1) + ", b " + fixed(options.embedding.phi_d_scale, 2);
 }
 
-/// Draws random cells of measured tables.
 std::vector<judged_samples> samples_of_tables(const scattered_samples_options& given) {
   std::vector<judged_samples> all;
   for (const auto& [name, path] : gonio::io::list_rgl_directory(given.materials)) {
@@ -83,7 +82,7 @@ std::vector<judged_samples> samples_of_tables(const scattered_samples_options& g
   return all;
 }
 
-/// Adds a goniometer's readings, two thirds to interpolate and the rest to judge by. Those of one laboratory are one
+/// Adds goniometers' readings: two thirds to interpolate, and the rest to compare with. All readings count as one
 /// family.
 void add_readings(const scattered_samples_options& given, std::vector<judged_samples>& to) {
   for (const std::filesystem::path& path : given.readings) {
@@ -127,7 +126,7 @@ class choice_of_options {
     }
   }
 
-  /// Returns the best candidate on all families but one, relative to the nearest sample with the default scales.
+  /// Returns the allowed candidate with the least geometric mean error over all families but one.
   [[nodiscard]] Eigen::Index best_without(const std::string& family, const auto& allows) const {
     Eigen::Index best = -1;
     double least = std::numeric_limits<double>::infinity();
@@ -144,8 +143,8 @@ class choice_of_options {
     return best;
   }
 
-  /// Prints a row for each number of samples: the mean error of candidates, each chosen without the family that judges
-  /// it.
+  /// Prints a row for each number of samples: mean errors of candidates chosen on the other families, of the defaults,
+  /// and of the best candidate for each set of samples.
   void print_judged() const {
     const auto nearest = [](const gonio::scattered_options& o) { return o.neighbours == 1; };
     const auto linear = [](const gonio::scattered_options& o) {
@@ -173,7 +172,6 @@ class choice_of_options {
     }
   }
 
-  /// Prints the choice for each family.
   void print_chosen() const {
     std::map<std::string, std::vector<std::string>> chosen;
     for (const std::string& family : families()) {
@@ -188,7 +186,7 @@ class choice_of_options {
     }
   }
 
-  /// Prints the mean error over all samples for each name, with the best values of all other options.
+  /// Prints the mean error over all samples for each value of `name`, with the best values of all other options.
   void print_by(const char* title, const auto& name) const {
     std::map<std::string, double> least;
     for (Eigen::Index j = 0; j < errors_.cols(); ++j) {
@@ -239,7 +237,9 @@ void add_scattered_samples(command& app) {
       .required();
   command.add_input("--readings", options->readings, "Readings of a goniometer (.brdf in Cornell's text format, .csv)");
   command.add_option("--random", options->random, "Numbers of random directions").capture_default_str();
-  command.add_option("--left-out", options->left_out, "Random directions to judge by")
+  command
+      .add_option("--left-out", options->left_out,
+                  "Number of random directions that are left out, to measure the error")
       .check(check::positive_number())
       .capture_default_str();
   add_threads_option(command, options->threads);

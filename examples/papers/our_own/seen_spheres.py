@@ -1,11 +1,11 @@
-"""What scripts that compare renderers' spheres with gonio's share: their size and lights, and how far colours are apart."""
+"""Shared parts of the scripts that compare renderers' spheres with gonio's: size, lights and colour differences."""
 
 import numpy as np
 
 import gonio
 
 SIZE, FINER = 128, 4
-LIGHTS = [(-1.0, -1.0, -1.0), (1.0, 1.0, 3.0)]  # where light goes: gonio's two lights
+LIGHTS = [(-1.0, -1.0, -1.0), (1.0, 1.0, 3.0)]  # directions in which gonio's two lights shine
 WHITE = 0.4  # the mean luminance of a white matt sphere
 
 
@@ -15,7 +15,7 @@ def disc():
 
 
 def lab(image):
-    """CIELAB of linear Rec. 709 as a display shows it, D65."""
+    """Returns CIELAB (D65) of linear Rec. 709, clipped as by a display."""
     rgb = np.clip(image[disc()], 0, 1)
     xyz = rgb @ np.array([[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750],
                           [0.0193339, 0.1191920, 0.9503041]]).T / [0.95047, 1, 1.08883]
@@ -36,7 +36,7 @@ def luminance(image):
 
 
 class GonioSphere:
-    """What gonio renders at several times the size, exposed."""
+    """Gonio's rendering of a sphere, averaged from several times the size, and exposed."""
 
     def __init__(self, render):
         self.render, self.exposure = render, 1.0

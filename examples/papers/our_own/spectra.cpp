@@ -188,7 +188,7 @@ std::string described(const all_errors& errors, const measure& one) {
   return fixed(sum / static_cast<double>(all.size()), one.digits) + " (" + fixed(gonio::median(all), one.digits) + ")";
 }
 
-/// "18 of 20": the repetitions in which the first has the smaller error.
+/// "18 of 20": the number of repetitions in which the first method has the smaller error.
 std::string wins(const all_errors& first, const all_errors& second, const measure& one) {
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < first.size(); ++i) count += first[i].*one.which < second[i].*one.which ? 1 : 0;
@@ -199,7 +199,6 @@ struct comparison {
   all_errors wavelengths, rgb, xyz;
 };
 
-/// Splits measurements into some random ones and the rest.
 std::pair<gonio::sample_set, gonio::sample_set> parted(const gonio::sample_set& all, Eigen::Index count,
                                                        Eigen::Index seed) {
   const std::vector<Eigen::Index> chosen = gonio::random_choice(std::ssize(all), count, seed);
@@ -292,7 +291,8 @@ std::vector<gonio::sample_set> read_all(const spectra_options& given) {
       gonio::refuse({file.native(), ": names no wavelengths, expected columns like 400nm,410nm"});
     const Eigen::Index most = std::ranges::max(given.counts);
     if (most >= std::ssize(all.back()))
-      gonio::refuse({file.native(), ": no sample is left to judge by after ", most, " of ", all.back().size()});
+      gonio::refuse(
+          {file.native(), ": no sample is left for the comparison after fitting ", most, " of ", all.back().size()});
   }
   return all;
 }
@@ -319,21 +319,20 @@ void run(const spectra_options& given) {
 
 void add_spectra(command& app) {
   auto command = app.add_subcommand(
-      "spectra", "Spectral measurements reconstructed wavelength by wavelength, against the same as colours");
+      "spectra", "Reconstruct spectral measurements wavelength by wavelength, and compare with reconstructed colours");
   const auto options = std::make_shared<spectra_options>();
   command
       .add_input("--samples", options->samples,
                  "Spectral measurements (.csv with columns like 400nm, or .brdf in Cornell's text format)")
       .required();
   add_prior_option(command, options->prior);
-  command.add_flag(
-      "--prior-of-spectra", options->compares_priors,
-      "Fit wavelengths by the prior, and by one that is learned from its materials as the smoothest spectra "
-      "that have their colours");
+  command.add_flag("--prior-of-spectra", options->compares_priors,
+                   "Fit wavelengths with the prior, and with a prior of the same materials as the smoothest spectra of "
+                   "their colours");
   command.add_option("--counts", options->counts, "Numbers of measurements that are fitted")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+  command.add_option("--repetitions", options->repetitions, "Number of random sets of each size")
       .check(check::positive_number())
       .capture_default_str();
   add_threads_option(command, options->threads);

@@ -86,7 +86,7 @@ class sphere_laboratory {
 struct photographed {
   gonio::sample_set samples;
   Eigen::Index pixels = 0;
-  Eigen::Index views = 0;  ///< with visible lit points
+  Eigen::Index views = 0;  ///< number of photographs with visible lit points
   double off = 0.0;        ///< error of the sphere's centre across the view, pixels
 };
 
@@ -95,7 +95,6 @@ class sphere_photograph_experiment : photograph_experiment {
   sphere_photograph_experiment(const sphere_photograph_options& given, progress_bar& bar)
       : photograph_experiment(given, given.names, bar), given_(given), laboratory_(given.pixels) {}
 
-  /// Returns the results for each set and material.
   [[nodiscard]] std::map<std::string, std::map<std::string, json>> run() {
     std::map<std::string, std::map<std::string, json>> found;
     for (std::size_t number = 0; number < given_.names.size(); ++number) {
@@ -158,7 +157,7 @@ class sphere_photograph_experiment : photograph_experiment {
 
   [[nodiscard]] json errors_of(const judged_material& material, const photographed& taken, std::size_t views,
                                const estimator_type& estimator) const {
-    // Judge perfect samples in the same directions.
+    // Compare with perfect samples in the same directions.
     gonio::sample_set perfect = taken.samples;
     for (gonio::sample& s : perfect) s.value = material.measured(s.directions.pair());
     const gonio::comparison photo = judged(estimator, taken.samples, material),
@@ -208,12 +207,16 @@ void add_sphere_photograph(command& app, const team& processes) {
   command.add_input("--directions", options->directions,
                     "Sphere designs (.csv): a photograph for each of their theta_d");
   command.add_option("--published", options->published, "Sets of Nielsen et al. 2015, Table 2: 1, 2 or 5 photographs");
-  command.add_option("--coarser", options->coarser, "Pixels are averaged over cells so many times those of MERL's grid")
+  command
+      .add_option("--coarser", options->coarser,
+                  "Pixels are averaged over cells this many times as large as those of MERL's grid")
       .check(check::range(1, 10))
       .capture_default_str();
   command.add_option("--names", options->names, "Materials to photograph").capture_default_str();
   command.add_option("--noise", options->noise, "Relative noise of a pixel").capture_default_str();
-  command.add_option("--pixels", options->pixels, "Pixels a side").check(check::range(64, 2048)).capture_default_str();
+  command.add_option("--pixels", options->pixels, "Rows and columns of the image")
+      .check(check::range(64, 2048))
+      .capture_default_str();
   do_together(command, processes, options, [](const auto& given) {
     run_and_print<sphere_photograph_experiment>(given, [](const auto& found) { print(found); });
   });

@@ -1,5 +1,5 @@
 /// gonio-papers streamed-learning: time and memory of learning from many materials that are not held in memory, and the
-/// difference from learning in memory or from all materials at once.
+/// differences from priors that were learned in memory or from all materials at once.
 
 #include "papers/experiments.hpp"
 #include "papers/our_own/random_materials.hpp"
@@ -40,7 +40,7 @@ namespace {
 
 struct streaming_experiment {
   std::vector<Eigen::Index> counts{100, 1000, 10000}, compared{100, 200, 340, 500, 1000};
-  Eigen::Index grown = 300, components = 60, wavelengths = 0;  ///< 0: colours
+  Eigen::Index grown = 300, components = 60, wavelengths = 0;  ///< wavelengths: 0 for colours
   std::filesystem::path prior, folder;
   gonio::thread_count threads;
 };
@@ -163,7 +163,7 @@ void print_costs(const streaming_experiment& given) {
   }
 }
 
-// ---- how far from the exact result -------------------------------------------------------------
+// ---- difference from the exact result ----------------------------------------------------------
 
 /// Returns the largest difference of two matrices, relative to the second one's largest entry.
 template <class A, class B>
@@ -178,7 +178,7 @@ Eigen::MatrixXd rest_beside(const Eigen::MatrixXd& columns, const Eigen::MatrixX
   return others - gonio::product(unit, factors.solve(gonio::product(unit.transpose(), others)));
 }
 
-/// Returns the share of the variation of the second prior's components outside the span of the first one's.
+/// Returns the share of the second prior's components, by squared norm, outside the span of the first one's.
 double outside(const gonio::log_relative_pca& first, const gonio::log_relative_pca& second) {
   const Eigen::MatrixXd of_second = second.components().cast<double>();
   return rest_beside(first.components().cast<double>(), of_second).squaredNorm() / of_second.squaredNorm();
@@ -318,17 +318,17 @@ void add_streamed_learning(command& app) {
   command.add_option("--materials", given->counts, "How many synthetic materials to learn from").capture_default_str();
   command
       .add_option("--compared", given->compared,
-                  "Numbers of materials of which the exact and the fast decomposition are compared")
+                  "Numbers of materials for which the exact and the fast decomposition are compared")
       .check(check::range(10, 1024))
       .capture_default_str();
-  command.add_option("--grown", given->grown, "Materials of which a tenth is added to a prior of the others")
+  command.add_option("--grown", given->grown, "Number of materials; a tenth of them is added to a prior of the others")
       .check(check::range(10, 1024))
       .capture_default_str();
   command
       .add_option("--wavelengths", given->wavelengths,
                   "Number of wavelengths, instead of three colours, of each material: prints time and memory alone")
       .check(check::range(4, 1024));
-  command.add_option("--components", given->components, "Components to keep")
+  command.add_option("--components", given->components, "Number of components to keep")
       .check(check::positive_number())
       .capture_default_str();
   command.add_input_folder("--scratch", given->folder, {}, "Folder of the scratch file (default: the current one)");

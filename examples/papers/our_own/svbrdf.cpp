@@ -58,7 +58,6 @@ double seconds_of(const Act& act) {
   return seconds_since(start);
 }
 
-/// Returns the command line of `gonio svbrdf`.
 std::vector<std::string> words_of(const std::filesystem::path& images, const std::filesystem::path& map,
                                   const svbrdf_options& given) {
   return {"svbrdf",    images.string(),
@@ -126,7 +125,6 @@ class svbrdf_experiment {
     gonio::io::write_atomically(file("images.json"), std::as_bytes(std::span(list)));
   }
 
-  /// Returns the time to read all images once.
   [[nodiscard]] double seconds_of_reading() const {
     std::vector<char> bytes(1u << 20);
     return seconds_of([&] {
@@ -195,7 +193,7 @@ class svbrdf_experiment {
     return least;
   }
 
-  /// Kills the tool at random moments, as often as wanted, and compares its final result.
+  /// Kills the tool `kills` times at random moments, and compares its final map with that of the uninterrupted run.
   void print_interruptions() const {
     const std::filesystem::path again = file("again.gsv");
     std::filesystem::remove(again);
@@ -213,7 +211,7 @@ class svbrdf_experiment {
         ++killed;
         if (std::filesystem::file_size(file("again.gsv.part"), none) > 65536 && !none) ++with_bands;
       } else {
-        // If it finished before the wanted number of kills, begin once more.
+        // If the tool finished before the wanted number of kills, begin once more.
         same = same && same_bytes(file("map.gsv"), again);
         std::filesystem::remove(again);
       }
@@ -232,7 +230,7 @@ class svbrdf_experiment {
     return all;
   }
 
-  /// Prints errors of texels on a grid: spheres under the two lights, and errors beside the stated uncertainty.
+  /// Prints errors of texels on a grid: of spheres under the two lights, and relative to the stated uncertainty.
   void print_errors() const {
     const gonio::valid_cells cells = cli::thinning{{3, 5}}.of(gonio::valid_cells());
     std::vector<gonio::brdf_table> tables;
@@ -330,7 +328,7 @@ void add_svbrdf(command& app) {
   command.add_output("--image", options->image, {".png"},
                      "Image to write of the sample, its errors, and how well it is known");
   command.add_option("--size", options->size, "Rows and columns of texels").capture_default_str();
-  command.add_option("--judged", options->judged, "Texels each way that are compared with the truth")
+  command.add_option("--judged", options->judged, "Rows and columns of texels that are compared with the truth")
       .capture_default_str();
   command.add_option("--kills", options->kills, "How often the tool is killed").capture_default_str();
   command.add_option("--noise", options->noise, "Noise of the images, relative to their values").capture_default_str();

@@ -1,5 +1,6 @@
 #include "papers/our_own/svbrdf_maps.hpp"
 
+#include "tool/pages/contact_sheet.hpp"
 #include "tool/pages/fixed.hpp"
 #include <gonio/capture/k_means.hpp>
 #include <gonio/core/half.hpp>
@@ -165,13 +166,12 @@ gonio::image svbrdf_maps::figure(Eigen::Index size) const {
       sum += difference;
     }
   std::cout << "Delta E of the flat sample under the two lights, seen from ahead: "
-            << cli::fixed(sum / static_cast<double>(size * size), 2) << " in the mean of " << size << " x " << size
+            << cli::fixed(sum / static_cast<double>(size * size), 2) << " on average over " << size << " x " << size
             << " texels.\n\n";
-  const gonio::rgb grey = gonio::rgb::Constant(0.6);
-  const std::span all(images);
-  return gonio::render::stacked(
-      std::array{gonio::render::side_by_side(all.first(3), 4, grey), gonio::render::side_by_side(all.last(3), 4, grey)},
-      0, grey);
+  return cli::contact_sheet(images, 3,
+                            {{"truth", "estimate", "Delta E, light 0 to dark 10", "main material",
+                              "disagreement, light 0 to dark 4", "clusters"},
+                             {}});
 }
 
 }  // namespace papers

@@ -18,8 +18,8 @@ namespace papers {
 
 class svbrdf_maps {
  public:
-  /// All arguments must outlive it. `labels` is the .npy file of `gonio texels --clusters`, with one cluster per
-  /// material.
+  /// All arguments must outlive this object. `labels` is the .npy file of `gonio texels --clusters`, with one cluster
+  /// per material.
   svbrdf_maps(const gonio::log_relative_pca& prior, const gonio::io::svbrdf_map& map, const synthetic_texels& texels,
               const std::vector<gonio::model::adaptive_brdf>& materials, const std::filesystem::path& labels);
 

@@ -1,7 +1,8 @@
 #pragma once
-/// A surface as the zero set of a field of signed distances, a Gaussian Markov random field over nearby voxels: the
-/// rival of "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V, section 4),
-/// after Paulsen, Baerentzen and Larsen, "Markov random field surface reconstruction" (IEEE TVCG 16(4), 2010).
+/// A surface as the zero set of a field of signed distances, a Gaussian Markov random field over nearby voxels.
+/// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V, section 4) compares
+/// with this method of Paulsen, Baerentzen and Larsen, "Markov random field surface reconstruction" (IEEE TVCG 16(4),
+/// 2010).
 
 #include <gonio/shape/surface_index.hpp>
 
@@ -47,8 +48,8 @@ class voxel_band {
 
 /// The most probable field, by a sparse Cholesky factorisation: the distances d that minimise sum_observed (d_i -
 /// o_i)^2 + lambda sum_i (sum of the six neighbours - 6 d_i)^2. The second sum is over voxels whose neighbours are all
-/// in the band. The observations o are signed distances to the scan. Voxels closest to a border are not observed: the
-/// surface continues there.
+/// in the band. The observations o are signed distances to the scan. A voxel whose closest point is on a border of the
+/// scan is not observed, because the surface continues there.
 class distance_field {
  public:
   /// `near` holds points near the whole surface, including the holes of the scan. Throws gonio::error if the
@@ -56,8 +57,8 @@ class distance_field {
   distance_field(const gonio::shape::surface_index& scan, const gonio::shape::point_columns& near,
                  const distance_field_options& options);
 
-  /// Moves the points along the field's gradient to its zero. A point that leaves the band stays where it left it;
-  /// `lost` counts these points.
+  /// Moves the points along the field's gradient to its zero. `lost` counts the points that leave the band or do not
+  /// converge; these stay where the search ends.
   [[nodiscard]] gonio::shape::point_columns on_surface(gonio::shape::point_columns points, Eigen::Index& lost) const;
 
  private:

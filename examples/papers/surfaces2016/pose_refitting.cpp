@@ -45,7 +45,7 @@ struct posed_ear {
   similarity_transform right, begin;
 };
 
-/// What a way is off by, mm; nothing if it refuses the scan.
+/// Returns the error of a method in mm. Throws gonio::error if the method refuses the scan.
 using judged_way = std::function<double(const posed_ear&)>;
 
 struct named_way {
@@ -98,7 +98,7 @@ std::vector<named_way> ways_to_recover(const gonio::shape::shape_model& model, c
 }
 
 /// Returns the methods that register a whole scan. Their error is the mean distance of the vertices from their true
-/// places.
+/// positions.
 std::vector<named_way> ways_to_register(const gonio::shape::shape_model& model, gonio::thread_count threads) {
   const auto registers = [&model, threads](bool holds_pose, bool realigns) -> judged_way {
     gonio::shape::registration_options how;
@@ -176,9 +176,13 @@ void print_poses(const shape_poses_command& options) {
 void add_shape_poses(command& app) {
   auto command = app.add_subcommand("shape-poses", "Synthetic ears recovered from poses that are off, held or fitted");
   const auto options = std::make_shared<shape_poses_command>();
-  command.add_option("--shapes", options->shapes, "To learn from").check(check::range(3, 100000)).capture_default_str();
-  command.add_option("--ears", options->ears, "To recover").check(check::range(1, 10000)).capture_default_str();
-  command.add_option("--seed", options->seed, "Of all that is random").capture_default_str();
+  command.add_option("--shapes", options->shapes, "Number of shapes to learn from")
+      .check(check::range(3, 100000))
+      .capture_default_str();
+  command.add_option("--ears", options->ears, "Number of ears to recover")
+      .check(check::range(1, 10000))
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of all random numbers").capture_default_str();
   add_threads_option(command, options->threads);
   command.callback([options] { print_poses(*options); });
 }

@@ -29,7 +29,7 @@ struct shape_fields_command {
   gonio::thread_count threads;
 };
 
-/// Errors in a hole: of the field, the membrane and the thin plate over the template, and our recovery.
+/// The number of methods whose errors in a hole are compared: the field, the membrane, the thin plate, and `recover`.
 constexpr std::size_t ways = 4;
 struct judged_hole {
   std::array<gonio::shape::surface_distance, ways> off;
@@ -40,7 +40,7 @@ judged_hole judge_hole(const gonio::shape::shape_model& model, const synthetic::
                        const synthetic::ear_scan& scan, const shape_fields_command& options) {
   const gonio::shape::surface_index index(scan.mesh), complete(scan.complete);
   const std::vector<Eigen::Index> hole = study.hole_of(scan);
-  // Recover it. The smooth fillings begin with the template's vertices on the scan.
+  // Recover the hole with gonio, and fill it smoothly from the template's vertices that the scan shows.
   const auto right = gonio::shape::align(scan.truth, model.mean().vertices);
   const auto ours = gonio::shape::recover(model, index, right, {}, options.threads);
   const auto to_scan = ours.pose.inverse();
@@ -52,7 +52,7 @@ judged_hole judge_hole(const gonio::shape::shape_model& model, const synthetic::
   };
   const auto in_hole = [&](const gonio::shape::point_columns& all) { return gonio::shape::chosen_columns(all, hole); };
   const gonio::shape::point_columns plate = in_hole(filled(gonio::shape::smoothness::thin_plate));
-  // Find the field near the plate, and move the plate's vertices to its zero.
+  // Find the field near the thin plate, and move the plate's vertices to the zero of the field.
   judged_hole judged;
   const distance_field field(index, plate, options.field);
   const std::array<gonio::shape::point_columns, ways> found{field.on_surface(plate, judged.lost),
@@ -94,19 +94,23 @@ void print_fields(const shape_fields_command& options) {
 void add_shape_fields(command& app) {
   auto command = app.add_subcommand("shape-fields", "Holes of synthetic ears filled by a Markov random field");
   const auto options = std::make_shared<shape_fields_command>();
-  command.add_option("--shapes", options->shapes, "To learn from").check(check::range(3, 100000)).capture_default_str();
-  command.add_option("--ears", options->ears, "To recover").check(check::range(1, 10000)).capture_default_str();
-  command.add_option("--seed", options->seed, "Of all that is random").capture_default_str();
-  command.add_option("--hole", options->hole, "Between the bends")
+  command.add_option("--shapes", options->shapes, "Number of shapes to learn from")
+      .check(check::range(3, 100000))
+      .capture_default_str();
+  command.add_option("--ears", options->ears, "Number of ears to recover")
+      .check(check::range(1, 10000))
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of all random numbers").capture_default_str();
+  command.add_option("--hole", options->hole, "Size of the hole between the bends: large or small")
       .check(check::one_of({"large", "small"}))
       .capture_default_str();
-  command.add_option("--edge-noise", options->edge_noise, "Within 1.5 mm of the hole, mm")
+  command.add_option("--edge-noise", options->edge_noise, "Noise of the scan within 1.5 mm of the hole, mm")
       .check(check::range(0.0, 5.0))
       .capture_default_str();
-  command.add_option("--spacing", options->field.spacing, "Of the field's voxels, mm")
+  command.add_option("--spacing", options->field.spacing, "Spacing of the field's voxels, mm")
       .check(check::range(0.1, 2.0))
       .capture_default_str();
-  command.add_option("--smoothness", options->field.smoothness, "How much the field's prior counts")
+  command.add_option("--smoothness", options->field.smoothness, "Weight of the field's prior")
       .check(check::positive_number())
       .capture_default_str();
   add_threads_option(command, options->threads);

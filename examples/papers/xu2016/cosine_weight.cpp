@@ -1,5 +1,5 @@
-/// gonio-papers cosine-weight: how the error depends on the weight of reflectance: the product of both cosines in
-/// Nielsen et al. 2015 (Eq. 2), the larger cosine in Xu et al. 2016 (section 3).
+/// gonio-papers cosine-weight: how the error depends on the weight of reflectance. It is the product of both cosines in
+/// Nielsen et al. 2015 (Eq. 2), and the larger cosine in Xu et al. 2016 (section 3).
 
 #include "papers/experiments.hpp"
 #include "papers/mean_errors.hpp"
@@ -39,8 +39,7 @@ struct cosine_options {
 constexpr std::array weightings{std::pair{"product", cosine_weighting::product},
                                 std::pair{"larger", cosine_weighting::larger}};
 
-/// Returns means over the materials reconstructed from some directions, with mapped errors in the domain of either
-/// weight.
+/// Returns means over the materials reconstructed from some directions, with a mapped error for each weight.
 json judged(const gonio::log_relative_pca& prior, const gonio::material_set& truths, std::size_t count,
             const std::string& eta, const gonio::appearance_metric& appearance, gonio::thread_count threads) {
   const auto cells = gonio::cells_at(truths.cells, gonio::design::nielsen_directions(count));
@@ -80,14 +79,16 @@ void run(const cosine_options& options) {
   // Tabulate the test materials.
   const auto networks = options.networks.read();
   const auto cells = options.networks.cells();
-  const auto truths = gonio::model::tabulate_networks(networks_in(networks, gonio::nielsen_test_materials()), cells,
-                                                      options.threads, bar.listener());
+  const auto truths =
+      gonio::model::tabulate_networks(networks_in(networks, gonio::nielsen_test_materials(), options.networks.file),
+                                      cells, options.threads, bar.listener());
   const gonio::appearance_metric appearance(cells, 36, options.threads);
   // Reconstruct them with a prior that is mapped with each weight.
   json rows = json::array();
   for (const auto& [name, weighting] : weightings) {
-    const auto prior = learn_all_components(networks_except(networks, gonio::nielsen_test_materials()), cells,
-                                            options.threads, bar.listener(), weighting);
+    const auto prior =
+        learn_all_components(networks_except(networks, gonio::nielsen_test_materials(), options.networks.file), cells,
+                             options.threads, bar.listener(), weighting);
     for (const Eigen::Index n : options.counts)
       for (const std::string& eta : options.etas) {
         gonio::report(bar.listener(), std::string("weight ") + name + ", " + std::to_string(n), 0.0);
@@ -113,9 +114,9 @@ void run(const cosine_options& options) {
 }  // namespace
 
 void add_cosine_weight(command& app) {
-  auto command = app.add_subcommand(
-      "cosine-weight",
-      "What weights a reflectance: the product of both cosines (Nielsen 2015), or the larger (Xu 2016)");
+  auto command = app.add_subcommand("cosine-weight",
+                                    "Compare two weights of reflectance: the product of both cosines (Nielsen 2015), "
+                                    "and the larger cosine (Xu 2016)");
   const auto options = std::make_shared<cosine_options>();
   add_networks_option(command, options->networks);
   add_counts_option(command, options->counts);

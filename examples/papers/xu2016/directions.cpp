@@ -1,4 +1,5 @@
-/// gonio-papers directions: compares published sets of directions with ours, on materials that neither has seen.
+/// gonio-papers directions: compares published sets of directions with ours, on materials that the prior has not
+/// learned.
 
 #include "lab/near_field_lab.hpp"
 #include "papers/experiments.hpp"
@@ -40,7 +41,7 @@ struct directions_options : resumable_options {
   std::vector<std::string> sets{"published", "industry",  "random",         "condition",
                                 "a-optimal", "d-optimal", "expected-error", "perceived"};
   std::vector<Eigen::Index> counts{1, 2, 5, 10, 20};
-  std::vector<std::filesystem::path> files;  ///< of directions to judge besides the sets
+  std::vector<std::filesystem::path> files;  ///< of directions to compare with the sets
   std::string geometry = "point";
   std::string reconstruction_eta = "auto";
   bool in_sample = false;
@@ -48,10 +49,9 @@ struct directions_options : resumable_options {
          angular_error = 0.0, expected = 0.0;
   std::uint64_t seed = 0;
   bool print_json = false;
-  gonio::thread_count threads;
 };
 
-/// The prior, the test materials and the metric that judge all sets.
+/// The prior, the test materials and the metric that evaluate all sets.
 struct laboratory : nielsen_split {
   gonio::appearance_metric appearance;
 };
@@ -106,7 +106,6 @@ bool exists(const directions_options& options, const std::string& set, std::size
   return set != "random" || points;
 }
 
-/// Returns all sets that exist, and the files.
 std::vector<judged_set> sets_to_judge(const directions_options& options) {
   std::vector<judged_set> all;
   for (const std::filesystem::path& file : options.files) {
@@ -120,7 +119,7 @@ std::vector<judged_set> sets_to_judge(const directions_options& options) {
   return all;
 }
 
-/// Finds a set that exists.
+/// Returns a set that exists: reads it, or searches for it.
 designed find_set(const laboratory& lab, const directions_options& options, const judged_set& wanted,
                   const gonio::progress& listener) {
   const auto& [set, count, directions] = wanted;
@@ -174,7 +173,7 @@ gonio::sample_set sampled(const gonio::brdf_table& material, const directions_op
   return gonio::sample_table(material, gonio::cells_at(material.cells(), found.samples), defects, seed);
 }
 
-/// Reconstructs with trust in the directions.
+/// Reconstructs as if the directions were exact.
 gonio::fitted_brdf<gonio::log_relative_pca> trusting(const laboratory& lab, const directions_options& options,
                                                      const gonio::sample_set& samples) {
   // Choose eta as `gonio reconstruct` does if the noise is unknown.
@@ -195,7 +194,7 @@ gonio::fitted_brdf<gonio::log_relative_pca> expecting(const laboratory& lab, con
       .fit(samples);
 }
 
-/// Measures and reconstructs a material, with trust in the directions or with expected errors.
+/// Measures and reconstructs a material, as if the directions were exact or with expected errors.
 gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab, const gonio::brdf_table& material,
                                                           const directions_options& options, const designed& found,
                                                           std::uint64_t seed) {
@@ -256,7 +255,7 @@ void print_row(const json& row) {
             << printed(errors["delta_e_lights"], 2) << " | " << printed(errors["peak_ratio"], 2) << " |\n";
 }
 
-/// Writes a set as a file of directions, named after its purpose.
+/// Writes a set as a file of directions, named after its geometry, size and criterion.
 void write_set(const directions_options& options, const json& row) {
   const auto vector = [](const json& w) { return gonio::direction(w[0].number(), w[1].number(), w[2].number()); };
   std::vector<gonio::direction_pair> poses;
@@ -276,7 +275,7 @@ void run(const directions_options& options) {
     gonio::refuse("--expected-misplacement needs --geometry point or near-field");
   progress_bar bar;
   const auto listener = bar.listener();
-  // Find and judge each set, unless the state file has its result.
+  // Find and evaluate each set, unless the state file has its result.
   resumable_results results(options);
   std::optional<laboratory> lab;  // opened on first use
   json all = json::array();
@@ -323,8 +322,9 @@ void run(const directions_options& options) {
 }  // namespace
 
 void add_directions(command& app, const team& processes) {
-  auto command = app.add_subcommand(
-      "directions", "Published directions and ours on ten materials, 90 others learned (Nielsen 2015, Xu 2016)");
+  auto command = app.add_subcommand("directions",
+                                    "Compare published directions with ours on ten materials; the prior has learned 90 "
+                                    "others (Nielsen 2015, Xu 2016)");
   const auto options = std::make_shared<directions_options>();
   // Declare the sets.
   add_networks_option(command, options->networks);
@@ -332,18 +332,21 @@ void add_directions(command& app, const team& processes) {
       .check(check::one_of(
           {"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
       .capture_default_str();
-  command.add_input("--files", options->files, "Directions to judge beside them, of images those of the centre (.csv)");
+  command.add_input(
+      "--files", options->files,
+      "Files of directions to compare with the sets (.csv); for images, the directions at the centre of each image");
   add_counts_option(command, options->counts);
   // Declare the geometry and the search.
-  command.add_option("--geometry", options->geometry, "As `gonio design` has them")
+  command.add_option("--geometry", options->geometry, "Geometry of the measurements, as in `gonio design`")
       .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
       .capture_default_str();
   command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
       .capture_default_str();
   command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
-  command.add_option("--eta", options->eta, "Tikhonov's penalty that sets are searched with").capture_default_str();
-  command.add_flag("--in-sample", options->in_sample,
-                   "Search by the error of materials that the prior has seen, as Xu et al. do, not of each left out");
+  command.add_option("--eta", options->eta, "Tikhonov's penalty in the search for sets").capture_default_str();
+  command.add_flag(
+      "--in-sample", options->in_sample,
+      "Search by each material's error with a prior that has learned it, as Xu et al. do, instead of leaving it out");
   // Declare the reconstruction.
   command
       .add_option("--reconstruction-eta", options->reconstruction_eta,
@@ -351,21 +354,23 @@ void add_directions(command& app, const team& processes) {
                   "reconstruct` chooses it")
       .capture_default_str();
   // Declare the errors of the measurements.
-  command.add_option("--noise", options->noise, "Relative deviation of every measurement, which searches expect, too")
+  command.add_option("--noise", options->noise, "Relative deviation of every measurement; the searches know it")
       .capture_default_str();
-  command.add_option("--common-shift", options->common_shift, "Searches expect it: beta of Xu et al. 2016, Eq. 15")
+  command
+      .add_option("--common-shift", options->common_shift,
+                  "Size of a shift common to all logarithms, for the searches: beta of Xu et al. 2016, Eq. 15")
       .capture_default_str();
   command
       .add_option("--misplaced", options->angular_error,
-                  "Degrees by which light and viewer are off their places, towards random sides")
+                  "Angle in degrees by which light and viewer are off, each in a random direction")
       .capture_default_str();
   command
       .add_option("--expected-misplacement", options->expected,
-                  "Degrees by which light and viewer are expected to be off: of points, by search and reconstruction; "
-                  "of images, by a reconstruction that finds where they were")
+                  "Expected angular error of light and viewer in degrees. For points, search and reconstruction allow "
+                  "for it; for images, the reconstruction corrects the directions")
       .capture_default_str();
   // Declare the run and its output.
-  command.add_option("--seed", options->seed, "Seed of what is random").capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of all random numbers").capture_default_str();
   command.add_output_folder("--write", options->folder, {}, "Folder to write each set to, as directions (.csv)");
   command.add_flag("--json", options->print_json, "Print everything, with the poses, as JSON");
   add_resumable_options(command, *options);

@@ -25,14 +25,14 @@ namespace figures {
 laboratory open_laboratory(const options& given, const gonio::model::named_networks& learned,
                            const gonio::progress& listener) {
   const auto cells = given.networks.cells();
-  const auto others = networks_in(given.networks.read(), gonio::nielsen_test_materials());
+  const auto others = networks_in(given.networks.read(), gonio::nielsen_test_materials(), given.networks.file);
   return {mapped_errors(learn_all_components(learned, cells, given.threads, listener, given.weighting),
                         gonio::model::tabulate_networks(others, cells, given.threads), given.eta, given.threads)};
 }
 
 laboratory open_laboratory(const options& given, const gonio::progress& listener) {
   const auto all = given.networks.read();
-  return open_laboratory(given, networks_except(all, gonio::nielsen_test_materials()), listener);
+  return open_laboratory(given, networks_except(all, gonio::nielsen_test_materials(), given.networks.file), listener);
 }
 
 gonio::design::expected_error criterion_of(const laboratory& lab, const options& given) {
@@ -195,35 +195,38 @@ void add_figures(command& app) {
       .check(check::one_of(figures::names_of_figures()));
   command.add_option("--most", given.most, "The largest number of measurements (default: the figure's)")
       .check(check::positive_number());
-  command.add_option("--repetitions", given.repetitions, "Seeds of the searches that are random")
+  command.add_option("--repetitions", given.repetitions, "Number of seeds of each random search")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--random-sets", given.random_sets, "Random sets of which the mean is shown")
+  command.add_option("--random-sets", given.random_sets, "Number of random sets whose mean is shown")
       .check(check::positive_number())
       .capture_default_str();
   command.add_option("--fov", given.fields_of_view, "Near field: angles in degrees that the sample spans from above")
       .capture_default_str();
-  command.add_option("--step", given.step, "Near field, pairs of 2015-6: degrees between candidates")
+  command.add_option("--step", given.step, "Near field, and the pairs of 2015-6: degrees between candidates")
       .check(check::positive_number())
       .capture_default_str();
   command
       .add_option("--components", given.components,
-                  "2015-5, 2015-6, 2015-penalties, 2015-table-1 and -2: how many components k are swept beside all")
+                  "2015-5, 2015-6, 2015-penalties, 2015-table-1 and -2: numbers of components k to sweep, in addition "
+                  "to all components (default: the figure's)")
       .check(check::positive_number());
   command
       .add_option("--cosine-weight", chosen->cosine_weights,
-                  "The mapping weights by the product of both cosines (Nielsen 2015), the larger one (Xu 2016), or "
-                  "both, side by side: product larger")
+                  "Weight in the mapping: product (of both cosines, Nielsen 2015), larger (of the cosines, Xu 2016), "
+                  "or product larger for both side by side")
       .check(check::one_of({"product", "larger"}))
       .capture_default_str();
   command.add_input_folder("--tables", given.measured_tables, {".binary", ".gz"},
-                           "2015-10: folder of measured tables to scan; 2016-17: to make samples of, too");
+                           "2015-10: folder of measured tables to scan. 2016-17: folder of measured tables that are "
+                           "combined into further samples");
   command.add_input("--samples", given.measured_samples,
-                    "2015-10, 2015-12: measured samples to judge, too (.csv, .brdf)");
+                    "2015-10, 2015-12: measured samples that are reconstructed in addition (.csv, .brdf)");
   command.add_output("--spheres", given.spheres, {".png"},
-                     "2015-2, 2015-12, 2016-2, 2016-15: image to write, a row a material, the truth at the right");
+                     "2015-2, 2015-12, 2016-2, 2016-15: image to write (.png), one row for each material, with the "
+                     "truth at the right");
   command.add_option("--eta", given.eta, "Tikhonov's penalty").check(check::positive_number()).capture_default_str();
-  command.add_option("--seed", given.seed, "Seed of what is random").capture_default_str();
+  command.add_option("--seed", given.seed, "Seed of all random numbers").capture_default_str();
   command.add_flag("--json", chosen->print_json, "Print as JSON");
   add_threads_option(command, given.threads);
   command.callback(

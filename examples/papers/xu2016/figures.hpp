@@ -22,7 +22,7 @@ namespace papers::figures {
 
 struct options {
   studied_networks networks;
-  std::filesystem::path measured_tables, spheres;       ///< measured tables; an image to write
+  std::filesystem::path measured_tables, spheres;       ///< spheres: an image to write
   std::vector<std::filesystem::path> measured_samples;  ///< measured samples
   Eigen::Index most = 0;                                ///< number of measurements; 0: as in the figure
   Eigen::Index repetitions = 5, random_sets = 20;
@@ -64,7 +64,8 @@ struct laboratory {
 
   [[nodiscard]] const gonio::log_relative_pca& prior() const noexcept { return tested.prior(); }
 
-  /// Returns the mean error from measurements over the tested materials and channels.
+  /// Returns the error of reconstructions from measurements in these directions: the mean over the tested materials and
+  /// channels.
   [[nodiscard]] double error(std::span<const gonio::half_difference> directions) const {
     return tested.from(directions).mean();
   }
@@ -75,7 +76,7 @@ struct laboratory {
   }
 };
 
-/// Learns the 90 materials of Nielsen et al. 2015, or those given, and tests the ten others.
+/// Learns the 90 materials of Nielsen et al. 2015, or the given ones, and tests the ten other materials.
 [[nodiscard]] laboratory open_laboratory(const options& given, const gonio::progress& listener);
 [[nodiscard]] laboratory open_laboratory(const options& given, const gonio::model::named_networks& learned,
                                          const gonio::progress& listener);
@@ -106,7 +107,6 @@ inline constexpr double figures_field_of_view = 25.0;
 [[nodiscard]] std::vector<Eigen::Index> sphere_slices(const gonio::design::sphere_geometry& spheres,
                                                       const std::string& set, Eigen::Index n);
 
-/// Returns all samples of a plan.
 template <gonio::design::capture_geometry Geometry>
 [[nodiscard]] std::vector<gonio::half_difference> samples_of(const Geometry& geometry,
                                                              const std::vector<Eigen::Index>& candidates) {
@@ -118,8 +118,8 @@ template <gonio::design::capture_geometry Geometry>
   return samples;
 }
 
-/// Returns the best plans of 1 to `most` measurements. Each adds the best candidate to the previous plan, is exchanged
-/// if it has at most `exchanged` measurements, and slides along the grid.
+/// Returns the best plans of 1 to `most` measurements. Each adds the best candidate to the previous plan, exchanges its
+/// candidates if they are at most `exchanged`, and moves them along the grid.
 template <gonio::design::sweeping_objective Objective>
 [[nodiscard]] std::vector<gonio::design::capture_plan> best_plans(const Objective& objective, std::size_t most,
                                                                   std::size_t exchanged, std::uint64_t seed,
@@ -135,7 +135,8 @@ template <gonio::design::sweeping_objective Objective>
   return plans;
 }
 
-/// Tabulates paints reconstructed from simulated images of a sphere, judged on the measurements that were not used.
+/// Tabulates paints reconstructed from simulated images of a sphere, with errors on the measurements that were not
+/// used.
 [[nodiscard]] table paints_from_spheres(const options& given, const gonio::log_relative_pca& prior);
 
 [[nodiscard]] tables nielsen_2(const options& given, const gonio::progress& listener);

@@ -4,6 +4,7 @@
 #include "papers/material_result.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/xu2016/figures.hpp"
+#include "tool/pages/contact_sheet.hpp"
 #include <gonio/basis/project.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/design/sphere_geometry.hpp>
@@ -19,6 +20,7 @@
 #include <gonio/solve/tikhonov.hpp>
 
 #include <functional>
+#include <span>
 
 namespace papers::figures {
 
@@ -58,14 +60,13 @@ table measure_of(const std::string& title, const std::vector<measured_set>& sets
 
 gonio::image draw(const gonio::brdf_table& material, gonio::thread_count threads) {
   return gonio::render::render_sphere(gonio::render::horizon_lookup(material), gonio::render::two_lights(),
-                                      {.size = 96, .supersampling = 2}, threads);
+                                      {.size = 128, .supersampling = 2}, threads);
 }
 
-/// Returns a material's spheres in a row, the truth at the right. All have the exposure of the truth.
-gonio::image row_of_spheres(std::vector<gonio::image> spheres) {
-  const double exposure = gonio::render::exposure_of_spheres(std::span(spheres).last(1));
-  for (gonio::image& sphere : spheres) gonio::render::expose(sphere, exposure);
-  return gonio::render::side_by_side(spheres, 4);
+/// Exposes a material's spheres like the sphere of the truth, the last in the row.
+void expose_as_truth(std::span<gonio::image> row) {
+  const double exposure = gonio::render::exposure_of_spheres(row.last(1));
+  for (gonio::image& sphere : row) gonio::render::expose(sphere, exposure);
 }
 
 /// Reconstructs the ten materials from each set and tabulates every measure. If a file is given, draws spheres under
@@ -74,22 +75,25 @@ tables judged(const options& given, const nielsen_split& split, const std::vecto
               const gonio::progress& listener) {
   const gonio::appearance_metric appearance(split.truths.cells, 36, given.threads);
   std::vector<std::vector<material_result>> results(sets.size());
-  std::vector<gonio::image> rows;
+  std::vector<gonio::image> spheres;
+  cli::sheet_text text;
   for (std::size_t m = 0; m < split.truths.names.size(); ++m) {
     const std::string& name = split.truths.names[m];
     gonio::report(listener, name, static_cast<double>(m) / static_cast<double>(split.truths.names.size()));
     const gonio::brdf_table truth = split.truths.table(m);
-    std::vector<gonio::image> spheres;
     for (std::size_t s = 0; s < sets.size(); ++s) {
       const auto estimate = reconstructed(given, split.prior, truth, sets[s].directions);
       results[s].push_back({name, gonio::compare(estimate, truth, split.prior.metric(), appearance, given.threads)});
-      if (!given.spheres.empty()) spheres.push_back(draw(estimate, given.threads));
+      if (given.spheres.empty()) continue;
+      spheres.push_back(draw(estimate, given.threads));
+      text.labels.push_back(sets[s].name);
     }
     if (given.spheres.empty()) continue;
     spheres.push_back(draw(truth, given.threads));
-    rows.push_back(row_of_spheres(std::move(spheres)));
+    text.labels.push_back(name);
+    expose_as_truth(std::span(spheres).last(sets.size() + 1));
   }
-  if (!given.spheres.empty()) gonio::io::write_png(given.spheres, gonio::render::stacked(rows));
+  if (!given.spheres.empty()) gonio::io::write_png(given.spheres, cli::contact_sheet(spheres, sets.size() + 1, text));
   return {measure_of("Mapped error, mean over the channels", sets, results, 3,
                      [](const gonio::comparison& errors) { return errors.mapped_rms.mean(); }),
           measure_of("Delta E of spheres under two lights", sets, results, 2,
@@ -112,7 +116,7 @@ angles sphere_samples(const gonio::valid_cells& cells, const std::string& set, E
 }  // namespace
 
 tables nielsen_2(const options& given, const gonio::progress& listener) {
-  const auto split = nielsen_split::learn(given.networks, given.threads, listener);
+  const auto split = nielsen_split::learn(given.networks, given.threads, listener, given.weighting);
   std::vector<measured_set> sets;
   for (const char* set : {"published", "expected-error"})
     for (const std::size_t n : {1, 2, 3, 5, 10, 20})
@@ -122,7 +126,7 @@ tables nielsen_2(const options& given, const gonio::progress& listener) {
 }
 
 tables nielsen_12(const options& given, const gonio::progress& listener) {
-  const auto split = nielsen_split::learn(given.networks, given.threads, listener);
+  const auto split = nielsen_split::learn(given.networks, given.threads, listener, given.weighting);
   std::vector<measured_set> sets;
   for (const char* set : {"published", "expected-error"})
     for (const std::size_t n : {1, 2, 5})
@@ -134,7 +138,7 @@ tables nielsen_12(const options& given, const gonio::progress& listener) {
 }
 
 tables xu_2(const options& given, const gonio::progress& listener) {
-  const auto split = nielsen_split::learn(given.networks, given.threads, listener);
+  const auto split = nielsen_split::learn(given.networks, given.threads, listener, given.weighting);
   const std::vector<measured_set> sets{
       {"one image", samples_of_images(shipped_poses("near-field-25-1-expected-error"))},
       {"5 points, published", gonio::design::nielsen_directions(5)},
@@ -147,7 +151,7 @@ tables xu_2(const options& given, const gonio::progress& listener) {
 }
 
 tables xu_15(const options& given, const gonio::progress& listener) {
-  const auto split = nielsen_split::learn(given.networks, given.threads, listener);
+  const auto split = nielsen_split::learn(given.networks, given.threads, listener, given.weighting);
   const std::vector<measured_set> sets{
       {"two images, free", samples_of_images(shipped_poses("near-field-25-2-expected-error"))},
       {"fixed camera", samples_of_images(shipped_poses("fixed-camera-25-2-expected-error"))},

@@ -37,7 +37,7 @@ images read_images(const laboratory& lab, const options& given, double field_of_
       given.threads, listener);
 }
 
-/// Returns the best plans of 1 to `most` images on the coarse grid, then slid on a grid of one degree.
+/// Returns the best plans of 1 to `most` images on the coarse grid, moved to the best ones on a grid of one degree.
 std::vector<gonio::design::capture_plan> refined_plans(const laboratory& lab, const options& given,
                                                        const images& coarse, std::size_t most,
                                                        const gonio::progress& listener) {
@@ -54,7 +54,6 @@ std::vector<gonio::design::capture_plan> refined_plans(const laboratory& lab, co
   return plans;
 }
 
-/// Returns the error of each plan.
 std::vector<json> errors_of(const laboratory& lab, const gonio::design::near_field_geometry& geometry,
                             const std::vector<gonio::design::capture_plan>& plans) {
   std::vector<json> errors;
@@ -62,7 +61,7 @@ std::vector<json> errors_of(const laboratory& lab, const gonio::design::near_fie
   return errors;
 }
 
-/// Errors of points for comparison: published, and by expected error.
+/// Errors of points for comparison: of the published sets, and of our sets by expected error.
 struct point_errors {
   std::vector<json> published, expected;
 };
@@ -171,7 +170,7 @@ class with_one_in_place {
   double polar_angle_;
 };
 
-/// Returns for each number of images the best plan over all fixed places.
+/// Returns for each number of images the best plan over all fixed polar angles.
 std::vector<gonio::design::capture_plan> plans_in_place(const images& all, const options& given, std::size_t most,
                                                         gonio::direction gonio::direction_pair::*fixed,
                                                         const gonio::progress& listener) {
@@ -187,7 +186,6 @@ std::vector<gonio::design::capture_plan> plans_in_place(const images& all, const
   return best;
 }
 
-/// Adds the angles of a plan's images to a table.
 void add_angles(table& angles, const std::string& name, const gonio::design::near_field_geometry& geometry,
                 const gonio::design::capture_plan& plan) {
   const auto rows = printed_angles(name, geometry, plan.candidates);
@@ -209,7 +207,7 @@ tables xu_3(const options& given, const gonio::progress& listener) {
   std::vector<Eigen::ArrayX3d> missed;
   for (const auto& [name, directions] : sets) {
     shown.columns.push_back({"E_recon, " + name});
-    // The projection is orthogonal to its residual.
+    // The projection is orthogonal to its residual, so the squares of both errors add.
     missed.push_back((lab.tested.from(directions).square() - deviation.square()).max(0.0).sqrt());
   }
   for (Eigen::Index m = 0; m < deviation.rows(); ++m) {
@@ -268,7 +266,7 @@ tables xu_6(const options& given, const gonio::progress& listener) {
 }
 
 tables xu_7(const options& given, const gonio::progress& listener) {
-  auto learned = networks_except(given.networks.read(), gonio::nielsen_test_materials());
+  auto learned = networks_except(given.networks.read(), gonio::nielsen_test_materials(), given.networks.file);
   // Shuffle the materials; each row learns the first ones.
   std::vector<std::string> order = learned.names;
   std::mt19937_64 generator(given.seed);
@@ -279,7 +277,7 @@ tables xu_7(const options& given, const gonio::progress& listener) {
   const Eigen::Index step = std::min<Eigen::Index>(largest, 10);
   for (Eigen::Index count = step; count <= largest; count += step) {
     const std::vector<std::string> names(order.begin(), order.begin() + count);
-    const laboratory lab = open_laboratory(given, networks_in(learned, names), listener);
+    const laboratory lab = open_laboratory(given, networks_in(learned, names, given.networks.file), listener);
     const images all = read_images(lab, given, figures_field_of_view, listener);
     const auto plans = refined_plans(lab, given, all, 2, listener);
     const gonio::design::near_field_geometry fine = geometry_of(figures_field_of_view, 1.0);
@@ -290,7 +288,7 @@ tables xu_7(const options& given, const gonio::progress& listener) {
 }
 
 tables xu_8(const options& given, const gonio::progress& listener) {
-  // Learn all materials: like the paper's, these directions are for materials that nobody has measured.
+  // Learn all materials, because these directions, like the paper's, are for materials that nobody has measured.
   const laboratory lab = open_laboratory(given, given.networks.read(), listener);
   table angles = table_of_angles();
   table worth{"E, root mean square over the cells, mean over all materials learned",

@@ -28,13 +28,12 @@ constexpr double noise_of_pixels = 0.02;
 /// Rays along each side of a pixel: a pixel on a boundary mixes two materials.
 constexpr Eigen::Index rays_across = 3;
 
-/// A material of the sample.
 struct ingredient {
   std::string name;
   gonio::brdf_table truth;
 };
 
-/// Returns the two images of a fixed camera; the second image shows diffuse reflection.
+/// Returns the setups of two images with a fixed camera; the second image shows diffuse reflection.
 std::vector<gonio::capture::near_field_setup> two_setups(Eigen::Index pixels) {
   const double field_of_view = gonio::radians(figures_field_of_view);
   std::vector<gonio::capture::near_field_setup> setups;
@@ -71,11 +70,12 @@ gonio::image averaged(const gonio::image& fine) {
 struct photographed_sample {
   std::vector<gonio::capture::near_field_setup> setups = two_setups(pixels_across);
   std::vector<Eigen::Index> region = gonio::capture::pixels_of_region(setups.back());
-  Eigen::VectorXi labels = {};                        ///< material of each of the region's pixels
-  std::vector<std::vector<gonio::image>> alone = {};  ///< by image: photographs with one material all over the sample
+  Eigen::VectorXi labels = {};  ///< material of each of the region's pixels
+  /// For each image and material: a photograph of a sample of this material alone.
+  std::vector<std::vector<gonio::image>> alone = {};
   std::vector<gonio::image> images = {};
 
-  /// Returns the measurements of both images in some of the region's pixels.
+  /// Returns the measurements of both images at the `chosen` pixels of the region.
   [[nodiscard]] gonio::sample_set measured(const std::vector<gonio::image>& pictures,
                                            const std::vector<Eigen::Index>& chosen) const {
     gonio::sample_set all;
@@ -134,7 +134,7 @@ Eigen::MatrixXi overlap_of(const Eigen::VectorXi& labels, const gonio::capture::
   return overlap;
 }
 
-/// Returns the share of pixels whose cluster is mostly of their material.
+/// Returns the share of pixels that have the main material of their cluster.
 double purity(const Eigen::MatrixXi& overlap) {
   return static_cast<double>(overlap.colwise().maxCoeff().sum()) / static_cast<double>(overlap.sum());
 }
@@ -166,7 +166,7 @@ struct report {
                 {"alone", 2}}};
 };
 
-/// Reconstructs and judges a material.
+/// Reconstructs a material, and compares it with the truth.
 struct judge {
   const gonio::log_relative_pca& prior;
   const gonio::appearance_metric& appearance;
@@ -209,7 +209,6 @@ void add_sample(report& shown, const std::string& name, const std::vector<const 
   }
 }
 
-/// Appends a row with the means over all rows.
 void add_mean(table& errors) {
   std::vector<json> mean{"mean", ""};
   for (std::size_t column = 2; column < errors.columns.size(); ++column) {
@@ -240,7 +239,7 @@ table all_pairs(const std::vector<ingredient>& materials, const options& given) 
           {{pairs.size(), pure, pairs[pairs.size() / 2].purity, pairs.front().purity, pairs.front().names}}};
 }
 
-/// Combines materials into samples of two and of three. A material is in at most one sample of each kind.
+/// Combines materials into samples of two materials and of three. A material is in at most one sample of each kind.
 tables samples_of_each(const std::string& database, const options& given, const gonio::log_relative_pca& prior,
                        const std::vector<ingredient>& materials, const gonio::progress& listener) {
   if (materials.size() < 2) gonio::refuse("figure 2016-17 needs at least two materials: " + database);
@@ -264,7 +263,7 @@ tables samples_of_each(const std::string& database, const options& given, const 
 }  // namespace
 
 tables xu_17(const options& given, const gonio::progress& listener) {
-  const auto split = nielsen_split::learn(given.networks, given.threads, listener);
+  const auto split = nielsen_split::learn(given.networks, given.threads, listener, given.weighting);
   const auto chosen = [&](std::size_t all) { return std::min(all, given.up_to(10)); };
   std::vector<ingredient> surrogates, measured;
   for (std::size_t m = 0; m < chosen(split.truths.names.size()); ++m)

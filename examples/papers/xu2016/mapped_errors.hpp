@@ -17,9 +17,9 @@ namespace papers {
 /// Errors in the mapped domain of materials reconstructed with Tikhonov's penalty from their values at some cells: root
 /// mean square over all cells, one row per material and one column per channel.
 ///
-/// The components are orthogonal: |x - mu - Q c|^2 is the squared residual of the projection plus |Sigma (c - c of the
-/// projection)|^2. So only the weights c have to be found. Negative reflectance is not clamped. Compared with
-/// `gonio-papers directions`, this changes the errors by less than 0.001.
+/// The components are orthogonal: |x - mu - Q c|^2 is the squared residual of the projection plus |Sigma (c - p)|^2,
+/// where p are the weights of the projection. So only the weights c have to be found. Negative reflectance is not
+/// clamped. Compared with `gonio-papers directions`, this changes the errors by less than 0.001.
 class mapped_errors {
  public:
   /// The truths must share the prior's cells.
@@ -32,10 +32,12 @@ class mapped_errors {
   /// Returns errors from the cells nearest to directions. A repeated cell counts repeatedly.
   [[nodiscard]] Eigen::ArrayX3d from(std::span<const gonio::half_difference> directions) const;
 
-  /// Returns the least-squares problem of these measurements: n x k, with a right-hand side per channel and material.
+  /// Returns the least-squares problem of measurements in these directions: one row per direction, one right-hand side
+  /// per channel and material.
   [[nodiscard]] gonio::least_squares_problem problem_of(std::span<const gonio::half_difference> directions) const;
 
-  /// Returns the errors of given weights of the components, k x 3m.
+  /// Returns the errors of reconstructions with given weights. `weights` has one row per component and three columns
+  /// per material.
   [[nodiscard]] Eigen::ArrayX3d of_weights(const Eigen::MatrixXd& weights) const;
 
   /// Returns a material's values at the cells nearest to directions. The samples have the cells' directions.
@@ -46,10 +48,10 @@ class mapped_errors {
   [[nodiscard]] Eigen::ArrayX3d of(const std::vector<gonio::model::analytic_brdf>& estimates,
                                    gonio::thread_count threads) const;
 
-  /// Returns the lower bound: the projection of the whole table.
+  /// Returns a lower bound of the errors: those of the projection of the whole table.
   [[nodiscard]] Eigen::ArrayX3d from_all() const;
 
-  /// Returns the upper bound: no measurement, the mean of the database.
+  /// Returns the errors without any measurement: those of the mean of the database.
   [[nodiscard]] Eigen::ArrayX3d from_nothing() const;
 
  private:

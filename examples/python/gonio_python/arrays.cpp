@@ -68,6 +68,18 @@ std::vector<py::ssize_t> rows_of_numbers(const py::array& given, py::ssize_t cou
   return rows;
 }
 
+/// Angles of several samples have no reason to have the length 1: such rows are probably the light's unit vectors,
+/// given without those of the viewer.
+void refuse_unit_vectors(const doubles& array, const std::string& name) {
+  constexpr py::ssize_t fewest = 3;
+  if (array.shape(1) != 3 || array.shape(0) < fewest) return;
+  const double* data = array.data();
+  for (py::ssize_t i = 0; i < array.shape(0); ++i)
+    if (std::abs(gonio::norm_of(data[3 * i], data[3 * i + 1], data[3 * i + 2]) - 1.0) > 1e-6) return;
+  gonio::refuse({name, " looks like unit vectors: expected light and viewer side by side, np.hstack([wi, wo]), or ",
+                 "theta_h, theta_d and phi_d in radians"});
+}
+
 }  // namespace
 
 std::string shape_of(const py::array& array) { return py::str(array.attr("shape")); }
@@ -114,6 +126,7 @@ direction_pairs::direction_pairs(const py::object& wi, const py::object& wo)
 
 std::vector<gonio::sample_directions> sample_directions_of(const py::object& given, const std::string& name) {
   const doubles array = finite_rows(given, name, {6, 3});
+  refuse_unit_vectors(array, name);
   const double* data = array.data();
   const py::ssize_t columns = array.shape(1);
   std::vector<gonio::sample_directions> all;
@@ -148,7 +161,7 @@ std::vector<py::ssize_t> rows_of(const py::object& given, py::ssize_t count) {
   const char kind = array.dtype().kind();
   if (kind == 'b') return rows_of_mask(array, count);
   if (kind == 'i' || kind == 'u') return rows_of_numbers(array, count);
-  if (array.ndim() == 1 && array.size() == 0) return {};  // for numpy, even an empty list is not of integers
+  if (array.ndim() == 1 && array.size() == 0) return {};  // numpy makes even an empty list an array of doubles
   gonio::refuse({"rows is of type ", std::string(py::str(array.dtype())),
                  ": expected whole numbers, True and False for each sample, or a slice"});
 }

@@ -30,13 +30,14 @@ using extents = std::vector<py::ssize_t>;
 /// Returns any array of numbers that numpy accepts. Throws gonio::error with `name` unless all are finite.
 [[nodiscard]] doubles finite_numbers(const py::object& given, const std::string& name);
 
-/// The same for shape (n, one of `columns`); a 0 in `columns` stands for shape (n).
+/// Returns finite numbers of shape (n, c) with c one of `columns`, where 0 stands for shape (n,).
 [[nodiscard]] doubles finite_rows(const py::object& given, const std::string& name, std::initializer_list<int> columns);
 
-/// Returns "(20, 6)".
+/// Returns the shape as text: "(20, 6)".
 [[nodiscard]] std::string shape_of(const py::array& array);
 
-/// Unit vectors along the last axis of an array. Lengths within 0.001 of 1 are normalised, others refused.
+/// Unit vectors along the last axis of an array. Vectors whose length is within 0.001 of 1 are normalised; all others
+/// are refused.
 class direction_array {
  public:
   direction_array(const py::object& given, const std::string& name);
@@ -82,7 +83,8 @@ class direction_pairs {
 /// Returns the pairs as an array of shape (n, 6).
 [[nodiscard]] py::array_t<double> array_of(const std::vector<gonio::direction_pair>& pairs);
 
-/// Returns an array for one number, or `channels` numbers, per pair.
+/// Returns an uninitialised array for one number per pair or, if `channels` is above 1, for `channels` numbers per
+/// pair.
 [[nodiscard]] py::array_t<double> results_for(const direction_pairs& pairs, py::ssize_t channels);
 
 /// Returns a view of numbers that `owner` holds.
@@ -91,7 +93,7 @@ template <class Number>
   return py::array_t<Number>(std::move(shape), std::move(strides), data, owner);
 }
 
-/// The same, read-only.
+/// Returns a read-only view of numbers that `owner` holds.
 template <class Number>
 [[nodiscard]] py::array_t<Number> read_only(const Number* data, extents shape, extents strides,
                                             const py::object& owner) {

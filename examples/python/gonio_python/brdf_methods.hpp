@@ -93,7 +93,7 @@ void add_conversion_to_table() {
                 return table_of(f, {});
             }),
             py::prepend(), py::arg("brdf"),
-            "Tabulates another BRDF over the 90 x 90 x 180 cells of a MERL file; copies a table.");
+            "Tabulates a BRDF over the 90 x 90 x 180 cells of MERL's grid. If `brdf` is already a table, copies it.");
   if constexpr (!std::same_as<Brdf, gonio::brdf_table>) py::implicitly_convertible<Brdf, gonio::brdf_table>();
 }
 

@@ -99,17 +99,19 @@ void add_cells(py::module_& m) {
   type.def_property_readonly(
       "anchor", [](const gonio::valid_cells& cells) { return word_of(cells.grid().anchor()); },
       "The position of a value in its cell: 'centre' or 'lower_corner'.");
-  type.def_property_readonly("minimum_cosine", &gonio::valid_cells::minimum_cosine,
-                             "Cells have values if both cosines are larger than this; 0: down to the horizon.");
+  type.def_property_readonly(
+      "minimum_cosine", &gonio::valid_cells::minimum_cosine,
+      "Cells have values if the cosines of both directions exceed this number; 0: down to the horizon.");
   type.def(
       "directions", [](const gonio::valid_cells& cells) { return directions_of(cells); },
       "Returns the directions of the values: shape (cells, 6), wi and wo.");
   type.def(
       "angles", [](const gonio::valid_cells& cells) { return angles_of(cells); },
-      "Returns the same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
+      "Returns the angles of the values, theta_h, theta_d and phi_d, in radians: shape (cells, 3).");
   type.def("numbers", &numbers_of,
            "Returns for each cell of the grid the number of the cell that a look-up reads there, int32 of the\n"
-           "grid's shape: below the horizon, the cell above. `prior.mean[prior.cells.numbers()]` is the\n"
+           "grid's shape. Below the horizon, this is the valid cell with the next smaller theta_h.\n"
+           "`prior.mean[prior.cells.numbers()]` is the "
            "mean over the whole grid.");
   add_copies(
       type, [](const gonio::valid_cells& cells) { return state_of(cells); },

@@ -11,15 +11,15 @@ namespace python {
 /// Returns "centre" or "lower_corner".
 [[nodiscard]] const char* word_of(gonio::cell_anchor anchor);
 
-/// Throws gonio::error for other words.
+/// Returns the anchor for "centre" or "lower_corner". Throws gonio::error for any other word.
 [[nodiscard]] gonio::cell_anchor anchor_of(const std::string& word);
 
-/// Returns the cells of a grid at which both cosines are larger than `minimum_cosine`. Throws gonio::error unless it is
-/// at least 0 and less than 1.
+/// Returns the cells of a grid at which both cosines are larger than `minimum_cosine`. Throws gonio::error unless
+/// `minimum_cosine` is at least 0 and less than 1.
 [[nodiscard]] gonio::valid_cells cells_of(const gonio::grid_extents& shape, const std::string& anchor,
                                           double minimum_cosine);
 
-/// To a pickle's state, and back.
+/// Convert cells to a pickle's state, and back.
 [[nodiscard]] py::tuple state_of(const gonio::valid_cells& cells);
 [[nodiscard]] gonio::valid_cells cells_of_state(const py::tuple& state);
 

@@ -20,7 +20,7 @@ inline void require_state(const py::tuple& state, std::size_t size) {
     gonio::refuse({"a pickle of another version of gonio has ", state.size(), " parts: expected ", size});
 }
 
-/// Adds both copies to a class whose copies share no writable memory.
+/// Adds copy.copy and copy.deepcopy to a class whose copies share no writable memory.
 template <class Type, class... Extra>
 void add_copies(py::class_<Type, Extra...>& type) {
   type.def("__copy__", [](const Type& self) { return self; });
@@ -28,7 +28,7 @@ void add_copies(py::class_<Type, Extra...>& type) {
       "__deepcopy__", [](const Type& self, const py::dict&) { return self; }, py::arg("memo"));
 }
 
-/// Adds both copies and pickle: `state(object)` returns a tuple, `from_state(tuple)` restores the object.
+/// Adds copy.copy, copy.deepcopy and pickle: `state(object)` returns a tuple, `from_state(tuple)` restores the object.
 template <class Type, class... Extra, class State, class FromState>
 void add_copies(py::class_<Type, Extra...>& type, State&& state, FromState&& from_state) {
   add_copies(type);
@@ -45,7 +45,7 @@ template <class Matrix>
   return array;
 }
 
-/// Returns the matrix of such an array.
+/// Returns the matrix of an array that `copy_of` made.
 template <class Matrix>
 [[nodiscard]] Matrix matrix_of(const py::handle& given) {
   using number = typename Matrix::Scalar;
@@ -64,7 +64,8 @@ template <class Numbers>
   return py::array_t<number>(extents{static_cast<py::ssize_t>(numbers.size())}, numbers.data());
 }
 
-/// Copies them back. Throws gonio::error unless there are `count`.
+/// Copies the numbers of an array that `array_of_numbers` made to `to`. Throws gonio::error unless it has `count`
+/// numbers.
 template <class Number>
 void copy_numbers(const py::handle& given, Number* to, Eigen::Index count) {
   const auto array = given.cast<py::array_t<Number, py::array::c_style | py::array::forcecast>>();

@@ -152,7 +152,7 @@ void add_design(py::module_& m) {
       [](const py::tuple& state) { return design_of_state(state); });
   type.def_property_readonly(
       "directions", [](const found_design& d) { return array_of(d.directions); },
-      "Light and viewer of each measurement (of an image: at its centre): shape (n, 6), wi and wo.");
+      "Light and viewer of each measurement (for an image: at its centre): shape (n, 6), wi and wo.");
   type.def_readonly("value", &found_design::value, "The value of the criterion.");
   type.def_property_readonly(
       "expected_error", [](const found_design& d) { return d.quality.expected_error; },

@@ -28,8 +28,8 @@ namespace {
 using fitted_pca = gonio::fitted_brdf<gonio::log_relative_pca>;
 using estimator_type = gonio::reconstruction<gonio::log_relative>;
 
-/// The arguments of an estimator. An estimator is pickled by its arguments; its result by these and its samples, which
-/// are then fitted again.
+/// The arguments of an estimator. An estimator is pickled by its arguments; its result by the arguments and the
+/// samples, which unpickling fits again.
 struct estimator_arguments {
   gonio::log_relative_pca prior;
   double variance = 0.0, noise = 0.0;
@@ -102,8 +102,8 @@ void add_domain(py::class_<gonio::log_relative_pca>& prior) {
           weights.mutable_at(cell) = f.metric().cosine_weight(gonio::cosines(f.cells().angles(cell)));
         return weights;
       },
-      "c of each cell, the weight of reflectance in the metric: shape (cells,). The mapped value for a fit's\n"
-      "weights w is y = components @ w + mean, and its reflectance (exp(y) (reference c + .001) - .001) / c in\n"
+      "The cosine weight c of each cell in the metric: shape (cells,). A fit with weights w has the mapped values\n"
+      "y = components @ w + mean and the reflectance (exp(y) (reference c + .001) - .001) / c in\n"
       "sr^-1, at least 0.");
 }
 
@@ -115,7 +115,7 @@ void add_prior(py::module_& m) {
   prior.def("__len__", &gonio::log_relative_pca::size, "The number of components.");
   prior.def_property_readonly("names", &gonio::log_relative_pca::names, "The materials that it was learned from.");
   prior.def_property_readonly("source", &gonio::log_relative_pca::source,
-                              "A description of the data that it was learned from.");
+                              "A description of the data that the prior was learned from.");
   prior.def_property_readonly(
       "wavelengths",
       [](const py::object& self) {
@@ -178,7 +178,7 @@ py::object report_of(const fitted_pca& fit) {
   return report;
 }
 
-/// Reads the report's numbers from the keys of `report_of`.
+/// Returns the report from a dictionary with the keys that `report_of` writes.
 std::optional<gonio::solve_report> report_of_state(const py::handle& state) {
   if (state.is_none()) return std::nullopt;
   const auto channels = [&](const char* name) -> Eigen::VectorXd {
@@ -290,7 +290,7 @@ gonio::confidence_level level_of(double probability) {
                  std::string(py::str(py::float_(probability)))});
 }
 
-/// Returns pairs above the horizon, for which intervals and deviations exist; throws gonio::error for others.
+/// Returns pairs above the horizon, for which intervals and deviations exist. Throws gonio::error for any other pair.
 direction_pairs pairs_above_horizon(const py::object& wi, const py::object& wo) {
   direction_pairs pairs(wi, wo);
   for (Eigen::Index i = 0; i < pairs.size(); ++i)
@@ -344,18 +344,20 @@ void add_outlying_sample(py::module_& m) {
       "The measured value, sr^-1, by channel.");
   type.def_property_readonly(
       "predicted", [](const outlying& each) { return channels_of(each.predicted); },
-      "The prediction from the other samples, sr^-1, by channel.");
+      "The prediction from all other samples, sr^-1, by channel.");
   type.def_readonly("deviation", &outlying::deviation, "The standard deviation of the logarithm of the prediction.");
   type.def_readonly("probability", &outlying::probability, "The probability that the sample is wrong.");
   type.def("__repr__", &sentence_of);
 }
 
-/// Throws gonio::error for invalid arguments.
+/// Returns the estimator for these arguments. Throws gonio::error if one of them is invalid.
 configured_estimator estimator_of(const estimator_arguments& given) {
   if (!(given.variance > 0.0 && given.variance <= 10.0))
     gonio::refuse({"variance is ", given.variance, ": expected more than 0, at most 10"});
   if (!(given.noise >= 0.0 && std::isfinite(given.noise)))
-    gonio::refuse({"noise is ", given.noise, ": expected at least 0"});
+    gonio::refuse({"noise is ", given.noise, ": expected a finite fraction of at least 0 (0.02 is 2 %)"});
+  if (given.noise > 0.5)
+    warn({gonio::message_of({"noise of ", std::lround(100.0 * given.noise), " % is very large: 0.02 is 2 %"})});
   const estimator_type estimator{
       given.prior, {.variance = given.variance, .noise = given.noise}, gonio::thread_count{given.threads}};
   return {given.rejects ? estimator : estimator.keeping_all(), given};
@@ -384,8 +386,9 @@ void add_estimator(py::module_& m) {
   py::class_<configured_estimator> type(
       m, "Estimator",
       "Reconstructs a BRDF as `gonio reconstruct` does: fits a prior's components together with a model of what\n"
-      "they cannot represent. variance: of that part, in squared logarithms. noise: of the values, relative (0.02\n"
-      "is 2 %). reject: leave out samples that contradict the others.");
+      "the components cannot represent. variance: the variance of the logarithm of reflectance in that model.\n"
+      "noise: the relative noise of the values (0.02 is 2 %). reject: leave out samples that contradict all others,\n"
+      "in brightness or in colour.");
   type.def(
       py::init([](const gonio::log_relative_pca& prior, double variance, double noise, bool reject, unsigned threads) {
         return estimator_of({prior, variance, noise, reject, threads});
@@ -416,10 +419,10 @@ void add_reconstruction(py::module_& m) {
       "The factor to which the highlight is known, with a probability of 95 %.");
   fit.def_property_readonly(
       "rejected", [](const reconstructed_brdf& f) { return f.rejected(); },
-      "Rows of the samples whose weight is below one half or zero, the worst first.");
+      "Rows of the samples that the fit left out, the worst first: they are probably wrong.");
   fit.def_property_readonly(
       "contradicted", [](const reconstructed_brdf& f) { return f.contradicted(); },
-      "Samples that contradict the others, the worst first; at most twenty.");
+      "Samples that contradict all others, the worst first; at most twenty.");
   fit.def_property_readonly(
       "outlier_share", [](const reconstructed_brdf& f) { return f.outlier_share(); },
       "The estimated fraction of outliers among all samples.");

@@ -29,13 +29,13 @@ namespace {
 struct texel_map {
   gonio::io::svbrdf_header header;
   gonio::log_relative_pca prior;
-  py::array weights, uncertainty, disagreement;  ///< half floats: (rows, columns, 3, r), (rows, columns) twice
+  py::array weights, uncertainty, disagreement;  ///< half floats: (rows, columns, 3, r) and twice (rows, columns)
 };
 
 /// Returns an uninitialised array of half floats.
 py::array halves(extents shape) { return py::array(py::dtype("float16"), std::move(shape)); }
 
-/// Copies numbers into such an array from index `first` on.
+/// Copies numbers into an array of half floats from index `first` on.
 void put(py::array& to, Eigen::Index first, std::span<const std::uint16_t> numbers) {
   std::memcpy(static_cast<std::uint16_t*>(to.mutable_data()) + first, numbers.data(), numbers.size_bytes());
 }
@@ -81,15 +81,20 @@ void add_maps(py::module_& m) {
       "prior", [](const texel_map& self) { return self.prior; }, "The prior whose components the functions combine.");
   map.def_property_readonly(
       "functions", [](const texel_map& self) { return copy_of(self.header.functions); },
-      "V: shape (k, r). `functions @ weights[row, column].T` are the weights of the prior's k components.");
+      "Matrix of shape (k, r): `functions @ weights[row, column].T` are the weights of the prior's k components.");
   map.def_property_readonly(
       "directions", [](const texel_map& self) { return array_of(self.header.directions); },
       "The directions in which the texels were measured, wi and wo: shape (images, 6).");
   map.def_readonly("weights", &texel_map::weights,
                    "float16 of shape (rows, columns, 3, r): the weights for red, green and blue.");
-  map.def_readonly("uncertainty", &texel_map::uncertainty,
-                   "float16 of shape (rows, columns); 0 for texels outside the sample.");
-  map.def_readonly("disagreement", &texel_map::disagreement, "float16 of shape (rows, columns).");
+  map.def_readonly(
+      "uncertainty", &texel_map::uncertainty,
+      "float16 of shape (rows, columns): root mean square, over all directions, of the standard deviation\n"
+      "of the reflectance's natural logarithm; 0 for texels outside the sample.");
+  map.def_readonly(
+      "disagreement", &texel_map::disagreement,
+      "float16 of shape (rows, columns): difference of an image from its prediction by all other images, in\n"
+      "expected deviations, root mean square over the images.");
   map.def("brdf", &brdf_of, py::arg("row"), py::arg("column"),
           "Returns the BRDF of a texel. Raises IndexError outside the map, and Error for a texel outside the\n"
           "sample.");

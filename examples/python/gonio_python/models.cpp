@@ -22,7 +22,7 @@ namespace {
 using gonio::model::cell_weighting;
 using gonio::model::fit_norm;
 
-/// Returns the value of a word.
+/// Returns the value that `known` has for a word.
 template <class Value>
 Value named(const std::string& word, const char* name, const std::map<std::string, Value>& known) {
   if (const auto found = known.find(word); found != known.end()) return found->second;
@@ -122,8 +122,8 @@ struct named_formula : gonio::model::formula_brdf {
 named_formula formula_named(const std::string& name) { return {gonio::model::formula_material(name), name}; }
 
 void add_formulas(py::module_& m) {
-  py::class_<named_formula> formula(m, "FormulaBrdf",
-                                    "A material given by a formula: in no database, with known true values.");
+  py::class_<named_formula> formula(
+      m, "FormulaBrdf", "A material given by a formula: it is in no database, and its true values are known.");
   formula.def("__repr__", [](const named_formula& f) { return "<gonio.FormulaBrdf: " + f.name + '>'; });
   add_copies(
       formula, [](const named_formula& f) { return py::make_tuple(f.name); },
@@ -154,7 +154,7 @@ void add_fit_function(py::module_& m) {
         py::arg("cosine_weighted") = standard.fit.cosine_weighted, py::arg("fresnel") = standard.fresnel,
         py::arg("largest_albedo") = standard.fit.largest_albedo, py::arg("starts") = standard.fit.random_starts,
         py::arg("seed") = standard.fit.seed, py::arg("threads") = 0, py::call_guard<py::gil_scoped_release>(),
-        "Fits an analytic model as `gonio fit` does: a lobe and a Lambertian one, or with 'sum:ward+ggx' the named\n"
+        "Fits an analytic model as `gonio fit` does: a lobe plus a Lambertian lobe, or with 'sum:ward+ggx' the named\n"
         "lobes. measurements: samples or a table, whose cells are weighted by cell_weights (equal, solid-angle,\n"
         "cosine). The model reflects at most the fraction largest_albedo of light incident at up to 88 degrees; inf:\n"
         "no limit.");

@@ -32,7 +32,7 @@ class given_options {
     option = *value;
     names_.insert(name);
   }
-  /// The same for numbers; checks the bounds that the command line checks itself.
+  /// Takes a number, and checks the bounds that the command line checks by itself.
   template <class Option, class Value>
   void take(const char* name, Option& option, const std::optional<Value>& value, double lowest,
             double highest = std::numeric_limits<double>::max()) {
@@ -64,7 +64,7 @@ std::optional<std::string> eta_text(const py::object& eta) {
   return std::string(py::repr(py::float_(eta)));
 }
 
-/// A file, or a prior that was read.
+/// A prior's file, or a prior that was read.
 using given_prior = std::optional<std::variant<std::filesystem::path, gonio::log_relative_pca>>;
 
 void take_prior(const given_prior& prior, cli::material_source& materials, given_options& given) {
@@ -173,9 +173,9 @@ void add_reconstruct(py::module_& m) {
         py::arg("seed") = nothing, py::arg("neighbours") = nothing, py::arg("threads") = 0,
         "Completes a BRDF from samples as `gonio reconstruct` does. method: pca, soft-specular, linear, correction, "
         "rbf,\n"
-        "pull-push or scattered. The other arguments are the tool's options (docs/reference/tool.md); None is its\n"
-        "default; for prior, the one that ships with the package. prior: a Prior, or the path of one. A method\n"
-        "refuses what it would ignore.");
+        "pull-push or scattered. The other arguments are the tool's options (docs/reference/tool.md); None\n"
+        "means the tool's default. prior: a Prior or the path of one; None means the prior that ships with the\n"
+        "package. A method refuses an argument that it would ignore.");
 }
 
 }  // namespace python

@@ -33,7 +33,7 @@ void require_between(const char* name, int value, int lowest, int highest) {
   if (value < lowest || value > highest) gonio::refuse({name, " is ", value, ": expected ", lowest, " to ", highest});
 }
 
-/// Returns a sphere in linear light, as `gonio render` draws it before exposure.
+/// Returns an image of a sphere in linear light, as `gonio render` draws it before exposure.
 py::array_t<float> sphere_under_lights(const gonio::brdf_table& table, int size, unsigned threads) {
   require_between("size", size, 8, 4096);
   std::optional<gonio::image> drawn;
@@ -107,7 +107,7 @@ py::object instrument_readings(const py::object& brdf) {
   return to_python(cli::to_json(readings));
 }
 
-/// Returns a sphere with the tool's exposure.
+/// Returns an image (PNG) of a sphere with the tool's exposure.
 py::bytes sphere_png(const gonio::brdf_table& table, int size) {
   std::vector<gonio::image> sphere{cli::sphere_image(table, {.size = size, .exposure = {}}, {})};
   cli::expose_spheres(sphere, {});
@@ -137,8 +137,8 @@ void add_rendering(py::module_& m) {
         py::arg("size") = 256, py::arg("quality") = 64, py::arg("white") = 0.4, py::arg("seed") = 1,
         py::arg("threads") = 0,
         "Returns an image of a sphere in an environment: a latitude-longitude image of shape (n, 2 n, 3), linear\n"
-        "radiance. quality: samples of the BRDF, and as many of the environment, per pixel. white: the mean luminance\n"
-        "of a white Lambertian sphere. Ctrl-C ends it.");
+        "radiance. quality: the number of samples per pixel drawn from the BRDF, and as many from the environment.\n"
+        "white: the mean luminance of a white Lambertian sphere. Ctrl-C ends the rendering.");
   m.def(
       "write_png",
       [](const std::filesystem::path& path, const py::object& image) {

@@ -61,7 +61,8 @@ gonio::sample_set chosen(const gonio::sample_set& samples, const py::object& row
   return samples.subset(rows_of(rows, static_cast<py::ssize_t>(samples.size())));
 }
 
-/// A single number chooses one sample. IndexError after the last one ends a loop over all.
+/// Returns the samples at an index. A single number chooses one sample; a number after the last sample raises
+/// IndexError, which ends a Python loop over all samples.
 gonio::sample_set indexed(const gonio::sample_set& samples, const py::object& index) {
   if (py::isinstance<py::ellipsis>(index)) return samples;
   if (py::isinstance<py::tuple>(index))
@@ -79,7 +80,8 @@ gonio::sample_set indexed(const gonio::sample_set& samples, const py::object& in
 
 constexpr py::ssize_t from_sample_to_sample = sizeof(gonio::sample), from_number_to_number = sizeof(double);
 
-/// Returns a view of the same numbers in each sample; an empty array if there is no sample.
+/// Returns a view with one row per sample: the `columns` numbers that `place` finds in it. Returns an empty array if
+/// there is no sample.
 template <class Place>
 py::array_t<double> column_view(const py::object& self, py::ssize_t columns, bool writable, const Place& place) {
   auto& samples = self.cast<gonio::sample_set&>();
@@ -192,10 +194,10 @@ void add_samples(py::module_& m) {
       "in the desired order; negative ones count from the end. Raises Error for rows that do not exist.");
   type.def(
       "__iter__", [](const py::object& self) { return py::reinterpret_steal<py::iterator>(PySeqIter_New(self.ptr())); },
-      "Yields each sample as samples with one row.");
+      "Yields each sample as a Samples object with one row.");
   type.def("__getitem__", &indexed, py::arg("index"),
-           "Returns the same by an index; for a single number, samples with one row. Raises IndexError if it does\n"
-           "not exist.");
+           "Returns the samples at an index; for a single number, a Samples object with one row. Raises IndexError if\n"
+           "a sample does not exist.");
   m.def("read_samples", &read_samples, py::arg("path"), py::arg("quantity") = py::none(),
         py::arg("columns") = std::map<std::string, std::string>(), py::arg("side") = "", py::arg("band") = "",
         py::call_guard<py::gil_scoped_release>(),

@@ -21,7 +21,8 @@ namespace python {
 
 namespace {
 
-/// Ignores cells below the horizon or not above `minimum_cosine`.
+/// Returns a table from an array over a whole grid. Ignores cells at which the cosine of a direction is not above 0 and
+/// `minimum_cosine`.
 gonio::brdf_table table_from_dense(const py::object& given, const std::string& anchor, double minimum_cosine) {
   const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(given);
   if (!array) gonio::refuse("values is not an array of numbers");
@@ -49,7 +50,8 @@ py::array_t<float> values_of(const py::object& self) {
   return view_of(table.values().data(), {table.cells().size(), 3}, {3 * step, step}, self);
 }
 
-/// Cells below the horizon get the values that a look-up reads there, those of the cells above.
+/// Returns an array over the whole grid. A cell below the horizon gets the value of the valid cell with the next
+/// smaller theta_h, which a look-up reads there.
 py::array_t<float> filled_array(const gonio::brdf_table& table) {
   const gonio::valid_cells& cells = table.cells();
   const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
@@ -62,7 +64,7 @@ py::array_t<float> filled_array(const gonio::brdf_table& table) {
 
 py::array_t<float> dense_array(const gonio::brdf_table& table) { return array_of(gonio::dense_tensor(table)); }
 
-/// The array that numpy asks for.
+/// Returns the table as the array that numpy asks for.
 py::object as_array(const gonio::brdf_table& table, const py::object& dtype, const py::object& copy) {
   if (!copy.is_none() && !copy.cast<bool>())
     gonio::refuse("a table as an array is always a copy: copy=False is not supported");
@@ -94,8 +96,8 @@ void add_table_class(py::module_& m) {
       py::init(&table_from_dense), py::arg("values"), py::kw_only(), py::arg("anchor") = "centre",
       py::arg("minimum_cosine") = 0.0,
       "Makes a table from an array of shape (theta_h, theta_d, phi_d, 3), sr^-1. anchor: the position of each value\n"
-      "in its cell, 'centre' or 'lower_corner'. minimum_cosine: ignores cells at which the cosine of a direction is\n"
-      "not larger; cells below the horizon are always ignored.");
+      "in its cell, 'centre' or 'lower_corner'. Cells at which the cosine of a direction is not larger than\n"
+      "minimum_cosine are ignored, and so are cells below the horizon.");
   table.def_property_readonly("values", &values_of,
                               "The table's own memory as an array of float32, shape (cells, 3): writing to it\n"
                               "changes the table.");
@@ -110,19 +112,19 @@ void add_table_class(py::module_& m) {
       "without a value.");
   table.def_property_readonly(
       "minimum_cosine", [](const gonio::brdf_table& t) { return t.cells().minimum_cosine(); },
-      "Cells have values if both cosines are larger than this; 0: down to the horizon.");
+      "Cells have values if the cosines of both directions exceed this number; 0: down to the horizon.");
   table.def(
       "directions", [](const gonio::brdf_table& t) { return directions_of(t.cells()); },
       "Returns the directions of the values: shape (cells, 6), wi and wo.");
   table.def(
       "angles", [](const gonio::brdf_table& t) { return angles_of(t.cells()); },
-      "Returns the same as theta_h, theta_d and phi_d in radians: shape (cells, 3).");
+      "Returns the angles of the values, theta_h, theta_d and phi_d, in radians: shape (cells, 3).");
   table.def(
       "dense",
       [](const gonio::brdf_table& t, bool fill) { return fill ? filled_array(t) : array_of(gonio::dense_tensor(t)); },
       py::arg("fill") = false,
       "Returns a copy of shape (theta_h, theta_d, phi_d, 3). Cells below the horizon are NaN or, with fill, have\n"
-      "the value of the cell above, which a look-up reads.");
+      "the value of the valid cell with the next smaller theta_h, which a look-up reads.");
   table.def("__array__", &as_array, py::arg("dtype") = py::none(), py::arg("copy") = py::none(),
             "numpy.asarray(table) is table.dense().");
   table.def(
@@ -137,7 +139,7 @@ void add_table_class(py::module_& m) {
   add_brdf_methods(m, table);
 }
 
-/// Returns the bytes of a file.
+/// Returns the bytes of the material's RGL file.
 py::tuple state_of_adaptive(const gonio::model::adaptive_brdf& material) {
   const std::vector<std::byte> bytes = gonio::io::write_rgl(gonio::io::rgl_material{material, "", {}});
   return py::make_tuple(py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
@@ -179,7 +181,7 @@ void add_tables(py::module_& m) {
   m.def("write_npy", &gonio::io::write_table_npy, py::arg("path"), py::arg("table"),
         py::call_guard<py::gil_scoped_release>(),
         "Writes a table as a numpy file: float32, shape (theta_h, theta_d, phi_d, 3), values at the cells' centres; a\n"
-        "cell below the horizon has the value of the cell above.");
+        "cell below the horizon has the value of the valid cell with the next smaller theta_h.");
 }
 
 }  // namespace python

@@ -10,7 +10,7 @@ namespace python {
 
 namespace {
 
-/// Options whose argument has another name, or that stand for one value of it.
+/// Options whose argument has another name, or that stand for one value of an argument.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> renamed{{{"lambda", "lambda_share="},
                                                                                 {"misplaced", "misplaced_degrees="},
                                                                                 {"no-reject", "reject=False"},
@@ -56,7 +56,8 @@ std::string argument_of(std::string_view option) {
   return argument + '=';
 }
 
-/// Returns the length of an option's value in the text after it, with a leading space, and the value in Python.
+/// Finds an option's value at the beginning of the text after the option. Returns the value's length with the leading
+/// space, and the value in Python.
 std::pair<std::size_t, std::string> value_behind(std::string_view option, std::string_view text) {
   if (text.size() < 2 || text.front() != ' ') return {0, ""};
   const std::string_view word = word_at(text.substr(1));

@@ -1,5 +1,5 @@
-"""Runs notebooks without Jupyter: `run.py NOTEBOOK...` executes their code cells and compares what they print with what
-they keep; `run.py --write NOTEBOOK...` keeps it, with the figures. Needs matplotlib.
+"""Runs notebooks without Jupyter: `run.py NOTEBOOK...` executes their code cells and compares the outputs with the
+stored ones; `run.py --write NOTEBOOK...` stores the new outputs, with the figures. Needs matplotlib.
 
 Numbers in text may differ by 3 in their last digit: processors round differently.
 """
@@ -22,14 +22,14 @@ NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
 
 def png_of(figure):
-    """A figure as the file that a notebook keeps: the same bytes each time."""
+    """Returns a figure as a notebook stores it: a PNG in base64, the same bytes each time."""
     file = io.BytesIO()
     figure.savefig(file, format="png", dpi=80, bbox_inches="tight", metadata={"Software": None})
     return base64.b64encode(file.getvalue()).decode()
 
 
 def outputs_of(cell, names, label):
-    """Executes a cell. What it printed and drew, as notebooks keep it; figures in the order of `plt.show()`."""
+    """Executes a cell. Returns its text and figures as a notebook stores them, in the order of output."""
     outputs, printed = [], io.StringIO()
 
     def flush():
@@ -52,7 +52,7 @@ def outputs_of(cell, names, label):
 
 
 def run(path):
-    """The notebook with the outputs that its cells have now. Cells run in the notebook's folder, as in Jupyter."""
+    """Returns the notebook with new outputs of its cells. Cells run in the notebook's folder, as in Jupyter."""
     path = pathlib.Path(path).resolve()
     notebook = json.loads(path.read_text(encoding="utf-8"))
     names, before = {"__name__": "__main__"}, os.getcwd()
@@ -69,7 +69,7 @@ def run(path):
 
 
 def is_same_text(kept, now):
-    """Whether two texts differ in the last digits of decimal numbers alone."""
+    """Returns whether two texts differ only in the last digits of decimal numbers."""
     if NUMBER.sub("#", kept) != NUMBER.sub("#", now):
         return False
     for a, b in zip(NUMBER.findall(kept), NUMBER.findall(now)):
@@ -80,7 +80,7 @@ def is_same_text(kept, now):
 
 
 def differences(kept, now):
-    """A sentence for each cell whose outputs are not those that are kept: other text, or other numbers of figures."""
+    """Returns a sentence for each cell whose outputs differ from the stored ones in text, or in the number of figures."""
     found = []
     for number, (a, b) in enumerate(zip(kept["cells"], now["cells"]), start=1):
         kinds = [[each["output_type"] for each in cell.get("outputs", [])] for cell in (a, b)]

@@ -25,7 +25,7 @@ function sampled(table, head, rows) {
 }
 
 // ---- components by slider --------------------------------------------------------------------------------------
-const errors_ready = (page) => page.locator("[role=status]", { hasText: "of 100 components" }).waitFor({ timeout: 60000 });
+const errors_ready = (page) => page.locator("[role=status]", { hasText: "of 100 components" }).waitFor({ timeout: 300000 });
 
 async function move(page, label, key, times) {
   await page.locator("label", { hasText: label }).locator("input").focus();
@@ -84,7 +84,7 @@ async function check_errors(page) {
   const marks = await page.evaluate(() => document.querySelectorAll("svg g[data-mark=dot] > *").length);
   check(marks === 10, `components: the curves have ${marks} points`);
   await move(page, "Components used", "Home", 1);
-  await page.locator("[role=status]", { hasText: "With 1 of 100" }).waitFor({ timeout: 60000 });
+  await page.locator("[role=status]", { hasText: "With 1 of 100" }).waitFor({ timeout: 300000 });
   const one = await page.evaluate(() => Number(document.querySelector("tbody tr:last-child").cells[1].textContent));
   check(one > 3 * printed[4][1], `components: with one component the error at 20 measurements is ${one}`);
 }

@@ -302,14 +302,17 @@ async function check_environment(page, name) {
   const after = await page.evaluate(() => [viewer.surrounded.frame, viewer.state.around, viewer.state.longitude]);
   check(after[0] < before && after[1] === 5, `${name}: an arrow key turns the environment to ${after[1]} degrees and starts again`);
   const room = await page.evaluate(() => viewer.surrounded.white);
-  for (const [written, bytes] of [["small.hdr", small_probe], ["short.hdr", small_probe.subarray(0, 100)]]) {
+  const other_colours = Buffer.from(small_probe.toString("latin1").replace("rgbe", "xyze"), "latin1");
+  let told = 0;
+  for (const [written, bytes, problem] of [["small.hdr", small_probe, ""], ["xyz.hdr", other_colours, "its header says FORMAT=32-bit_rle_xyze"],
+    ["short.hdr", small_probe.subarray(0, 100), "the file ends before its last pixel"]]) {
     writeFileSync(at(written), bytes);
     await file.setInputFiles(at(written));
     await page.waitForTimeout(300);
+    if (problem) told += await page.locator("output", { hasText: `not a light probe: ${problem}` }).count();
   }
-  const told = await page.locator("output", { hasText: "not a light probe: the file ends before its last pixel" }).count();
   const white = await page.evaluate(() => viewer.surrounded.white);
-  check(white !== room && white > 0.4 && white < 1 && told === 1, `${name}: a light probe is taken, a truncated one refused`);
+  check(white !== room && white > 0.4 && white < 1 && told === 2, `${name}: a light probe is taken, one in other colours and a truncated one refused`);
   await file.setInputFiles([]);
   await page.waitForFunction((room) => viewer.surrounded.white === room && viewer.surrounded.frame === last_frame, room, { timeout: 300000 });
   check(await frames() === await page.evaluate(() => last_frame), `${name}: drawing ends after ${await frames()} frames`);

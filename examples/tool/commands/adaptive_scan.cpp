@@ -14,8 +14,8 @@ namespace {
 gonio::io::recorded_scan read_reference(const adaptive_options& options, std::uint16_t largest_count) {
   gonio::io::recorded_scan scan = gonio::io::read_scan(options.reference);
   if (scan.largest_count != largest_count)
-    gonio::refuse({options.reference.string(), ": its camera has a largest count of ", scan.largest_count, ", not ",
-                   largest_count});
+    gonio::refuse({options.reference.string(), ": the largest count of its camera is ", scan.largest_count,
+                   ", but this scan's camera has ", largest_count});
   if (scan.measured() == 0) gonio::refuse({options.reference.string(), ": the reference has no reading yet"});
   return scan;
 }

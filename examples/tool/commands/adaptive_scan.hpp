@@ -17,17 +17,17 @@ namespace cli {
 struct adaptive_options {
   std::filesystem::path prior, reference;
   double until = 0.1;      ///< stop when half of all directions are known to this relative deviation
-  Eigen::Index most = 40;  ///< poses
+  Eigen::Index most = 40;  ///< largest number of poses
 };
 
-/// Chooses the next pose of a scan. Prints beforehand how well the material is known.
+/// Chooses the next pose of a scan. Before each choice, prints how well the material is known.
 class adaptive_choice {
  public:
-  /// Reads the prior and the scan of the reference. Throws gonio::error if one cannot be used, or if the reference was
-  /// measured by another camera.
+  /// Reads the prior and the scan of the reference. Throws gonio::error if either cannot be used, or if the reference
+  /// was measured by another camera.
   adaptive_choice(const adaptive_options& options, const calibration_options& calibration, std::uint16_t largest_count);
 
-  /// Returns the pose after those of a scan; nothing if the material is known well enough or the limit of poses is
+  /// Returns the next pose of a scan; nothing if the material is known well enough or the limit of poses is
   /// reached. Throws gonio::error if no reading can be used, or if no reachable direction is left.
   [[nodiscard]] std::optional<gonio::direction_pair> next(
       const gonio::io::recorded_scan& scan,

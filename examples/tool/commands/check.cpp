@@ -57,7 +57,7 @@ measured_surface surface_of(gonio::io::sample_file file, const std::filesystem::
   return surface;
 }
 
-/// Reads part and reference in the channels that both have, else as colours.
+/// Reads part and reference. If their channels differ, reads both as colours.
 std::pair<measured_surface, measured_surface> read_both(const std::filesystem::path& path, const check_options& given,
                                                         const gonio::log_relative_pca& prior) {
   gonio::io::sample_file part = read_measurement_file(path, given.reading),
@@ -130,7 +130,7 @@ void write_report(const check_options& given, const json& check) {
                      {"record", record}});
 }
 
-/// Says whether all parts conform.
+/// Prints the answer, and returns whether all parts conform.
 bool check_files(const check_options& given) {
   if (given.parts.size() > 1 && given.report.is_given())
     gonio::refuse({"--report needs one part, not ", given.parts.size()});
@@ -151,7 +151,7 @@ bool check_files(const check_options& given) {
   return std::ranges::all_of(checked, &checked_part::conforms);
 }
 
-/// The same, but every failure is bad input, so that exit code 1 means only that the part differs.
+/// Calls `check_files` and reports every failure as bad input: exit code 1 means only that a part differs.
 bool check_or_refuse(const check_options& given) {
   try {
     return check_files(given);
@@ -168,9 +168,10 @@ void add_noise_options(command& to, check_options& options) {
                 "(default: estimated from directions measured more than once)")
       .check(check::range(1e-6, 0.3));
   to.add_option("--reference-noise", options.reference_noise,
-                "Relative deviation of the reference (default: as --noise)")
+                "Relative deviation of the reference's values (default: that of --noise)")
       .check(check::range(0.0, 0.3));
-  to.add_option("--dark-noise", options.dark_noise, "Absolute deviation of the values, sr^-1; it matters near zero")
+  to.add_option("--dark-noise", options.dark_noise,
+                "Absolute standard deviation of the values in sr^-1; it matters for values near zero")
       .check(check::range(0.0, 1e6))
       .capture_default_str();
 }
@@ -200,12 +201,12 @@ void add_check(command& app, const std::vector<std::string>& words) {
   command
       .add_option(
           "--peak-tolerance", options->peak_tolerance,
-          "Largest allowed relative difference where the half vector is within 5 degrees of the normal, for gloss")
+          "Largest allowed relative difference of highlights, where the half vector is within 5 degrees of the normal")
       .check(check::range(0.0, 10.0));
   command
       .add_option("--delta-e", options->delta_e,
-                  "Largest allowed colour difference of a direction, instead of relative differences (CIELAB 1976, "
-                  "D65, of reflectance factors)")
+                  "Instead of --tolerance: largest allowed colour difference of a direction (Delta E of CIELAB 1976 "
+                  "under D65, of reflectance factors)")
       .check(check::range(0.0, 100.0));
   command
       .add_option("--false-alarms", options->question.false_alarms,
@@ -214,13 +215,13 @@ void add_check(command& app, const std::vector<std::string>& words) {
       .capture_default_str();
   command
       .add_option("--same-within", options->same_within,
-                  "Degrees up to which half and difference angles may differ and count as the same direction")
+                  "Directions count as the same if their half and difference angles differ by at most this, in degrees")
       .check(check::range(0.0, 5.0))
       .capture_default_str();
   add_prior_option(command, options->prior);
   add_report_option(command, options->report, words);
   command.add_flag("--verbose", options->question.is_verbose,
-                   "Print every direction that differs, and how well known materials explain the part");
+                   "Print every direction that differs, and whether the prior's materials explain the part");
   command.add_flag("--json", options->print_json, "Print the answer and all directions as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] {

@@ -14,7 +14,7 @@ namespace cli {
 
 namespace {
 
-/// Returns the names of the result's channels. Channels with identical values become one.
+/// Returns the names of the result's channels. The result has one channel if the values of all channels are identical.
 std::vector<std::string> channel_names(const checked_part& checked) {
   const gonio::conformity& found = checked.found;
   const measured_surface& part = checked.part;
@@ -24,21 +24,21 @@ std::vector<std::string> channel_names(const checked_part& checked) {
   return names;
 }
 
-/// Returns a probability with its significant digits.
+/// Returns a number with two significant digits.
 std::string probability(double value) {
   std::array<char, 32> digits{};
   std::snprintf(digits.data(), digits.size(), "%.2g", value);
   return digits.data();
 }
 
-/// Returns "p = 0.42"; tails so small that no noise is known as well are "p < 1e-9".
+/// Returns "p = 0.42", or "p < 1e-9": no noise is known so well that smaller values have a meaning.
 std::string p_value(double value) { return value < 1e-9 ? "p < 1e-9" : "p = " + probability(value); }
 
-/// Returns a relative difference from one of mapped values: "+4.1 %".
+/// Returns a difference of mapped values as a relative difference: "+4.1 %".
 std::string percent(double mapped) { return (mapped >= 0.0 ? "+" : "") + fixed(100.0 * std::expm1(mapped), 1) + " %"; }
 
-/// Angles of light and viewer in degrees: in the plane of incidence theta_o is negative on the mirror direction's side,
-/// elsewhere the difference of their azimuths is added.
+/// Returns theta_i and theta_o in degrees. In the plane of incidence, theta_o is negative on the mirror direction's
+/// side; outside it, the difference of the azimuths follows.
 std::string angles_of(const gonio::direction_pair& pair) {
   const auto& [wi, wo] = pair;
   constexpr double at_normal = 1e-3;
@@ -53,8 +53,8 @@ std::string angles_of(const gonio::direction_pair& pair) {
   return text;
 }
 
-/// "theta_i 45.0, theta_o -45.0 (line 12): red 0.210 instead of 0.140 +- 0.020, p = 0.0003", of the channel that
-/// differs most.
+/// Describes a direction by the channel that differs most: "theta_i 45.0, theta_o -45.0 (line 12): red 0.210 instead of
+/// 0.140 +- 0.020, p = 0.0003".
 std::string described(const gonio::compared_direction& each, const checked_part& checked) {
   const measured_surface& part = checked.part;
   Eigen::Index channel = 0;
@@ -69,7 +69,7 @@ std::string described(const gonio::compared_direction& each, const checked_part&
          (each.delta_e > 0.0 ? ", Delta E " + fixed(each.delta_e, 1) : "") + ", " + p_value(each.adjusted_p_value);
 }
 
-/// What limits the answer, a sentence each.
+/// Returns a sentence for each limitation of the answer.
 std::vector<std::string> limits_of(const checked_part& checked) {
   std::vector<std::string> sentences;
   const Eigen::Index predicted = checked.found.predicted(), all = std::ssize(checked.found.directions);
@@ -90,7 +90,7 @@ std::vector<std::string> limits_of(const checked_part& checked) {
   return sentences;
 }
 
-/// "red +0.1 %, green +0.3 %, blue -0.2 %"; of many wavelengths the one that is shifted most.
+/// Returns "red +0.1 %, green +0.3 %, blue -0.2 %"; of more than six channels, only the one with the largest shift.
 std::string shifts(const gonio::conformity& found, const std::vector<std::string>& names) {
   constexpr std::size_t most_listed = 6;
   const auto told = [&](Eigen::Index channel) { return names[channel] + ' ' + percent(found.shift[channel]); };
@@ -105,7 +105,7 @@ std::string shifts(const gonio::conformity& found, const std::vector<std::string
   return all;
 }
 
-/// "tolerance 5 %", "tolerance of Delta E 2"; empty if there is none.
+/// Returns "; tolerance 5 %" or "; tolerance Delta E of 2"; empty if there is none.
 std::string tolerances(const gonio::conformity_options& options) {
   std::string text;
   if (options.delta_e > 0.0) text = "Delta E of " + probability(options.delta_e);
@@ -116,7 +116,7 @@ std::string tolerances(const gonio::conformity_options& options) {
   return text.empty() ? "" : "; tolerance " + text;
 }
 
-/// The directions that differ, but for the worst.
+/// Returns the directions that differ, except the worst.
 std::vector<Eigen::Index> others_that_differ(const check_question& question, const gonio::conformity& found) {
   std::vector<Eigen::Index> others;
   for (Eigen::Index i = 0; i < std::ssize(found.directions); ++i)
@@ -128,9 +128,10 @@ const char* verdict_of(const checked_part& checked) { return checked.conforms ? 
 
 void print_familiarity(const gonio::familiarity& known) {
   std::cout << "known materials explain the part " << (known.p_value < 0.01 ? "badly" : "well") << " ("
-            << p_value(known.p_value) << "; " << fixed(known.scale, 2) << " times the expected deviation: components "
-            << fixed(100.0 * known.components, 0) << " %, discrepancy " << fixed(100.0 * known.discrepancy, 0)
-            << " %, errors " << fixed(100.0 * known.errors, 0) << " %)\n";
+            << p_value(known.p_value) << "; the squared deviation is " << fixed(known.scale, 2)
+            << " times the expected one; its shares: components " << fixed(100.0 * known.components, 0)
+            << " %, discrepancy " << fixed(100.0 * known.discrepancy, 0) << " %, errors "
+            << fixed(100.0 * known.errors, 0) << " %)\n";
 }
 
 /// Returns a number for each channel.

@@ -1,5 +1,5 @@
 #pragma once
-/// What `gonio check` says: a verdict in few lines, a table of several parts, or JSON.
+/// The answer of `gonio check`: a verdict in few lines, a table of several parts, or JSON.
 
 #include "tool/files/json.hpp"
 #include <gonio/conformity/conformity.hpp>
@@ -13,23 +13,23 @@
 
 namespace cli {
 
-/// The samples of a file that count.
+/// The samples of a file that have nonzero weight.
 struct measured_surface {
   std::string name;  ///< of the file
   std::vector<gonio::sample_directions> counting;
-  std::vector<Eigen::Index> numbers;  ///< in the file, from 1
-  std::vector<std::size_t> lines;     ///< in the file, from 1; empty if the format has none
+  std::vector<Eigen::Index> numbers;  ///< of the samples in the file, from 1
+  std::vector<std::size_t> lines;     ///< of the samples in the file, from 1; empty if the format has no lines
   gonio::located_samples located;     ///< on the prior's cells
-  json facts;                         ///< what the file says of them
+  json facts;                         ///< the file's statements about the samples
 };
 
-/// What was asked of all parts.
+/// The options for all parts.
 struct check_question {
   double false_alarms = 0.01;
   bool is_verbose = false;
 };
 
-/// A part, and what was found.
+/// A part and the result of its comparison.
 struct checked_part {
   const measured_surface& part;
   const measured_surface& reference;
@@ -39,14 +39,14 @@ struct checked_part {
   bool conforms = true;
 };
 
-/// GO or NO-GO, the worst direction, all directions together, and what limits the answer: at most five lines unless
-/// `is_verbose`.
+/// Prints GO or NO-GO, the worst direction, the shift of all directions, and the limitations of the answer. Prints at
+/// most five lines unless `is_verbose`.
 void print_verdict(const check_question& question, const checked_part& checked);
 
-/// A row for each part.
+/// Prints a table with a row for each part, then the limitations of each answer.
 void print_table(const check_question& question, const std::vector<checked_part>& parts);
 
-/// Returns all of it, as `gonio check --json` prints it.
+/// Returns the whole answer, as `gonio check --json` prints it.
 [[nodiscard]] json as_json(const check_question& question, const checked_part& checked);
 
 }  // namespace cli

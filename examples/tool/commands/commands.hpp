@@ -14,7 +14,7 @@ void add_plan(command& app);
 void add_sample(command& app);
 void add_near_field(command& app);
 void add_sphere(command& app);
-/// `words` is the whole command line, repeated on pages for people. `processes` must outlive the program's run.
+/// `words` is the whole command line, which pages for people repeat. `processes` must outlive the program's run.
 void add_reconstruct(command& app, const std::vector<std::string>& words);
 void add_report(command& app, const std::vector<std::string>& words);
 void add_check(command& app, const std::vector<std::string>& words);

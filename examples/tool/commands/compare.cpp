@@ -1,6 +1,7 @@
 /// gonio compare: the errors of an estimate.
 
 #include "commands.hpp"
+#include "tool/files/file_kinds.hpp"
 #include "tool/files/radiance_image.hpp"
 #include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
@@ -9,7 +10,6 @@
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/sphere_delta_e.hpp>
-#include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/model/instrument_readings.hpp>
 #include <gonio/render/environment_map.hpp>
 
@@ -30,7 +30,7 @@ struct compare_options {
   gonio::thread_count threads;
 };
 
-/// Returns the mean visible difference in an environment, at the truth's exposure, over the truth's cells.
+/// Returns the mean Delta E of spheres in an environment, at the truth's exposure.
 double delta_e_under(const std::filesystem::path& environment, const gonio::brdf_table& estimate,
                      const gonio::brdf_table& truth, gonio::thread_count threads) {
   const gonio::render::environment_map map(read_radiance(environment));
@@ -40,7 +40,7 @@ double delta_e_under(const std::filesystem::path& environment, const gonio::brdf
   return delta_e.difference(resample(estimate, truth.cells(), threads), truth, threads);
 }
 
-/// What instruments read on both.
+/// Prints the readings of instruments on the estimate and on the truth.
 void print(const gonio::model::instrument_readings& estimate, const gonio::model::instrument_readings& truth) {
   const auto line = [](const char* what, double of_estimate, double of_truth, int digits, const std::string& unit) {
     std::cout << what << fixed(of_estimate, digits) << " instead of " << fixed(of_truth, digits) << unit << '\n';
@@ -74,8 +74,8 @@ void print(const gonio::comparison& errors, std::optional<double> natural) {
 }
 
 void compare_tables(const compare_options& options) {
-  const auto truth = gonio::io::read_merl_any(options.truth);
-  const auto estimate = gonio::io::read_merl_any(options.estimate);
+  const auto truth = read_table(options.truth, options.threads);
+  const auto estimate = read_table(options.estimate, options.threads);
   const auto prior = read_prior(options.prior);
   const gonio::appearance_metric appearance(truth.cells(), 36, options.threads);
   const auto errors = gonio::compare(estimate, truth, prior.metric(), appearance, options.threads);
@@ -97,8 +97,9 @@ void compare_tables(const compare_options& options) {
 void add_compare(command& app) {
   auto command = app.add_subcommand("compare", "Measure the errors of an estimated table");
   const auto options = std::make_shared<compare_options>();
-  command.add_input("estimate", options->estimate, "Estimated table (.binary or .binary.gz)").required();
-  command.add_input("truth", options->truth, "True table (.binary or .binary.gz)").required();
+  command.add_input("estimate", options->estimate, "Estimated table (.binary, .binary.gz, .npy, .bsdf or .mbsdf)")
+      .required();
+  command.add_input("truth", options->truth, "True table (.binary, .binary.gz, .npy, .bsdf or .mbsdf)").required();
   add_prior_option(command, options->prior);
   command.add_input(
       "--environment", options->environment,

@@ -25,7 +25,7 @@ struct convert_options {
 };
 
 void convert(const convert_options& options) {
-  // Refuse before reading, which may take hours.
+  // Refuse wrong options before reading the input, which may take hours.
   const file_kind& kind = written_kind(options.output);
   const auto needs = [&](bool asked, const char* option, std::initializer_list<std::string_view> endings) {
     if (!asked || std::ranges::find(endings, kind.extensions.front()) != endings.end()) return;
@@ -33,11 +33,12 @@ void convert(const convert_options& options) {
                    gonio::io::listed({endings.begin(), endings.size()}, " or "), ", not ", options.output.native()});
   };
   needs(options.how.as_spectra, "--spectra", {".bsdf"});
+  needs(options.how.as_zemax, "--zemax", {".bsdf"});
   needs(options.how.polar_steps != 0, "--polar-steps", {".mbsdf", ".xompt"});
   needs(options.how.as_halves, "--half", {".npy"});
   needs(options.how.keeps_negative, "--keep-negative", {".bsdf", ".mbsdf", ".xompt"});
   require_bsdf(options.how.albedo_tolerance, options.output);
-  write_file(options.output, read_file(options.input, options.reading), options.how);
+  write_file(options.output, read_file_for(options.output, options.input, options.reading), options.how);
 }
 
 }  // namespace
@@ -47,9 +48,11 @@ void add_convert(command& app) {
       app.add_subcommand("convert", "Convert a file to another format: tables, materials for renderers, samples");
   const auto options = std::make_shared<convert_options>();
   command
-      .add_input("input", options->input,
-                 "Table (.binary, .binary.gz or .npy), RGL material (.bsdf), MDL measurement (.mbsdf) or samples "
-                 "(.csv, or an instrument's format), recognised by its first bytes or else its extension")
+      .add_input(
+          "input", options->input,
+          "Table (.binary, .binary.gz or .npy), RGL material or Zemax's table (.bsdf), MDL measurement (.mbsdf), "
+          "material of UTIA's database (.bin) or samples (.csv, or an instrument's format), recognised by its "
+          "first bytes or else its extension")
       .required();
   add_measurement_options(command, options->reading);
   options->reading.takes_anisotropic = true;
@@ -58,13 +61,19 @@ void add_convert(command& app) {
                   "Table (.binary or .npy), RGL material for Mitsuba and pbrt (.bsdf), measured BSDF of NVIDIA's MDL "
                   "(.mbsdf), OpenMATERIAL table (_brdf.xompt), or samples (.csv)")
       .required();
-  command.add_flag("--spectra", options->how.as_spectra,
-                   "For .bsdf: write spectra instead of RGB, for pbrt-v4 and the spectral variants of Mitsuba. A "
-                   "material in RGB gets smooth spectra of the same colour");
+  auto zemax = command.add_flag("--zemax", options->how.as_zemax,
+                                "For .bsdf: write a table in Zemax's format, with rotations of the sample if the "
+                                "material is anisotropic");
+  command
+      .add_flag("--spectra", options->how.as_spectra,
+                "For .bsdf: write spectra instead of RGB, for pbrt-v4 and the spectral variants of Mitsuba. A "
+                "material in RGB gets smooth spectra of the same colour")
+      .excludes(zemax);
   command
       .add_option("--polar-steps", options->how.polar_steps,
-                  "For .mbsdf or .xompt: number of steps of each polar angle (to 90 degrees); the azimuth has twice as "
-                  "many (to 180 or 360). Default: 18 for .xompt; for .mbsdf as in the table (theta_d, phi_d), else 90")
+                  "For .mbsdf or .xompt: number of steps of each polar angle up to 90 degrees. The azimuth has twice "
+                  "as many, up to 180 degrees (.mbsdf) or 360 (.xompt). Default: 18 for .xompt; for .mbsdf, the steps "
+                  "of theta_d and phi_d of a table, or 90")
       .check(check::range(2, 360));
   add_albedo_tolerance_option(command, options->how.albedo_tolerance);
   command.add_flag("--half", options->how.as_halves,

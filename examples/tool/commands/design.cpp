@@ -31,18 +31,19 @@ namespace {
 struct design_command {
   std::filesystem::path prior, constraint, start, given, output;
   std::string apparatus;  ///< name of a shipped apparatus
-  /// These replace the apparatus' own values: degrees, and standard deviations.
+  /// If given, these values replace those of the apparatus: angles in degrees, and standard deviations of errors.
   std::optional<double> largest_polar_angle, separation, noise, dark_signal, misplaced;
-  std::optional<double> until;  ///< for --given: stop when known to this
+  /// With --given: write nothing if half of all directions are known to this relative deviation.
+  std::optional<double> until;
   page_option report;
   measurement_options reading;  ///< for --given
   design_options design;
   double field_of_view = 25.0, step = 5.0;
-  Eigen::Index published = 0;  ///< number of measurements; 0: none
+  Eigen::Index published = 0;  ///< size of the published set; 0: do not use one
   bool industry = false, print_json = false;
 };
 
-/// With --given, criterion and search do not apply.
+/// Refuses options of the criterion and of the search, which --given does not use.
 void require_given_alone(const design_command& command) {
   const design_options standard, &design = command.design;
   if (design.geometry != standard.geometry) gonio::refuse("--given needs --geometry point");
@@ -52,7 +53,7 @@ void require_given_alone(const design_command& command) {
     gonio::refuse("--criterion, --search, --eta, --in-sample and --common-shift are not available with --given");
 }
 
-/// Writes the page for people. `samples` are those already measured.
+/// Writes the page for people. `samples` are already measured.
 void write_report(const design_command& command, const std::vector<gonio::direction_pair>& poses,
                   const std::string& sentence, const gonio::sample_set& samples) {
   json directions = json::array(), given = json::array();
@@ -120,7 +121,7 @@ void run_given(const design_command& command) {
     std::cout << "measure sample " << number << " again: it disagrees with the others and does not count\n";
 }
 
-/// Published sets need no search.
+/// Refuses options of a search for a published set.
 void require_no_search(const design_command& command) {
   const design_options standard, &design = command.design;
   const std::string asked = command.industry ? "--industry" : "--published";
@@ -135,7 +136,8 @@ void require_no_search(const design_command& command) {
                   "available with it");
 }
 
-/// Returns a published set as printed; for images, the samples are those of images with a grid of the prior's cells.
+/// Returns a published set. Its poses are as printed in the paper; for images, its samples are the pixels of the
+/// nearest candidate images.
 designed set_of_the_literature(const gonio::log_relative_pca& prior, const design_command& command) {
   const bool is_of_spheres = command.design.geometry == "sphere";
   designed found;
@@ -154,11 +156,11 @@ void finish(const design_command& command, const gonio::log_relative_pca& prior,
   const auto figures = quality_of(prior, command.design, found);
   const bool is_perceived =
       command.design.criterion == "perceived" && command.design.geometry == "point" && !is_published;
-  const std::string sentence =
-      std::to_string(found.poses.size()) + (found.poses.size() == 1 ? " measurement leaves " : " measurements leave ") +
-      (is_perceived ? "an expected Delta E of " + fixed(found.value, 2) + " on spheres, and " : "") +
-      fixed(100.0 * figures.unknown_share, 1) + " % of the error without measurements: an expected error of " +
-      fixed(figures.expected_error, 3) + " in a cell's logarithm";
+  const std::string sentence = std::to_string(found.poses.size()) +
+                               (found.poses.size() == 1 ? " measurement: " : " measurements: ") +
+                               (is_perceived ? "expected Delta E of spheres " + fixed(found.value, 2) + "; " : "") +
+                               "expected error of a cell's logarithm " + fixed(figures.expected_error, 3) + " (" +
+                               fixed(100.0 * figures.unknown_share, 1) + " % of the error without measurements)";
   if (command.report.is_given()) write_report(command, found.poses, sentence, {});
   if (command.print_json) {
     std::cout << json{{"measurements", found.poses.size()},
@@ -190,7 +192,7 @@ std::uint32_t checksum_of(const design_command& command) {
   return cli::checksum_of(words);
 }
 
-/// Resumes an earlier run from its record, and removes the record once the directions are written.
+/// Searches, or resumes an earlier run from its record. Removes the record once the directions are written.
 void search(const design_command& command, const gonio::log_relative_pca& prior, progress_bar& bar,
             const team& processes) {
   sweep_record record(command.output, checksum_of(command), processes);
@@ -202,7 +204,7 @@ void search(const design_command& command, const gonio::log_relative_pca& prior,
   record.remove();
 }
 
-/// Returns the usual apparatus or that of --apparatus or --constraint, modified by other options.
+/// Returns the apparatus of --apparatus or --constraint, else the usual one, modified by other options.
 gonio::design::apparatus apparatus_of(const design_command& command) {
   if (!command.constraint.empty() && !command.apparatus.empty())
     gonio::refuse("--constraint and --apparatus exclude each other: give one of them");
@@ -216,13 +218,14 @@ gonio::design::apparatus apparatus_of(const design_command& command) {
   chosen.noise = command.noise.value_or(chosen.noise);
   chosen.dark_signal = command.dark_signal.value_or(chosen.dark_signal);
   if (command.misplaced) chosen.angular_error = gonio::radians(*command.misplaced);
-  // Images and other criteria cannot include angular errors: an apparatus' own are ignored.
+  // Only the criteria expected-error and perceived include angular errors, and only for single directions. Otherwise,
+  // the angular error of the apparatus is ignored.
   const bool expects_errors = command.design.criterion == "expected-error" || command.design.criterion == "perceived";
   if (!command.misplaced && !(command.design.geometry == "point" && expects_errors)) chosen.angular_error = 0.0;
   return chosen;
 }
 
-/// Searches, or takes a published set; every process knows the result.
+/// Chooses the directions: with --given, from a published set, or by a search.
 void run(design_command command, const team& processes) {
   progress_bar bar;
   const bool is_published = command.published > 0 || command.industry;
@@ -292,9 +295,9 @@ void add_design(command& app, const std::vector<std::string>& words, const team&
       .add_option("--common-shift", design.common_shift,
                   "Size of a shift common to all logarithms: beta of Xu et al. 2016, Eq. 15")
       .capture_default_str();
-  command.add_flag(
-      "--in-sample", design.in_sample,
-      "Compute the error of materials that the prior has learned, as Xu et al. do, instead of leaving each out");
+  command.add_flag("--in-sample", design.in_sample,
+                   "Compute each material's error with a prior that has learned this material, as Xu et al. do, "
+                   "instead of leaving it out");
   // Declare the limits of the apparatus.
   command
       .add_option("--fov", options->field_of_view,
@@ -317,8 +320,8 @@ void add_design(command& app, const std::vector<std::string>& words, const team&
       .check(check::range(0.0, 1.0));
   command
       .add_option("--dark-signal", options->dark_signal,
-                  "Deviation of a reading without light, as BRDF times the cosines of light and viewer, sr^-1. It "
-                  "matters at grazing angles")
+                  "Standard deviation of a reading without light, in sr^-1: as a value of the BRDF times the cosines "
+                  "of light and viewer. It matters at grazing angles")
       .check(check::range(0.0, 1.0));
   command.add_option("--misplaced", options->misplaced,
                      "With --geometry point: error of the directions of light and of viewer, in degrees");
@@ -348,7 +351,7 @@ void add_design(command& app, const std::vector<std::string>& words, const team&
   add_threads_option(command, design.threads);
   command
       .add_output("-o,--output", options->output, {".csv"},
-                  "Directions to write (.csv); for images, those at the centre")
+                  "Directions to write (.csv); for images, the directions at the centre of each image")
       .required();
   command.callback([options, &processes] { run_together(*options, processes); });
 }

@@ -6,6 +6,7 @@
 #include "tool/files/measurement_files.hpp"
 #include "tool/options/albedo_tolerance_option.hpp"
 #include "tool/options/chosen_networks.hpp"
+#include "tool/options/number_list.hpp"
 #include "tool/options/prior_material.hpp"
 #include "tool/options/shipped_data.hpp"
 #include "tool/options/threads_option.hpp"
@@ -14,14 +15,12 @@
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/io/materials/merl.hpp>
 #include <gonio/io/materials/networks.hpp>
-#include <gonio/io/text/text.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,17 +36,6 @@ struct expand_options {
   writing how;
 };
 
-/// Returns the numbers of a list such as 0.5,-1,2.
-std::vector<double> numbers_of(std::string_view list) {
-  std::vector<std::string_view> fields;
-  gonio::io::split_fields(list, fields);
-  std::vector<double> numbers(fields.size());
-  for (std::size_t i = 0; i < fields.size(); ++i)
-    if (const char* wrong = gonio::io::read_number(fields[i], numbers[i]))
-      gonio::refuse({"--weights: number ", i + 1, " of a list, ", gonio::io::in_quotes(fields[i]), ",", wrong});
-  return numbers;
-}
-
 /// Returns the weights from --weights, components x channels; zeros where none is given.
 Eigen::MatrixXd given_weights(const expand_options& options, const gonio::log_relative_pca& prior) {
   const Eigen::Index channels = prior.channels(), lists = std::ssize(options.weights);
@@ -58,7 +46,7 @@ Eigen::MatrixXd given_weights(const expand_options& options, const gonio::log_re
         {"--weights needs one list for all wavelengths, or one for each of ", channels, " wavelengths, not ", lists});
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), channels);
   for (Eigen::Index channel = 0; channel < channels; ++channel) {
-    const auto numbers = numbers_of(options.weights[options.weights.size() == 1 ? 0 : channel]);
+    const auto numbers = numbers_in(options.weights[options.weights.size() == 1 ? 0 : channel], "--weights");
     if (std::ssize(numbers) > prior.size())
       gonio::refuse({"--weights: ", numbers.size(), " numbers, but there are only ", prior.size(), " components of ",
                      options.prior.native()});
@@ -81,7 +69,7 @@ void write_spectra(const expand_options& options, const gonio::spectral_table& t
                 options.how);
 }
 
-/// Writes one of the prior's own materials from its stored coefficients, or the mean, plus the given weights.
+/// Writes a material of the prior, or without --name its mean material, with --weights added.
 void write_of_prior(const expand_options& options, const gonio::valid_cells& cells) {
   const auto prior = read_prior(options.prior);
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), prior.channels());
@@ -104,7 +92,7 @@ void expand(const expand_options& options, const gonio::valid_cells& cells) {
                       gonio::tabulate(gonio::model::formula_material(options.formula), cells, options.how.threads),
                       options.how);
   if (options.networks.empty()) return write_of_prior(options, cells);
-  const auto chosen = networks_in(gonio::io::read_networks(options.networks), {options.name});
+  const auto chosen = networks_in(gonio::io::read_networks(options.networks), {options.name}, options.networks);
   write_file(options.output, gonio::model::tabulate_networks(chosen, cells, options.how.threads).table(0), options.how);
 }
 

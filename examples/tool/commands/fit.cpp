@@ -1,6 +1,7 @@
 /// gonio fit: fits an analytic model to measurements.
 
 #include "commands.hpp"
+#include "tool/files/file_kinds.hpp"
 #include "tool/files/file_start.hpp"
 #include "tool/files/json.hpp"
 #include "tool/files/measurement_files.hpp"
@@ -11,7 +12,6 @@
 #include "tool/pages/measures_as_json.hpp"
 #include "tool/pages/report_data.hpp"
 #include "tool/pages/report_page.hpp"
-#include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/renderer_material.hpp>
 #include <gonio/model/physical_properties.hpp>
 
@@ -53,11 +53,6 @@ struct fit_command_options {
   model_choice choice;
 };
 
-bool is_table(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
-  return extension == ".binary" || extension == ".gz";
-}
-
 void print(const gonio::model::model_fit& fit, const gonio::model::largest_albedo& albedo, std::size_t measurements) {
   std::cout << measurements << " measurements, loss " << fit.loss << " after " << fit.evaluations << " evaluations"
             << (fit.converged ? "" : ", not converged") << '\n';
@@ -82,16 +77,59 @@ void write_report(const fit_command_options& options, const gonio::model::analyt
       model_report_data({options.measurements.stem().string(), model, samples, details, options.choice.fit.threads});
   data["record"] = record_of({{"Measurements", options.measurements.string()},
                               {"Model", options.choice.model + ", metric " + options.choice.metric}});
-  data["of_table"] = is_table(options.measurements);
+  data["of_table"] = holds_table(options.measurements);
   write_report_page(options.report, data);
 }
 
-void fit(const fit_command_options& options) {
-  if (options.cell_weights != gonio::model::cell_weighting::equal && !is_table(options.measurements))
+/// Refuses what does not fit, before reading.
+void require_possible(const fit_command_options& options) {
+  if (options.cell_weights != gonio::model::cell_weighting::equal && !holds_table(options.measurements))
     gonio::refuse("--cell-weights needs a table: samples carry their own weights");
+  if (!is_anisotropic(options.choice)) return;
+  if (holds_table(options.measurements))
+    gonio::refuse({options.measurements.native(), ": --model ", options.choice.model,
+                   " needs samples with azimuths, not a whole material ('gonio sample' measures it)"});
+  if (options.report.is_given()) gonio::refuse({"--report needs an isotropic --model, not ", options.choice.model});
+  if (!options.output.empty() && lower_extension(options.output) != ".bsdf")
+    gonio::refuse({options.output.native(), ": cannot hold the anisotropic --model ", options.choice.model,
+                   ", write a .bsdf file"});
+}
+
+/// Writes an anisotropic model as a table for renderers, and draws it.
+void write_turned(const fit_command_options& options, const gonio::model::analytic_brdf& model) {
+  const gonio::thread_count threads = options.choice.fit.threads;
+  if (!options.output.empty())
+    gonio::io::write_rgl(options.output,
+                         {gonio::model::tabulate_adaptively(model, gonio::model::anisotropic_resolution{}, threads),
+                          options.output.stem().string(),
+                          {}});
+  if (options.image.empty()) return;
+  std::vector<gonio::image> images{turned_sphere_image(model, options.how, threads)};
+  expose_spheres(images, options.how);
+  gonio::io::write_png(options.image, images.front());
+}
+
+/// Tabulates the fit, and draws it beside the measured table if there is one.
+void write_fitted(const fit_command_options& options, const gonio::model::analytic_brdf& model,
+                  const std::optional<gonio::brdf_table>& table) {
+  if (model.is_anisotropic()) return write_turned(options, model);
+  if (options.output.empty() && options.image.empty()) return;
+  const gonio::valid_cells cells = table ? table->cells() : gonio::valid_cells();
+  const gonio::brdf_table fitted = gonio::tabulate(model, cells, options.choice.fit.threads);
+  if (!options.output.empty()) write_table(options.output, fitted);
+  if (options.image.empty()) return;
+  std::vector<gonio::image> images;
+  if (table) images.push_back(sphere_image(*table, options.how, options.choice.fit.threads));
+  images.push_back(sphere_image(fitted, options.how, options.choice.fit.threads));
+  expose_spheres(images, std::span(images).first(1), options.how);  // with the exposure of the measurement
+  gonio::io::write_png(options.image, gonio::render::side_by_side(images, 8));
+}
+
+void fit(const fit_command_options& options) {
+  require_possible(options);
   // Read the measurements, and fit the model under the metric.
   std::optional<gonio::brdf_table> table;
-  if (is_table(options.measurements)) table.emplace(gonio::io::read_merl_any(options.measurements));
+  if (holds_table(options.measurements)) table.emplace(read_table(options.measurements, options.choice.fit.threads));
   if (table) require_unused(options.reading, options.measurements);
   gonio::io::sample_file measured;
   if (!table) measured = read_colour_file(options.measurements, options.reading);
@@ -106,19 +144,7 @@ void fit(const fit_command_options& options) {
     if (!options.for_renderers[i].empty()) materials[i] = renderer_formats[i].text(found.model);
   for (std::size_t i = 0; i < materials.size(); ++i)
     if (!materials[i].empty()) gonio::io::write_renderer_material(options.for_renderers[i], materials[i]);
-  // Tabulate the fit, and draw it beside the measured table.
-  if (!options.output.empty() || !options.image.empty()) {
-    const gonio::valid_cells cells = table ? table->cells() : gonio::valid_cells();
-    const gonio::brdf_table fitted = gonio::tabulate(found.model, cells, options.choice.fit.threads);
-    if (!options.output.empty()) write_table(options.output, fitted);
-    if (!options.image.empty()) {
-      std::vector<gonio::image> images;
-      if (table) images.push_back(sphere_image(*table, options.how, options.choice.fit.threads));
-      images.push_back(sphere_image(fitted, options.how, options.choice.fit.threads));
-      expose_spheres(images, std::span(images).first(1), options.how);  // with the exposure of the measurement
-      gonio::io::write_png(options.image, gonio::render::side_by_side(images, 8));
-    }
-  }
+  write_fitted(options, found.model, table);
   // Print the fit.
   const gonio::model::largest_albedo albedo = gonio::model::find_largest_albedo(found.model);
   json all{{"measurements", observations.size()},
@@ -142,25 +168,29 @@ void add_fit(command& app, const std::vector<std::string>& words) {
   const auto options = std::make_shared<fit_command_options>();
   // Declare the measurements and the model.
   command
-      .add_input("measurements", options->measurements,
-                 "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
+      .add_input(
+          "measurements", options->measurements,
+          "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary, .binary.gz, .npy, .bsdf or .mbsdf)")
       .required();
   add_measurement_options(command, options->reading);
   std::string names;
-  for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds())
-    names += (names.empty() ? "" : ", ") + std::string(kind->name());
+  for (const auto kinds : {gonio::model::lobe_kinds(), gonio::model::anisotropic_lobe_kinds()})
+    for (const gonio::model::lobe_kind* kind : kinds) names += (names.empty() ? "" : ", ") + std::string(kind->name());
   command
-      .add_option("--model", options->choice.model,
-                  "Lobe to fit together with a Lambertian one, or a sum of lobes as sum:ward+ggx: " + names)
+      .add_option(
+          "--model", options->choice.model,
+          "Lobe to fit together with a Lambertian one, or a sum of lobes as sum:ward+ggx; an anisotropic one needs "
+          "samples with azimuths: " +
+              names)
       .capture_default_str();
   // Declare the comparison.
   command
       .add_option("--metric", options->choice.metric,
-                  "Comparison of reflectance x: lin (x), log (ln(1 + x)) or cubic (cubic root)")
+                  "Metric that compares reflectance x: lin (x), log (ln(1 + x)) or cubic (cube root of x)")
       .check(check::one_of({"lin", "log", "cubic"}))
       .capture_default_str();
   command.add_flag("--fresnel", options->choice.fresnel,
-                   "Multiply the last lobe by the reflectance of a dielectric (Phong's lobes)");
+                   "Multiply the last lobe, which must be one of Phong's, by the Fresnel reflectance of a dielectric");
   add_fit_options(command, options->choice.fit);
   command.add_flag("--no-cosine-weight", options->no_cosine_weight,
                    "Compare reflectance without the cosine of the light");
@@ -183,6 +213,7 @@ void add_fit(command& app, const std::vector<std::string>& words) {
     if (command.count("--cosine-weighted") > 0 && options->no_cosine_weight)
       gonio::refuse("--cosine-weighted and --no-cosine-weight exclude each other: give one of them");
     options->choice.fit.cosine_weighted = !options->no_cosine_weight;
+    options->reading.takes_anisotropic = is_anisotropic(options->choice);
     fit(*options);
   });
 }

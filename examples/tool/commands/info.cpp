@@ -51,7 +51,7 @@ json weights_of(const gonio::log_relative_pca& prior, const info_options& option
 /// Rounds to four decimals, for people.
 json rounded(const Eigen::VectorXd& values) { return array_of((1e4 * values).array().round() / 1e4); }
 
-/// Draws the components of a prior, and adds the meaning of the images.
+/// Draws the components of a prior, and returns what the images show.
 json describe_components(const gonio::log_relative_pca& prior, const info_options& options) {
   if (options.count > prior.size())
     gonio::refuse({"--count ", options.count, ": ", options.file.native(), " has ", prior.size(), " components"});
@@ -101,8 +101,8 @@ void add_info(command& app) {
   options->reading.takes_anisotropic = true;
   command.add_output("--components", options->components, {".png"},
                      "For a prior: image to write (.png), slices at phi_d = 90 degrees (theta_h to the right, theta_d "
-                     "upwards): the reference BRDF, then one standard deviation of each first component, blue to red, "
-                     "each in its own scale (Nielsen et al. 2015, Fig. 3)");
+                     "upwards): the reference BRDF, then one standard deviation of each of the first components, from "
+                     "blue to red on its own scale (Nielsen et al. 2015, Fig. 3)");
   command.add_output("--component-spheres", options->component_spheres, {".png"},
                      "For a prior: image to write (.png), spheres in a column for each of the first components, with "
                      "its weight at -2, -1, 0, 1 and 2 standard deviations from top to bottom");

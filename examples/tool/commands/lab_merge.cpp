@@ -38,7 +38,7 @@ struct photograph_command {
 
 struct merge_command {
   std::filesystem::path frames, times, dark, output, deviation, mask;
-  double gamma = 0.0, level = 0.0, saturation = 0.98;  ///< known gamma of the camera; 0: estimate its response
+  double gamma = 0.0, level = 0.0, saturation = 0.98;  ///< gamma 0: estimate the camera's response
   gonio::capture::merge_options merging{.noise = {.read = 1.6, .shot = 0.2, .relative = 0.0}};
 };
 
@@ -46,7 +46,7 @@ lab::photograph_settings settings_of(const std::string& camera) {
   if (camera == "linear") return lab::photograph_settings::usual();
   const auto curve = camera == "gamma" ? lab::response_curve::gamma : lab::response_curve::s_shaped;
   lab::photograph_settings settings = lab::photograph_settings::usual(curve);
-  // Such cameras have subtracted the dark signal.
+  // Cameras whose response is not linear have already subtracted the dark signal.
   settings.pedestal = settings.dark_current = settings.hot_pixels = 0.0;
   return settings;
 }
@@ -78,7 +78,7 @@ void run(const photograph_command& options) {
     write_frames(options.output / "dark", lab::photograph_dark(scene.shape(0), scene.shape(1), times,
                                                                options.dark_frames, settings, options.seed));
   }
-  // The true result of merging, in its unit.
+  // Write the image that merging should give, in the same unit.
   gonio::image truth = lab::through_lens(scene, settings);
   for (float& value : truth) value = static_cast<float>(lab::merged_unit(settings) * double{value});
   gonio::io::write_npy(options.output / "truth.npy", truth);
@@ -162,7 +162,7 @@ void add_lab_photograph(command& lab) {
   const auto options = std::make_shared<photograph_command>();
   command
       .add_input("scene", options->scene,
-                 "Radiance of the scene, white under a lamp at 1 / pi (" + radiance_formats() + ")")
+                 "Image of the scene's radiance, in which white under a lamp is 1 / pi (" + radiance_formats() + ")")
       .required();
   command.add_option("--times", options->times, "Exposure times in seconds")
       .check(check::range(1e-6, 1000.0))
@@ -171,8 +171,9 @@ void add_lab_photograph(command& lab) {
       .check(check::one_of({"linear", "gamma", "s-shaped"}))
       .capture_default_str();
   command
-      .add_option("--dark-frames", options->dark_frames,
-                  "Number of dark frames at the shortest and at the longest time each, for a linear camera")
+      .add_option(
+          "--dark-frames", options->dark_frames,
+          "Number of dark frames of a linear camera: this many at the shortest time, and as many at the longest")
       .check(check::range(0, 100))
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of the noise").capture_default_str();
@@ -214,7 +215,7 @@ void add_lab_merge(command& lab) {
       .capture_default_str();
   command
       .add_option("--shot-noise", options->merging.noise.shot,
-                  "Shot noise of a linear camera: variance in counts per count")
+                  "Shot noise of a linear camera: variance in counts^2 per count of signal")
       .check(check::non_negative_number())
       .capture_default_str();
   command.add_option("--flicker", options->merging.noise.relative, "Relative standard deviation of each exposure")
@@ -224,7 +225,8 @@ void add_lab_merge(command& lab) {
   command.add_output("--deviation", options->deviation, {".npy", ".exr"},
                      std::string("Standard deviations of the values to write (.npy") + (has_exr ? " or .exr)" : ")"));
   command.add_output("--mask", options->mask, {".png"},
-                     "Image to write: usable black, dark blue, contradictory yellow, hot green, saturated red (.png)");
+                     "Image to write (.png) of the state of each pixel: usable is black, too dark is blue, "
+                     "contradictory is yellow, hot is green, saturated is red");
   add_threads_option(command, options->merging.threads);
   command
       .add_output("-o,--output", options->output, {".hdr", ".npy", ".exr"},

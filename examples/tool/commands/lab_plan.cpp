@@ -34,7 +34,7 @@ struct timed_plan {
   Eigen::Index stops = 0, lamps = 1;
 };
 
-/// Returns the complete scan of Nielsen's note: the camera at every pose of the half hemisphere, under every lamp.
+/// Returns the complete scan: the camera at every pose of the half hemisphere, under every lamp.
 timed_plan whole_hemisphere(const lab::robot& machine) {
   const auto seen = gonio::capture::half_hemisphere();
   const auto order = gonio::capture::short_way(seen);

@@ -3,6 +3,7 @@
 #include "adaptive_scan.hpp"
 #include "lab.hpp"
 #include "lab/recorded_frames.hpp"
+#include "tool/files/file_kinds.hpp"
 #include "tool/files/json.hpp"
 #include "tool/files/measurement_files.hpp"
 #include "tool/options/machine_choice.hpp"
@@ -10,7 +11,6 @@
 #include "tool/pages/progress_bar.hpp"
 #include <gonio/capture/scan.hpp>
 #include <gonio/core/printable.hpp>
-#include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/measurements/samples.hpp>
 #include <gonio/io/measurements/scan_journal.hpp>
 
@@ -26,7 +26,8 @@ namespace {
 struct scan_command {
   std::filesystem::path plan, material, output;
   machine_choice machine;
-  bool white = false, ideal = false, adaptive = false;
+  bool white = false, lamp = false, ideal = false, adaptive = false;
+  double transmittance = 1.0;  ///< of the filter through which the camera looks into the lamp
   adaptive_options choice;
   std::string camera = "linear", label;
   std::filesystem::path reflectance = "0.99";  ///< of the white reference: a number, or a table's file
@@ -46,7 +47,8 @@ lab::response_curve curve_named(const std::string& name) {
 
 lab::surface surface_of(const scan_command& options) {
   if (options.white) return lab::white(reflectance_of(options.reflectance));
-  return [table = gonio::io::read_merl_any(options.material)](const gonio::direction& wi, const gonio::direction& wo) {
+  if (options.lamp) return lab::lamp_through(options.transmittance);
+  return [table = read_table(options.material)](const gonio::direction& wi, const gonio::direction& wo) {
     return table(wi, wo);
   };
 }
@@ -79,6 +81,8 @@ gonio::io::scan_subject subject_of(const scan_command& options) {
     const std::string reflectance = number ? shortest(*number) : "of " + options.reflectance.filename().string();
     subject.sample = "white reference, reflectance " + reflectance;
     if (!number) subject.checksum = gonio::io::checksum_of_file(options.reflectance);
+  } else if (options.lamp) {
+    subject.sample = "lamp through a filter of transmittance " + shortest(options.transmittance);
   } else {
     subject.sample = options.material.filename().string();
     subject.checksum = gonio::io::checksum_of_file(options.material);
@@ -135,7 +139,7 @@ void scan_into(const std::filesystem::path& output, const gonio::io::scan_subjec
   require_complete(output, journal.scan());
 }
 
-/// Continues with poses chosen from the readings, until the material is known well enough.
+/// Scans the given poses, and then poses chosen from the readings, up to the limits of --until and --most.
 template <class Machine>
 void scan_adaptively(const scan_command& options, Machine& machine, const std::vector<gonio::direction_pair>& poses) {
   const adaptive_choice choice(options.choice, {.reflectance = options.reflectance}, machine.largest_count());
@@ -155,17 +159,22 @@ void scan_adaptively(const scan_command& options, Machine& machine, const std::v
   std::cout << measured << " poses measured, " << std::ssize(journal.scan().poses) << " in total\n";
 }
 
-void run(const scan_command& options) {
-  if (options.adaptive && options.white) gonio::refuse("--adaptive needs --material, not --white");
+void run(const scan_command& options, bool is_filtered) {
+  if (options.adaptive && options.material.empty())
+    gonio::refuse(std::string("--adaptive needs --material, not ") + (options.white ? "--white" : "--lamp"));
   if (options.adaptive && options.choice.reference.empty())
     gonio::refuse("--adaptive needs --reference, a scan of the white reference by the same machine");
   if (!options.adaptive && !options.choice.reference.empty()) gonio::refuse("--reference needs --adaptive");
+  if (is_filtered && !options.lamp) gonio::refuse("--filter-transmittance needs --lamp");
   const auto poses = cli::read_direction_pairs(options.plan, reading_of());
   lab::dark_room room = room_of(options);
   with_machine(options.machine, room, [&](auto& machine) {
     if (options.adaptive) return scan_adaptively(options, machine, poses);
     scan_into(options.output, subject_of(options), machine, poses);
   });
+  if (options.lamp)
+    std::cout << "the lamp's solid angle is " << shortest(lab::lamp_solid_angle()) << " sr (lab calibrate "
+              << "--lamp-solid-angle)\n";
 }
 
 void run(const replay_command& options) {
@@ -187,9 +196,15 @@ void add_lab_scan(command& lab) {
   // Declare the plan and the sample in the machine.
   command.add_input("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)").required();
   auto what = command.add_option_group("what", "Sample in the machine (one of)");
-  what.add_input("--material", options->material, "Table of a material (.binary or .binary.gz)");
+  what.add_input("--material", options->material, "Table of a material (.binary, .binary.gz, .npy, .bsdf or .mbsdf)");
   what.add_flag("--white", options->white, "Measure the white reference");
+  what.add_flag("--lamp", options->lamp, "Measure the lamp: the camera looks into it at each pose");
   what.require_option(1);
+  command
+      .add_option("--filter-transmittance", options->transmittance,
+                  "With --lamp: transmittance of the filter before the camera")
+      .check(check::range(1e-9, 1.0))
+      .capture_default_str();
   add_reflectance_option(command, options->reflectance);
   add_label_option(command, options->label);
   // Declare the machine and its camera.
@@ -201,7 +216,7 @@ void add_lab_scan(command& lab) {
   command.add_flag(
       "--ideal", options->ideal,
       "Simulate a perfect laboratory: no noise, lamp and sample as points, exact alignment, 16 bits instead of 12");
-  command.add_option("--noise", options->noise, "Factor on all noise")
+  command.add_option("--noise", options->noise, "Factor that multiplies all noise (0: none, 1: as usual)")
       .check(check::non_negative_number())
       .capture_default_str();
   command.add_option("--misaligned", options->misalignment, "Misalignment of lamps, camera and sample, in degrees")
@@ -209,7 +224,7 @@ void add_lab_scan(command& lab) {
       .capture_default_str();
   command
       .add_option("--outliers", options->outliers,
-                  "Share of outliers: poses with up to 10 times the light, or down to a tenth")
+                  "Share of poses that are outliers: their light is multiplied by a random factor from 0.1 to 10")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
   // Declare the choice of poses.
@@ -218,7 +233,7 @@ void add_lab_scan(command& lab) {
                     "With --adaptive: a scan of the white reference, at poses with about the same lights (.scan)");
   command
       .add_option("--until", options->choice.until,
-                  "With --adaptive: stop when half of all directions are known to this relative deviation (it never "
+                  "With --adaptive: stop when half of all directions are known to this relative deviation (which never "
                   "falls below 0.04)")
       .check(check::range(0.001, 1.0))
       .capture_default_str();
@@ -232,7 +247,7 @@ void add_lab_scan(command& lab) {
   command.add_option("--seed", options->seed, "Seed of the misalignment of the sample, of noise and of outliers")
       .capture_default_str();
   command.add_output("-o,--output", options->output, {".scan"}, "Journal to write or to continue (.scan)").required();
-  command.callback([options] { run(*options); });
+  command.callback([options, command] { run(*options, command.count("--filter-transmittance") > 0); });
 }
 
 void add_lab_replay(command& lab) {

@@ -38,7 +38,7 @@ struct learn_options {
   gonio::thread_count threads;
 };
 
-/// "117 materials of networks in merl_networks.npy, rgl-bsdf".
+/// Returns "117 materials of merl_networks.npy, rgl-bsdf".
 std::string source_of(const material_source& source, std::size_t materials) {
   std::string text = std::to_string(materials) + " materials of ";
   const std::size_t start = text.size();
@@ -57,7 +57,7 @@ std::string source_of(const material_source& source, const gonio::material_rows&
          gonio::io::shortest(materials.wavelengths.back()) + " nm";
 }
 
-/// "kept 60 components of 45 soft of 90 materials of networks.npy: 99.87 % of the mapped variance".
+/// Prints "kept 60 components of 45 soft of 90 materials of networks.npy: 99.87 % of the mapped variance".
 void print_kept(const gonio::log_relative_pca& learned, const std::string& what) {
   std::cout << "kept " << learned.size() << " components of " << what << ": "
             << fixed(100.0 * learned.explained_variance(), 2) << " % of the mapped variance\n";
@@ -73,7 +73,7 @@ gonio::cosine_weighting weighting_of(const learn_options& options) {
   return options.cosine_weight == "larger" ? gonio::cosine_weighting::larger : gonio::cosine_weighting::product;
 }
 
-/// Reads the materials once, into a scratch file beside the prior if they do not fit into a quarter of the memory.
+/// Reads the materials once, into a scratch file if they take more than a quarter of --memory.
 gonio::material_rows stream(const learn_options& options, const std::optional<gonio::valid_cells>& cells,
                             const gonio::progress& listener, const team& processes) {
   const auto bytes = static_cast<std::uint64_t>(options.memory * 0x1p30);
@@ -151,13 +151,13 @@ void add_learn(command& app, const team& processes) {
       command
           .add_option("--cosine-weight", options->cosine_weight,
                       "Weight of reflectance inside the logarithm: product of both cosines (Nielsen et al. 2015, Eq. "
-                      "2), or the larger of them (Xu et al. 2016, section 3). The prior keeps it")
+                      "2), or the larger of them (Xu et al. 2016, section 3). The prior stores which one was used")
           .check(check::one_of({"product", "larger"}))
           .capture_default_str();
-  const auto split =
-      command.add_flag("--split", options->split,
-                       "Learn two priors in one file, of soft and of specular materials by the contrast of their "
-                       "highlights, for gonio reconstruct --method soft-specular (Nielsen et al. 2015, section 8)");
+  const auto split = command.add_flag(
+      "--split", options->split,
+      "Write two priors to one file for gonio reconstruct --method soft-specular: one of soft, one of specular "
+      "materials, distinguished by the contrast of their highlights (Nielsen et al. 2015, section 8)");
   const auto spectra =
       command
           .add_flag(
@@ -172,22 +172,22 @@ void add_learn(command& app, const team& processes) {
   const auto thin = add_thin_option(command, options->thin);
   command
       .add_input("--add-to", options->add_to,
-                 "Prior (.prior) to add the materials to. Keeps its cells and reference, and does not need its tables "
-                 "(Ross et al. 2008)")
+                 "Earlier prior (.prior), to which the materials are added. Its cells and its reference are kept; the "
+                 "tables that it was learned from are not needed (Ross et al. 2008)")
       .excludes(split)
       .excludes(thin)
       .excludes(weight);
   command
       .add_option("--memory", options->memory,
-                  "Memory limit in GiB, without the components. Tables that do not fit go to a scratch file")
+                  "Memory limit in GiB, not counting the components. Tables that do not fit go to a scratch file")
       .check(check::range(1.0, 65536.0))
       .capture_default_str();
   command.add_input_folder("--scratch", options->scratch, {},
                            "Folder of the scratch file (default: the folder of --output)");
   command
       .add_option("--seed", options->seed,
-                  "Seed of the random subspace for more than 1024 columns, three per material or one per wavelength "
-                  "(Halko et al. 2011)")
+                  "Seed of the random subspace, which is used if there are more than 1024 columns: three for each "
+                  "material, or one for each wavelength (Halko et al. 2011)")
       .capture_default_str();
   command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();
   add_threads_option(command, options->threads);

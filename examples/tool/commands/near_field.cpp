@@ -48,7 +48,8 @@ gonio::sample_set samples_of(const taken_image& image) {
   return image.naming_files([&] { return gonio::capture::near_field_samples(image.pixels, image.setup, image.white); });
 }
 
-/// Was the reference in the sample's place? Then it received the same light, whatever the position of the light.
+/// Returns whether the white reference was in the sample's place: it then received the same light as the sample,
+/// wherever the light was.
 bool has_reference_in_place(const std::vector<taken_image>& images, const near_field_command& options) {
   return options.reference_in_place ||
          std::ranges::all_of(images, [](const taken_image& each) { return each.white && !each.white->surface; });
@@ -56,10 +57,11 @@ bool has_reference_in_place(const std::vector<taken_image>& images, const near_f
 
 std::string angle_of(const Eigen::Vector3d& turn) { return fixed(gonio::degrees(turn.norm()), 2); }
 
-/// The samples of each image, for each material.
+/// For each material, the samples of each image.
 using samples_of_materials = std::vector<std::vector<gonio::sample_set>>;
 
-/// Returns each material's samples with refined poses of light and cameras, which they share; prints the corrections.
+/// Refines the poses of light and cameras, which all materials share, and prints the corrections. Returns each
+/// material's samples.
 std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, samples_of_materials samples,
                                        const near_field_command& options) {
   gonio::pose_refinement refinement(
@@ -106,7 +108,7 @@ void write_samples_of_one(const std::vector<taken_image>& images, const near_fie
 
 // ---- several materials -------------------------------------------------------------------------
 
-/// Pixels correspond to the same sample points only if the camera is fixed.
+/// Refuses a moving camera: a pixel must show the same point of the sample in all images.
 void require_fixed_camera(const std::vector<taken_image>& images) {
   const gonio::pinhole_camera& first = images.front().setup.camera.pinhole();
   for (const taken_image& image : images) {
@@ -143,7 +145,8 @@ std::filesystem::path path_of_material(const std::filesystem::path& output, Eige
   return path;
 }
 
-/// Returns a map of each material's pixels in its mean colour, scaled so that the brightest is 1; black outside.
+/// Returns an image with each material's pixels in its mean colour, scaled so that the brightest colour is 1; black
+/// outside the region.
 gonio::image label_map(const gonio::capture::colour_clusters& clusters, const std::vector<Eigen::Index>& region,
                        const gonio::camera_intrinsics& size) {
   gonio::image map = gonio::uniform_image(size.rows, size.columns);
@@ -154,7 +157,7 @@ gonio::image label_map(const gonio::capture::colour_clusters& clusters, const st
   return map;
 }
 
-/// Writes a file of samples for each material. Its pixels are those of its cluster in the last image.
+/// Writes a file of samples for each material, whose pixels are a cluster of the last image.
 void write_samples_of_each(std::vector<taken_image> images, const command& given, const near_field_command& options) {
   require_fixed_camera(images);
   const taken_image& diffuse = images.back();
@@ -204,9 +207,10 @@ void add_near_field(command& app) {
                          "Images of linear radiance (" + radiance_formats() +
                              "), each followed by its set-up "
                              "(docs/reference/formats.md): camera, light and region of interest");
-  command.add_option("--clusters", options->clusters,
-                     "Number of materials, or auto, separated by colour in the last image, which should show no "
-                     "highlight. Writes a file for each, OUTPUT-1.csv and so on, the largest first");
+  command.add_option(
+      "--clusters", options->clusters,
+      "Number of materials, or auto. They are separated by colour in the last image, which should show no highlight. "
+      "Each material gets a file: OUTPUT-1.csv for the one with the most pixels, and so on");
   command.add_output("--labels", options->labels, {".png"}, "Image to write of the material of each pixel (.png)");
   command
       .add_option("--misplaced", options->angular_error,
@@ -214,7 +218,7 @@ void add_near_field(command& app) {
                   "corrects these directions with --prior")
       .capture_default_str();
   command.add_flag("--reference-in-place", options->reference_in_place,
-                   "With --misplaced: the irradiance comes from a white reference in the sample's place, so a "
+                   "With --misplaced: the irradiance comes from a white reference at the sample's position, so a "
                    "misplaced light does not scale the values. Implied by --white without 'white_plane'");
   add_prior_option(command, options->prior);
   command.add_option("--seed", options->seed, "Seed of the clusters").capture_default_str();

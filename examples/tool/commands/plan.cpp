@@ -8,6 +8,7 @@
 #include "tool/pages/image_text.hpp"
 #include <gonio/io/images/image.hpp>
 #include <gonio/io/measurements/samples.hpp>
+#include <gonio/render/false_colour.hpp>
 #include <gonio/render/image.hpp>
 
 #include <Eigen/Geometry>
@@ -39,7 +40,7 @@ struct pose {
 
 double polar_degrees(const gonio::direction& w) { return gonio::degrees(gonio::polar_angle(w)); }
 
-/// Since the material is isotropic, the sample is rotated so that the light is in the half plane of positive x.
+/// Returns the pose with the sample rotated until the light has azimuth 0, as isotropic materials allow.
 pose to_pose(const gonio::direction_pair& pair) {
   pose at;
   at.theta_i = polar_degrees(pair.wi);
@@ -79,34 +80,104 @@ void print_json(const std::vector<pose>& poses) {
 
 // ---- the drawing: the hemisphere from above ----------------------------------------------------
 
-constexpr int hemisphere_radius = 240, hemisphere_margin = 20;
+constexpr int hemisphere_radius = 400, hemisphere_margin = 50, legend_rows = 60;
+constexpr int drawing_size = 2 * (hemisphere_radius + hemisphere_margin);
+constexpr std::size_t text_scale = 2;
+const Eigen::Vector2d zenith = Eigen::Vector2d::Constant(drawing_size / 2);
 
-/// Returns distinct colours, one per pose in turn.
+/// Returns the colour of pose `number`. Successive poses cycle through six different colours that are dark enough for
+/// lines on white.
 gonio::rgb colour_of(std::size_t number) {
-  constexpr std::array<std::array<double, 3>, 6> colours{
-      {{0.7, 0.02, 0.02}, {0.02, 0.1, 0.7}, {0.02, 0.4, 0.05}, {0.5, 0.05, 0.5}, {0.7, 0.25, 0.0}, {0.0, 0.35, 0.4}}};
-  const auto& [r, g, b] = colours[number % colours.size()];
-  return {r, g, b};
+  constexpr std::array dark{4, 5, 2, 6, 0, 1};
+  return gonio::render::category_colour(dark[number % dark.size()]);
 }
 
-/// Paints the pixels whose distance from `at` is in a range.
-void paint_ring(gonio::image& image, const Eigen::Vector2d& at, double inner, double outer, const gonio::rgb& colour) {
-  const auto first = [&](double middle) { return std::max(0, static_cast<int>(middle - outer - 1.0)); };
-  const auto last = [&](double middle, std::size_t size) {
-    return std::min(static_cast<int>(size) - 1, static_cast<int>(middle + outer + 1.0));
+/// Paints a shape with smooth edges. `distance(point)` is the distance from its edge in pixels, positive outside.
+template <class Distance>
+void paint(gonio::image& image, const Eigen::AlignedBox2d& box, const gonio::rgb& colour, const Distance& distance) {
+  const auto first = [](double least) { return std::max(0, static_cast<int>(least) - 1); };
+  const auto end = [](double most, std::size_t size) {
+    return std::min(static_cast<int>(size), static_cast<int>(most) + 2);
   };
-  for (int row = first(at.y()); row <= last(at.y(), image.shape(0)); ++row)
-    for (int column = first(at.x()); column <= last(at.x(), image.shape(1)); ++column) {
-      const double distance = (Eigen::Vector2d(column + 0.5, row + 0.5) - at).norm();
-      if (distance >= inner && distance <= outer) gonio::set_pixel(image, row, column, colour);
+  for (int row = first(box.min().y()); row < end(box.max().y(), image.shape(0)); ++row)
+    for (int column = first(box.min().x()); column < end(box.max().x(), image.shape(1)); ++column) {
+      const double covered = std::clamp(0.5 - distance(Eigen::Vector2d(column + 0.5, row + 0.5)), 0.0, 1.0);
+      if (covered > 0.0)
+        gonio::set_pixel(image, row, column, (1.0 - covered) * gonio::pixel(image, row, column) + covered * colour);
     }
 }
 
-/// Returns the position of a direction in the drawing: the polar angle is the distance from the centre.
-Eigen::Vector2d place_of(const gonio::direction& w) {
-  const double radius = hemisphere_radius * polar_degrees(w) / 90.0, azimuth = gonio::azimuth(w);
-  return {hemisphere_radius + hemisphere_margin + radius * std::cos(azimuth),
-          hemisphere_radius + hemisphere_margin - radius * std::sin(azimuth)};
+/// Paints the points whose distance from `at` is in a range.
+void paint_ring(gonio::image& image, const Eigen::Vector2d& at, double inner, double outer, const gonio::rgb& colour) {
+  paint(image, {at.array() - outer, at.array() + outer}, colour, [&](const Eigen::Vector2d& point) {
+    const double radius = (point - at).norm();
+    return std::max(radius - outer, inner - radius);
+  });
+}
+
+void paint_line(gonio::image& image, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
+                const gonio::rgb& colour) {
+  const Eigen::Vector2d way = to - from;
+  const double squared_length = std::max(way.squaredNorm(), 1e-12);
+  paint(image, {from.cwiseMin(to).array() - width, from.cwiseMax(to).array() + width}, colour,
+        [&](const Eigen::Vector2d& point) {
+          const double share = std::clamp(way.dot(point - from) / squared_length, 0.0, 1.0);
+          return (point - from - share * way).norm() - 0.5 * width;
+        });
+}
+
+/// Returns the position of angles in degrees in the drawing: the polar angle is the distance from the centre.
+Eigen::Vector2d position_of(double polar, double azimuth) {
+  const double radius = hemisphere_radius * polar / 90.0, turn = gonio::radians(azimuth);
+  return zenith + radius * Eigen::Vector2d(std::cos(turn), -std::sin(turn));
+}
+
+Eigen::Vector2d position_of(const gonio::direction& w) {
+  return position_of(polar_degrees(w), gonio::degrees(gonio::azimuth(w)));
+}
+
+/// Draws text with its middle at a point.
+void write_centred(gonio::image& image, const Eigen::Vector2d& middle, const std::string& text) {
+  const text_extent size = extent_of(text, text_scale);
+  draw_text(image, static_cast<std::size_t>(middle.y()) - size.rows / 2,
+            static_cast<std::size_t>(middle.x()) - size.columns / 2, text, text_scale, gonio::rgb::Constant(0.1));
+}
+
+/// Draws circles of the polar angle every 30 degrees, and the azimuth every 45 degrees.
+void draw_angles(gonio::image& image) {
+  for (int azimuth = 0; azimuth < 360; azimuth += 45) {
+    paint_line(image, zenith, position_of(90.0, azimuth), 1.0, gonio::rgb::Constant(0.75));
+    write_centred(image, position_of(96.0, azimuth), std::to_string(azimuth));
+  }
+  for (const int theta : {30, 60, 90}) {
+    const double radius = hemisphere_radius * theta / 90.0;
+    paint_ring(image, zenith, radius - 0.7, radius + 0.7, gonio::rgb::Constant(theta == 90 ? 0.1 : 0.5));
+    if (theta < 90) write_centred(image, position_of(theta + 3.0, 67.5), std::to_string(theta));
+  }
+}
+
+void draw_light(gonio::image& image, const Eigen::Vector2d& at, const gonio::rgb& colour) {
+  paint_ring(image, at, 0.0, 8.0, colour);
+}
+
+void draw_viewer(gonio::image& image, const Eigen::Vector2d& at, const gonio::rgb& colour) {
+  paint_ring(image, at, 0.0, 7.0, gonio::rgb::Ones());
+  paint_ring(image, at, 5.5, 8.5, colour);
+}
+
+/// Draws the meaning of the marks below the hemisphere.
+void draw_legend(gonio::image& image) {
+  constexpr double row = drawing_size + 0.3 * legend_rows;
+  const gonio::rgb ink = gonio::rgb::Constant(0.1);
+  draw_light(image, {hemisphere_margin, row}, ink);
+  draw_viewer(image, {hemisphere_margin + 140.0, row}, ink);
+  const auto write = [&](int column, const char* text) {
+    draw_text(image, static_cast<std::size_t>(row) - 8, static_cast<std::size_t>(hemisphere_margin + column), text,
+              text_scale, ink);
+  };
+  write(16, "light");
+  write(156, "viewer, with the number of the pose");
+  write(600, "angles in degrees");
 }
 
 /// Draws numbers beside their points, without overlaps.
@@ -118,27 +189,28 @@ class number_labels {
                 Eigen::Vector2d(static_cast<double>(image.shape(1)) - 1.0, static_cast<double>(image.shape(0)) - 1.0)) {
   }
 
-  /// Draws a number near a point, on the side away from `other` or on the next with room; omits it if there is none.
+  /// Draws a number near a point, away from `other`, or on the next side that has room; omits the number if no side has
+  /// room.
   void add(const Eigen::Vector2d& at, const Eigen::Vector2d& other, std::size_t number, const gonio::rgb& colour) {
     const std::string text = std::to_string(number);
-    const text_extent size = extent_of(text, scale_);
+    const text_extent size = extent_of(text, text_scale);
     const Eigen::Vector2d half(0.5 * static_cast<double>(size.columns), 0.5 * static_cast<double>(size.rows));
     for (int side = 0; side < 8; ++side) {
       const double turn = (side % 2 == 0 ? 1 : -1) * ((side + 1) / 2) * std::numbers::pi / 4.0;
       const double angle = std::atan2(at.y() - other.y(), at.x() - other.x()) + turn;
       const Eigen::Vector2d middle =
-          at + Eigen::Vector2d((half.x() + 7.0) * std::cos(angle), (half.y() + 7.0) * std::sin(angle));
+          at + Eigen::Vector2d((half.x() + 11.0) * std::cos(angle), (half.y() + 11.0) * std::sin(angle));
       const Eigen::AlignedBox2d box(middle - half, middle + half);
       if (!inside_.contains(box)) continue;
       if (std::ranges::any_of(taken_, [&](const Eigen::AlignedBox2d& taken) { return taken.intersects(box); }))
         continue;
       taken_.push_back(box);
       const auto row = static_cast<std::size_t>(box.min().y()), column = static_cast<std::size_t>(box.min().x());
-      // White background, so that no line crosses the number.
+      // Draw a white background: no line crosses the number.
       const gonio::image paper = gonio::uniform_image(static_cast<Eigen::Index>(size.rows),
                                                       static_cast<Eigen::Index>(size.columns), gonio::rgb::Ones());
       gonio::render::paste(image_, paper, row, column);
-      draw_text(image_, row, column, text, scale_, colour);
+      draw_text(image_, row, column, text, text_scale, colour);
       return;
     }
   }
@@ -149,49 +221,37 @@ class number_labels {
   }
 
  private:
-  static constexpr std::size_t scale_ = 1;
   gonio::image& image_;
   Eigen::AlignedBox2d inside_;
   std::vector<Eigen::AlignedBox2d> taken_;
 };
 
-/// Draws the numbers of the poses at their viewers, in the order of the file, and the degrees of the circles. With more
-/// than 40 poses only every second, third, ... pose is numbered.
+/// Draws the numbers of the poses at their viewers, in the order of the file. With more than 40 poses only every
+/// second, third, ... pose is numbered.
 void draw_numbers(gonio::image& image, const std::vector<pose>& poses) {
-  const Eigen::Vector2d middle(hemisphere_radius + hemisphere_margin, hemisphere_radius + hemisphere_margin);
-  for (const int theta : {30, 60, 90}) {
-    const std::string text = std::to_string(theta);
-    draw_text(image, static_cast<std::size_t>(middle.y() + hemisphere_radius * theta / 90.0 + 2.0),
-              static_cast<std::size_t>(middle.x()) + 3, text, 1, gonio::rgb::Constant(0.2));
-  }
   number_labels labels(image);
   for (const pose& at : poses) {
-    labels.keep_free(place_of(at.wi), 5.0);
-    labels.keep_free(place_of(at.wo), 5.0);
+    labels.keep_free(position_of(at.wi), 8.0);
+    labels.keep_free(position_of(at.wo), 8.0);
   }
   const std::size_t step = 1 + (poses.size() - 1) / 40;
   for (std::size_t i = 0; i < poses.size(); i += step)
-    labels.add(place_of(poses[i].wo), place_of(poses[i].wi), i + 1, colour_of(i));
+    labels.add(position_of(poses[i].wo), position_of(poses[i].wi), i + 1, colour_of(i));
 }
 
-/// Draws each pose as a line from its light (a disc) to its viewer (a ring) with its number; circles every 30 degrees.
+/// Draws each pose as a line from its light (a disc) to its viewer (a ring) with its number. All lines are below all
+/// marks.
 gonio::image drawing_of(const std::vector<pose>& poses) {
-  const auto size = static_cast<Eigen::Index>(2 * (hemisphere_radius + hemisphere_margin));
-  gonio::image image = gonio::uniform_image(size, size, gonio::rgb::Ones());
-  const Eigen::Vector2d middle(hemisphere_radius + hemisphere_margin, hemisphere_radius + hemisphere_margin);
-  for (const int theta : {30, 60, 90})
-    paint_ring(image, middle, hemisphere_radius * theta / 90.0 - 0.6, hemisphere_radius * theta / 90.0 + 0.6,
-               gonio::rgb::Constant(theta == 90 ? 0.2 : 0.6));
+  gonio::image image = gonio::uniform_image(drawing_size + legend_rows, drawing_size, gonio::rgb::Ones());
+  draw_angles(image);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    paint_line(image, position_of(poses[i].wi), position_of(poses[i].wo), 2.0, colour_of(i));
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::Vector2d light = place_of(poses[i].wi), viewer = place_of(poses[i].wo);
-    const int steps = 1 + static_cast<int>((viewer - light).norm());
-    for (int step = 0; step <= steps; ++step)
-      paint_ring(image, light + (viewer - light) * (static_cast<double>(step) / steps), 0.0, 0.8, colour_of(i));
-    paint_ring(image, light, 0.0, 5.0, colour_of(i));
-    paint_ring(image, viewer, 0.0, 4.0, gonio::rgb::Ones());
-    paint_ring(image, viewer, 3.5, 5.5, colour_of(i));
+    draw_light(image, position_of(poses[i].wi), colour_of(i));
+    draw_viewer(image, position_of(poses[i].wo), colour_of(i));
   }
   if (!poses.empty()) draw_numbers(image, poses);
+  draw_legend(image);
   return image;
 }
 

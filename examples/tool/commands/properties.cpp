@@ -30,7 +30,7 @@ struct properties_options {
   gonio::thread_count threads;
 };
 
-/// 1 plus the quadrature error.
+/// The albedo of a physical BRDF is at most 1; 0.005 is the quadrature error.
 constexpr double largest_possible_albedo = 1.005;
 
 constexpr std::array channel_names{"red", "green", "blue"};
@@ -41,7 +41,7 @@ json to_json(const gonio::half_difference& angles) {
           {"phi_d", gonio::degrees(angles.phi_d)}};
 }
 
-/// The largest albedo decides; the others are for a figure.
+/// Returns whether the largest albedo is possible, and the albedo by angle for a figure.
 template <gonio::brdf Brdf>
 json energy_of(const Brdf& f) {
   const auto albedos = gonio::model::albedo_by_angle(f);
@@ -77,7 +77,7 @@ json to_json(const gonio::model::worst_pair& worst) {
   return found;
 }
 
-/// A MERL file cannot represent violations of reciprocity or isotropy.
+/// Returns the properties of a MERL table. Its format cannot represent violations of reciprocity or isotropy.
 json properties_of_merl(const std::filesystem::path& path) {
   const gonio::brdf_table table = gonio::io::read_merl_any(path);
   json all{{"kind", "MERL table"}, {"energy", energy_of(table)}};
@@ -88,8 +88,8 @@ json properties_of_merl(const std::filesystem::path& path) {
   return all;
 }
 
-/// The measured values, not averaged with the reverse directions as in the BRDF. Swapped, because `directional_albedo`
-/// fixes the viewer where the light is fixed here.
+/// Returns the values as measured, not averaged over both orders of the directions. Light and viewer are swapped:
+/// `directional_albedo` integrates over the light, but the albedo of measured values is an integral over the viewer.
 struct light_and_viewer_swapped {
   gonio::model::adaptive_brdf material;
 
@@ -100,6 +100,7 @@ struct light_and_viewer_swapped {
 
 json properties_of_rgl(const std::filesystem::path& path, gonio::thread_count threads) {
   const auto material = gonio::io::colours_of(gonio::io::read_rgl(path), path);
+  if (material.is_anisotropic()) gonio::refuse({path.native(), ": is anisotropic, expected an isotropic material"});
   const light_and_viewer_swapped as_measured{material};
   json all{{"kind", "RGL material"}, {"energy", energy_of(as_measured)}};
   all.update(properties_of(gonio::tabulate(material, gonio::valid_cells(), threads)));
@@ -118,7 +119,8 @@ json to_json(const gonio::model::equal_samples& equal) {
   return found;
 }
 
-/// Samples have no integral; pairs that should be equal are compared.
+/// Returns the properties of samples. Samples cannot be integrated, so this gives no albedo; it compares samples whose
+/// values should be equal.
 json properties_of_samples(const properties_options& options) {
   const gonio::io::sample_file measured = read_colour_file(options.file, options.reading);
   const gonio::sample_set& samples = measured.samples;
@@ -244,7 +246,7 @@ void add_properties(command& app) {
   options->reading.takes_anisotropic = true;
   command
       .add_option("--tolerance", options->tolerance,
-                  "Degrees up to which directions of samples may differ and still be compared")
+                  "Directions of samples count as equal if they differ by at most this, in degrees")
       .check(check::range(0.001, 5.0))
       .capture_default_str();
   command.add_flag("--json", options->print_json, "Print as JSON");

@@ -131,22 +131,25 @@ void add_method_option(command& to, std::string& name) {
 
 void add_correction_options(command& to, reconstruct_options& options) {
   to.add_option("--gamma", options.gamma,
-                "With --method correction: decrease of a sample's weight with its relative deviation (0: all count "
-                "equally; mostly 3 in the paper), or auto")
+                "With --method correction: how fast the weight of a sample decreases with its relative deviation (0: "
+                "all samples have equal weights; the paper mostly uses 3), or auto")
       .capture_default_str();
   to.add_flag("--as-printed", options.as_printed,
-              "With --method correction: follow Noell et al. 2014 exactly, without constant function and inertia, with "
-              "their weights. Default --gamma 3 (the paper has 0 without outliers, 3 for a fifth, 6 for more)");
+              "With --method correction: follow Noell et al. 2014 exactly, with their weights, without constant "
+              "function and without inertia. --gamma is then 3 by default (the paper has 0 without outliers, 3 if a "
+              "fifth of the samples are outliers, 6 for more)");
   to.add_option("--iterations", options.iterations, "With --method correction: largest number of rounds")
       .check(check::range(1, 10'000))
       .capture_default_str();
   to.add_output("--history", options.history, {".csv"},
                 "With --method correction: table of the rounds to write (.csv)");
-  to.add_output_folder(
-      "--iteration-figure", options.iteration_figure, {"iterations.png", "history.csv"},
-      "With --method correction: folder to write, with an image of the first rounds and the last, and their history");
-  to.add_input("--truth", options.truth, "True table that --iteration-figure compares with (.binary or .binary.gz)");
-  to.add_option("--seed", options.seed, "Seed of the centres of rbf, and of the initial samples of correction")
+  to.add_output_folder("--iteration-figure", options.iteration_figure, {"iterations.png", "history.csv"},
+                       "With --method correction: folder to write, with an image of the first rounds and the last, and "
+                       "the history of all rounds");
+  to.add_input("--truth", options.truth,
+               "True table that --iteration-figure compares with (.binary, .binary.gz, .npy, .bsdf or .mbsdf)");
+  to.add_option("--seed", options.seed,
+                "Seed of the centres of --method rbf, and of the initial samples of --method correction")
       .capture_default_str();
 }
 
@@ -177,24 +180,24 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
   // Declare the metric, the solver and the noise.
   command
       .add_option("--metric", options->metric,
-                  "Error metric of linear, rbf and the start of correction: lin, root, log (ln(1 + x), the default) or "
-                  "log-relative")
+                  "Error metric of the methods linear and rbf, and of the start of the method correction: lin, root, "
+                  "log (ln(1 + x), the default) or log-relative")
       .check(check::one_of({"lin", "root", "log", "log-relative"}));
   command.add_option("--root", options->root, "With --metric root: degree of the root").capture_default_str();
   add_solver_options(command, options->solver);
   command.add_option("--noise", options->noise,
-                     "Relative deviation of the measured values (0.02 is 2 %). Sets the penalty of pca");
+                     "Relative deviation of the measured values (0.02 is 2 %). Sets the penalty of --method pca");
   command
       .add_option("--discrepancy", options->discrepancy,
-                  "Variance of the discrepancy of pca, in the metric's domain: detail that its components do not have. "
-                  "0: components alone, with a penalty chosen by cross-validation")
+                  "With --method pca: variance, in the metric's domain, of the discrepancy, which is the detail that "
+                  "the components do not have. 0: components alone, with a penalty chosen by cross-validation")
       .check(check::range(0.0, 10.0))
       .capture_default_str();
-  command.add_flag(
-      "--no-reject", options->keeps_all,
-      "Count all samples fully. By default, pca rejects samples that the others contradict, and names the worst");
+  command.add_flag("--no-reject", options->keeps_all,
+                   "Give all samples their full weight. By default, --method pca rejects samples that contradict the "
+                   "other samples, and names the worst");
   command.add_output("--residuals", options->residuals, {".csv"},
-                     "Table to write of each sample's value as predicted by all others (.csv)");
+                     "Table to write (.csv): for each sample, the value that all other samples predict");
   command.add_output(
       "--uncertainty", options->uncertainty, {".binary", ".npy"},
       "Table to write of the relative standard deviation of each direction: 0.06 is 6 % (68 of 100 cases)");
@@ -224,7 +227,7 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
   command.help_with({"--noise", "-o", "--quantity", "--columns", "--theta-o-sign", "--spectra", "--method", "--prior",
                      "--no-reject", "--residuals", "--uncertainty", "--uncertainty-image", "--report", "--image",
                      "--json", "--threads"});
-  // Refuse options that the method does not take, then run it.
+  // Refuse options that the method does not take, then run the method.
   command.callback([command, options, how] {
     take_given(*options, [&](const std::string& option) { return command.count(option) > 0; });
     if (command.count("--truth") > 0 && command.count("--iteration-figure") == 0)

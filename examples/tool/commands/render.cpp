@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "tool/files/exr_files.hpp"
+#include "tool/files/file_kinds.hpp"
 #include "tool/files/file_start.hpp"
 #include "tool/files/radiance_image.hpp"
 #include "tool/options/lights.hpp"
@@ -13,8 +14,8 @@
 #include "tool/pages/flat_sample.hpp"
 #include "tool/pages/images.hpp"
 #include "tool/pages/progress_bar.hpp"
-#include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/svbrdf_map.hpp>
+#include <gonio/render/anisotropic_sampler.hpp>
 #include <gonio/render/false_colour.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
@@ -28,13 +29,14 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace cli {
 
 namespace {
 
-/// In an environment no highlight is much brighter than its surroundings.
+/// The default exposure in an environment, where no highlight is much brighter than its surroundings.
 constexpr double exposure_in_environment = 0.4;
 
 struct render_options {
@@ -43,7 +45,7 @@ struct render_options {
   std::filesystem::path output, environment, prior;
   bool slices = false, compares = false, labels = false;
   std::string caption;
-  int quality = 64, columns = 0;  ///< of a contact sheet; 0: all images in one row
+  int quality = 64, columns = 0;  ///< columns of a contact sheet; 0: one row
   image_options image{.size = 512, .exposure = {}};
   std::uint64_t seed = 1;
   gonio::thread_count threads;
@@ -51,14 +53,8 @@ struct render_options {
 
 bool is_exr(const std::filesystem::path& path) { return lower_extension(path) == ".exr"; }
 
-/// Returns the colours of Delta E from 0 to 20, drawn over the lowest rows, where a sphere is narrow.
-colour_scale delta_e_scale() {
-  return {[](double share) { return gonio::render::false_colour(20.0 * share); },
-          {{0.0, "0"}, {0.25, "5"}, {0.5, "10"}, {0.75, "15"}, {1.0, "20+"}}};
-}
-
-/// CIELAB's Delta E of each pixel of two images as a colour, as in Noell et al. 2014, Fig. 3, and its mean over the
-/// pixels that are not black in both images (beside the sphere or unlit).
+/// CIELAB's Delta E of each pixel of two images as a colour, as in Noell et al. 2014, Fig. 3, and its mean. Pixels that
+/// are black in both images, beside the sphere or unlit, do not count.
 struct image_difference {
   gonio::image image;
   double mean = 0.0;
@@ -74,10 +70,10 @@ image_difference difference_of(const gonio::image& one, const gonio::image& othe
       const double delta_e = (gonio::to_lab(a) - gonio::to_lab(b)).matrix().norm();
       sum += delta_e;
       count += 1.0;
-      gonio::set_pixel(found.image, row, column, gonio::render::false_colour(delta_e));
+      gonio::set_pixel(found.image, row, column, gonio::render::difference_colour(delta_e));
     }
   found.mean = count > 0.0 ? sum / count : 0.0;
-  draw_scale(found.image, delta_e_scale());
+  draw_scale(found.image, delta_e_scale());  // at the bottom, where a sphere is narrow
   return found;
 }
 
@@ -91,7 +87,7 @@ void require_comparable(const render_options& options) {
                   ", for the numbers of its scale");
 }
 
-/// Returns the tables' names without folders and extensions, if labels are requested.
+/// Returns the caption and, with --labels, the tables' names without folders and extensions.
 sheet_text text_of(const render_options& options) {
   sheet_text text{{}, options.caption};
   if (!options.labels) return text;
@@ -125,31 +121,60 @@ void render_flat_sample(const render_options& options) {
   gonio::io::write_png(options.output, sample);
 }
 
+/// Draws a material by itself.
+class material_painter {
+ public:
+  material_painter(const render_options& options, const gonio::render::environment_sampler* light)
+      : options_(options), light_(light), lamps_(lighting_of(options.lights)) {}
+
+  [[nodiscard]] gonio::image operator()(const gonio::brdf_table& table) {
+    if (options_.slices) return slice_image(table, options_.image, options_.threads);
+    if (light_ == nullptr) return sphere_image(table, options_.image, options_.threads, lamps_);
+    return in_environment(gonio::render::half_vector_sampler(gonio::render::lookup_table<>::of(table)), false);
+  }
+
+  /// An anisotropic material.
+  template <gonio::brdf Brdf>
+  [[nodiscard]] gonio::image operator()(const Brdf& f) {
+    if (light_ == nullptr) return turned_sphere_image(f, options_.image, options_.threads, lamps_);
+    return in_environment(gonio::render::anisotropic_sampler(f), true);
+  }
+
+ private:
+  template <class Sampler>
+  [[nodiscard]] gonio::image in_environment(const Sampler& material, bool is_turned) {
+    const gonio::render::sampled_sphere_view view{.size = options_.image.size,
+                                                  .samples = options_.quality,
+                                                  .seed = options_.seed,
+                                                  .white = options_.image.exposure.value_or(exposure_in_environment),
+                                                  .is_turned = is_turned};
+    return gonio::render::render_sphere(material, *light_, view, options_.threads, bar_.listener());
+  }
+
+  const render_options& options_;
+  const gonio::render::environment_sampler* light_;
+  gonio::render::directional_lighting lamps_;
+  progress_bar bar_;
+};
+
 void render(const render_options& options) {
   require_no_text(options);
   if (gonio::io::is_svbrdf_map(options.tables.front())) return render_flat_sample(options);
   if (options.compares) require_comparable(options);
-  const gonio::render::directional_lighting lamps = lighting_of(options.lights);
   std::optional<gonio::render::environment_sampler> light;
   if (!options.environment.empty()) light.emplace(gonio::render::environment_map(read_radiance(options.environment)));
-  progress_bar bar;
-  const auto image_of = [&](const gonio::brdf_table& table) {
-    if (options.slices) return slice_image(table, options.image, options.threads);
-    if (!light) return sphere_image(table, options.image, options.threads, lamps);
-    const gonio::render::half_vector_sampler material(gonio::render::lookup_table<>::of(table));
-    const gonio::render::sampled_sphere_view view{.size = options.image.size,
-                                                  .samples = options.quality,
-                                                  .seed = options.seed,
-                                                  .white = options.image.exposure.value_or(exposure_in_environment)};
-    return gonio::render::render_sphere(material, *light, view, options.threads, bar.listener());
-  };
+  material_painter image_of(options, light ? &*light : nullptr);
   std::vector<gonio::image> images;
-  for (const auto& path : options.tables) images.push_back(image_of(gonio::io::read_merl_any(path)));
+  for (const auto& path : options.tables) {
+    const any_material material =
+        options.slices ? any_material(read_table(path, options.threads)) : read_material(path, options.threads);
+    images.push_back(std::visit(image_of, material));
+  }
   if (!options.slices && !light) expose_spheres(images, options.image);
   if (options.compares) {
     auto [image, mean] = difference_of(images[0], images[1]);
     images.push_back(std::move(image));
-    std::cout << "Delta E of the images: " << fixed(mean, 2) << " on average; 0 is blue, 10 green, 20 and more red\n";
+    std::cout << "Delta E of the images: " << fixed(mean, 2) << " on average; 0 is light, 20 and more dark\n";
   }
   const gonio::image beside = contact_sheet(
       images, options.columns == 0 ? images.size() : std::min<std::size_t>(options.columns, images.size()),
@@ -169,7 +194,8 @@ void add_render(command& app) {
   command
       .add_input(
           "tables", options->tables,
-          "Tables (.binary or .binary.gz), left to right; or a map of gonio svbrdf (.gsv), a pixel for each texel")
+          "Tables (.binary, .binary.gz, .npy, .bsdf, .mbsdf or .bin), left to right, the grooves of anisotropic ones "
+          "about the vertical axis; or a map of gonio svbrdf (.gsv), a pixel for each texel")
       .required();
   add_prior_option(command, options->prior);
   command

@@ -1,6 +1,7 @@
 /// gonio report: completes samples and writes a page for people.
 
 #include "commands.hpp"
+#include "tool/files/file_kinds.hpp"
 #include "tool/files/measurement_files.hpp"
 #include "tool/options/reconstruct_choice.hpp"
 #include "tool/options/shipped_data.hpp"
@@ -11,7 +12,6 @@
 #include "tool/pages/report_data.hpp"
 #include "tool/pages/report_page.hpp"
 #include "tool/pages/warning.hpp"
-#include <gonio/io/materials/merl_gzip.hpp>
 
 #include <iostream>
 #include <memory>
@@ -25,7 +25,7 @@ namespace cli {
 
 namespace {
 
-/// More colours and symbols than these cannot be told apart in one chart.
+/// The largest number of files in one chart: more colours and symbols could not be told apart.
 constexpr std::size_t most_measurements = 6;
 
 struct report_options {
@@ -45,7 +45,8 @@ std::vector<std::string> names_of(const std::vector<std::filesystem::path>& file
   return names;
 }
 
-/// One of the files. All are read before any is reconstructed, so that a fault in the last is reported at once.
+/// One of the measured files. All files are read before the first is reconstructed, so that a fault in any file is
+/// reported at once.
 struct fitted_file {
   std::string name;
   reconstruct_options options;
@@ -71,7 +72,7 @@ void require_sensible(const report_options& options) {
   if (files > most_measurements)
     gonio::refuse({"a page shows at most ", most_measurements, " files of samples, not ", files});
   if (files > 1 && !options.truth.empty())
-    gonio::refuse({"--truth needs one file of samples, not ", files, ": it is shown beside one fit"});
+    gonio::refuse({"--truth needs one file of samples, not ", files, ": the viewer shows the truth beside one fit"});
 }
 
 void write_report(const report_options& options) {
@@ -80,7 +81,7 @@ void write_report(const report_options& options) {
   std::vector<fitted_file> files;
   for (std::size_t i = 0; i < names.size(); ++i) files.emplace_back(names[i], options.samples[i], options.fit);
   std::optional<gonio::brdf_table> truth;
-  if (!options.truth.empty()) truth = gonio::io::read_merl_any(options.truth);
+  if (!options.truth.empty()) truth = read_table(options.truth);
 
   const fitted_file& subject = files.front();
   const bool is_alone = files.size() == 1;
@@ -113,18 +114,19 @@ void add_report(command& app, const std::vector<std::string>& words) {
   command
       .add_input(
           "samples", options->samples,
-          "Measurements (.csv, or a format that gonio reconstruct reads); of several files, at most 6, the first "
-          "has the page, and the others stand beside it in its plots and its table of readings")
+          "One to six files of measurements (.csv, or a format that gonio reconstruct reads). The page describes the "
+          "first file; its plots and its table of readings also show the others")
       .required();
   command
-      .add_output("-o,--output", options->page.path, {".html", ".pdf"},
-                  "Page to write: one file (.html), which a browser shows without a network, or on paper (.pdf), as "
-                  "chromium prints it, if it is on the PATH")
+      .add_output(
+          "-o,--output", options->page.path, {".html", ".pdf"},
+          "Page to write: .html, one file that a browser shows without a network; or .pdf, which needs chromium "
+          "on the PATH")
       .required();
   command.add_option("--title", options->title, "Heading of the page (default: the name of the file)");
-  command.add_input(
-      "--truth", options->truth,
-      "Table that the viewer shows beside the fit of one file (.binary or .binary.gz): the truth, or another material");
+  command.add_input("--truth", options->truth,
+                    "Table that the viewer shows beside the fit of one file (.binary, .binary.gz, .npy, .bsdf or "
+                    ".mbsdf): the truth, or another material");
   add_measurement_options(command, options->fit.reading);
   add_aperture_options(command, options->fit.reading.aperture);
   add_prior_option(command, options->fit.materials.prior);

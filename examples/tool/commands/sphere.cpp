@@ -34,14 +34,14 @@ using sphere_photograph = taken_photograph<gonio::io::sphere_setup>;
 std::vector<sphere_photograph> photographs_of(const sphere_command& options) {
   return read_photographs(options.files, [&](const std::string& file, const auto& calibration) {
     gonio::io::sphere_setup setup = gonio::io::read_sphere_setup(file, calibration);
-    if (options.normals.empty() && !setup.radius) gonio::refuse(file + ": 'sphere' is missing (or --normals)");
+    if (options.normals.empty() && !setup.radius) gonio::refuse(file + ": needs 'sphere' or the option --normals");
     if (!options.normals.empty() && setup.radius)
       gonio::refuse(file + ": 'sphere' and --normals exclude each other: give one of them");
     return setup;
   });
 }
 
-/// Returns the sphere of a photograph: given by the set-up, drawn by hand, or found; the last two are printed.
+/// Returns the sphere of a photograph: from the set-up, from an outline drawn by hand, or found in the image.
 gonio::capture::fitted_outline sphere_of(const sphere_photograph& taken) {
   const gonio::io::sphere_setup& setup = taken.setup;
   if (setup.centre) return {{*setup.centre, *setup.radius}};
@@ -64,8 +64,8 @@ void require_fixed(const std::vector<sphere_photograph>& taken) {
                     taken.front().setup_file);
 }
 
-/// Returns the sphere of each photograph. With --fixed, all get the sphere whose outline is the most complete; other
-/// photographs may then show too little of theirs.
+/// Returns the sphere of each photograph. With --fixed, all get the sphere with the most complete outline; the other
+/// photographs may show only a small part of their outlines.
 std::vector<gonio::capture::fitted_outline> spheres_of(const std::vector<sphere_photograph>& taken, bool fixed) {
   std::vector<gonio::capture::fitted_outline> all;
   if (!fixed) {
@@ -106,7 +106,7 @@ known_surfaces surfaces_of(const std::vector<sphere_photograph>& taken, const sp
   return all;
 }
 
-/// Returns nothing if no cell has enough pixels.
+/// Returns the noise as text; an empty text if no cell has enough pixels.
 std::string noise_of(const gonio::capture::photograph_samples& found) {
   const double noise = 100.0 * found.pixel_deviation.mean();
   return noise > 0.0 ? ", noise of a pixel about " + fixed(noise, 1) + " %" : "";

@@ -88,7 +88,7 @@ class svbrdf_job {
   }
 
  private:
-  /// Returns an empty block after the last band.
+  /// Returns the rows of a band; after the last band, an empty block.
   static gonio::block rows_of(const gonio::io::svbrdf_header& header, Eigen::Index band) {
     const Eigen::Index first = std::min(band * header.band_rows, header.rows);
     return {first, std::min(first + header.band_rows, header.rows)};
@@ -199,7 +199,7 @@ void add_svbrdf(command& app, const team& processes) {
       .excludes(noise);
   command
       .add_output("-o,--output", options->output, {".gsv"},
-                  "Map to write (.gsv). The same command resumes an interrupted one")
+                  "Map to write (.gsv). If the run is interrupted, the same command resumes it")
       .required();
   command.add_output("--weights", options->weights, {".npy"},
                      "Array to write of the map's weights: rows x columns x 3 x functions, half floats");

@@ -17,7 +17,7 @@ namespace {
 
 constexpr Eigen::Index looked_at = 16384;
 
-/// Returns the weights of some texels of a band, 3r x texels.
+/// Returns the `own` weights of each of some texels of a band: own x texels.
 Eigen::MatrixXf weights_of(const gonio::io::svbrdf_band& band, const std::vector<Eigen::Index>& texels,
                            Eigen::Index own) {
   Eigen::MatrixXf weights(own, std::ssize(texels));
@@ -28,7 +28,7 @@ Eigen::MatrixXf weights_of(const gonio::io::svbrdf_band& band, const std::vector
   return weights;
 }
 
-/// Returns texels as points whose distances are compared, one per row.
+/// Returns a point for each texel, one per row. The distance of two points is the distance of their texels.
 gonio::capture::point_matrix points_of(const Eigen::MatrixXf& metric, const Eigen::MatrixXf& weights) {
   const Eigen::Index r = metric.cols();
   const Eigen::Map<const Eigen::MatrixXf> channels(weights.data(), r, weights.size() / r);

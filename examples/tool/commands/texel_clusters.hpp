@@ -25,20 +25,21 @@ class texel_clusters {
 
   [[nodiscard]] Eigen::Index count() const noexcept { return centres_.rows(); }
 
-  /// Returns for each texel of a band the number of its cluster, from 1 on in order of decreasing size among the
-  /// sampled texels; 0 outside the sample. Adds the texels to `summary`.
+  /// Returns for each texel of a band the number of its cluster; 0 for texels that are not part of the flat sample.
+  /// Cluster 1 has the most of the texels that the constructor drew, and so on. Adds the texels to `summary`.
   [[nodiscard]] std::vector<std::uint8_t> assign(const gonio::io::svbrdf_band& band);
 
-  /// The texels assigned so far.
+  /// Sums over the texels that were assigned to one cluster so far.
   struct cluster {
     double texels = 0.0;
     double squared_distances = 0.0;  ///< summed squared distances to the centre
-    Eigen::VectorXd weights;         ///< summed weights of the map's functions, 3 r
+    Eigen::VectorXd weights;         ///< summed weights: 3 channels x the map's functions
     /// Returns the root mean square of the distances to the centre.
     [[nodiscard]] double distance() const;
   };
   [[nodiscard]] const std::vector<cluster>& summary() const noexcept { return summary_; }
-  /// Returns the mean weights of the prior's components in a cluster, k x 3: an average of logarithms of reflectance.
+  /// Returns the mean weights of the prior's components in a cluster, components x 3: an average of logarithms of
+  /// reflectance.
   [[nodiscard]] Eigen::MatrixXd mean_weights(Eigen::Index number) const;
 
  private:

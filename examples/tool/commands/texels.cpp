@@ -64,7 +64,8 @@ void write_texel_image(const std::filesystem::path& path, const gonio::io::svbrd
   gonio::io::write_png(path, picture);
 }
 
-/// Writes a part of the map as an array, or as an image with a scale on which `share_of` gives a number's position.
+/// Writes one member of all bands as an array or as an image. In an image, a number has the colour at the position
+/// `share_of(number)` of the scale.
 void write_part(const std::filesystem::path& path, const gonio::io::svbrdf_map& map,
                 std::vector<std::uint16_t> band::*part, const colour_scale& scale,
                 const std::function<double(double)>& share_of) {
@@ -78,8 +79,8 @@ void write_part(const std::filesystem::path& path, const gonio::io::svbrdf_map& 
   write_texel_image(path, map, colours_of, &scale);
 }
 
-/// Reaches up to 5: with 20 images, texels are known less well than most of their directions, by a factor of e, because
-/// their uncertainty is the root mean square over all directions.
+/// Returns the position of an uncertainty on a scale from 0.1 to 5. A texel's uncertainty is the root mean square over
+/// all directions, which is larger than the uncertainty of most directions: with 20 images, about 1.
 double place_of_uncertainty(double uncertainty) { return gonio::render::place_by_factors(uncertainty, 0.1, 5.0); }
 
 colour_scale scale_of_uncertainty() {
@@ -90,7 +91,7 @@ colour_scale scale_of_uncertainty() {
 
 // ---- clusters ----------------------------------------------------------------------------------
 
-/// Writes K x 3 x k: the mean weights of the prior's components.
+/// Writes the mean weights of the prior's components: clusters x 3 x components.
 void write_materials(const std::filesystem::path& path, const texel_clusters& clusters, Eigen::Index components) {
   xt::xtensor<float, 3> means(
       std::array<std::size_t, 3>{static_cast<std::size_t>(clusters.count()), 3, static_cast<std::size_t>(components)});
@@ -262,8 +263,9 @@ void add_texels(command& app) {
                          "Folder to write with the mean materials, as MERL tables material-1.binary and so on")
       .needs(clusters);
   command.add_option("--seed", options->seed, "Seed of the clusters").needs(clusters).capture_default_str();
-  auto other = command.add_input("--compare", options->other,
-                                 "Another map of the same texels and prior, to compare as seen along the normal");
+  auto other =
+      command.add_input("--compare", options->other,
+                        "Another map of the same texels and prior. Both maps are compared as seen along the normal");
   auto delta_e = command
                      .add_output("--delta-e", options->delta_e, {".png", ".npy"},
                                  "Image or array to write of CIELAB's Delta E of each texel: light at 0, dark from 10")

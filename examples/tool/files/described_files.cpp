@@ -1,5 +1,6 @@
 #include "described_files.hpp"
 
+#include "described_materials.hpp"
 #include "exr_files.hpp"
 #include "file_start.hpp"
 #include "lab/recorded_frames.hpp"
@@ -13,11 +14,9 @@
 #include <gonio/io/images/exposure_times.hpp>
 #include <gonio/io/images/image.hpp>
 #include <gonio/io/images/pnm.hpp>
-#include <gonio/io/materials/mbsdf.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/networks.hpp>
 #include <gonio/io/materials/prior.hpp>
-#include <gonio/io/materials/rgl.hpp>
 #include <gonio/io/materials/soft_specular_prior.hpp>
 #include <gonio/io/materials/svbrdf_map.hpp>
 #include <gonio/io/measurements/reference_reflectance.hpp>
@@ -55,7 +54,7 @@ struct file_look {
   std::uintmax_t size = 0;
 };
 
-/// A kind of file: how it is recognised and described, with or without the user's options for samples.
+/// A kind of file: how it is recognised, and how it is described with or without the user's options for samples.
 struct described_kind {
   bool (*recognises)(const file_look& file);
   json (*describe)(const path_type& path);
@@ -82,7 +81,8 @@ json describe_table(const path_type& path) {
   return facts;
 }
 
-/// A table under any name: three int32, and the float64 values that they require.
+/// Is it a MERL table? Yes, if its name ends in .binary, if it is compressed, or if it consists of three int32 and the
+/// number of float64 that these require.
 bool is_table(const file_look& file) {
   if (file.extension == ".binary") return true;
   if (file.start.starts_with("\x1F\x8B")) return true;
@@ -144,7 +144,7 @@ json describe_svbrdf(const path_type& path) {
           {"share_of_disagreement_above_3", contradicted / divisor}};
 }
 
-/// Returns the smallest and the largest, degrees.
+/// Returns the smallest and the largest half angle in degrees.
 json half_angles_of(const gonio::sample_set& samples, double gonio::aperture::*half_angle) {
   double least = gonio::largest_half_angle, most = 0.0;
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
@@ -165,31 +165,6 @@ json describe_samples(const path_type& path, const measurement_options& reading)
     for (const auto& [key, half_angle] : {std::pair("source_half_angle", &gonio::aperture::source),
                                           std::pair("receiver_half_angle", &gonio::aperture::receiver)})
       facts[key] = half_angles_of(file.samples, half_angle);
-  return facts;
-}
-
-json describe_rgl(const path_type& path) {
-  const gonio::io::rgl_material file = gonio::io::read_rgl(path);
-  const std::vector<double>& theta_i = file.material.parts().theta_i;
-  json facts{{"kind", "RGL material"},
-             {"description", file.description},
-             {"directions_of_light", theta_i.size()},
-             {"theta_i", {rounded_degrees(theta_i.front()), rounded_degrees(theta_i.back())}}};
-  if (file.spectra) facts["wavelengths_nm"] = file.spectra->wavelengths;
-  return facts;
-}
-
-json describe_mbsdf(const path_type& path) {
-  const gonio::io::mbsdf_material file = gonio::io::read_mbsdf(path);
-  const gonio::model::polar_grid& cells = file.reflection.grid();
-  const std::span<const float> values = file.reflection.values();
-  json facts{{"kind", "MDL measurement"},
-             {"grid", {cells.polar, cells.polar, cells.azimuth}},
-             {"channels", file.reflection.channels()},
-             {"transmission", file.has_transmission},
-             {"maximum", double{*std::ranges::max_element(values)}},
-             {"negative_values", std::ranges::count_if(values, [](float value) { return value < 0.0f; })}};
-  for (const auto& [key, value] : file.metadata) facts["metadata"][key] = value;
   return facts;
 }
 
@@ -283,7 +258,7 @@ json describe_csv(const path_type& path, const measurement_options& reading) {
   if (starts_with({"file", "seconds"})) return describe_exposure_times(path);
   if (starts_with({"pose"})) return {{"kind", "poses of a machine"}};
   if (starts_with({"round", "error"})) return {{"kind", "history of an iteration"}};
-  if (starts_with({"sample", "r", "g", "b", "others_r"})) return {{"kind", "what the others say of each sample"}};
+  if (starts_with({"sample", "r", "g", "b", "others_r"})) return {{"kind", "residuals of gonio reconstruct"}};
   if (std::ranges::any_of(header,
                           [](std::string_view name) { return gonio::io::lower_case(name).starts_with("factor"); })) {
     static_cast<void>(gonio::io::read_reference_reflectance(path));
@@ -331,6 +306,7 @@ constexpr std::array kinds{
                    }},
     described_kind{[](const file_look& file) { return file.start.starts_with("tensor_file"); }, describe_rgl},
     described_kind{[](const file_look& file) { return file.start.starts_with("NVIDIA ARC MBSDF"); }, describe_mbsdf},
+    described_kind{[](const file_look& file) { return file.extension == ".bin"; }, describe_utia},
     described_kind{[](const file_look& file) { return file.start.starts_with("\x93NUMPY"); }, describe_array},
     described_kind{[](const file_look& file) { return file.start.starts_with("\x89PNG"); },
                    [](const path_type& path) { return code_facts("PNG image", gonio::io::read_png_codes(path)); }},
@@ -398,7 +374,7 @@ json describe(const gonio::log_relative_pca& prior) {
 }
 
 json describe_file(const std::filesystem::path& path, const measurement_options& reading) {
-  // It may be in the program, and is a prior or directions.
+  // A shipped file may be in the program itself. It is a prior or a list of directions.
   if (is_shipped(path) && lower_extension(path) == ".prior") return describe(read_prior(path));
   if (is_shipped(path)) return facts_of_directions(cli::read_direction_pairs(path, {}));
   const file_look file(path);

@@ -1,11 +1,12 @@
 #pragma once
-/// EXIF data of JPEG files if the tool was built with libexif; otherwise throws gonio::error.
+/// EXIF data of JPEG files. Without libexif, the function throws gonio::error.
 
 #include <filesystem>
 #include <optional>
 
 namespace cli {
 
+/// Returns the exposure time in seconds, if the file has one.
 [[nodiscard]] std::optional<double> read_exif_exposure_time(const std::filesystem::path& path);
 
 }  // namespace cli

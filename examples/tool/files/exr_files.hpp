@@ -1,5 +1,5 @@
 #pragma once
-/// OpenEXR images if the tool was built with OpenEXR; otherwise throws gonio::error.
+/// OpenEXR images. Without OpenEXR, the functions throw gonio::error.
 
 #include "image_rows.hpp"
 #include <gonio/table/image.hpp>

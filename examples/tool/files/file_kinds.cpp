@@ -1,20 +1,26 @@
 #include "file_kinds.hpp"
 
 #include "file_start.hpp"
+#include "measurement_kinds.hpp"
 #include "tool/pages/elapsed_time.hpp"
 #include "tool/pages/fixed.hpp"
+#include "tool/pages/sample_warnings.hpp"
 #include "tool/pages/warning.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/rgl_spectra.hpp>
 #include <gonio/io/materials/table_npy.hpp>
+#include <gonio/io/materials/utia.hpp>
 #include <gonio/io/measurements/openmaterial.hpp>
 #include <gonio/io/measurements/samples.hpp>
+#include <gonio/io/measurements/zemax_table.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/model/clipped_brdf.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <utility>
 
 namespace cli {
 
@@ -30,13 +36,29 @@ using bytes = std::span<const std::byte>;
       {path.native(), ": needs a whole material, but the input holds samples: complete them with 'gonio reconstruct'"});
 }
 
-/// Calls `use` with the BRDF of a complete material.
+/// Does the file hold an anisotropic material?
+bool is_anisotropic(const file_content& content) {
+  if (const auto* material = std::get_if<io::rgl_material>(&content)) return material->material.is_anisotropic();
+  const auto* grid = std::get_if<gonio::model::angle_grid_brdf>(&content);
+  return grid != nullptr && grid->is_anisotropic();
+}
+
+/// Calls `use` with the BRDF of a complete material. `path` is to be written.
 template <class Use>
-auto with_brdf(const fs::path& path, const file_content& content, Use&& use) {
+auto with_any_brdf(const fs::path& path, const file_content& content, Use&& use) {
   if (std::holds_alternative<gonio::sample_set>(content)) refuse_samples(path);
   if (const auto* table = std::get_if<gonio::brdf_table>(&content)) return use(*table);
   if (const auto* material = std::get_if<io::rgl_material>(&content)) return use(material->material);
+  if (const auto* grid = std::get_if<gonio::model::angle_grid_brdf>(&content)) return use(*grid);
   return use(std::get<io::mbsdf_material>(content).reflection);
+}
+
+/// Calls `use` with the BRDF of a complete isotropic material.
+template <class Use>
+auto with_brdf(const fs::path& path, const file_content& content, Use&& use) {
+  if (is_anisotropic(content))
+    gonio::refuse({path.native(), ": needs an isotropic material, but the input is anisotropic: write a .bsdf file"});
+  return with_any_brdf(path, content, std::forward<Use>(use));
 }
 
 gonio::brdf_table as_table(const fs::path& path, const file_content& content, gonio::thread_count threads) {
@@ -50,11 +72,16 @@ gonio::valid_cells cells_of(const file_content& content) {
   return table != nullptr ? table->cells() : gonio::valid_cells();
 }
 
-/// Does the BRDF have negative values although the renderer's file must have none? If so, warns the user.
+/// Must negative values be written as 0? If so, warns the user.
 template <gonio::brdf Brdf>
 bool must_be_clipped(const fs::path& path, const Brdf& f, const gonio::valid_cells& cells, const writing& how) {
   if (how.keeps_negative) return false;
-  const gonio::model::clipped_values found = gonio::model::count_negative_values(f, cells);
+  gonio::model::clipped_values found;
+  if constexpr (std::same_as<Brdf, gonio::model::angle_grid_brdf>)
+    found = gonio::model::count_negative_values(
+        f, cells, f.is_anisotropic() ? gonio::model::cell_azimuths::all : gonio::model::cell_azimuths::zero);
+  else
+    found = gonio::model::count_negative_values(f, cells);
   if (found.cells == 0) return false;
   const auto percent = [&](Eigen::Index channel) { return fixed(100.0 * found.added[channel], 2) + " %"; };
   warn(path.native() + ": " + std::to_string(found.cells) + " of " + std::to_string(cells.size()) +
@@ -63,10 +90,10 @@ bool must_be_clipped(const fs::path& path, const Brdf& f, const gonio::valid_cel
   return true;
 }
 
-/// Calls `use` with the BRDF of a complete material as a renderer needs it: without negative values.
+/// Calls `use` with the BRDF of a complete material, isotropic or not, without negative values unless `how` keeps them.
 template <class Use>
 auto with_clipped_brdf(const fs::path& path, const file_content& content, const writing& how, Use&& use) {
-  return with_brdf(path, content, [&](const auto& f) {
+  return with_any_brdf(path, content, [&](const auto& f) {
     const gonio::brdf_view view(f);
     return must_be_clipped(path, f, cells_of(content), how) ? use(gonio::model::clipped_brdf(view)) : use(view);
   });
@@ -78,11 +105,28 @@ io::rgl_material as_rgl(const fs::path& path, const file_content& content, const
     return {gonio::model::clipped(material->material, how.threads), material->description, {}};
   }
   return with_clipped_brdf(path, content, how, [&](const auto& f) -> io::rgl_material {
+    if (is_anisotropic(content))
+      return {gonio::model::tabulate_adaptively(f, gonio::model::anisotropic_resolution{}, how.threads),
+              path.stem().string(),
+              {}};
     return {gonio::model::tabulate_keeping_albedo(f, how.albedo_tolerance, how.threads), path.stem().string(), {}};
   });
 }
 
-/// Returns the requested number of cells; else that of a table's difference angles, or the default.
+/// Refuses an anisotropic material for an isotropic format.
+void require_isotropic(const fs::path& path, const file_content& content) {
+  with_brdf(path, content, [](const auto&) {});
+}
+
+void write_zemax(const fs::path& path, const file_content& content, const writing& how) {
+  const io::zemax_resolution resolution =
+      is_anisotropic(content) ? io::zemax_resolution{} : io::zemax_resolution{.rotations = 1};
+  const auto grid = with_clipped_brdf(
+      path, content, how, [&](const auto& f) { return io::tabulate_about_specular(f, resolution, how.threads); });
+  io::write_zemax_table(path, grid, path.stem().string() + ", written by gonio");
+}
+
+/// Returns the requested grid, else the grid of the file's polar angles or difference angles, else the default.
 gonio::model::polar_grid polar_grid_of(const file_content& content, const writing& how) {
   if (how.polar_steps != 0) return {how.polar_steps, 2 * how.polar_steps};
   if (const auto* material = std::get_if<io::mbsdf_material>(&content)) return material->reflection.grid();
@@ -93,6 +137,7 @@ gonio::model::polar_grid polar_grid_of(const file_content& content, const writin
 }
 
 io::mbsdf_material as_mbsdf(const fs::path& path, const file_content& content, const writing& how) {
+  require_isotropic(path, content);
   const auto* material = std::get_if<io::mbsdf_material>(&content);
   const auto tabulated = [&](const auto& f) -> io::mbsdf_material {
     return {gonio::model::tabulate_polar(f, polar_grid_of(content, how), how.threads),
@@ -115,8 +160,9 @@ void write_array(const fs::path& path, const file_content& content, const writin
     io::write_table_npy(path, table);
 }
 
-void write_rgl(const fs::path& path, const file_content& content, const writing& how) {
+void write_bsdf(const fs::path& path, const file_content& content, const writing& how) {
   constexpr double large = 100.0;
+  if (how.as_zemax) return write_zemax(path, content, how);
   if (const auto* given = std::get_if<io::rgl_material>(&content); given != nullptr && given->spectra) {
     const double megabytes = 4e-6 * static_cast<double>(given->spectra->values.values.size());
     if (megabytes > large)
@@ -134,6 +180,7 @@ void write_mbsdf(const fs::path& path, const file_content& content, const writin
 }
 
 void write_openmaterial(const fs::path& path, const file_content& content, const writing& how) {
+  require_isotropic(path, content);
   io::openmaterial_metadata metadata{.name = path.stem().string(), .description = "Written by gonio."};
   if (metadata.name.ends_with("_brdf")) metadata.name.resize(metadata.name.size() - 5);
   io::openmaterial_steps steps;
@@ -148,7 +195,10 @@ void write_samples(const fs::path& path, const file_content& content, const writ
   if (samples == nullptr)
     gonio::refuse(
         {path.native(), ": needs samples, but the input is a whole material: measure it with 'gonio sample'"});
-  io::write_samples(path, *samples);
+  // Half and difference angles suffice unless the material is anisotropic.
+  io::write_samples(
+      path, *samples, {},
+      looks_anisotropic(*samples) ? io::direction_columns::pairs : io::direction_columns::half_difference);
 }
 
 bool ends_as(const fs::path& path, const file_kind& kind) {
@@ -181,16 +231,20 @@ const std::vector<file_kind>& file_kinds() {
        {"tensor_file\0", 12},
        [](bytes content, const std::string& name) -> file_content {
          io::rgl_material material = io::read_rgl(content, name);
-         static_cast<void>(io::colours_of(material, name));  // every other kind has colours
+         static_cast<void>(io::colours_of(material, name));  // refuses invisible wavelengths: a material needs colours
          return material;
        },
-       &write_rgl},
+       &write_bsdf},
       {"MDL measurement",
        {".mbsdf"},
        "NVIDIA ARC MBSDF",
        [](bytes content, const std::string& name) -> file_content { return io::read_mbsdf(content, name); },
        &write_mbsdf},
       {"OpenMATERIAL table", {".xompt"}, "", nullptr, &write_openmaterial},
+      {"UTIA material",
+       {".bin"},
+       "",
+       [](bytes content, const std::string& name) -> file_content { return io::read_utia(content, name); }},
       {"table as an array",
        {".npy"},
        "\x93NUMPY",
@@ -223,6 +277,52 @@ file_content read_file(const fs::path& path, const measurement_options& reading)
   return found->parse(content, path.string());
 }
 
+namespace {
+
+bool is_zemax_table(const fs::path& path) {
+  const measurement_kind* kind = measurement_kind_of(path);
+  return kind != nullptr && kind->name == "Zemax BSDF";
+}
+
+/// Reads a complete material.
+file_content read_whole(const fs::path& path) {
+  if (holds_measurements(path))
+    gonio::refuse(
+        {path.native(), ": holds samples, expected a whole material: complete them with 'gonio reconstruct'"});
+  const std::vector<std::byte> content = io::read_bytes(path);
+  const auto is_kind = [&](const file_kind& kind) { return begins_as(content, kind) || ends_as(path, kind); };
+  const std::vector<file_kind>& kinds = file_kinds();
+  const auto found = std::ranges::find_if(kinds, is_kind);
+  if (found == kinds.end() || found->parse == nullptr) return io::read_merl(content, path.string());
+  return found->parse(content, path.string());
+}
+
+}  // namespace
+
+file_content read_file_for(const fs::path& output, const fs::path& path, const measurement_options& reading) {
+  if (written_kind(output).write == &write_samples || !is_zemax_table(path)) return read_file(path, reading);
+  require_unused(reading, path);
+  return io::read_zemax_table(path);
+}
+
+gonio::brdf_table read_table(const fs::path& path, gonio::thread_count threads) {
+  const file_content content = read_whole(path);
+  if (is_anisotropic(content)) gonio::refuse({path.native(), ": is anisotropic, expected an isotropic material"});
+  return as_table(path, content, threads);
+}
+
+any_material read_material(const fs::path& path, gonio::thread_count threads) {
+  const file_content content = is_zemax_table(path) ? file_content(io::read_zemax_table(path)) : read_whole(path);
+  if (!is_anisotropic(content)) return as_table(path, content, threads);
+  if (const auto* grid = std::get_if<gonio::model::angle_grid_brdf>(&content)) return *grid;
+  return std::get<io::rgl_material>(content).material;
+}
+
+bool holds_table(const fs::path& path) {
+  const auto is_kind = [&](const file_kind& kind) { return kind.parse != nullptr && ends_as(path, kind); };
+  return std::ranges::any_of(file_kinds(), is_kind) && !holds_measurements(path);
+}
+
 const file_kind& written_kind(const fs::path& path) {
   for (const file_kind& kind : file_kinds())
     if (kind.write != nullptr && ends_as(path, kind)) return kind;
@@ -243,7 +343,7 @@ void write_spectra(const fs::path& path, const gonio::spectral_table& table, con
     warn(path.native() + ": " + std::to_string(written) + " of " + std::to_string(table.bands()) +
          " wavelengths written; the others are interpolated linearly, within " +
          io::shortest(std::round(1e6 * how.albedo_tolerance) / 1e4) + " %");
-  write_rgl(path, content, how);
+  write_bsdf(path, content, how);
 }
 
 }  // namespace cli

@@ -21,7 +21,7 @@ bool is_tiff(const std::filesystem::path& file) {
   return extension == ".tif" || extension == ".tiff";
 }
 
-/// Returns the exposure time that the camera recorded in the file itself, or in a JPEG file of the same name beside it.
+/// Returns the camera's exposure time in seconds, from the file or from a JPEG file of the same name beside it.
 std::optional<double> seconds_of_camera(const std::filesystem::path& file) {
   if (is_tiff(file))
     if (const auto seconds = read_tiff_exposure_time(file)) return seconds;

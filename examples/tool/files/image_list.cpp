@@ -30,7 +30,7 @@ void require_known(const json& object, std::initializer_list<std::string_view> k
   }
 }
 
-/// Returns the angles of some keys, given in degrees, in radians; nothing if the image has none of them.
+/// Reads the angles of some keys, in degrees, and returns them in radians; returns nothing if all keys are absent.
 template <std::size_t Count>
 std::optional<std::array<double, Count>> radians_of(const json& image, const std::array<const char*, Count>& keys,
                                                     const std::string& name) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Images of linear radiance, read some rows at a time; only these are in memory.
+/// Images of linear radiance, read some rows at a time; only these rows are in memory.
 
 #include <gonio/core/parallel.hpp>
 
@@ -22,7 +22,7 @@ class image_rows {
   [[nodiscard]] virtual Eigen::Index rows() const = 0;
   [[nodiscard]] virtual Eigen::Index columns() const = 0;
 
-  /// Announces the range of rows to be read next: if its position is known, the system reads it ahead.
+  /// Announces the rows to be read next. The system reads them ahead if their position in the file is known.
   virtual void will_read(gonio::block rows) const noexcept { static_cast<void>(rows); }
   /// Reads red, green and blue of each pixel of a range of rows; `out` has 3 x columns x rows numbers. Not thread-safe.
   /// Throws gonio::error naming the image.

@@ -19,7 +19,7 @@ namespace cli {
 
 namespace {
 
-/// Opens a file that vanishes with its process.
+/// Opens a file without a name, which vanishes with the process.
 gonio::io::descriptor unnamed_file(const std::filesystem::path& folder) {
   gonio::io::descriptor file;
 #if defined(O_TMPFILE)

@@ -128,7 +128,7 @@ bool operator==(const json& one, const json& other) {
 
 namespace {
 
-/// Builds a value from the events of the library's parser, which does not recurse; false stops it.
+/// Builds a value from the events of nlohmann's parser, which does not recurse. Events that return false stop it.
 class json_reader {
  public:
   using number_integer_t = nlohmann::json::number_integer_t;
@@ -188,7 +188,7 @@ class json_reader {
     return add(std::move(value));
   }
 
-  /// A repeated key keeps its first position and its last value, as in the library's ordered objects.
+  /// A repeated key keeps its first position and its last value, as in nlohmann's ordered objects.
   static void keep_last_of_each_key(std::vector<json::member>& members) {
     std::vector<std::size_t> by_key(members.size());
     std::iota(by_key.begin(), by_key.end(), std::size_t{0});
@@ -215,7 +215,7 @@ class json_reader {
 
 }  // namespace
 
-/// Converts a value for the library's writer.
+/// Converts a value to nlohmann's type, whose writer prints it.
 struct json_text {
   static nlohmann::ordered_json library_form(const json& from) {
     return std::visit(
@@ -227,7 +227,7 @@ struct json_text {
             return values;
           } else if constexpr (std::is_same_v<held_type, std::vector<json::member>>) {
             auto members = nlohmann::ordered_json::object();
-            // The library's own insertion searches all members.
+            // nlohmann's own insertion would search all members.
             auto& list = members.get_ref<nlohmann::ordered_json::object_t&>();
             for (const auto& [key, each] : value) list.emplace_back(key, library_form(each));
             return members;

@@ -1,6 +1,6 @@
 #pragma once
 /// Results as JSON; objects keep the order of their keys. Only json.cpp includes nlohmann's library, which takes
-/// seconds to compile. The text equals that of its ordered_json.
+/// seconds to compile. The text is the one that nlohmann's ordered_json prints.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace cli {
 
-/// Null, true or false, a number, a text, an array or an object. Braces make an object of pairs that begin with a text,
-/// and an array of anything else.
+/// Null, true or false, a number, a text, an array or an object. Braces make an object if all elements are pairs that
+/// begin with a text, otherwise an array.
 class json {
  public:
   using member = std::pair<std::string, json>;
@@ -48,7 +48,7 @@ class json {
 
   [[nodiscard]] static json array(std::initializer_list<json> values = {});
   [[nodiscard]] static json object();
-  /// The nesting and the number of values that `read` accepts: destroying or printing a value recurses.
+  /// The deepest nesting and the most values that `read` accepts. Nesting is limited: destroying and printing recurse.
   static constexpr std::size_t deepest = 100, most_values = 1 << 18;
   /// Returns null if the text is not JSON or exceeds these limits.
   [[nodiscard]] static json read(const std::string& text);
@@ -60,7 +60,7 @@ class json {
   [[nodiscard]] bool is_array() const noexcept;
   [[nodiscard]] bool is_object() const noexcept;
 
-  // The content. These throw std::logic_error if the value is of another type.
+  // These functions return the content. They throw std::logic_error if the value is of another type.
   [[nodiscard]] bool truth() const;
   [[nodiscard]] double number() const;
   [[nodiscard]] const std::string& text() const;
@@ -69,7 +69,7 @@ class json {
   [[nodiscard]] const std::vector<member>& items() const;
   [[nodiscard]] std::vector<member>& items();
 
-  /// For arrays; null becomes an array.
+  /// These functions are for arrays; `push_back` first turns null into an array.
   void push_back(json value);
   [[nodiscard]] const json& operator[](std::size_t index) const;
   [[nodiscard]] json& operator[](std::size_t index);
@@ -78,7 +78,7 @@ class json {
   [[nodiscard]] json& operator[](const std::string& key);
   [[nodiscard]] const json& operator[](const std::string& key) const;
   [[nodiscard]] bool contains(const std::string& key) const;
-  /// Adds or replaces members by those of another object.
+  /// Adds the members of another object. They replace members with the same keys.
   void update(const json& other);
 
   /// Returns the number of elements of an array or members of an object.

@@ -23,7 +23,7 @@ namespace cli {
 
 namespace {
 
-/// Returns the light's azimuth to a tenth of a degree; nothing near the normal, where it has none.
+/// Returns the light's azimuth to a tenth of a degree; nothing if the light is within 0.1 degrees of the normal.
 std::optional<double> rotation_of(const gonio::direction_pair& pair) {
   constexpr double least_incidence = 0.1;
   if (gonio::degrees(gonio::polar_angle(pair.wi)) < least_incidence) return {};
@@ -43,15 +43,16 @@ void add_columns(const std::string& list, std::vector<gonio::io::column_name>& c
   }
 }
 
-/// Returns the light's azimuths in degrees, ascending, if they are few: the rotations of a sample.
+constexpr std::size_t most_rotations = 36;
+
+/// Returns the rotations of a sample: the light's azimuths in degrees, ascending. Stops once there are more than
+/// `most_rotations`.
 std::vector<double> rotations_of(const gonio::sample_set& samples) {
-  constexpr std::size_t most = 36;
   std::vector<double> all;
-  for (Eigen::Index i = 0; i < std::ssize(samples) && all.size() <= most; ++i)
+  for (Eigen::Index i = 0; i < std::ssize(samples) && all.size() <= most_rotations; ++i)
     if (const auto azimuth = rotation_of(samples.directions(i).pair());
         azimuth && std::ranges::count(all, *azimuth) == 0)
       all.push_back(*azimuth);
-  if (all.size() > most) all.clear();
   std::ranges::sort(all);
   return all;
 }
@@ -62,7 +63,16 @@ std::string listed(const std::vector<double>& rotations) {
   return text;
 }
 
-/// Returns the samples of one rotation if requested. Refuses samples that differ between rotations.
+/// "; the azimuths are 0, 90".
+std::string azimuths_in_words(const std::vector<double>& rotations) {
+  if (rotations.empty()) return "; the light is always along the normal";
+  if (rotations.size() > most_rotations) return "; there are more than " + std::to_string(most_rotations) + " azimuths";
+  return (rotations.size() == 1 ? "; the azimuth is " : "; the azimuths are ") + listed(rotations);
+}
+
+/// Returns the samples of the rotation that --rotation states. Without --rotation, returns all samples, but compares
+/// pairs that differ only by a rotation about the normal: warns if their median difference is above 10 %, throws if it
+/// is above 25 %.
 gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::filesystem::path& path,
                                   const measurement_options& options) {
   constexpr double noticeable = 0.1, anisotropic = 0.25;
@@ -74,15 +84,15 @@ gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::f
       if (rotation_of(samples.directions(i).pair()) == *options.rotation) chosen.push_back(i);
     if (chosen.empty())
       gonio::refuse({path.native(), ": no sample has the light at an azimuth of --rotation ",
-                     gonio::io::shortest(*options.rotation), ", only at ",
-                     rotations.empty() ? "too many to list" : listed(rotations)});
+                     gonio::io::shortest(*options.rotation), azimuths_in_words(rotations)});
     return samples.subset(chosen);
   }
-  if (options.takes_anisotropic || rotations.size() < 2) return samples;
+  if (options.takes_anisotropic || rotations.size() < 2 || rotations.size() > most_rotations) return samples;
   const gonio::model::equal_samples turned = gonio::model::compare_equal_samples(samples.in_three_channels()).turned;
   if (turned.pairs < fewest_pairs || turned.median < noticeable) return samples;
-  const std::string sentence = path.native() + ": turned about the normal, " + std::to_string(turned.pairs) +
-                               " pairs of samples differ by " + fixed(100.0 * turned.median, 0) + " % (median)";
+  const std::string sentence = path.native() + ": " + std::to_string(turned.pairs) +
+                               " pairs of samples that differ only by a rotation about the normal have values " +
+                               fixed(100.0 * turned.median, 0) + " % apart (median)";
   if (turned.median > anisotropic)
     gonio::refuse(
         {sentence, ": the sample is anisotropic; choose one of its rotations with --rotation: ", listed(rotations)});
@@ -90,7 +100,8 @@ gonio::sample_set of_one_rotation(const gonio::sample_set& samples, const std::f
   return samples;
 }
 
-/// Returns samples whose values are of this quantity, although their format states a BRDF.
+/// Converts values to a BRDF from the quantity that the user states. It overrides the file's format, according to which
+/// the values already are a BRDF.
 gonio::sample_set of_quantity(const gonio::sample_set& samples, gonio::io::sample_quantity quantity) {
   gonio::sample_set changed(samples.channels());
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
@@ -124,10 +135,12 @@ void add_measurement_options(command& to, measurement_options& options) {
   to.add_choice(
       "--theta-o-sign", [&options](int sign) { options.sign = static_cast<theta_o_sign>(sign); },
       {{"light", static_cast<int>(theta_o_sign::light)}, {"mirror", static_cast<int>(theta_o_sign::mirror)}},
-      "Which side of the normal a positive theta_o lies on, if the file has no azimuths or equal ones: light or "
-      "mirror. Default: as the file's format defines it, with a warning if the highlight is on the light's side");
+      "Side of the normal on which a positive theta_o lies (light or mirror), for files without azimuths or with equal "
+      "azimuths of light and viewer. Default: as the file's format defines it, with a warning if the highlight is on "
+      "the light's side");
   to.add_option("--rotation", options.rotation,
-                "Azimuth of the light in degrees: read only these samples, one rotation of an anisotropic sample")
+                "Azimuth of the light in degrees: read only the samples with this azimuth, one rotation of an "
+                "anisotropic material")
       .check(check::range(0.0, 360.0));
   to.add_option("--side", options.side,
                 "Side to read from a Klems matrix or a tensor tree: front or back (default: front, or back if there is "

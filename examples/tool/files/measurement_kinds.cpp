@@ -25,10 +25,10 @@ namespace cli {
 
 namespace {
 
-/// Geometry may come before the tree's data structure, which is then not in the file's first bytes.
+/// Reads a tensor tree or a Klems matrix. Searches the whole text: geometry may precede a tree's data structure.
 gonio::sample_set read_window_block(const std::filesystem::path& path, const gonio::io::window_block& wanted) {
-  const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
-  const std::string_view text = gonio::io::as_text(bytes);
+  const std::vector<std::byte> content = gonio::io::read_bytes(path);
+  const std::string_view text = gonio::io::as_text(content);
   return gonio::io::looks_like_tensor_tree_xml(text) ? gonio::io::read_tensor_tree_xml(text, path.string(), wanted)
                                                      : gonio::io::read_klems_xml(text, path.string(), wanted);
 }
@@ -36,7 +36,7 @@ gonio::sample_set read_window_block(const std::filesystem::path& path, const gon
 gonio::sample_set read_window_xml(const std::filesystem::path& path) { return read_window_block(path, {}); }
 
 constexpr std::array<measurement_kind, 13> kinds{{
-    // Before Zemax's files, which have the same first keywords.
+    // Must precede Zemax's files, which have the same first keywords.
     {"LightTools BSDF",
      [](std::string_view, std::string_view start) { return gonio::io::looks_like_lighttools_bsdf(start); },
      gonio::io::read_lighttools_bsdf},

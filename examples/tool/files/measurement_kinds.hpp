@@ -12,10 +12,10 @@ namespace cli {
 /// A kind of file of samples other than CSV.
 struct measurement_kind {
   std::string_view name;
-  /// From the name's extension, in lower case, and the first 65,536 bytes.
+  /// Recognises a file by its extension in lower case and its first 65,536 bytes.
   bool (*recognises)(std::string_view extension, std::string_view start);
   gonio::sample_set (*read)(const std::filesystem::path& path);
-  /// For files with several blocks, each of a side and a band of wavelengths.
+  /// Reads a block of a file with several blocks, each of a side and a band of wavelengths; nullptr for other kinds.
   gonio::sample_set (*read_block)(const std::filesystem::path& path, const gonio::io::window_block& wanted) = nullptr;
 };
 

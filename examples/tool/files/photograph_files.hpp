@@ -48,7 +48,8 @@ struct taken_photograph {
   }
 };
 
-/// Returns the white image of photograph number `i`, according to its set-up.
+/// Returns the white image of photograph `i`, counted from 0; nothing without --white. Throws gonio::error if the
+/// set-up has a white reflectance without --white, or the reverse.
 [[nodiscard]] std::optional<gonio::capture::white_reference> read_white(
     const photograph_files& files, std::size_t i, const std::optional<double>& reflectance,
     const std::optional<gonio::capture::placed_plane>& plane, const gonio::lens_camera& camera);

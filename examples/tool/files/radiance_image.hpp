@@ -8,11 +8,11 @@
 
 namespace cli {
 
-/// Returns the formats for help texts: ".hdr, .npy or .exr", the latter if this build has OpenEXR.
+/// Returns the formats for help texts: ".hdr, .npy or .exr", without .exr in a build without OpenEXR.
 [[nodiscard]] std::string radiance_formats();
 
-/// Returns the format for reading a file: ".npy", ".exr" or ".hdr"; a file that starts as Radiance's files do is ".hdr"
-/// under any name. Throws gonio::error naming the file if it is none of them, for example a photograph.
+/// Returns the format of a file to read, by its extension: ".npy", ".exr" or ".hdr". With another extension, a file
+/// that starts like Radiance's is ".hdr". Throws gonio::error naming any other file, for example a photograph.
 [[nodiscard]] std::string radiance_format(const std::filesystem::path& path);
 
 /// Reads an image. Throws gonio::error naming the file.

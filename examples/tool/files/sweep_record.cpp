@@ -54,8 +54,14 @@ sweep_record::sweep_record(const std::filesystem::path& output, std::uint32_t ch
   earlier_ = numbers_in(processes.text_of_writer(std::move(text)));
 }
 
-Eigen::Index sweep_record::next(const std::function<Eigen::Index()>& sweep) {
-  if (done_ < earlier_.size()) return earlier_[done_++];
+Eigen::Index sweep_record::next(const std::function<Eigen::Index()>& sweep, Eigen::Index candidates) {
+  if (done_ < earlier_.size()) {
+    const Eigen::Index known = earlier_[done_++];
+    if (known >= candidates)
+      gonio::refuse({path_.string(), ": names candidate ", known, ", but the last candidate is ", candidates - 1,
+                     ": remove the file"});
+    return known;
+  }
   const Eigen::Index best = sweep();
   if (writes_ && !path_.empty()) append(best);
   return best;

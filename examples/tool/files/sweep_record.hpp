@@ -1,5 +1,5 @@
 #pragma once
-/// A search's results so far, in a file beside its output, so that the next run resumes from them.
+/// A file beside a search's output with the results so far, from which the next run resumes.
 
 #include "tool/options/team.hpp"
 
@@ -14,18 +14,19 @@
 
 namespace cli {
 
-/// The best candidate of each sweep of a search, in order. They determine the search: with those of an earlier run it
-/// reaches the same state without repeating its sweeps. The file is text: a line that identifies the search, and a line
-/// for each sweep.
+/// The best candidate of each sweep of a search, in order. These candidates determine the search: with those of an
+/// earlier run, it reaches the same state without repeating the sweeps. The file is text: a line that identifies the
+/// search, and a line for each sweep.
 class sweep_record {
  public:
   /// The record of a search that writes `output`: the file `output`.part. `checksum` covers all inputs of the result.
-  /// Throws gonio::error in all processes if the file was begun with another one. There is no file before the first
-  /// sweep, nor if the output is not a regular file, such as a pipe.
+  /// Throws gonio::error in all processes if the file was begun with another checksum. There is no file before the
+  /// first sweep, nor if the output is not a regular file, such as a pipe.
   sweep_record(const std::filesystem::path& output, std::uint32_t checksum, const team& processes);
 
-  /// Returns the result of the next sweep, from an earlier run or computed now.
-  [[nodiscard]] Eigen::Index next(const std::function<Eigen::Index()>& sweep);
+  /// Returns the result of the next sweep, from an earlier run or computed now. Throws gonio::error, which names the
+  /// file, if the earlier run names none of the search's `candidates`.
+  [[nodiscard]] Eigen::Index next(const std::function<Eigen::Index()>& sweep, Eigen::Index candidates);
   /// Returns the number of sweeps of earlier runs.
   [[nodiscard]] std::size_t earlier() const noexcept { return earlier_.size(); }
   /// Removes the file, once the output is written.

@@ -13,8 +13,9 @@ namespace cli {
 /// Adds `--albedo-tolerance X`.
 inline void add_albedo_tolerance_option(command& to, double& tolerance) {
   to.add_option("--albedo-tolerance", tolerance,
-                "For .bsdf: largest relative change of the albedo by conversion. RGB tables take 7, 13 or 24 MB. "
-                "Wavelengths that can be interpolated linearly within this tolerance are omitted (0: none)")
+                "For .bsdf: largest relative change of the albedo by the conversion. It decides whether an RGB table "
+                "takes 7, 13 or 24 MB. Of spectra, wavelengths that can be interpolated linearly within this tolerance "
+                "are omitted (0: no wavelength is omitted)")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
 }

@@ -1,6 +1,5 @@
 #pragma once
-/// The files of examples/data that are in the program itself. CMake writes the source: none, unless GONIO_EMBED_DATA is
-/// on.
+/// The files of examples/data that CMake puts into the program: none unless GONIO_EMBED_DATA is on.
 
 #include <cstddef>
 #include <span>

@@ -39,7 +39,7 @@ void add_calibration_options(command& to, calibration_options& options) {
   to.add_option("--read-noise", options.noise.read, "Read noise: standard deviation in counts")
       .check(check::non_negative_number())
       .capture_default_str();
-  to.add_option("--shot-noise", options.noise.shot, "Shot noise: variance in counts per count")
+  to.add_option("--shot-noise", options.noise.shot, "Shot noise: variance in counts^2 per count of signal")
       .check(check::non_negative_number())
       .capture_default_str();
   to.add_option("--flicker", options.noise.relative, "Relative standard deviation of each exposure")

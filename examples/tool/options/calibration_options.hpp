@@ -1,5 +1,5 @@
 #pragma once
-/// The known properties of camera and white reference, by which readings become reflectances.
+/// The options for the camera and the white reference, which convert readings to reflectance.
 
 #include "command.hpp"
 #include <gonio/capture/calibration.hpp>
@@ -27,21 +27,21 @@ void add_reflectance_option(command& to, std::filesystem::path& given);
 /// Returns the given reflectance as a number, if it is one. Throws gonio::error unless the number is from 0.01 to 1.
 [[nodiscard]] std::optional<double> number_of_reflectance(const std::filesystem::path& given);
 
-/// Returns the number, or the table in the file (docs/reference/formats.md).
+/// Returns the given reflectance: the number, or the table in the file (docs/reference/formats.md).
 [[nodiscard]] gonio::capture::reference_reflectance reflectance_of(const std::filesystem::path& given);
 
 /// Adds `--reflectance`, `--gamma`, `--saturation`, `--read-noise`, `--shot-noise` and `--flicker`.
 void add_calibration_options(command& to, calibration_options& options);
 
-/// Returns the existing readings of a scan.
+/// Returns the readings of a scan; leaves out poses without one.
 [[nodiscard]] std::vector<gonio::capture::reading> readings_of(const gonio::io::recorded_scan& scan);
 
-/// Returns the calibration of a camera; estimates its response from these readings unless it is known.
+/// Returns the calibration; estimates the camera's response from the readings unless --gamma states it.
 [[nodiscard]] gonio::capture::calibration calibration_of(const calibration_options& options,
                                                          std::span<const gonio::capture::reading> readings,
                                                          std::uint16_t largest_count);
 
-/// Returns the readings of a reference, for poses without a reading of their own. Throws gonio::error if there is none.
+/// Returns the readings of a white reference with their poses. Throws gonio::error if there is none.
 [[nodiscard]] gonio::capture::reference_readings reference_readings_of(const gonio::io::recorded_scan& scan);
 
 }  // namespace cli

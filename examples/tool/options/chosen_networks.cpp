@@ -9,11 +9,10 @@ namespace cli {
 namespace {
 
 gonio::model::named_networks select(const gonio::model::named_networks& all, const std::vector<std::string>& names,
-                                    bool wanted) {
+                                    const std::filesystem::path& file, bool wanted) {
   for (const std::string& name : names)
     if (std::ranges::find(all.names, name) == all.names.end())
-      gonio::refuse("there is no material named '" + name + "' among the " + std::to_string(all.names.size()) +
-                    " networks");
+      gonio::refuse({file.native(), ": there is no material named '", name, "'"});
   gonio::model::named_networks chosen;
   for (std::size_t i = 0; i < all.names.size(); ++i) {
     const bool listed = std::ranges::find(names, all.names[i]) != names.end();
@@ -26,14 +25,14 @@ gonio::model::named_networks select(const gonio::model::named_networks& all, con
 
 }  // namespace
 
-gonio::model::named_networks networks_in(const gonio::model::named_networks& all,
-                                         const std::vector<std::string>& names) {
-  return select(all, names, true);
+gonio::model::named_networks networks_in(const gonio::model::named_networks& all, const std::vector<std::string>& names,
+                                         const std::filesystem::path& file) {
+  return select(all, names, file, true);
 }
 
 gonio::model::named_networks networks_except(const gonio::model::named_networks& all,
-                                             const std::vector<std::string>& names) {
-  return select(all, names, false);
+                                             const std::vector<std::string>& names, const std::filesystem::path& file) {
+  return select(all, names, file, false);
 }
 
 }  // namespace cli

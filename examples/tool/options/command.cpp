@@ -326,10 +326,10 @@ void clean_up_on_signals() {
   }
 }
 
-/// At a limit of file size (ulimit -f), writing then fails with an error message, as on a full disk.
+/// Ignores the signal at the limit of file size (ulimit -f): writing then fails with a message, as on a full disk.
 void go_on_at_size_limits() { ::signal(SIGXFSZ, SIG_IGN); }
 
-/// Returns the options of a subcommand and of its groups: --output, and -o.
+/// Returns the option names of a subcommand and of its groups, such as --output and -o.
 std::vector<std::string> option_names(const CLI::App& known) {
   std::vector<std::string> names;
   for (const CLI::Option* each : known.get_options()) {
@@ -360,13 +360,13 @@ const CLI::App& called(const CLI::App& all) {
   return below.empty() ? all : called(*below.front());
 }
 
-/// Is it --output, or a letter as in -o? -1 is a number.
+/// Does the word look like --output or -o? -1 is a number.
 bool is_option(const std::string& word) {
   return word.starts_with("--") ||
          (word.size() == 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0);
 }
 
-/// Returns a sentence on the first word that is not a known subcommand or option in its position, with the nearest
+/// Returns a sentence on the first word that is not a subcommand or option in its position, and suggests the nearest
 /// known word; empty if all words are known.
 std::string unknown_word(const CLI::App& all, int argc, char** argv) {
   const CLI::App* at = &all;

@@ -21,18 +21,18 @@ class Validator;
 
 namespace cli {
 
-/// A condition on the values of an option. Both of two: `first & second`.
+/// A condition on the values of an option. `first & second` requires both.
 class check {
  public:
   [[nodiscard]] static check positive_number();
   [[nodiscard]] static check non_negative_number();
-  /// Bounds included; the value must be a number of the bounds' type.
+  /// Accepts values from `lowest` to `highest`, both included. The value must be a number of their type.
   [[nodiscard]] static check range(double lowest, double highest);
   [[nodiscard]] static check range(int lowest, int highest);
   [[nodiscard]] static check range(unsigned lowest, unsigned highest);
   [[nodiscard]] static check one_of(std::vector<std::string> words);
   [[nodiscard]] static check one_of(std::initializer_list<int> numbers);
-  /// `complaint` returns the fault of a value, empty if there is none; `type` is its name in the help.
+  /// `complaint(value)` returns why the value is refused, or an empty text. The help calls the value `type`.
   [[nodiscard]] static check without(std::function<std::string(const std::string&)> complaint, const std::string& type);
 
   friend check operator&(const check& first, const check& second);
@@ -72,19 +72,19 @@ class declared_files;
 class command {
  public:
   command add_subcommand(const std::string& name, const std::string& description);
-  /// For subcommands added from now on: `added` may add options to each, and `around(work)` is called instead of its
-  /// work and calls `work` itself.
+  /// Extends each subcommand that is added later: `added` may add options to it, and `around(work)` runs instead of its
+  /// work and must call `work`.
   void extend_subcommands(std::function<void(command&)> added,
                           std::function<void(const std::function<void()>&)> around);
   option_group add_option_group(const std::string& name, const std::string& description);
-  /// Lists subcommands, also "lab scan", under a heading of their own, each with an example above its options. Ignores
-  /// those that the program does not have.
+  /// Lists subcommands under a heading, and prints an example above the options of each. A nested one, such as "lab
+  /// scan", gets only the example. Ignores subcommands that the program does not have.
   struct listed {
     const char* name;
     const char* example;
   };
   void list_subcommands(const std::string& heading, std::initializer_list<listed> subcommands);
-  /// Leaves all options but these out of --help; --help-all has them.
+  /// Prints only these options in --help; --help-all prints all.
   void help_with(const std::vector<std::string>& options);
   void require_subcommand();
   /// Accepts words that are not options.
@@ -95,7 +95,7 @@ class command {
   option add_option(const std::string& names, unsigned& value, const std::string& description);
   option add_option(const std::string& names, unsigned long& value, const std::string& description);
   option add_option(const std::string& names, unsigned long long& value, const std::string& description);
-  /// Counts and positions, `Eigen::Index`; refuses negative numbers.
+  /// These options are for counts and positions (`Eigen::Index`). They refuse negative numbers.
   option add_option(const std::string& names, std::ptrdiff_t& value, const std::string& description);
   option add_option(const std::string& names, std::vector<std::ptrdiff_t>& values, const std::string& description);
   option add_option(const std::string& names, double& value, const std::string& description);
@@ -106,8 +106,8 @@ class command {
   option add_option(const std::string& names, std::vector<unsigned long long>& values, const std::string& description);
   option add_option(const std::string& names, std::vector<double>& values, const std::string& description);
   option add_option(const std::string& names, std::pair<int, int>& values, const std::string& description);
-  /// Deleted: files must be declared as inputs or outputs. They are compared before the command runs, so that no output
-  /// overwrites an input.
+  /// Deleted: files must be declared as inputs or outputs. Before the command runs, they are compared: no output may
+  /// overwrite an input.
   option add_option(const std::string& names, std::filesystem::path& value, const std::string& description) = delete;
   option add_option(const std::string& names, std::vector<std::filesystem::path>& values,
                     const std::string& description) = delete;
@@ -117,26 +117,26 @@ class command {
   /// Files in pairs.
   option add_input(const std::string& names, std::vector<std::pair<std::string, std::string>>& values,
                    const std::string& description);
-  /// A folder whose files with these extensions are read.
+  /// Adds an option for a folder whose files with these extensions are read.
   option add_input_folder(const std::string& names, std::filesystem::path& value,
                           std::initializer_list<const char*> extensions, const std::string& description);
   option add_input_folders(const std::string& names, std::vector<std::filesystem::path>& values,
                            std::initializer_list<const char*> extensions, const std::string& description);
-  /// The name must end in one of the extensions; any name if there are none.
+  /// Adds an option for a file to write. If there are extensions, the file's name must end in one of them.
   option add_output(const std::string& names, std::filesystem::path& value,
                     std::initializer_list<const char*> extensions, const std::string& description);
-  /// A folder into which files with these names are written.
+  /// Adds an option for a folder into which files with these names are written.
   option add_output_folder(const std::string& names, std::filesystem::path& value,
                            std::initializer_list<const char*> files, const std::string& description);
-  /// For a file whose name is derived from an output's: throws gonio::error if it is an input.
+  /// Throws gonio::error if `derived`, a name made from that of an output, is an input.
   void require_writable(const std::filesystem::path& derived) const;
 
-  /// One of some words, in any case; `choose` receives the number of the word.
+  /// Adds an option that takes one of `words`, in upper or lower case; `choose` receives the number of the word.
   option add_choice(const std::string& names, std::function<void(int)> choose,
                     std::initializer_list<std::pair<const char*, int>> words, const std::string& description);
   option add_flag(const std::string& names, bool& value, const std::string& description);
 
-  /// Sets the command's work, done after the command line is read and its files are compared.
+  /// Sets the command's work, which runs after the command line is read and the files are compared.
   void callback(std::function<void()> work);
   /// Returns how often an option was given.
   [[nodiscard]] std::size_t count(const std::string& name) const;
@@ -151,10 +151,10 @@ class command {
  private:
   CLI::App* known_;
   std::shared_ptr<declared_files> files_;      ///< of the subcommand and its groups
-  std::shared_ptr<const extension> extended_;  ///< by the parent command; may be null
+  std::shared_ptr<const extension> extended_;  ///< set by the parent command; may be null
 };
 
-/// A group of options of which a certain number must be given.
+/// A group of options; `require_option` states how many of them must be given.
 class option_group : public command {
  public:
   void require_option(std::size_t number);
@@ -173,10 +173,11 @@ class program : public command {
   program& operator=(const program&) = delete;
   ~program();
 
-  /// Text that a program without any word on its command line prints.
+  /// Sets the text to print if the command line has no words.
   void greet_with(std::string greeting) { greeting_ = std::move(greeting); }
 
-  /// Reads and executes the command line. Returns the exit code: 2 for bad input, 1 for any other failure.
+  /// Reads and executes the command line. Returns the exit code: 2 for bad input, 1 for any other failure or a negative
+  /// answer.
   [[nodiscard]] int run(int argc, char** argv);
 
  private:

@@ -38,7 +38,7 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Checks before hours of work what can be known.
+/// Refuses a directory, and a path whose folder does not exist: before hours of work, not after.
 void require_place(const std::string& option, const fs::path& path) {
   const fs::path folder = gonio::io::follow_links(path).parent_path();
   std::error_code failed;

@@ -11,21 +11,22 @@ namespace cli {
 
 class declared_files {
  public:
-  /// Returns the paths of an option after the command line was read; empty ones were not given.
+  /// Returns the paths of an option after the command line was read; an empty path was not given.
   using paths = std::function<std::vector<std::filesystem::path>()>;
 
-  /// Errors name the `option`.
+  /// Declares files to read; errors name the `option`.
   void add_input(std::string option, paths given);
   /// Declares a folder whose files with these extensions are read.
   void add_input_folder(std::string option, paths given, std::vector<std::string> extensions);
-  /// The name must end in one of the extensions, if there are any.
+  /// Declares files to write. If there are extensions, the files' names must end in one of them.
   void add_output(std::string option, paths given, std::vector<std::string> extensions);
   /// Declares a folder, which need not exist, into which files with these names are written.
   void add_output_folder(std::string option, paths given, std::vector<std::string> names);
 
   /// Throws gonio::error naming the option and the path that must not be written.
   void require_writable() const;
-  /// The same for a path derived from an output's, for example with a number in its name.
+  /// Throws gonio::error if `derived` is an input. It is a path made from that of an output, for example by adding a
+  /// number.
   void require_writable(const std::filesystem::path& derived) const;
 
  private:

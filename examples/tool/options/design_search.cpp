@@ -64,11 +64,11 @@ struct sweeping {
   sweep_record* record;
 };
 
-/// An objective whose sweeps are shared by several processes, and are not repeated after an interruption.
+/// An objective for several processes, which share each sweep. Recorded sweeps are not repeated.
 template <gonio::design::sweeping_objective Objective>
 class shared_sweeps {
  public:
-  /// Both arguments must outlive it.
+  /// Both arguments must outlive this object.
   shared_sweeps(const Objective& whole, const sweeping& how) : whole_(whole), how_(how) {}
 
   [[nodiscard]] const auto& geometry() const noexcept { return whole_.geometry(); }
@@ -80,9 +80,7 @@ class shared_sweeps {
 
   [[nodiscard]] Eigen::Index best_beside(std::span<const Eigen::Index> candidates) const {
     const auto sweep = [&] { return best_of_sweep(candidates); };
-    const Eigen::Index best = how_.record ? how_.record->next(sweep) : sweep();
-    if (best >= geometry().size()) gonio::refuse("the record of the sweeps names a candidate that does not exist");
-    return best;
+    return how_.record ? how_.record->next(sweep, geometry().size()) : sweep();
   }
 
  private:
@@ -111,7 +109,7 @@ capture_plan sweep(const Objective& whole, const design_options& options, const 
   return gonio::design::exchange(objective, greedy, listener);
 }
 
-/// Searches among few candidates.
+/// Searches by descent, from random candidates.
 template <class Objective>
 capture_plan slide(const Objective& objective, const design_options& options, const gonio::progress& listener) {
   if (!options.start.empty())
@@ -139,7 +137,7 @@ capture_plan search(const Objective& objective, const design_options& options, c
   return options.search == "descent" ? slide(objective, options, listener) : sweep(objective, options, listener, how);
 }
 
-/// Returns penalties for each cell, for noise that the criterion does not include.
+/// Returns a penalty for each cell: the dark signal and angular errors, which the criterion does not include.
 std::vector<double> sample_noise_penalties(const prior_t& prior, const design_options& options) {
   gonio::design::apparatus other = options.apparatus;
   other.noise = 0.0;
@@ -184,7 +182,7 @@ designed with(const prior_t& prior, const Geometry& geometry, const design_optio
     return finished(geometry, slide(gonio::design::criterion_of_plan{prior, geometry, criterion}, options, listener));
   };
   if (options.criterion == "condition") return by(gonio::design::condition_number{});
-  // Independent noise acts as a larger penalty on every row: eta / m is the variance of its error.
+  // Independent noise has the effect of a larger eta.
   const double eta = options.eta + expected_error_of(prior, options).noise_eta();
   if (options.criterion == "d-optimal") return by(gonio::design::d_optimality(eta));
   if (options.criterion == "a-optimal")
@@ -212,7 +210,7 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
   return best;
 }
 
-/// Points measured already keep their directions; they are not moved to the nearest candidates.
+/// Gives the points of --start their own directions again; the search moved them to the nearest candidates.
 designed keeping_start(designed found, const design_options& options) {
   for (std::size_t i = 0; i < options.start.size(); ++i) {
     found.poses[i] = options.start[i];
@@ -274,7 +272,7 @@ design_quality quality_of(const gonio::log_relative_pca& prior, const design_opt
   const auto few = gonio::design::compressed(gonio::design::rows_at(prior, found.samples), 1e-3 * options.eta);
   const double error = criterion(criterion.prepare(few.components, few.noise));
   const double nothing = criterion(gonio::design::expected_error::rows(0, criterion.coefficients().rows()));
-  // A prior may have been learned on more cells than it keeps; its singular values refer to all of them.
+  // A prior may keep fewer cells than it was learned on; its singular values are of all learned cells.
   const double kept = prior.components().cast<double>().squaredNorm() / prior.singular_values().squaredNorm();
   return {error * std::sqrt(kept / static_cast<double>(prior.cells().size())), error / nothing};
 }

@@ -19,15 +19,15 @@ namespace cli {
 
 struct design_options {
   Eigen::Index count = 20;
-  /// In addition to the command line's criteria there is perceived-norm: the expected error in the norm of that name,
-  /// which is also the meaning of perceived for images.
+  /// `criterion` is one of the command line's criteria, or perceived-norm: the expected error in the perceived norm.
+  /// For images, perceived has the same meaning as perceived-norm.
   std::string geometry = "point", criterion = "perceived", search = "greedy";
-  gonio::design::apparatus apparatus = gonio::design::usual_apparatus();  ///< its angular error applies to points
+  gonio::design::apparatus apparatus = gonio::design::usual_apparatus();  ///< angular_error is for points only
   double eta = gonio::default_eta;
-  double common_shift = 0.0;                     ///< of the logarithm, shared by all measurements
+  double common_shift = 0.0;                     ///< size of a shift of all mapped values
   bool in_sample = false;                        ///< expect the error of materials that the prior has seen
-  gonio::design::near_field_options near_field;  ///< its constraint is replaced by the apparatus'
-  std::vector<gonio::direction_pair> start;      ///< above the horizon
+  gonio::design::near_field_options near_field;  ///< its constraint is not used: `apparatus` has the limits
+  std::vector<gonio::direction_pair> start;      ///< directions measured already, above the horizon
   std::uint64_t seed = 0;
   gonio::thread_count threads;
 };
@@ -39,19 +39,18 @@ struct designed {
   double value = 0.0;                           ///< value of the criterion
 };
 
-/// Searches for a design. The processes share each sweep over all candidates, and sweeps of an earlier run are not
-/// repeated. Throws gonio::error if there are too few candidates.
+/// Searches for a design. The processes share each sweep over all candidates; sweeps in `record`, from an earlier run,
+/// are not repeated. Throws gonio::error if there are too few candidates.
 [[nodiscard]] designed design(const gonio::log_relative_pca& prior, const design_options& options,
                               const gonio::progress& listener = {}, const team& processes = alone(),
                               sweep_record* record = nullptr);
 
-/// Returns the measurements at the candidates of the options' geometry that are nearest to some poses.
+/// Returns the design at the candidates nearest to the poses.
 [[nodiscard]] designed placed(const gonio::log_relative_pca& prior, const design_options& options,
                               const std::vector<gonio::direction_pair>& poses);
 
-/// The expected error of measurements: root mean square over the cells, in the mapped domain; and the same as a
-/// fraction of the error without measurements. It is the error of materials left out of the prior one by one, unless
-/// the options state otherwise.
+/// The expected error of a design: root mean square over the cells in the mapped domain, and as a share of the error
+/// without measurements. Each material is left out of the prior, unless `in_sample` is set.
 struct design_quality {
   double expected_error = 0.0, unknown_share = 0.0;
 };

@@ -68,7 +68,7 @@ class help_formatter : public CLI::Formatter {
     return wrapped(text, description, indent) + '\n';
   }
 
-  /// Appends words from a column on, broken between words.
+  /// Appends the description's words from a column on, and breaks lines between words.
   static std::string wrapped(std::string text, const std::string& description, std::size_t first) {
     std::istringstream words(description);
     std::size_t column = first;
@@ -84,7 +84,7 @@ class help_formatter : public CLI::Formatter {
     return text;
   }
 
-  // CLI11 does not pass these on to groups of options.
+  // Members, because CLI11 does not pass them on to groups of options.
   mutable bool prints_all_ = false, hides_ = false;
 };
 

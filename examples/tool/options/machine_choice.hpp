@@ -13,7 +13,7 @@ namespace cli {
 /// The machine in the laboratory.
 struct machine_choice {
   std::string name = "gantry";
-  double tolerance = 0.5;  ///< degrees within which robot uses its nearest lamp
+  double tolerance = 0.5;  ///< robot: largest angle to its nearest lamp, degrees
 };
 
 /// Adds `--machine` and `--lamp-tolerance`.

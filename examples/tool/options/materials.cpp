@@ -31,7 +31,18 @@ struct named_table {
 
 std::vector<float> values_of(const gonio::brdf_table& table) { return {table.values().begin(), table.values().end()}; }
 
-/// Returns the materials of all sources; only networks are read already.
+void require_isotropic(const gonio::io::rgl_material& material, const std::filesystem::path& path) {
+  if (material.material.is_anisotropic())
+    gonio::refuse({path.native(), ": is anisotropic, expected an isotropic material (--exclude leaves it out)"});
+}
+
+gonio::model::adaptive_brdf colours_of_isotropic(const std::filesystem::path& path) {
+  gonio::io::rgl_material material = gonio::io::read_rgl(path);
+  require_isotropic(material, path);
+  return gonio::io::colours_of(std::move(material), path);
+}
+
+/// Returns the materials of all sources. Reads only networks now, other files when `tabulate` is called.
 std::vector<named_table> tables_of(const material_source& source, gonio::thread_count threads) {
   std::vector<named_table> all;
   for (const std::filesystem::path& file : source.networks) {
@@ -51,8 +62,7 @@ std::vector<named_table> tables_of(const material_source& source, gonio::thread_
   for (const std::filesystem::path& folder : source.rgl)
     for (const auto& [name, path] : gonio::io::list_rgl_directory(folder))
       all.push_back({name, [path, threads](const gonio::valid_cells& cells) {
-                       return values_of(
-                           gonio::tabulate(gonio::io::colours_of(gonio::io::read_rgl(path), path), cells, threads));
+                       return values_of(gonio::tabulate(colours_of_isotropic(path), cells, threads));
                      }});
   return all;
 }
@@ -80,6 +90,7 @@ gonio::io::rgl_material read_spectral_material(const std::filesystem::path& path
   gonio::io::rgl_material material = gonio::io::read_rgl(path);
   if (!material.spectra)
     gonio::refuse({path.native(), ": is in RGB, but --spectra needs spectra (gonio convert --spectra writes them)"});
+  require_isotropic(material, path);
   return material;
 }
 
@@ -132,13 +143,14 @@ std::vector<double> wavelengths_of(const material_source& source) {
 void exclude(std::vector<named_table>& all, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (std::erase_if(all, [&](const named_table& each) { return each.name == name; }) == 0)
-      gonio::refuse("--exclude: there is no material named '" + name + "' in the sources");
+      gonio::refuse("--exclude: there is no material named '" + name + "' in --networks, --merl or --rgl");
 }
 
 void require_different(const std::vector<named_table>& all) {
   std::map<std::string, int> seen;
   for (const named_table& each : all)
-    if (++seen[each.name] > 1) gonio::refuse("two materials of the sources are named '" + each.name + "'");
+    if (++seen[each.name] > 1)
+      gonio::refuse("two materials of --networks, --merl and --rgl are named '" + each.name + "': rename one");
 }
 
 /// Returns the materials in colours, or at some wavelengths.
@@ -224,7 +236,8 @@ gonio::material_set read_materials(const material_source& source, gonio::thread_
   if (sources == 1 && !source.tables.empty())
     return gonio::io::read_merl_directory(source.tables.front(), source.exclude, listener);
   if (sources == 1 && !source.networks.empty()) {
-    const auto chosen = networks_except(gonio::io::read_networks(source.networks.front()), source.exclude);
+    const std::filesystem::path& file = source.networks.front();
+    const auto chosen = networks_except(gonio::io::read_networks(file), source.exclude, file);
     return gonio::model::tabulate_networks(chosen, gonio::valid_cells(), threads, listener);
   }
   return read_mixed(source, threads, listener);

@@ -5,6 +5,8 @@
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>
 
+#include <algorithm>
+
 namespace cli {
 
 std::vector<const gonio::model::lobe_kind*> lobes_named(const std::string& model) {
@@ -22,6 +24,11 @@ std::vector<const gonio::model::lobe_kind*> lobes_named(const std::string& model
     begin = end + 1;
   }
   return kinds;
+}
+
+bool is_anisotropic(const model_choice& choice) {
+  return std::ranges::any_of(lobes_named(choice.model),
+                             [](const gonio::model::lobe_kind* kind) { return kind->is_anisotropic(); });
 }
 
 const gonio::model::lobe_kind& with_fresnel_factor(const gonio::model::lobe_kind& kind) {

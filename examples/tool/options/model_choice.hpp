@@ -12,8 +12,7 @@
 
 namespace cli {
 
-/// A model, and the comparison by which it is fitted. The defaults come nearest on measured materials:
-/// docs/results/models.md.
+/// A model, and how it is fitted. The defaults come nearest to measured materials (docs/results/models.md).
 struct model_choice {
   std::string model = "ggx", metric = "log";
   bool fresnel = false;
@@ -21,8 +20,12 @@ struct model_choice {
       .norm = gonio::model::fit_norm::huber, .cosine_weighted = true, .largest_albedo = 1.0};
 };
 
-/// Returns the lobes of `ggx` (with a Lambertian one), or of `sum:ggx+ward` (as named). Throws gonio::error for others.
+/// Returns the lobes of a model: of `ggx`, a Lambertian lobe and ggx; of `sum:ggx+ward`, only the named ones. Throws
+/// gonio::error for an unknown name.
 [[nodiscard]] std::vector<const gonio::model::lobe_kind*> lobes_named(const std::string& model);
+
+/// Is one of the lobes of a model anisotropic? Throws gonio::error as `lobes_named` does.
+[[nodiscard]] bool is_anisotropic(const model_choice& choice);
 
 /// Returns the kind with Fresnel's factor: phong-fresnel for phong. Throws gonio::error for a kind that has none.
 [[nodiscard]] const gonio::model::lobe_kind& with_fresnel_factor(const gonio::model::lobe_kind& kind);

@@ -10,7 +10,7 @@
 
 namespace cli {
 
-/// Returns the number of the material of that name. Throws gonio::error naming the file if there is none.
+/// Returns the material's position in the prior. Throws gonio::error naming the file if there is no such material.
 [[nodiscard]] Eigen::Index material_number(const gonio::log_relative_pca& prior, const std::string& name,
                                            const std::filesystem::path& file);
 

@@ -23,7 +23,7 @@ const reconstruct_method& method_named(const std::string& name) {
   gonio::refuse("there is no method '" + name + "': expected one of " + names);
 }
 
-/// Some samples lead to values that are not finite; the error then names the samples, not the output.
+/// Refuses a table that is not finite. The error names the file of the samples, which are the cause, not the output.
 void require_finite(const gonio::brdf_table& table, const gonio::sample_set& samples,
                     const reconstruct_options& options) {
   if (gonio::all_finite(table.values())) return;
@@ -36,7 +36,7 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
                  " sr^-1, lead to a table that is not finite with --method ", options.method});
 }
 
-/// Refuses samples that are all zero or negative: nothing can be inferred from them.
+/// Refuses samples without a positive value if some are negative: nothing can be inferred from them.
 void require_light(const gonio::sample_set& samples, const reconstruct_options& options) {
   double largest = 0.0, least = 0.0;
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
@@ -103,7 +103,7 @@ const std::vector<reconstruct_method>& reconstruct_methods() {
         "--uncertainty-image",
         "--report",
         "--source-half-angle",
-        "--receiver-half-angle"}},  // refuses some of them itself, with the reason
+        "--receiver-half-angle"}},  // pca itself refuses some of these options: its messages say why
       {"soft-specular", "pca of a split prior", reconstruct_by_soft_or_specular, {"--prior", "--eta"}},
       {"linear",
        "combination of materials",

@@ -20,13 +20,13 @@ struct reconstruct_method {
 
 [[nodiscard]] const std::vector<reconstruct_method>& reconstruct_methods();
 
-/// Refuses options that the method of `options` would ignore, naming the methods that take them, and notes whether any
-/// of the method's own options is given. `is_given` is called with options such as "--noise". Throws gonio::error for
-/// such options, and for an unknown method.
+/// Sets `has_own_options`. Throws gonio::error for an unknown method, and for an option that the method would ignore;
+/// the error names the methods that take the option. `is_given` is called with option names such as "--noise".
 void take_given(reconstruct_options& options, const std::function<bool(const std::string&)>& is_given);
 
-/// Reconstructs with the method of `options`; if wavelengths are kept, each is a grey material. Warns of samples and
-/// methods with likely poor results. Throws gonio::error for unusable samples, and if the table is not finite.
+/// Reconstructs with the method of `options`. If wavelengths are kept, each is fitted like a grey material. Warns if
+/// the samples or the method are likely to give poor results. Throws gonio::error for unusable samples, and if the
+/// table is not finite.
 [[nodiscard]] reconstruction reconstruct(const reconstruct_options& options, const gonio::sample_set& samples);
 
 }  // namespace cli

@@ -2,6 +2,7 @@
 
 #include "materials.hpp"
 #include "reconstruct_methods.hpp"
+#include "tool/files/file_kinds.hpp"
 #include "tool/files/measurement_files.hpp"
 #include "tool/pages/fixed.hpp"
 #include "tool/pages/iteration_figure.hpp"
@@ -9,7 +10,6 @@
 #include "tool/pages/progress_bar.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/inliers.hpp>
-#include <gonio/io/materials/merl_gzip.hpp>
 #include <gonio/io/materials/prior.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/robust/robust_reconstruction.hpp>
@@ -20,7 +20,7 @@ namespace cli {
 
 namespace {
 
-/// Returns nothing for auto, else the number of --gamma; the paper has no auto.
+/// Returns the number of --gamma, or nothing for auto. With --as-printed, auto is 3: the paper has no auto.
 std::optional<double> gamma_of(const reconstruct_options& options) {
   constexpr double usual = 3.0;
   const std::string& text = options.gamma;
@@ -31,7 +31,7 @@ std::optional<double> gamma_of(const reconstruct_options& options) {
   return gamma;
 }
 
-/// Makes the folder before the work, whose result would otherwise be lost.
+/// Makes the folder before the work: a failure after it would lose the result.
 void make_folder(const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
@@ -51,7 +51,7 @@ void describe(const Run& run, bool converged, bool automatic, reconstruction& re
   result.sentence = counted(rounds, "round") + ", relative error before the last round " + fixed(last.error, 3) + ", " +
                     fixed(100.0 * last.down_weighted, 1) + " % down-weighted";
   if (!automatic) return;
-  // Few samples limit the fraction of outliers that can be claimed.
+  // A few samples can prove only a limited fraction of outliers.
   const Eigen::Index samples = run.measured().cols();
   double outliers = 1.0 - gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).inlier_fraction;
   if (samples < fewest_corrected_samples) outliers = std::min(outliers, gonio::largest_outlier_share(samples));
@@ -120,7 +120,7 @@ reconstruction correct(const gonio::measured<gonio::any_metric>& materials, cons
 }  // namespace
 
 reconstruction reconstruct_by_corrections(const reconstruct_options& options, const gonio::sample_set& samples) {
-  static_cast<void>(gamma_of(options));  // refuse before the work
+  static_cast<void>(gamma_of(options));  // refuse a wrong --gamma before the work
   const Eigen::Index counting = std::ssize(gonio::counting_positions(samples));
   if (counting < fewest_corrected_samples && !options.has_own_options) {
     reconstruction result = reconstruct_with_discrepancy(options, prior_of(options.materials), samples);
@@ -129,7 +129,7 @@ reconstruction reconstruct_by_corrections(const reconstruct_options& options, co
     return result;
   }
   std::optional<gonio::brdf_table> truth;
-  if (!options.truth.empty()) truth = gonio::io::read_merl_any(options.truth);
+  if (!options.truth.empty()) truth = read_table(options.truth);
   progress_bar bar;
   const auto materials = chosen_materials(options, bar.listener());
   return correct(materials, options, samples, std::move(truth), bar);

@@ -25,12 +25,12 @@ namespace {
 
 using reconstructed_brdf = gonio::reconstructed<gonio::log_relative>;
 
-/// Describes the one value, or the channel that disagrees most: "sample 6 disagrees, left out: measured 2.09, the
+/// Describes an outlier by the channel that disagrees most: "sample 6 disagrees and is left out: measured 2.09, the
 /// others say 0.140 (0.110 to 0.170, red)".
 std::string told(const gonio::outlying_sample& out, const std::string& what_is_done) {
   const Eigen::Index channel = out.worst_channel();
   const double predicted = out.predicted[channel];
-  return "sample " + std::to_string(out.number + 1) + " disagrees, " + what_is_done + ": measured " +
+  return "sample " + std::to_string(out.number + 1) + " disagrees and " + what_is_done + ": measured " +
          reflectance(out.measured[channel]) + ", the others say " + reflectance(predicted) + " (" +
          reflectance(predicted * std::exp(-out.deviation)) + " to " + reflectance(predicted * std::exp(out.deviation)) +
          (is_grey(out.measured) ? "" : ", " + gonio::channels().name(channel)) + ")";
@@ -56,7 +56,7 @@ void write_residuals(const reconstruct_options& options, const std::vector<gonio
   gonio::io::write_atomically(options.residuals, std::as_bytes(std::span(text)));
 }
 
-/// Adds "half of all directions are known to 6 %, half of those beyond 80 degrees to 40 %".
+/// Adds "half of all directions are known to 6 %, half of the directions more than 80 degrees from the normal to 40 %".
 void describe(const gonio::certainty& known, reconstruction& result) {
   // A highlight uncertain by a factor of more than four needs a warning.
   const double factor = known.highlight_factor;
@@ -77,7 +77,8 @@ void describe(const gonio::certainty& known, reconstruction& result) {
   result.details["known_to"] = known.known_to;
   result.details["known_to_beyond_80_degrees"] = known.known_to_at_grazing;
   result.sentence += "; half of all directions are known to " + fixed(100.0 * known.known_to, 0) +
-                     " %, half of those beyond 80 degrees to " + fixed(100.0 * known.known_to_at_grazing, 0) + " %";
+                     " %, half of the directions more than 80 degrees from the normal to " +
+                     fixed(100.0 * known.known_to_at_grazing, 0) + " %";
 }
 
 /// Returns the relative deviation in all directions as a table, the same in all channels.
@@ -92,8 +93,9 @@ gonio::brdf_table uncertainty_table(const reconstructed_brdf& paint, gonio::thre
 void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, reconstruction& result) {
   json contradicted = json::array();
   for (const gonio::outlying_sample& out : paint.contradicted()) {
-    result.warnings.push_back(
-        told(out, out.probability > 0.99 ? "left out" : "counts " + fixed(100.0 * (1.0 - out.probability), 0) + " %"));
+    result.warnings.push_back(told(out, out.probability > 0.99
+                                            ? "is left out"
+                                            : "has " + fixed(100.0 * (1.0 - out.probability), 0) + " % of its weight"));
     contradicted.push_back({{"sample", out.number + 1},
                             {"measured", per_channel(out.measured)},
                             {"others", per_channel(out.predicted)},
@@ -103,13 +105,15 @@ void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, re
   const auto unnamed = std::ssize(paint.rejected()) - std::ssize(paint.contradicted());
   if (unnamed > 0)
     result.warnings.push_back(std::to_string(unnamed) +
-                              (unnamed == 1 ? " more sample disagrees" : " more samples disagree") + ", left out" +
-                              (samples <= most_residuals ? ": --residuals lists the predictions of the others" : ""));
+                              (unnamed == 1 ? " more sample disagrees and has less than half of its weight"
+                                            : " more samples disagree and have less than half of their weight") +
+                              (samples <= most_residuals ? " (--residuals lists them)" : ""));
   const auto rejected = std::ssize(paint.rejected());
   if (rejected >= 2 && 10 * rejected > samples)
     result.warnings.push_back(std::to_string(rejected) + " of " + std::to_string(samples) +
-                              " samples disagree with the others: if they have something in common, it may be the "
-                              "material, not an error (--no-reject keeps them)");
+                              " samples disagree with the others. If they have something in common, the "
+                              "disagreement may be a property of the material rather than an error (--no-reject "
+                              "keeps these samples)");
   result.details["left_out"] = contradicted;
   result.details["outliers"] = paint.outlier_share();
   result.details["down_weighted"] = static_cast<double>(paint.rejected().size()) / static_cast<double>(samples);
@@ -127,7 +131,7 @@ gonio::reconstruction<gonio::log_relative> estimator_of(const reconstruct_option
   return options.keeps_all ? estimator.keeping_all() : estimator;
 }
 
-/// Returns the samples, weighted by a reconstruction's inlier weights.
+/// Returns the samples with nonzero weight, whose weights are multiplied by the inlier weights.
 gonio::sample_set as_much_as_they_count(const gonio::sample_set& samples, const std::vector<Eigen::Index>& counting,
                                         const Eigen::VectorXd& inlier_weights) {
   gonio::sample_set agreeing(samples.channels());

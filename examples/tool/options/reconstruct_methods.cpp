@@ -34,7 +34,7 @@ constexpr double published_eta = 40.0;
 struct component_choice {
   gonio::log_relative_pca prior;
   gonio::any_solver solver;
-  bool has_discrepancy = false, is_penalised = false;  ///< is_penalised: by Tikhonov's eta, chosen or given
+  bool has_discrepancy = false, is_penalised = false;  ///< is_penalised: by Tikhonov, without --eta
 };
 
 template <class Fit>
@@ -82,7 +82,7 @@ component_choice choose_components(const reconstruct_options& options) {
   return chosen;
 }
 
-/// Returns Tikhonov's penalty if none is given.
+/// Chooses Tikhonov's penalty, for use without --eta.
 double chosen_eta(const reconstruct_options& options, const gonio::log_relative_pca& prior,
                   const gonio::sample_set& samples) {
   return options.noise ? gonio::eta_of_noise(prior, samples, *options.noise, options.threads)
@@ -115,7 +115,7 @@ reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& option
   if (stated == "gcv" || stated == "loo")
     gonio::refuse("--method soft-specular needs a number for --eta, not " + stated);
   const auto penalties = gonio::penalties_in_proportion(prior, stated.empty() ? published_eta : number_of_eta(stated));
-  // The contrast of the highlight in RGB chooses.
+  // The contrast of the highlight in RGB chooses the prior.
   const auto chosen =
       gonio::soft_specular_decomposition(prior, penalties, options.threads).fit(samples.in_three_channels());
   const bool is_soft = chosen.kind() == gonio::material_kind::soft;

@@ -40,8 +40,8 @@ struct reconstruct_options {
   bool keeps_all = false;
   std::filesystem::path residuals, uncertainty, uncertainty_image;
   page_option report;
-  bool keeps_uncertainty = false;  ///< keep it in the result, not only in files
-  bool keeps_residuals = false;    ///< the same, for at most `most_residuals` samples
+  bool keeps_uncertainty = false;  ///< keep the uncertainty in the result, not only in files
+  bool keeps_residuals = false;    ///< keep the residuals in the result, too; needs at most `most_residuals` samples
   bool fits_spectra = false;       ///< fit each wavelength instead of colours
   bool has_own_options = false;    ///< an option of the method's own was given
   bool as_printed = false;         ///< correction as printed in Noell et al. 2014
@@ -54,13 +54,13 @@ struct reconstruct_options {
   double albedo_tolerance = gonio::model::usual_albedo_tolerance;  ///< for a .bsdf
   gonio::thread_count threads;
 
-  /// Does no output show colours?
+  /// Returns whether all outputs can hold spectra, so that no colours are needed.
   [[nodiscard]] bool holds_spectra_alone() const {
     return (output.empty() || lower_extension(output) == ".bsdf") && image.empty() && uncertainty_image.empty() &&
            !report.is_given();
   }
-  /// Returns the cells over which spectra are tabulated. The basis' own cells hold all its information in a fifteenth
-  /// of the memory, enough for a .bsdf; other files have the cells of MERL's tables.
+  /// Returns the cells over which spectra are tabulated: for a .bsdf, the basis' own cells, which hold all its
+  /// information in a fifteenth of the memory; otherwise the cells of MERL's tables.
   [[nodiscard]] gonio::valid_cells cells_of_spectra(const gonio::valid_cells& of_basis) const {
     return holds_spectra_alone() ? of_basis : gonio::valid_cells();
   }
@@ -77,7 +77,7 @@ inline constexpr Eigen::Index most_residuals = 1000;
 struct reconstruction {
   gonio::brdf_table table;
   json details = json::object();                    ///< printed by --json together with the number of samples
-  std::string sentence{};                           ///< the same for people
+  std::string sentence{};                           ///< the details as a sentence for people
   std::vector<std::string> warnings{};              ///< sentences for people, on standard error
   std::optional<gonio::brdf_table> uncertainty{};   ///< relative, if requested
   std::vector<gonio::sample_residual> residuals{};  ///< of the samples with nonzero weight, if requested
@@ -91,14 +91,14 @@ struct reconstruction {
 [[nodiscard]] reconstruction reconstruct_by_components(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
-/// Fits the same components and a model discrepancy; each sample is weighted by its probability of being an inlier.
+/// Fits principal components and a model discrepancy; each sample is weighted by its probability of being an inlier.
 [[nodiscard]] reconstruction reconstruct_with_discrepancy(const reconstruct_options& options,
                                                           const gonio::log_relative_pca& prior,
                                                           const gonio::sample_set& samples);
 
-/// Fits only the components, with angular errors of light and viewer, without the samples rejected by a reconstruction
-/// that knows the angular error and gives the uncertainty. Noise that is not stated is taken as zero: cross-validation
-/// would mistake angular errors for noise.
+/// Fits only the components, with angular errors of light and viewer. A reconstruction that knows the angular error
+/// weights the samples beforehand and gives the uncertainty. Without --noise, the noise is zero: cross-validation would
+/// mistake angular errors for noise.
 [[nodiscard]] reconstruction reconstruct_misplaced(const reconstruct_options& options,
                                                    const gonio::log_relative_pca& prior,
                                                    const gonio::sample_set& samples);
@@ -127,10 +127,10 @@ struct reconstruction {
 [[nodiscard]] reconstruction reconstruct_by_neighbours(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
-/// Can the method fit each wavelength? Correction weights samples by all three channels.
+/// Can the method fit each wavelength? Correction cannot: it weights samples by their three colour channels.
 [[nodiscard]] inline bool takes_spectra(const std::string& method) { return method != "correction"; }
 
-/// Returns a fit of spectra with its colours.
+/// Returns the result of a fit of spectra: the spectra, and a table of their colours.
 [[nodiscard]] reconstruction described_spectra(gonio::spectral_table spectra, const reconstruct_options& options);
 /// Returns a fit as a table, and as spectra if wavelengths are kept.
 template <class Fit>
@@ -141,12 +141,12 @@ template <class Fit>
           fitted.tabulate_spectra(options.cells_of_spectra(fitted.functions().cells()), options.threads), options);
   return {fitted.tabulate(gonio::valid_cells(), options.threads)};
 }
-/// Applies a method for colours to spectra: to three wavelengths at a time, in the places of red, green and blue.
+/// Applies a method for colours to spectra: to three wavelengths at a time, passed as red, green and blue.
 [[nodiscard]] reconstruction by_threes(const reconstruct_options& options, const gonio::sample_set& samples,
                                        const std::function<gonio::brdf_table(const gonio::sample_set&)>& complete);
 /// Adds the solver's report on a fit of `samples` samples.
 void describe_residuals(const gonio::solve_report& report, Eigen::Index samples, reconstruction& result);
-/// Returns a number for each channel: "0.1 0.2 0.3"; for more than three, "0.1 to 0.3".
+/// Returns the channels' numbers as text: "0.1 0.2 0.3"; for more than three channels, "0.1 to 0.3".
 [[nodiscard]] std::string in_words(const Eigen::ArrayXd& numbers, int digits);
 [[nodiscard]] json listed(const Eigen::ArrayXd& numbers);
 

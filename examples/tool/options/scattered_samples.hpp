@@ -1,6 +1,5 @@
 #pragma once
-/// Samples interpolated between their nearest neighbours if the programs were built with nanoflann; otherwise throws
-/// gonio::error.
+/// Interpolation between nearest samples. Without nanoflann, `interpolate` throws gonio::error.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/interpolate/scattered_options.hpp>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view prefix = "shipped:";
 
-/// In the folder that is installed beside the tool, or in the source tree.
+/// Returns the file's path in the installed folder share/gonio or, if it is not there, in the source tree.
 std::filesystem::path file_beside_tool(const std::string& name) {
   std::error_code ignored;
   const auto tool = std::filesystem::read_symlink("/proc/self/exe", ignored);
@@ -23,7 +23,7 @@ std::filesystem::path file_beside_tool(const std::string& name) {
   return std::filesystem::exists(installed, ignored) ? installed : std::filesystem::path(GONIO_SOURCE_DATA) / name;
 }
 
-/// Throws gonio::error that lists what there is.
+/// Throws gonio::error that lists the files in the program if none has this name.
 std::span<const std::byte> built_in_bytes(std::string_view name) {
   std::vector<std::string_view> names;
   for (const built_in_file& file : built_in_files()) {

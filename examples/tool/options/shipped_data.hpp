@@ -26,7 +26,7 @@ namespace cli {
 /// Returns the bytes of a file, shipped or not. Throws gonio::error that names it.
 [[nodiscard]] std::vector<std::byte> read_input(const std::filesystem::path& path);
 
-/// These read shipped files too; otherwise they are gonio::io::read_prior and so on.
+/// These functions read like those of the same names in gonio::io, but also accept shipped files.
 [[nodiscard]] gonio::log_relative_pca read_prior(const std::filesystem::path& path);
 [[nodiscard]] std::vector<gonio::half_difference> read_directions(const std::filesystem::path& path,
                                                                   const gonio::io::sample_reading& reading);

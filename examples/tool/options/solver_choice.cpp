@@ -13,7 +13,7 @@ namespace cli {
 
 namespace {
 
-/// Lasso whose penalty is a fraction of the channel's own penalty at which all weights vanish.
+/// Lasso whose penalty is a share of the smallest one at which all weights of the channel are 0.
 struct relative_lasso {
   double share = 0.0;
 
@@ -43,10 +43,11 @@ void add_solver_options(command& to, solver_choice& choice) {
                 "penalty on their magnitudes; tsvd: truncated singular values; ls: least squares (default: tikhonov "
                 "for pca, nnls for linear)")
       .check(check::one_of({"nnls", "qp", "tikhonov", "lasso", "tsvd", "ls"}));
-  to.add_option("--eta", choice.eta,
-                "Penalty of tikhonov, larger for results nearer to the mean material; gcv (generalised "
-                "cross-validation) or loo (leave one out). Default: gcv; for pca, limited to plausible values for "
-                "noise of up to 30 %; 40 for soft-specular");
+  to.add_option(
+      "--eta", choice.eta,
+      "Penalty of tikhonov: a number (larger for results nearer to the mean material), gcv (generalised "
+      "cross-validation) or loo (leave one out). Default: gcv; with --method pca, the value that --noise implies or, "
+      "without --noise, gcv among the values that noise of up to 30 % implies; with --method soft-specular, 40");
   to.add_option("--lambda", choice.lambda,
                 "Penalty of lasso, as a share of the smallest one at which all weights are 0")
       .capture_default_str();

@@ -33,7 +33,7 @@ std::uint32_t checksum_of(std::span<const std::string> words) {
 
 void team::compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
                             const std::function<void(Eigen::Index, part)>& take) const {
-  // Its destructor waits, so that no computation outlives this function.
+  // The future's destructor waits: no computation outlives this function.
   std::future<part> ahead;
   const auto begin = [&](Eigen::Index i) {
     if (i < range.end) ahead = std::async(std::launch::async, [&compute, i] { return compute(i); });

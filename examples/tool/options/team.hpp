@@ -44,25 +44,25 @@ class team {
     static_cast<void>(what);
   }
 
-  /// Returns this process' part of the numbers from 0 to count; it begins at a multiple of a block.
+  /// Returns this process' share of the numbers below `count`; it begins at a multiple of `block_size`.
   [[nodiscard]] virtual gonio::block share_of(Eigen::Index count, Eigen::Index block_size) const {
     static_cast<void>(block_size);
     return {0, count};
   }
-  /// Given each process' best value and its number, returns the number with the lowest value, of equal ones the lowest.
+  /// Returns the `number` passed with the lowest `value` of all processes; of equal values, the lowest number.
   [[nodiscard]] virtual Eigen::Index best(double value, Eigen::Index number) const {
     static_cast<void>(value);
     return number;
   }
 
-  /// Returns how passes over groups of rows are shared.
+  /// Returns how the processes share passes over groups of rows.
   [[nodiscard]] virtual gonio::shared_groups groups() const { return {}; }
 
-  /// The number of processes, and the number of this one.
+  /// `size` is the number of processes, `number` the number of this process, from 0.
   [[nodiscard]] virtual std::size_t size() const { return 1; }
   [[nodiscard]] virtual std::size_t number() const { return 0; }
-  /// Exchanges numbers for some rows, equally many in each process: returns those of every process for the rows of this
-  /// one's groups, and 0 for other rows.
+  /// Exchanges values of `rows` rows; each process passes the same number of values. Returns one list for each process:
+  /// of this one, all its values; of another one, its values in this process' row groups and 0 in other rows.
   [[nodiscard]] virtual std::vector<std::vector<float>> exchange_rows(std::vector<float> own, Eigen::Index rows) const {
     static_cast<void>(rows);
     return {std::move(own)};
@@ -74,15 +74,15 @@ class team {
   using part = std::vector<std::byte>;
   /// Returns the text of the writing process.
   [[nodiscard]] virtual std::string text_of_writer(std::string text) const { return text; }
-  /// Computes in one process: the one with the number `turn` modulo their count. The writing process waits for the
-  /// result; others get nothing and continue.
+  /// Calls `compute` in process number `turn` modulo `size()` only. The writing process waits for the
+  /// result; processes that neither write nor compute return at once, without a result.
   [[nodiscard]] virtual std::optional<part> compute_in_turn(std::size_t turn,
                                                             const std::function<part()>& compute) const {
     static_cast<void>(turn);
     return compute();
   }
-  /// Calls `compute(i)` for each i of a range, each in one of the processes; the writing process takes the parts in
-  /// order. The next part is computed while one is taken. Throws the exceptions of both, once neither is running.
+  /// Calls `compute(i)` for each i of a range, in any of the processes, and `take(i, part)` in order in the writing
+  /// process. The next part is computed while one is taken. Throws the exceptions of both, once neither is running.
   virtual void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
                                 const std::function<void(Eigen::Index, part)>& take) const;
 };
@@ -93,7 +93,7 @@ class team {
 /// This process alone.
 [[nodiscard]] const team& alone();
 
-/// Returns the checksum of some words and their ends.
+/// Returns a checksum of words that also depends on where each word ends.
 [[nodiscard]] std::uint32_t checksum_of(std::span<const std::string> words);
 
 /// Throws gonio::error in all processes unless all read the same bytes from the file, or all have no file.

@@ -12,7 +12,7 @@ namespace cli {
 struct thinning {
   std::pair<int, int> steps{1, 1};  ///< n and m
 
-  /// Throws gonio::error if the numbers do not divide those of the grid. Odd steps keep cell centres.
+  /// Throws gonio::error unless n and m divide the grid's numbers of cells. Odd steps keep cell centres.
   [[nodiscard]] gonio::valid_cells of(const gonio::valid_cells& cells) const;
 };
 

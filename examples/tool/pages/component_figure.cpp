@@ -1,5 +1,7 @@
 #include "component_figure.hpp"
 
+#include "contact_sheet.hpp"
+#include "fixed.hpp"
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/render/exposure.hpp>
 #include <gonio/render/false_colour.hpp>
@@ -14,9 +16,6 @@ namespace cli {
 
 namespace {
 
-constexpr std::size_t margin = 6;
-const gonio::rgb paper = gonio::rgb::Constant(0.35);
-
 /// Returns an image with pixels `colour(i)`, row by row from the top.
 template <class Colour>
 gonio::image square_image(int size, const Colour& colour) {
@@ -30,8 +29,12 @@ gonio::image square_image(int size, const Colour& colour) {
 
 }  // namespace
 
-component_figure detail::colour_slices(const Eigen::MatrixXd& values, int size) {
+component_figure detail::colour_slices(const Eigen::MatrixXd& values, int size,
+                                       const Eigen::VectorXd& shares_of_variance, const std::string& name) {
   component_figure figure;
+  sheet_text text{{"reference"},
+                  name + (name.empty() ? "" : ": ") +
+                      "theta_h to the right, theta_d upwards, phi_d 90 degrees; red more, blue less"};
   std::vector<gonio::image> slices{
       square_image(size, [&](Eigen::Index i) { return gonio::rgb::Constant(std::numbers::pi * values(i, 0)); })};
   for (Eigen::Index k = 1; k < values.cols(); ++k) {
@@ -39,8 +42,9 @@ component_figure detail::colour_slices(const Eigen::MatrixXd& values, int size) 
     figure.limits.push_back(largest);
     slices.push_back(
         square_image(size, [&](Eigen::Index i) { return gonio::render::diverging_colour(values(i, k), limit); }));
+    text.labels.push_back(std::to_string(k) + ": " + fixed(100.0 * shares_of_variance[k - 1], 1) + " %");
   }
-  figure.image = gonio::render::side_by_side(slices, margin, paper);
+  figure.image = contact_sheet(slices, slices.size(), text);
   return figure;
 }
 
@@ -56,15 +60,15 @@ gonio::image draw_component_spheres(const gonio::log_relative_pca& prior, Eigen:
   };
   const std::array mean{sphere(0, 0.0)};
   const double exposure = gonio::render::exposure_of_spheres(mean);
-  std::vector<gonio::image> columns;
-  for (Eigen::Index component = 0; component < count; ++component) {
-    std::vector<gonio::image> spheres;
-    for (const int weight : {-2, -1, 0, 1, 2})
+  std::vector<gonio::image> spheres;
+  sheet_text text{{}, "component: deviations"};
+  for (const int weight : {-2, -1, 0, 1, 2})
+    for (Eigen::Index component = 0; component < count; ++component) {
       spheres.push_back(weight == 0 ? mean.front() : sphere(component, weight));
-    for (gonio::image& each : spheres) gonio::render::expose(each, exposure);
-    columns.push_back(gonio::render::stacked(spheres, margin / 2));
-  }
-  return gonio::render::side_by_side(columns, margin / 2);
+      gonio::render::expose(spheres.back(), exposure);
+      text.labels.push_back(std::to_string(component + 1) + ": " + (weight > 0 ? "+" : "") + std::to_string(weight));
+    }
+  return contact_sheet(spheres, static_cast<std::size_t>(count), text);
 }
 
 }  // namespace cli

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include <string>
 #include <vector>
 
 namespace cli {
@@ -23,18 +24,19 @@ struct component_figure {
 
 namespace detail {
 
-/// Colours the values at the pixels of slices, row by row from the top: a column for the BRDF, then one per component.
-[[nodiscard]] component_figure colour_slices(const Eigen::MatrixXd& values, int size);
+/// Colours slices. `values` has a row per pixel, row by row from the top, and a column for the BRDF and each component.
+[[nodiscard]] component_figure colour_slices(const Eigen::MatrixXd& values, int size,
+                                             const Eigen::VectorXd& shares_of_variance, const std::string& name);
 
 }  // namespace detail
 
 /// Draws slices at phi_d = 90 degrees, theta_h to the right as sqrt(theta_h), theta_d upwards. The first is the BRDF to
 /// which the metric is relative, or else the mean, times pi. The others show one standard deviation of each of the
 /// first components in the metric's domain: white is zero, red positive, blue negative, each scaled by its largest
-/// absolute value in the slice.
+/// absolute value in the slice. Below them stand `name`, the shares of variance and the axes.
 template <gonio::error_metric Metric>
 [[nodiscard]] component_figure draw_component_slices(const gonio::pca<Metric>& prior, Eigen::Index count, int size,
-                                                     gonio::thread_count threads) {
+                                                     gonio::thread_count threads, const std::string& name = {}) {
   const gonio::pca<Metric> first = prior.truncated(count);
   const Eigen::RowVectorXd deviations = gonio::weight_deviations(first.coefficients()).transpose();
   const gonio::render::slice_view view{.rows = size, .columns = size};
@@ -52,7 +54,7 @@ template <gonio::error_metric Metric>
         for (Eigen::Index k = 0; k < count; ++k) values(pixel, 1 + k) = row[k] * deviations[k];
       },
       threads);
-  return detail::colour_slices(values, size);
+  return detail::colour_slices(values, size, gonio::variance_shares(prior), name);
 }
 
 /// Draws spheres under the two lights: a column for each of the first components, with weights of -2, -1, 0, 1 and 2

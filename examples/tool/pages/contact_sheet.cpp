@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t margin = 8;
 
-/// A line of text and the space below it, in points of the font.
+/// The height of a line of text with the space below it, in points of the font.
 constexpr std::size_t line_points = 14;
 
 const gonio::rgb grey(0.6, 0.6, 0.6);
@@ -26,7 +26,7 @@ std::string shortened(const std::string& text, std::size_t width, std::size_t sc
   return start + "...";
 }
 
-/// Breaks text into as few lines as the width allows; a word wider than a line has its own line.
+/// Breaks text into lines of at most `width` pixels; a word wider than a line has its own line.
 std::vector<std::string> broken_into_lines(const std::string& text, std::size_t width, std::size_t scale) {
   std::vector<std::string> lines;
   std::istringstream words(text);

@@ -47,7 +47,8 @@ class elapsed_time::clock {
   std::mutex mutex_;
   std::condition_variable ends_;
   bool ended_ = false;
-  std::thread thread_;  // starts when all else is there; std::jthread is experimental in libc++
+  // The last member: it starts when all others exist. std::jthread is experimental in libc++.
+  std::thread thread_;
 };
 
 elapsed_time::elapsed_time(std::string stage) {

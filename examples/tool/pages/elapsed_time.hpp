@@ -6,8 +6,8 @@
 
 namespace cli {
 
-/// While it lives, shows a stage and its seconds on standard error, from the second second on, if that is a terminal:
-/// "reconstructing, 12 s". Wipes itself at its end. `warn` wipes it, too.
+/// Shows a stage and its duration while the object lives: "reconstructing, 12 s". Draws on standard error if that is a
+/// terminal, from two seconds on. The destructor and `warn` wipe the line.
 class elapsed_time {
  public:
   explicit elapsed_time(std::string stage);
@@ -17,7 +17,7 @@ class elapsed_time {
 
  private:
   class clock;
-  std::unique_ptr<clock> clock_;  ///< none if nobody sees it
+  std::unique_ptr<clock> clock_;  ///< null if standard error is no terminal
 };
 
 /// Clears the terminal's line on standard error, if standard error is a terminal.

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace cli {
@@ -24,7 +25,7 @@ template <gonio::brdf Brdf>
   return gonio::render::render_slice(f, {.rows = tile_size, .columns = tile_size}, threads);
 }
 
-/// Returns a factor's colour, from the mean of the channels' logarithms: blue for a half or less, green for 1, red for
+/// Returns a factor's colour, from the mean of the channels' logarithms: blue for a half or less, white for 1, red for
 /// 2 or more.
 [[nodiscard]] gonio::rgb factor_colour(const gonio::rgb& sigma);
 
@@ -37,16 +38,27 @@ template <class Sigma>
   return slice_tile(colour, threads);
 }
 
-/// Draws a slice of values at samples: a square of 2 x 2 pixels for each, or of 4 x 4 if they are few. Shows the
-/// samples within half a degree or, if these are fewer than 400, the 400 nearest. `colour(i)` is that of sample i.
+/// Draws the samples near a slice: those within half a degree or, if these are fewer than 400, the 400 nearest. Sample
+/// i is a square of the colour `colour(i)`, 4 x 4 pixels for up to 400 samples, otherwise 2 x 2; the rest of the tile
+/// has the colour `nothing`.
 [[nodiscard]] gonio::image samples_tile(const gonio::sample_set& samples, const gonio::rgb& nothing,
                                         const std::function<gonio::rgb(Eigen::Index)>& colour);
 
-/// Draws the samples' own colours, red where there are none.
+/// Draws the samples near a slice in their own colours, on the figure's background.
 [[nodiscard]] gonio::image measurements_tile(const gonio::sample_set& samples);
 
-/// Arranges tiles in columns, which may have different lengths.
-[[nodiscard]] gonio::image tiles_in_columns(const std::vector<std::vector<gonio::image>>& columns);
+/// A tile and the label below it.
+struct labelled_tile {
+  gonio::image image;
+  std::string label;
+};
+
+/// Return the scales of the colours in other tiles.
+[[nodiscard]] labelled_tile delta_e_scale_tile();
+[[nodiscard]] labelled_tile factor_scale_tile();
+
+/// Arranges tiles in columns, which may have different lengths. The last line names the axes of slices.
+[[nodiscard]] gonio::image tiles_in_columns(const std::vector<std::vector<labelled_tile>>& columns);
 
 /// Spheres under one lighting, all with the exposure of the reference.
 class sphere_tiles {

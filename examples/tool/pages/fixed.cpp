@@ -14,6 +14,12 @@ std::string fixed(double value, int digits) {
 
 std::string fixed(const json& value, int digits) { return fixed(value.number(), digits); }
 
+std::string significant(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
 std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
 
 std::string counted(std::ptrdiff_t count, const std::string& thing) {

@@ -12,10 +12,13 @@ class json;
 [[nodiscard]] std::string fixed(double value, int digits);
 [[nodiscard]] std::string fixed(const json& value, int digits);
 
+/// Returns a number with three significant digits, such as 0.00123 or 1.23e-05.
+[[nodiscard]] std::string significant(double value);
+
 /// Returns a reflectance in sr^-1 in three or four digits, the precision of measurements.
 [[nodiscard]] std::string reflectance(double value);
 
-/// "1 sample", "20 samples".
+/// Returns "1 sample" or "20 samples".
 [[nodiscard]] std::string counted(std::ptrdiff_t count, const std::string& thing);
 
 }  // namespace cli

@@ -16,7 +16,8 @@
 
 namespace cli {
 
-/// All texels are lit and seen in the same directions: each is a product of its weights with one row of the functions.
+/// A distant light. All texels have the same directions: a texel's mapped value is the product of its weights with one
+/// row of the functions, plus an offset.
 class flat_sample::lit_from_afar {
  public:
   lit_from_afar(const gonio::log_relative_pca& prior, const Eigen::MatrixXf& functions,

@@ -29,7 +29,7 @@ class flat_sample {
 
   /// Returns radiance times pi, one pixel per texel. Throws gonio::error if the map is damaged.
   [[nodiscard]] gonio::image radiance(gonio::thread_count threads) const;
-  /// The same for a range of rows, three numbers per texel.
+  /// Returns radiance times pi for a range of rows, three numbers per texel.
   [[nodiscard]] std::vector<float> radiance(gonio::block rows, gonio::thread_count threads) const;
 
  private:
@@ -42,7 +42,7 @@ class flat_sample {
 };
 
 /// Returns the exposed image of a map. Exposure 1 makes a white Lambertian surface that faces a light of irradiance 1
-/// white; by default `render::exposure_of` the image is used. Throws gonio::error as `flat_sample` does.
+/// white; the default is `render::exposure_of` of the image. Throws gonio::error as `flat_sample` does.
 [[nodiscard]] gonio::image flat_sample_image(const std::filesystem::path& map, const std::filesystem::path& prior,
                                              std::span<const gonio::directional_light> lights,
                                              std::optional<double> exposure, gonio::thread_count threads);

@@ -2,6 +2,7 @@
 /// The images that the tool draws of tables, and their options.
 
 #include "tool/options/command.hpp"
+#include <gonio/core/brdf.hpp>
 #include <gonio/io/images/image.hpp>
 #include <gonio/render/exposure.hpp>
 #include <gonio/render/horizon_lookup.hpp>
@@ -32,7 +33,7 @@ inline std::pair<option, option> add_image_options_to(command& to, image_options
   return {size, exposure};
 }
 
-/// The same for an option that names the image.
+/// Adds `--size` and `--exposure`, which need the option `image` (the file of the image).
 inline void add_image_options(command& to, image_options& options, option image) {
   auto [size, exposure] = add_image_options_to(
       to, options, "white at the 99th percentile of the sphere, or of the measurement if there is one");
@@ -47,6 +48,15 @@ inline void add_image_options(command& to, image_options& options, option image)
     const gonio::render::directional_lighting& lights = gonio::render::two_lights()) {
   return gonio::render::render_sphere(gonio::render::horizon_lookup(table), lights,
                                       {.size = options.size, .supersampling = 3}, threads);
+}
+
+/// Returns the image of a sphere whose grooves, if any, run about its vertical axis.
+template <gonio::brdf Brdf>
+[[nodiscard]] gonio::image turned_sphere_image(
+    const Brdf& f, const image_options& options, gonio::thread_count threads,
+    const gonio::render::directional_lighting& lights = gonio::render::two_lights()) {
+  return gonio::render::render_sphere(f, lights, {.size = options.size, .supersampling = 3, .is_turned = true},
+                                      threads);
 }
 
 /// Gives spheres the same exposure: the given one, or one for which the brightest of `by` is white at its 99th

@@ -1,7 +1,10 @@
 #include "iteration_figure.hpp"
 
 #include "figure_tiles.hpp"
+#include "fixed.hpp"
 #include <gonio/estimate/fitted_brdf.hpp>
+
+#include <string>
 
 namespace cli {
 
@@ -47,26 +50,30 @@ iteration_image iteration_figure::draw() const {
                               gonio::sphere_delta_e::middle_grey, threads_},
                              reference, threads_);
   iteration_image result;
-  std::vector<std::vector<gonio::image>> columns;
+  std::vector<std::vector<labelled_tile>> columns;
 
   // The given data.
   if (truth_)
-    columns.push_back({slice_tile(*truth_, threads_), spheres.sphere(*truth_), draw_input()});
+    columns.push_back(
+        {{slice_tile(*truth_, threads_), "truth"}, {spheres.sphere(*truth_), "truth"}, {draw_input(), "measurements"}});
   else
-    columns.push_back({draw_input()});
+    columns.push_back({{draw_input(), "measurements"}});
 
   for (std::size_t i = 0; i < moments_.size(); ++i) {
-    if (i > 2 && i + 1 < moments_.size()) continue;  // kept only as the predecessor of the last
+    if (i > 2 && i + 1 < moments_.size()) continue;  // kept only as the predecessor of the last round
     const moment& now = moments_[i];
     if (i > 0) {
       const moment& before = moments_[i - 1];
-      columns.push_back({draw_factors(before), draw_correction(now)});
-      if (truth_) columns.back().push_back(draw_true_correction(before));
+      columns.push_back({{draw_factors(before), "factors at the samples"}, {draw_correction(now), "factors found"}});
+      if (truth_) columns.back().push_back({draw_true_correction(before), "true factors"});
+      columns.back().push_back(factor_scale_tile());
     }
-    columns.push_back({slice_tile(now.estimate, threads_), spheres.sphere(now.estimate)});
+    const std::string name = i == 0 ? "start" : "round " + std::to_string(now.round);
+    columns.push_back({{slice_tile(now.estimate, threads_), name}, {spheres.sphere(now.estimate), name}});
     if (!truth_) continue;
     auto [image, mean] = spheres.difference(now.estimate);
-    columns.back().push_back(std::move(image));
+    columns.back().push_back({std::move(image), "Delta E " + fixed(mean, 2)});
+    columns.back().push_back(delta_e_scale_tile());
     result.differences.emplace_back(now.round, mean);
   }
   result.image = tiles_in_columns(columns);

@@ -17,14 +17,14 @@ struct iteration_image {
   std::vector<std::pair<Eigen::Index, double>> differences;
 };
 
-/// Observes an iteration, and draws the start, rounds 1 and 2, and the last. docs/reference/formats.md describes the
-/// image.
+/// Observes an iteration, and draws the start, rounds 1 and 2, and the last round. docs/reference/formats.md describes
+/// the image.
 class iteration_figure {
  public:
   iteration_figure(gonio::correction corrections, gonio::sample_set samples, std::optional<gonio::brdf_table> truth,
                    gonio::thread_count threads);
 
-  /// Call it before the first round and after each, with a run that has `result()` and `estimated()`.
+  /// Keeps the state of a run with `result()`. Must be called before the first round and after each.
   template <class Run>
   void look(const Run& run) {
     const auto result = run.result();

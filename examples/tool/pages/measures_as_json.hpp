@@ -16,10 +16,10 @@ namespace cli {
 /// Returns three numbers as an array.
 [[nodiscard]] json per_channel(const gonio::rgb& values);
 
-/// Returns the keys that `gonio compare --json` documents.
+/// Returns the errors under the keys that `gonio compare --json` documents.
 [[nodiscard]] json to_json(const gonio::comparison& errors);
 
-/// The readings of gloss meters, integrating spheres and multi-angle instruments, with their geometries in the keys.
+/// Returns the readings of gloss meters, integrating spheres and multi-angle instruments. The keys contain the angles.
 [[nodiscard]] json to_json(const gonio::model::instrument_readings& readings);
 
 }  // namespace cli

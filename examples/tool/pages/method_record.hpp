@@ -1,5 +1,6 @@
 #pragma once
-/// Comparison of the methods of `gonio reconstruct` on measured materials, as warnings: docs/results/real-methods.md.
+/// Warnings from the comparison of the methods of `gonio reconstruct` on measured materials
+/// (docs/results/real-methods.md).
 
 #include <Eigen/Core>
 
@@ -7,13 +8,13 @@
 
 namespace cli {
 
-/// From this number of samples, correction is nearer than pca if many samples are wrong. For fewer, `gonio reconstruct`
-/// uses it only if one of its own options is given.
+/// With fewer samples than this, `gonio reconstruct` uses pca instead of correction, unless an option of correction is
+/// given. With more, it uses correction as asked, and warns.
 constexpr Eigen::Index fewest_corrected_samples = 2000;
 
-/// Returns a sentence for people if, on any of the measured materials, the method was more than twice as far off as
-/// pca, or further off than the median material, at the largest tried number of samples that is not above `samples`;
-/// empty otherwise.
+/// Returns a warning if the method's error on any measured material was more than twice that of pca, or larger than
+/// that of the median material; otherwise an empty text. Of the numbers of samples that were tried, uses the largest
+/// that is at most `samples`.
 [[nodiscard]] std::string warning_of(const std::string& method, Eigen::Index samples);
 
 }  // namespace cli

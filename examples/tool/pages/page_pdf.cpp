@@ -20,13 +20,13 @@ std::string shell_word(std::string_view word) {
 std::string chromium_for(const std::filesystem::path& pdf) {
   for (const std::string name : {"chromium", "chromium-browser", "google-chrome"})
     if (std::system(("command -v " + name + " > /dev/null 2>&1").c_str()) == 0) return name;
-  gonio::io::refuse_file(pdf, "a .pdf needs chromium, which is not on the PATH; a page (.html) needs no program");
+  gonio::io::refuse_file(pdf, "a .pdf needs chromium on the PATH: install it, or give -o a name that ends in .html");
 }
 
 void print_page(const std::filesystem::path& pdf, std::string_view page) {
   const std::string html = std::filesystem::absolute(pdf).string() + ".html", printed = html + ".pdf";
   gonio::io::write_atomically(html, std::as_bytes(std::span(page)));
-  // The superuser's chromium has no sandbox. The page is our own, and asks no network.
+  // Chromium does not run as root with its sandbox. The page is our own and loads nothing from a network.
   const std::string line = chromium_for(pdf) + " --headless --no-pdf-header-footer " +
                            (::geteuid() == 0 ? "--no-sandbox " : "") + shell_word("--print-to-pdf=" + printed) + ' ' +
                            shell_word(html) + " > /dev/null 2>&1";

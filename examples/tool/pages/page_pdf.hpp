@@ -1,5 +1,5 @@
 #pragma once
-/// Pages on paper, as chromium prints them.
+/// Pages as PDF, printed by chromium.
 
 #include <filesystem>
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace cli {
 
-/// A word of a command line as a shell takes it.
+/// Returns a word of a command line, quoted for a shell if necessary.
 [[nodiscard]] std::string shell_word(std::string_view word);
 
-/// The name of chromium on the PATH. Throws gonio::error, which names the .pdf, if it is not there.
+/// Returns the name of chromium on the PATH. Throws gonio::error naming the .pdf if chromium is not there.
 std::string chromium_for(const std::filesystem::path& pdf);
 
-/// Prints a page, which stands beside its target for so long.
+/// Prints a page to a .pdf. While it is printed, the page is in an .html file beside the .pdf.
 void print_page(const std::filesystem::path& pdf, std::string_view page);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 #pragma once
-/// A progress bar on the terminal, for work of over a second.
+/// A progress bar on the terminal, for work that takes over a second.
 
 #include <gonio/core/printable.hpp>
 #include <gonio/core/progress.hpp>

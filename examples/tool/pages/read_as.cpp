@@ -20,12 +20,16 @@ using gonio::io::sample_quantity;
 
 std::string rounded(double angle) { return gonio::io::shortest(std::round(10.0 * angle) / 10.0 + 0.0); }
 
+/// Returns "-60 to 30", or "-45" for a single angle.
+std::string span(const std::set<double>& angles) {
+  const std::string first = rounded(*angles.begin());
+  return angles.size() == 1 ? first : first + " to " + rounded(*angles.rbegin());
+}
+
 /// Returns "0, 30, 60", or "0 to 80 (17 angles)" for many.
 std::string listed(const std::set<double>& angles) {
   constexpr std::size_t most = 8;
-  if (angles.size() > most)
-    return rounded(*angles.begin()) + " to " + rounded(*angles.rbegin()) + " (" + std::to_string(angles.size()) +
-           " angles)";
+  if (angles.size() > most) return span(angles) + " (" + std::to_string(angles.size()) + " angles)";
   std::string text;
   for (const double each : angles) text += (text.empty() ? "" : ", ") + rounded(each);
   return text;
@@ -83,8 +87,7 @@ json read_as(const gonio::io::sample_file& file) {
                          (angles.in_plane ? " in the plane of incidence" : "") + "; theta_i " + listed(angles.theta_i) +
                          " degrees; theta_o ";
   if (angles.in_plane)
-    sentence += rounded(*angles.theta_o.begin()) + " to " + rounded(*angles.theta_o.rbegin()) +
-                " degrees, negative on the mirror direction's side";
+    sentence += span(angles.theta_o) + " degrees, negative on the mirror direction's side";
   else
     sentence += "up to " + rounded(std::max(*angles.theta_o.rbegin(), -*angles.theta_o.begin())) + " degrees";
   const sample_quantity quantity = file.quantity.value_or(sample_quantity::brdf);

@@ -6,9 +6,9 @@
 
 namespace cli {
 
-/// Returns three facts about a file of samples: `read_as`, a sentence ("90 samples in the plane of incidence, theta_i
-/// 0, 30, 60; percent of a white diffuser; semicolon-separated with decimal commas"), `options` that state the same on
-/// the command line, and `unsure_of`, sentences on what the file does not say.
+/// Returns three facts about a file of samples: `read_as`, a sentence ("90 samples in the plane of incidence; theta_i
+/// 0, 30, 60 degrees; theta_o -80 to 80 degrees, negative on the mirror direction's side; 550 nm, percent of a white
+/// diffuser"); `options`, which state the same on the command line; and `unsure_of`, sentences on doubtful assumptions.
 [[nodiscard]] json read_as(const gonio::io::sample_file& file);
 
 }  // namespace cli

@@ -43,25 +43,25 @@ json five_digits(const gonio::rgb& value) {
   return {five_digits(value.x()), five_digits(value.y()), five_digits(value.z())};
 }
 
-/// A fit in any direction and, if known, its uncertainty.
+/// The values of a fit in any directions and, if known, their uncertainty.
 struct known_fit {
   using function = std::function<gonio::rgb(const gonio::direction& wi, const gonio::direction& wo)>;
-  function value, relative;  ///< relative uncertainty; may be empty
+  function value, relative;  ///< `relative`: relative uncertainty; may be empty
 
   explicit known_fit(function model) : value(std::move(model)) {}
   explicit known_fit(const reconstruction& found)
       : value(gonio::render::horizon_lookup(found.table)),
         relative(gonio::render::horizon_lookup(*found.uncertainty)) {}
 
-  /// Adds both to the description of a pair.
+  /// Adds the fit and its uncertainty to the description of a pair of directions.
   void describe(const gonio::direction& wi, const gonio::direction& wo, json& told) const {
     told["fit"] = five_digits(gonio::rgb(value(wi, wo).max(0.0)));
     if (relative) told["known_to"] = five_digits(relative(wi, wo).y());
   }
 };
 
-/// Returns the data of the report's interactive viewer: its tables, and the exposure that `gonio render` uses for a
-/// sphere under its first light.
+/// Returns the data of the interactive viewer: its tables, and the exposure that `gonio render` uses for a sphere under
+/// the viewer's first light.
 json viewer_of(const reported_fit& fit) {
   const reconstruction& found = fit.found;
   const gonio::render::directional_lighting light({{gonio::direction(1.0, 1.0, 1.0)}});
@@ -80,8 +80,8 @@ std::string sphere_url(const gonio::brdf_table& table, gonio::thread_count threa
   return gonio::io::data_url("image/png", gonio::io::write_png(spheres.front(), "the sphere"));
 }
 
-/// Returns the angle of the viewer in the light's plane, radians: positive on the far side from the light; NaN if the
-/// viewer is more than a degree off the plane.
+/// Returns the viewer's angle from the normal in the plane of incidence, in radians: positive on the side away from the
+/// light; NaN if the viewer is more than a degree off the plane.
 double in_plane_angle(const gonio::direction_pair& pair) {
   const double azimuth = std::hypot(pair.wi.x(), pair.wi.y()) > 1e-4 ? std::atan2(pair.wi.y(), pair.wi.x()) : 0.0;
   const gonio::direction wo = gonio::turned_about_normal(pair.wo, -azimuth);
@@ -139,13 +139,12 @@ json samples_of(const reported_fit& fit, const known_fit& known) {
 /// In-plane samples whose lights are less than half a degree apart.
 struct in_plane_scan {
   double lowest = 0.0, sum = 0.0;  ///< of theta_i, degrees
-  std::vector<json> samples;       ///< their numbers
+  std::vector<json> samples;       ///< the numbers of the samples
 
   [[nodiscard]] double theta_i() const { return sum / static_cast<double>(samples.size()); }
 };
 
-/// Returns the scans with three samples or more, at most six, preferring those with most samples; ordered by the angle
-/// of the light.
+/// Returns the scans with three samples or more, ordered by theta_i; of more than six, the six with most samples.
 std::vector<in_plane_scan> find_scans(const json& samples) {
   std::vector<std::pair<double, json>> in_plane;
   for (const json& each : samples.elements())
@@ -169,20 +168,20 @@ std::vector<in_plane_scan> find_scans(const json& samples) {
   return all;
 }
 
-/// Returns light and viewer in one plane, degrees from the normal; the viewer's is positive on the far side from the
-/// light.
+/// Returns directions in one plane, from angles to the normal in degrees; the viewer's `angle` is positive on the side
+/// away from the light.
 gonio::direction_pair in_plane_pair(double theta_i, double angle) {
   return {gonio::spherical_direction(radians(theta_i), 0.0), gonio::spherical_direction(radians(-angle), 0.0)};
 }
 
-/// Returns the viewer's angles of all curves, -87 to 87 degrees.
+/// Returns the viewer's angles of all curves: -87 to 87 degrees, every half degree.
 std::vector<double> curve_angles() {
   std::vector<double> angles;
   for (int half = -2 * 87; half <= 2 * 87; ++half) angles.push_back(0.5 * half);
   return angles;
 }
 
-/// Returns the fit in the plane of a light, at -87 to 87 degrees of the viewer from the normal.
+/// Returns the fit in the plane of incidence, at the viewer's angles of `curve_angles`.
 json curve_of(double theta_i, const known_fit& known) {
   json curve = json::array();
   for (const double angle : curve_angles()) {
@@ -194,7 +193,7 @@ json curve_of(double theta_i, const known_fit& known) {
   return curve;
 }
 
-/// Returns the fit in the planes of the scanned lights, or of three others if there are none.
+/// Returns the fit for the lights of all scans, or for three other lights if there are no scans.
 json scans_of(const json& samples, const known_fit& known) {
   json all = json::array();
   for (const in_plane_scan& scan : find_scans(samples))
@@ -207,7 +206,8 @@ json scans_of(const json& samples, const known_fit& known) {
   return all;
 }
 
-/// Returns the luminance of a fit, and of samples within half a degree, in the plane of another file's light.
+/// Returns the luminance of a fit and of its samples in the plane of incidence, for the light of another file's scan.
+/// The samples' theta_i may differ by half a degree.
 json luminance_in_plane(double theta_i, const reported_fit& fit, const known_fit& known) {
   json curve = json::array(), samples = json::array();
   for (const double angle : curve_angles()) {
@@ -226,8 +226,8 @@ json luminance_in_plane(double theta_i, const reported_fit& fit, const known_fit
   return {{"curve", std::move(curve)}, {"samples", std::move(samples)}};
 }
 
-/// Returns the median over phi_d of the uncertainty of directions: columns of theta_h, denser near highlights, and rows
-/// of theta_d. Directions below the horizon are left out.
+/// Returns the uncertainty by theta_h and theta_d: the median over phi_d, without directions below the horizon. Columns
+/// of theta_h are narrower near highlights.
 json map_of(const known_fit& known) {
   constexpr int columns = 18, rows = 12, azimuths = 12;
   const auto edge = [](int column) { return 90.0 * column * column / (columns * columns); };
@@ -249,7 +249,8 @@ json map_of(const known_fit& known) {
   return all;
 }
 
-/// Returns albedo by angle; `known_to` is its error if all directions were off together.
+/// Returns albedo by angle of incidence; `known_to` is its relative error if all directions are off by their
+/// uncertainty at once.
 json albedo_of(const known_fit& known) {
   constexpr int bins = 120;
   const auto value = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
@@ -294,7 +295,7 @@ json readings_of(const reconstruction& found) {
   return readings;
 }
 
-/// Returns the record of the fit, in addition to the command.
+/// Returns the record of the fit without the command.
 json record_of_fit(const reported_fit& fit) {
   const auto& [options, measured, found, truth] = fit;
   const gonio::log_relative_pca prior = prior_of(options.materials);

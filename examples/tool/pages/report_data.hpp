@@ -19,8 +19,9 @@ struct reported_fit {
   const gonio::brdf_table* truth;  ///< shown for comparison; may be null
 };
 
-/// Returns directions in degrees, reflectances in sr^-1, numbers of samples from 1; "known to" is relative, with a
-/// probability of 68 %. If there are more than `most_residuals` samples, shows that many at random and the rejected.
+/// Returns the content of a fit's page: directions in degrees, reflectance in sr^-1, samples numbered from 1;
+/// `known_to` is relative, with a probability of 68 %. Of more than `most_residuals` samples, the page shows that many
+/// at random and the worst rejected ones.
 [[nodiscard]] json report_data(const reported_fit& fit);
 
 /// Adds another measurement to the result of `report_data`: its readings, its albedo, and its luminance in the planes
@@ -42,7 +43,7 @@ struct reported_model {
 /// Returns the values of a table in the planes of lights at 15, 45 and 70 degrees, every five degrees of the viewer.
 [[nodiscard]] gonio::sample_set in_plane_values(const gonio::brdf_table& table);
 
-/// Returns the uncertainty of directions over theta_h and theta_d, from a reconstruction with its uncertainty.
+/// Returns the uncertainty by theta_h and theta_d of a reconstruction that has `uncertainty`.
 [[nodiscard]] json known_map(const reconstruction& found);
 
 }  // namespace cli

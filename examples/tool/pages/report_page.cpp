@@ -92,7 +92,7 @@ std::string report_page(const std::string& title, const json& data) {
 
 void add_report_option(command& to, page_option& page, const std::vector<std::string>& command_line) {
   to.add_output("--report", page.path, {".html"},
-                "Page for people to write (.html): one file, which a browser shows without a network");
+                "Page to write (.html): one file that a browser shows without a network");
   page.command_line = command_line;
 }
 

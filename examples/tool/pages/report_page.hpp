@@ -19,8 +19,8 @@ namespace cli {
 /// Escapes text for the content of HTML tags, or for a quoted attribute.
 [[nodiscard]] std::string escape_html(std::string_view text);
 
-/// Escapes JSON for a script in HTML: `</` becomes `<\/` and `<!` becomes `\u003c!`, so that no text ends the script.
-/// The parsed JSON is the same.
+/// Escapes JSON for a script in HTML: every `<` becomes `\u003c`, so no text ends the script. The parsed JSON is the
+/// same.
 [[nodiscard]] std::string escape_script(std::string_view json_text);
 
 /// Returns the whole page. examples/report/report.js draws `data`; its `kind` names the command.
@@ -40,8 +40,8 @@ void add_report_option(command& to, page_option& page, const std::vector<std::st
 /// Returns the record of a command: pairs of a name and a text; pairs with an empty text are left out.
 [[nodiscard]] json record_of(std::initializer_list<std::pair<const char*, std::string>> pairs);
 
-/// Writes a page beside its target and renames it. Its title is the `name` of the data; its `record` begins with the
-/// command and the version.
+/// Writes a page to a file beside its target, and then renames the file. The page's title is the `name` of the data;
+/// its `record` begins with the command and the version.
 void write_report_page(const page_option& page, json data);
 
 }  // namespace cli

@@ -10,7 +10,8 @@ namespace cli {
 
 namespace {
 
-/// Light at `theta_i` and a viewer `off_mirror` from its mirror direction, away from the normal. Radians.
+/// Returns the centres of source and receptor: light at `theta_i`, viewer `off_mirror` radians from the mirror
+/// direction, away from the normal.
 gonio::direction_pair centres_of(const gonio::model::reflectometer& meter) {
   const double theta_o = meter.theta_i + meter.off_mirror;
   return {gonio::direction(-std::sin(meter.theta_i), 0.0, std::cos(meter.theta_i)),
@@ -30,7 +31,7 @@ json readings_known_to(const gonio::brdf_table& fit, const gonio::brdf_table& un
   for (const double aspecular : gonio::model::aspecular_angles)
     colours.push_back(known_to(gonio::model::aspecular_directions(aspecular)));
 
-  // Reflectance: integrals of the deviation, over those of the fit.
+  // Reflectance: the integral of the deviation divided by the integral of the fit.
   const auto deviation = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept {
     return gonio::rgb(fit(wi, wo) * relative(wi, wo));
   };

@@ -1,14 +1,14 @@
 #pragma once
-/// What instruments would read of a fit, and how well that is known.
+/// The uncertainty of instrument readings of a fit.
 
 #include "tool/files/json.hpp"
 #include <gonio/table/brdf_table.hpp>
 
 namespace cli {
 
-/// Of a fit whose uncertainty is relative: each reading's, with the keys of `to_json(instrument_readings)`. Of gloss,
-/// haze and colours it is that of light at the source's centre and a viewer at the receptor's, of reflectance what it
-/// would be off by if all directions were off together.
+/// Returns the relative uncertainty of each reading, with the keys of `to_json(instrument_readings)`, from the relative
+/// uncertainty of the fit. For gloss, haze and colours, this is the fit's uncertainty at the centres of source and
+/// receptor; for reflectance, the error if all directions are off by their uncertainty at once.
 [[nodiscard]] json readings_known_to(const gonio::brdf_table& fit, const gonio::brdf_table& uncertainty);
 
 }  // namespace cli

@@ -30,7 +30,7 @@ class range {
   double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
 };
 
-/// Includes repeats with zero weight.
+/// Counts repeated directions, also of samples with zero weight.
 Eigen::Index count_repeats(gonio::sample_set samples) {
   for (gonio::sample& s : samples) s.weight = 1.0;
   return repeated_samples(samples);
@@ -54,7 +54,7 @@ json angles_of(const gonio::sample_set& samples) {
 
 std::vector<std::string> suspicions_of(const gonio::sample_set& samples, Eigen::Index negative) {
   constexpr double usual_noise = 0.02;
-  std::vector<std::string> sentences = warnings_of(samples, usual_noise);
+  std::vector<std::string> sentences = cli::warnings_of(samples, usual_noise);
   if (10 * negative > std::ssize(samples))
     sentences.push_back(std::to_string(negative) + " of " + std::to_string(samples.size()) +
                         (negative == 1 ? " samples has a negative value" : " samples have a negative value"));

@@ -21,21 +21,32 @@ namespace cli {
 
 namespace {
 
-/// Samples with the same half and difference angles, to a thousandth of a degree.
-using repeats = std::map<std::array<std::int64_t, 3>, std::vector<Eigen::Index>>;
+/// Samples with the same half and difference angles, to a thousandth of a degree, and, if asked for, with the same
+/// azimuth of the light (of the viewer, if the light is along the normal).
+using repeats = std::map<std::array<std::int64_t, 4>, std::vector<Eigen::Index>>;
 
-repeats grouped(const gonio::sample_set& samples) {
+std::int64_t thousandths(double angle) { return std::llround(1e3 * gonio::degrees(angle)); }
+
+std::int64_t turn_of(const gonio::direction_pair& pair) {
+  const bool is_along_normal = std::hypot(pair.wi.x(), pair.wi.y()) < 1e-6;
+  return thousandths(gonio::azimuth(is_along_normal ? pair.wo : pair.wi));
+}
+
+repeats grouped_by_angles(const gonio::sample_set& samples, bool with_azimuths) {
   repeats groups;
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
     if (!samples[i].weight.counts()) continue;
     const gonio::half_difference angles = samples[i].angles();
-    const auto rounded = [](double angle) { return std::llround(1e3 * gonio::degrees(angle)); };
-    groups[{rounded(angles.theta_h), rounded(angles.theta_d), rounded(angles.phi_d)}].push_back(i);
+    const std::int64_t turn = with_azimuths ? turn_of(samples[i].directions.pair()) : 0;
+    groups[{thousandths(angles.theta_h), thousandths(angles.theta_d), thousandths(angles.phi_d), turn}].push_back(i);
   }
   return groups;
 }
 
-/// Describes the two samples with the most different green values in the group where they differ by the largest factor.
+repeats grouped(const gonio::sample_set& samples) { return grouped_by_angles(samples, looks_anisotropic(samples)); }
+
+/// Of all groups of repeats, takes the group in which the green values differ by the largest factor, and describes its
+/// two most different samples.
 std::string contradiction(const gonio::sample_set& samples, double noise) {
   const auto green = [&](Eigen::Index i) { return samples[i].value.y(); };
   double largest = 1.5 * (1.0 + 6.0 * noise);
@@ -52,7 +63,7 @@ std::string contradiction(const gonio::sample_set& samples, double noise) {
   return sentence;
 }
 
-/// A saturated detector reads the same number repeatedly, and none larger.
+/// Asks about saturation if the largest value is frequent: a saturated detector repeats one number and reads no larger.
 std::string saturation(const gonio::sample_set& samples) {
   constexpr std::ptrdiff_t suspicious = 4;
   std::map<double, std::ptrdiff_t> times;
@@ -66,7 +77,7 @@ std::string saturation(const gonio::sample_set& samples) {
          ": was the detector saturated? The highlight may be brighter than the estimate says";
 }
 
-/// Negative values are noise, unless they are many.
+/// Asks about the dark signal if more than half of the samples are negative; fewer are noise.
 std::string darkness(const gonio::sample_set& samples) {
   const auto negative = std::ranges::count_if(samples, [](const gonio::sample& s) { return s.value.maxCoeff() < 0.0; });
   if (2 * negative <= std::ssize(samples)) return {};
@@ -90,7 +101,8 @@ bool all_in_plane(const gonio::sample_set& samples) {
 
 constexpr std::size_t fewest = 3;
 
-/// In radians no polar angle exceeds 1.6, and the sum of theta_h and theta_d does not exceed 3.2.
+/// Are all angles below 3.2, and not all 0? In radians, no polar angle exceeds 1.6, and theta_h + theta_d does not
+/// exceed 3.2.
 bool looks_like_radians(const gonio::sample_set& samples) {
   if (samples.size() < fewest) return false;
   const double nearest = std::cos(gonio::radians(3.2));
@@ -134,7 +146,7 @@ bool fall_like_cosine(const std::vector<dull_reading>& readings) {
   return std::abs(slope - 1.0) < 0.3 && correlation > 0.9;
 }
 
-/// Returns the upper median reflectance of the samples away from the highlight, relative to white; 0 for few samples.
+/// Returns the upper median reflectance of the samples away from the highlight, relative to white; 0 for fewer than 5.
 double typical_reflectance_factor(const std::vector<dull_reading>& readings) {
   constexpr std::size_t enough = 5;
   if (readings.size() < enough) return 0.0;
@@ -158,6 +170,20 @@ std::string likely_quantity(double reflectance_factor, gonio::io::sample_quantit
 
 }  // namespace
 
+bool looks_anisotropic(const gonio::sample_set& samples) {
+  constexpr double noticeable = 0.25;
+  constexpr std::size_t fewest_groups = 5;
+  std::vector<double> differences;
+  for (const auto& [angles, numbers] : grouped_by_angles(samples, false)) {
+    const auto turn = [&](Eigen::Index i) { return turn_of(samples[i].directions.pair()); };
+    const auto value = [&](Eigen::Index i) { return samples[i].value.y(); };
+    const auto [first, last] = std::ranges::minmax(numbers | std::views::transform(turn));
+    const auto [low, high] = std::ranges::minmax(numbers | std::views::transform(value));
+    if (last > first && high > 0.0) differences.push_back(1.0 - low / high);
+  }
+  return differences.size() >= fewest_groups && gonio::upper_median(differences) > noticeable;
+}
+
 std::vector<std::string> doubts_of(const gonio::io::sample_file& file) {
   const gonio::sample_set samples = file.samples.in_three_channels();
   std::vector<std::string> sentences;
@@ -175,12 +201,15 @@ std::vector<std::string> doubts_of(const gonio::io::sample_file& file) {
     sentences.emplace_back(
         "away from highlights, the values fall like the cosine of the viewer's angle: do they contain this cosine "
         "(--quantity brdf-cosine)?");
-  if (const double ratio = file.sign ? 0.0 : gonio::brightness_towards_light(samples);
+  // Whoever states `light` has answered the question below.
+  const bool asks = file.sign != gonio::io::theta_o_sign::light;
+  if (const double ratio = asks ? gonio::brightness_towards_light(samples) : 0.0;
       ratio > gonio::implausible_brightness_towards_light)
     sentences.push_back("where light and viewer have the same direction, the sample is " + fixed(ratio, 1) +
-                        " times as bright as in the mirror direction: does the material reflect light back "
-                        "(--theta-o-sign light), or is theta_o or its azimuth counted from the mirror direction "
-                        "(--theta-o-sign mirror)?");
+                        " times as bright as in the mirror direction: " +
+                        (file.sign ? "is a positive theta_o on the light's side (--theta-o-sign light)?"
+                                   : "does the material reflect light back (--theta-o-sign light), or is theta_o or "
+                                     "its azimuth counted from the mirror direction (--theta-o-sign mirror)?"));
   return sentences;
 }
 

@@ -6,8 +6,9 @@
 
 namespace cli {
 
-/// Returns values as half floats with two bits dropped, within 0.25 %, negative ones as zero; for each channel the
-/// differences along phi_d, deflated: 1 to 1.5 MB of text. O(cells). Throws gonio::error if a value is not finite.
+/// Returns values as half floats without the last two bits, within 0.25 %; negative values become 0. Stores each
+/// channel's differences along phi_d, deflated: 1 to 1.5 MB of text. O(cells). Throws gonio::error if a value is not
+/// finite.
 [[nodiscard]] json viewer_table(const gonio::brdf_table& table);
 
 /// Returns the relative uncertainty of the green channel at every second cell along each axis, one byte each: 0.1 % to

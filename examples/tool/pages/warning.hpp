@@ -6,6 +6,7 @@
 namespace cli {
 
 /// Prints a line on standard error, "gonio: warning: ...", safe for a terminal even if it quotes a file.
+/// The same sentence is printed once.
 void warn(const std::string& sentence);
 
 }  // namespace cli

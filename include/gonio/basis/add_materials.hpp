@@ -6,14 +6,14 @@
 
 namespace gonio {
 
-/// Returns the prior of a prior's materials and new ones, over the prior's cells. Only the components of the old
-/// materials are known; the rest of them is lost. The reference stays the prior's, not the median of all. Singular
-/// values stay in the prior's scale, which may be that of more cells than it kept. `options.weighting` is not used: the
-/// prior's stays.
+/// Returns a prior of the given prior's materials and the new ones, over the given prior's cells. Of the old materials
+/// only the components are known; the rest is lost. The reference stays the given prior's, not the median of all
+/// materials. Singular values stay in the given prior's scale, although that prior may have been learned over more
+/// cells than it keeps. Its cosine weighting stays, too: `options.weighting` is not used.
 ///
-/// O(cells (k + m)^2) for m new columns and k old components, or as learn_streamed_pca above `exact_columns`. Throws
-/// gonio::error as learn_streamed_pca does, and if the materials are over other cells, at other wavelengths, or have a
-/// name that the prior has.
+/// O(cells (k + m)^2) for m new columns and k old components, or like learn_streamed_pca if these exceed
+/// `exact_columns`. Throws gonio::error as learn_streamed_pca does, and if the materials are over other cells, at other
+/// wavelengths, or have a name that the prior has.
 ///
 /// ```cpp
 /// const auto learned = gonio::add_materials(gonio::io::read_prior("old.prior"), gonio::rows_of(materials));

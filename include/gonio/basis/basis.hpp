@@ -137,7 +137,7 @@ concept channelwise_basis = requires(const Basis& functions, Eigen::Index channe
   requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
 };
 
-/// The basis of an estimator: one for all channels, or one for each of three.
+/// The basis of an estimator: one basis for all channels, or one for each of three channels.
 template <class Basis>
 concept colour_basis = basis<Basis> || channelwise_basis<Basis>;
 
@@ -177,7 +177,7 @@ inline constexpr bool has_arbitrary_sign = requires {
 
 namespace detail {
 
-/// Adds a weight times the values of a row to `out`, or assigns it for the first row.
+/// Adds a weight times the values of a row to `out`, or assigns the product for the first row.
 inline void blend_row(double weight, std::span<const float> values, bool first, double* out) {
   if (first)
     for (Eigen::Index i = 0; i < std::ssize(values); ++i) out[i] = weight * double{values[i]};
@@ -200,8 +200,8 @@ void read_row_at(const Basis& functions, const location& at, function_row out) {
   }
 }
 
-/// Writes the same at many locations, into a row of `out` for each. Uses the basis' own `read_rows` if it has one,
-/// which is faster for many rows.
+/// Writes the values of all functions at many locations, into a row of `out` for each. Uses the basis' own `read_rows`
+/// if it has one, which is faster for many rows.
 template <basis Basis>
 void read_rows_at(const Basis& functions, std::span<const location> at, row_block out) {
   if constexpr (requires { functions.read_rows(at, out); })
@@ -219,7 +219,7 @@ template <basis Basis>
   return row;
 }
 
-/// Returns the same at many locations: locations x size().
+/// Returns the values of all functions at many locations: locations x size().
 template <basis Basis>
 [[nodiscard]] Eigen::MatrixXd rows_at(const Basis& functions, std::span<const location> at) {
   row_matrix contiguous(std::ssize(at), functions.size());

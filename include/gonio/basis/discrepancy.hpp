@@ -1,9 +1,9 @@
 #pragma once
-/// A smooth random function for everything in a material that the components of a prior cannot express. Model
-/// discrepancy as a Gaussian process: Kennedy and O'Hagan, "Bayesian calibration of computer models", Journal of the
-/// Royal Statistical Society B 63(3), 2001 (doi:10.1111/1467-9868.00294). Its functions around the measured locations
-/// are those of Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, section 8.3.1. Results on real
-/// materials: docs/results/real-materials.md.
+/// A smooth random function for everything in a material that the components of a prior cannot express. Such a model
+/// discrepancy is a Gaussian process: Kennedy and O'Hagan, "Bayesian calibration of computer models", Journal of the
+/// Royal Statistical Society B 63(3), 2001 (doi:10.1111/1467-9868.00294). The basis functions around the measured
+/// locations are those of Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, section 8.3.1.
+/// Results on real materials: docs/results/real-materials.md.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/parallel.hpp>
@@ -32,8 +32,7 @@ struct correlation_lengths {
 
 namespace detail {
 
-/// The coordinates of angles in units of the lengths. The first is that of theta_h, the others are of theta_d and
-/// phi_d.
+/// The coordinates of angles in units of the correlation lengths: one of theta_h, then three of theta_d and phi_d.
 using discrepancy_place = std::array<double, 4>;
 [[nodiscard]] discrepancy_place place_of(const half_difference& angles, const correlation_lengths& lengths) noexcept;
 
@@ -44,12 +43,12 @@ using discrepancy_place = std::array<double, 4>;
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
                                                      const correlation_lengths& lengths = {});
 
-/// Returns k of angles with one other location.
+/// Returns the covariance k of each of `angles` with one other location, for an amplitude of 1.
 [[nodiscard]] Eigen::VectorXd discrepancy_covariance(std::span<const half_difference> angles,
                                                      const half_difference& place,
                                                      const correlation_lengths& lengths = {});
 
-/// Returns k of angles with others: a row for each of `angles`.
+/// Returns the covariance k of each of `angles` (a row) with each of `others` (a column), for an amplitude of 1.
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
                                                      std::span<const half_difference> others,
                                                      const correlation_lengths& lengths);
@@ -57,43 +56,44 @@ using discrepancy_place = std::array<double, 4>;
 /// The covariance and the functions of a discrepancy, over any cells and for any metric. A value type; copies share
 /// their centres.
 ///
-/// With the covariance k(x, y) = exp(-|x - y|^2 / 2) of locations in units of the lengths, the functions are phi(x) =
-/// amplitude^(1/2) L^-1 k(centres, x), L L' = k(centres, centres). Weights of unit variance give a function of the
-/// variance `amplitude` at the centres, and less far from all of them.
+/// With the covariance k(x, y) = exp(-|x - y|^2 / 2) of locations in units of the correlation lengths, the functions
+/// are phi(x) = amplitude^(1/2) L^-1 k(centres, x), L L' = k(centres, centres). Weights of unit variance give a
+/// function whose variance is `amplitude` at the centres, and smaller far from all centres.
 ///
 /// The covariances k(centres, x) themselves are a second basis of the same span. They are faster to compute, but their
 /// weights are correlated.
 class discrepancy_functions {
  public:
-  /// Makes the functions phi. Throws gonio::error if there is no centre, an angle is not finite, or a length or the
-  /// amplitude is not positive.
+  /// Makes the functions phi(x) = amplitude^(1/2) L^-1 k(centres, x). Throws gonio::error if there is no centre, an
+  /// angle is not finite, or a length or the amplitude is not positive.
   discrepancy_functions(std::span<const half_difference> centres, double amplitude,
                         const correlation_lengths& lengths = {});
 
-  /// Makes the functions k. Throws gonio::error if there is no centre, an angle is not finite, or a length is not
-  /// positive.
+  /// Makes the functions k(centres, x) instead of phi. Throws gonio::error if there is no centre, an angle is not
+  /// finite, or a length is not positive.
   [[nodiscard]] static discrepancy_functions covariances(std::span<const half_difference> centres,
                                                          const correlation_lengths& lengths = {});
 
   [[nodiscard]] Eigen::Index size() const noexcept { return std::ssize(shared_->places); }
 
-  /// Writes the functions at some angles: size() contiguous numbers. O(size^2) for phi, O(size) for k.
+  /// Writes the values of all functions at one location: size() contiguous numbers. O(size^2) for phi, O(size) for k.
   void read(const half_difference& angles, double* out) const noexcept;
 
-  /// Writes the functions at many angles, into a row of `out` for each. For phi, twenty times as fast as one by one.
+  /// Writes the values of all functions at many locations, into a row of `out` for each. For phi, this is twenty times
+  /// as fast as a call for each location.
   void read(std::span<const half_difference> angles, row_block out) const;
 
   /// Converts weights of phi to weights of k, column by column.
   [[nodiscard]] Eigen::MatrixXd covariance_weights(const Eigen::MatrixXd& weights) const;
 
   /// Returns the combination of the functions with the weights of three channels (size() x 3), at all cells of a grid.
-  /// O(size x (cells + size)): the covariance is a product of one of theta_h and one of the other two angles.
+  /// O(size x (cells + size)): the covariance is a function of theta_h times a function of the other two angles.
   [[nodiscard]] cell_fields<3> combination(const Eigen::MatrixXd& weights, const valid_cells& cells,
                                            thread_count threads = {}) const;
 
  private:
   struct stored {
-    std::vector<detail::discrepancy_place> places;  ///< of the centres
+    std::vector<detail::discrepancy_place> places;  ///< coordinates of the centres
     correlation_lengths lengths;
     double amplitude = 1.0;
     std::optional<cholesky> factors;  ///< L of phi; absent for k

@@ -11,14 +11,14 @@
 
 namespace gonio {
 
-/// The functions of one basis followed by those of another, over the same cells, in the domain of the first one's
-/// metric, with the sum of their offsets. A computed basis: rows are read from both.
+/// The functions of one basis followed by those of another, over the same cells, in the domain of the first basis'
+/// metric. Their offsets are added. A computed basis: rows are read from both.
 template <basis First, basis Second>
 class joined {
  public:
   static constexpr bool arbitrary_sign = has_arbitrary_sign<First> || has_arbitrary_sign<Second>;
 
-  /// Throws gonio::error if the two are over different cells.
+  /// Throws gonio::error if the two bases are over different cells.
   joined(First first, Second second) : first_(std::move(first)), second_(std::move(second)) {
     if (!(first_.cells() == second_.cells())) refuse("joined bases must be over the same cells");
   }

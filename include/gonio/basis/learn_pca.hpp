@@ -1,7 +1,6 @@
 #pragma once
-/// Learns principal components from tables, through the Gram matrix of the observations. With m columns of a million
-/// cells, m x m is small, and cells x cells is never formed. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq.
-/// 4-6.
+/// Learns principal components from tables, through the Gram matrix of the observations, which has m x m numbers for m
+/// observations. No matrix of cells x cells is formed. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 4-6.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>
@@ -33,7 +32,7 @@ template <observation_set Set, error_metric Metric>
   return mean;
 }
 
-/// X - mu = U Sigma V' transposed, truncated to the kept components.
+/// The factors of X - mu = U Sigma V', whose rows are observations, truncated to the kept components.
 struct component_set {
   Eigen::VectorXd singular_values;
   cell_matrix scaled;            ///< Q = V Sigma = (X - mu)' U, a row for each cell
@@ -41,19 +40,19 @@ struct component_set {
   double explained_variance = 1.0;
 };
 
-/// Returns at most `count` components of centred rows, the largest first, without those that are rounding errors. The
-/// largest entry of each column of U is positive, so that the result does not depend on the eigensolver's sign. Throws
-/// gonio::error if there is no component.
+/// Returns at most `count` components of centred rows, the largest first, without components that are only rounding
+/// errors. The largest entry of each column of U is positive: the result does not depend on the eigensolver's sign.
+/// Throws gonio::error if there is no component.
 [[nodiscard]] component_set principal_components(const cell_matrix& centred, Eigen::Index count, thread_count threads,
                                                  const progress& listener);
 
 }  // namespace detail
 
 /// Returns the principal components of the materials under a metric over the same cells: at most `components`, without
-/// those that are rounding errors (centring always removes one). The set is consumed: its 4 bytes per value are mapped
-/// in place, and the result needs 4 bytes more per cell and component. O(cells m^2), deterministic for any number of
-/// threads. Throws gonio::error for fewer than two observations or a value that is not finite, before mapping or after.
-/// Other observations are learned in the same way, such as shapes in shape/shape_model.hpp.
+/// those that are only rounding errors (centring always removes one). The set is consumed: its 4 bytes per value are
+/// mapped in place, and the result needs 4 bytes more per cell and component. O(cells m^2), deterministic for any
+/// number of threads. Throws gonio::error for fewer than two observations or a value that is not finite, before mapping
+/// or after. Other observations are learned in the same way, such as shapes in shape/shape_model.hpp.
 ///
 /// ```cpp
 /// const auto metric = gonio::log_relative::to_median_of(materials);

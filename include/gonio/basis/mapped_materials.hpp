@@ -24,8 +24,9 @@ void require_finite(const cell_matrix& rows, Eigen::Index row, Eigen::Index cell
 }  // namespace detail
 
 /// Rows of X - mu: a row for each cell, a column for each channel of each material. The first pass over the cells finds
-/// each cell's reference (the median of its columns) and mean; later passes use them. If processes share the cells,
-/// each must be given the results of the others. A value type; copies share the results: 12 bytes a cell.
+/// each cell's reference (the median of its columns) and mean; later passes use them. If several processes share the
+/// cells, the process that uses all results must receive those of the other processes. A value type; copies share the
+/// results: 12 bytes a cell.
 class mapped_materials {
  public:
   /// Throws gonio::error if there is no material.
@@ -36,7 +37,7 @@ class mapped_materials {
   /// Returns rows whose reading also computes reference, mean and variation of their cells. Reading throws gonio::error
   /// naming the first material that is not finite at a cell.
   [[nodiscard]] row_source first_pass() const { return source(true); }
-  /// Returns the same rows, for cells that the first pass has read.
+  /// Returns the rows of `first_pass`, for cells that the first pass has read.
   [[nodiscard]] row_source rows() const { return source(false); }
 
   [[nodiscard]] const material_rows& materials() const noexcept;

@@ -53,15 +53,15 @@ class material_channel {
     return std::span(mapped_->data() + cell * mapped_->cols() + first_, size());
   }
   [[nodiscard]] double offset(Eigen::Index /*cell*/) const noexcept { return 0.0; }
-  /// Returns the functions that take part in a fit, ascending.
+  /// Returns the numbers of the functions that take part in a fit, ascending.
   [[nodiscard]] std::span<const Eigen::Index> columns() const noexcept { return *columns_; }
 
   /// Returns all functions over all cells: cells x size, a view.
   [[nodiscard]] auto values() const { return mapped_->middleCols(first_, count_); }
 
   /// Returns the Gram matrix of all functions over all cells, including those of excluded materials. With it, problems
-  /// that exclude materials, or that explain one by the others (`leave_one_out`), need no data. O(cells size^2) the
-  /// first time; all copies of the functions, with any exclusions, share it.
+  /// that exclude materials, or that explain one material by all others (`leave_one_out`), need not read the tables.
+  /// O(cells size^2) the first time; all copies of the functions, with any exclusions, share it.
   [[nodiscard]] const Eigen::MatrixXd& products(thread_count threads = {}) const {
     std::call_once(gram_->made, [&] { gram_->matrix = gram(values(), threads); });
     return gram_->matrix;
@@ -77,8 +77,8 @@ class material_channel {
 };
 
 /// Functions over the valid cells of a grid, the same number for each colour channel. The first ones belong to named
-/// materials, which can be excluded. Any others take part in every fit. A value type; copies share their storage of 12
-/// bytes per cell and function.
+/// materials, which can be excluded. Any further functions take part in every fit. A value type; copies share their
+/// storage of 12 bytes per cell and function.
 template <error_metric Metric>
 class material_functions {
  public:
@@ -103,7 +103,7 @@ class material_functions {
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return *names_; }
-  /// Returns the functions that take part in a fit, ascending.
+  /// Returns the numbers of the functions that take part in a fit, ascending.
   [[nodiscard]] std::span<const Eigen::Index> columns() const noexcept { return *columns_; }
 
   /// Returns the names of the excluded materials.

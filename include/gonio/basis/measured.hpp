@@ -55,7 +55,7 @@ class measured : public material_functions<Metric> {
                                    detail::map_by_channel(materials, metric, threads)) {}
 
   /// Returns the same basis with the materials of these names excluded from fits, without a copy. Throws gonio::error
-  /// for an unknown name, or if none is left.
+  /// for an unknown name, or if no material is left.
   [[nodiscard]] measured without(const std::vector<std::string>& excluded) const {
     measured fewer(*this);
     fewer.leave_out(excluded);

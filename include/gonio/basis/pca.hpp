@@ -23,14 +23,14 @@ template <error_metric Metric, domain Places = valid_cells>
 struct pca_parts {
   Places cells;
   Metric metric;
-  std::vector<std::string> names;        ///< the materials it was learned from
+  std::vector<std::string> names;        ///< names of the materials that the basis was learned from
   Eigen::VectorXd singular_values;       ///< Sigma, k values, largest first
   cell_matrix components;                ///< Q = V Sigma, cells x k
   std::vector<float> mean;               ///< mu, one value per cell
-  Eigen::MatrixXf coefficients;          ///< observations (the channels of each material) x k: j is mu + Q row(j)'
+  Eigen::MatrixXf coefficients;          ///< U, observations x k: observation j is mu + Q row(j)'
   double explained_variance = 1.0;       ///< the k components' share of the observations' variance
   std::string source = {};               ///< origin of the data, for display
-  std::vector<double> wavelengths = {};  ///< of the channels of each material, nanometres; none for red, green and blue
+  std::vector<double> wavelengths = {};  ///< of each material's channels, nanometres; empty for red, green and blue
 };
 
 /// Principal components over the valid cells of a grid, or another domain. A value type; copies share their storage.
@@ -72,8 +72,8 @@ class pca {
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return parts_->names; }
   /// Returns the wavelengths of the materials, in nanometres, ascending; none for colours.
   [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return parts_->wavelengths; }
-  /// Returns the number of channels of each material, which have consecutive rows of `coefficients`: its wavelengths,
-  /// or red, green and blue (or the number that the domain declares).
+  /// Returns the number of channels of each material: its wavelengths or, if there are none, the number that the domain
+  /// declares (three colours by default). The channels of a material are consecutive rows of `coefficients`.
   [[nodiscard]] Eigen::Index channels() const noexcept { return channels_at<Places>(parts_->wavelengths); }
   [[nodiscard]] const Eigen::MatrixXf& coefficients() const noexcept { return parts_->coefficients; }
   [[nodiscard]] double explained_variance() const noexcept { return parts_->explained_variance; }

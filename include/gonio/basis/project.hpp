@@ -10,7 +10,8 @@ namespace gonio {
 
 /// Returns the weights, k x 3, of the projection of a table on the components: c = Sigma^-2 Q'(x - mu), because Q = V
 /// Sigma and V has orthonormal columns. Exact only over the cells on which the basis was learned. Throws gonio::error
-/// unless the table is over the basis' cells. Components below 1e-5 of the first get no weight. O(cells x k).
+/// unless the table is over the basis' cells. Components whose singular value is below 1e-5 of the first get no weight.
+/// O(cells x k).
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd project(const pca<Metric>& basis, const brdf_table& table, thread_count threads = {}) {
   if (!(table.cells() == basis.cells())) refuse("a table projected on a basis must be over the cells of the basis");

@@ -89,9 +89,9 @@ static_assert(radial_kernel<linear_kernel>);
 /// The number of centres of Noell et al. 2014, for each colour channel.
 inline constexpr Eigen::Index published_centre_count = 758;
 
-/// Chooses `count` cells: the first at random, and each next one farthest, in radial coordinates, from the previous
-/// ones. At most 60,000 cells, chosen at random, are candidates. O(cells + candidates x count). Throws gonio::error
-/// unless there are as many different locations.
+/// Returns the angles of `count` cells: the first is chosen at random; each further cell is the one farthest, in radial
+/// coordinates, from the cells already chosen. At most 60,000 cells, chosen at random, are candidates. O(cells +
+/// candidates x count). Throws gonio::error if there are fewer different locations.
 [[nodiscard]] std::vector<half_difference> farthest_point_centres(const valid_cells& cells,
                                                                   Eigen::Index count = published_centre_count,
                                                                   std::uint64_t seed = 0);
@@ -103,18 +103,17 @@ inline constexpr Eigen::Index published_centre_count = 758;
 /// ```cpp
 /// const gonio::decomposition rival{gonio::rbf{cells, gonio::log{}}, gonio::tikhonov{1e-6}};  // Noell et al.'s
 /// const auto paint = rival.fit(samples);
-/// const gonio::rbf smooth{cells, gonio::root{}, gonio::farthest_point_centres(cells, 300), thin_plate_kernel{}};
 /// ```
 /// The penalty only keeps the system solvable for few samples. It must be tiny, because the Gram matrix has a condition
-/// number of almost 1e10: 1e-6 is 1e-11 of its mean diagonal entry for 100,000 samples.
+/// number of almost 1e10. For 100,000 samples, 1e-6 is 1e-11 of the matrix's mean diagonal entry.
 template <error_metric Metric, radial_kernel Kernel = linear_kernel>
 class rbf {
  public:
   /// The direction of the coordinate axes is arbitrary: see `has_arbitrary_sign`.
   static constexpr bool arbitrary_sign = true;
 
-  /// `cells` are those of the metric and of a fit. Throws gonio::error if there is no centre, or if an angle of one is
-  /// not finite.
+  /// `cells` are the cells of the metric and of fits. Throws gonio::error if there is no centre, or if a centre is not
+  /// finite.
   rbf(valid_cells cells, Metric metric, const std::vector<half_difference>& centres, Kernel kernel = Kernel())
       : cells_(std::move(cells)), metric_(std::move(metric)), kernel_(std::move(kernel)) {
     if (centres.empty()) refuse("radial basis functions need at least one centre");
@@ -139,7 +138,7 @@ class rbf {
   [[nodiscard]] const Kernel& kernel() const noexcept { return kernel_; }
   [[nodiscard]] double offset(Eigen::Index /*cell*/) const noexcept { return 0.0; }
 
-  /// Writes the kernel of the distance to each centre, then 1 and the three coordinates.
+  /// Writes the kernel of the distance to each centre, then 1, then the three radial coordinates.
   void read_row(const location& at, function_row out) const noexcept {
     const Eigen::Vector3d place = radial_coordinates(at.angles);
     const coordinate_rows& centres = *centres_;

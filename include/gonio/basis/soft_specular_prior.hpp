@@ -11,11 +11,11 @@
 
 namespace gonio {
 
-/// Components of soft and of specular materials over the same cells and relative to the same reference, that of all
-/// materials. A value type; copies share their storage.
+/// Components of soft and of specular materials over the same cells and relative to the reference of all materials. A
+/// value type; copies share their storage.
 class soft_specular_prior {
  public:
-  /// Throws gonio::error unless both have the same metric over the same cells, and the threshold is finite.
+  /// Throws gonio::error unless both priors have the same metric over the same cells, and the threshold is finite.
   soft_specular_prior(log_relative_pca soft, log_relative_pca specular, double threshold);
 
   [[nodiscard]] const log_relative_pca& soft() const noexcept { return soft_; }
@@ -24,9 +24,9 @@ class soft_specular_prior {
   [[nodiscard]] double threshold() const noexcept { return threshold_; }
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return soft_.cells(); }
-  /// Returns the metric of both.
+  /// Returns the common metric of the soft and the specular prior.
   [[nodiscard]] const log_relative& metric() const noexcept { return soft_.metric(); }
-  /// Returns the number of materials of both.
+  /// Returns the number of soft and specular materials together.
   [[nodiscard]] Eigen::Index materials() const noexcept {
     return std::ssize(soft_.names()) + std::ssize(specular_.names());
   }

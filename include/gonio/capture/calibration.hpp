@@ -1,6 +1,6 @@
 #pragma once
-/// Converts readings of a material and of a white reference to BRDF samples with uncertainties (Nielsen's thesis 2016,
-/// note on relative BRDF measurement, Sec. 3 and 4).
+/// Converts readings of a material and of a white reference, or of the lamp, to BRDF samples with uncertainties
+/// (Nielsen's thesis 2016, note on relative BRDF measurement, Sec. 1, 3 and 4).
 
 #include <gonio/capture/high_dynamic_range.hpp>
 #include <gonio/capture/reference_reflectance.hpp>
@@ -16,7 +16,7 @@
 
 namespace gonio::capture {
 
-/// The calibration of a camera and of the white reference.
+/// The calibration of a camera and of its white reference.
 struct calibration {
   std::array<camera_response, 3> responses;  ///< red, green, blue
   sensor_noise noise = {};
@@ -26,12 +26,12 @@ struct calibration {
 
 namespace detail {
 
-/// Returns the exposure times that all readings have, each once.
+/// Returns the exposure times that occur in all readings, each once.
 [[nodiscard]] std::vector<double> times_in_common(std::span<const reading> readings);
 
-/// Returns the mean count of each reading's pixels at these times. If a pixel is saturated, returns the largest count
-/// for that reading and time. Single pixels would bias the response: noise gives a pixel's brighter exposures more
-/// weight than its darker ones.
+/// Returns, for each reading and time, the mean count over the pixels of the reading. If a pixel is saturated, returns
+/// the largest count instead. Single pixels would bias the response, because noise gives a pixel's brighter exposures
+/// more weight than its darker ones.
 [[nodiscard]] exposure_counts mean_counts(std::span<const reading> readings, std::span<const double> times,
                                           Eigen::Index channel, std::uint16_t largest_count);
 
@@ -49,26 +49,27 @@ namespace detail {
 struct measured_reflectance {
   direction_pair at;
   rgb value = rgb::Zero(), deviation = rgb::Zero();
-  std::string doubt{};  ///< why the value is unusable; empty if it is usable
+  std::string doubt{};  ///< why the value cannot be used; empty if it can
 
   [[nodiscard]] bool is_usable() const noexcept { return doubt.empty(); }
 
-  /// Returns the relative deviation of the sum of the channels. A channel may be uncertain if it is black.
+  /// Returns the relative standard deviation of the sum of the channels. A single black channel may be less certain.
   [[nodiscard]] double relative_deviation() const noexcept;
 
-  /// Returns the weight of each channel, from the effect of its deviation on the logarithm that estimators compare.
+  /// Returns the weight of each channel, given its standard deviation in the logarithm that estimators compare.
   [[nodiscard]] channel_weights weights() const;
 
-  /// Returns the sample for estimators, with these weights. Call it only for usable values.
+  /// Returns the sample for estimators, with the weights of `weights()`. Call it only for usable values.
   [[nodiscard]] sample as_sample() const { return {at, value, weights()}; }
 };
 
-/// Returns the BRDF of a material from a reading of it and one of the reference at the same pair of directions (Eq.
-/// 18), by the mean radiance over all pixels. A channel that is dark in every exposure has the value 0. `illumination`
-/// gives the position of each surface in the light if they differ (Eq. 22).
+/// Returns the BRDF of a material from a reading of the material and a reading of the reference at the same pair of
+/// directions (Eq. 18). Uses the mean radiance over all pixels. A channel that is dark in every exposure has the value
+/// 0. `material_at` and `reference_at` give the positions of material and reference in the light if these differ (Eq.
+///    22).
 ///
-/// The reference's reflectance is taken at the same pair. If the reference's normal differs from the material's, a
-/// reflectance table needs the pair relative to the reference, in `reference_pose`.
+/// Looks up the reference's reflectance at the pair `at`. If the reference's normal differs from the material's, give
+/// the pair relative to the reference's normal as `reference_pose`.
 ///
 /// Throws gonio::error as merge_exposures, reference_reflectance::at, reference_light and reference_light::brdf do.
 [[nodiscard]] measured_reflectance measure_reflectance(const reading& material, const reading& reference,
@@ -77,10 +78,28 @@ struct measured_reflectance {
                                                        const illumination& reference_at = {},
                                                        const std::optional<direction_pair>& reference_pose = {});
 
-/// Readings of a white reference, for use at poses where it was not measured. The reference is matte and in the
-/// material's place: its radiance is proportional to the cosine of incidence and equal for every viewer (Eq. 21 and
-/// 22), apart from its reflectance table at the reading's pose. A pose uses the reading with the nearest light
-/// direction, so that each lamp of an arc is compared with itself.
+/// A lamp as the camera sees it that looks into the lamp: the absolute method (Sec. 1).
+struct measured_lamp {
+  std::array<uncertain, 3> exposures;  ///< per second, of each channel; through the filter
+  double solid_angle = 0.0;            ///< of the lamp, seen from the sample, in sr
+  double transmittance = 1.0;          ///< of the filter
+};
+
+/// Returns the mean exposure per second of each channel over some readings, with the deviation of the mean. Throws
+/// gonio::error if there is no reading, or if one of them is dark or saturated in every exposure.
+[[nodiscard]] std::array<uncertain, 3> mean_exposures(std::span<const reading> readings, const calibration& known);
+
+/// Returns the BRDF of a material from a reading of the material and from the lamp: f = X / (X_lamp Omega
+/// cos(theta_i)). Needs no reference; ignores `known.reflectance`. Throws gonio::error as merge_exposures,
+/// reference_light::of_lamp and reference_light::brdf do.
+[[nodiscard]] measured_reflectance measure_reflectance(const reading& material, const measured_lamp& lamp,
+                                                       const direction_pair& at, const calibration& known);
+
+/// Readings of a white reference, for use at poses where it was not measured. Assumes that the reference is matte and
+/// at the material's position: its radiance is proportional to the cosine of incidence and equal for every viewer (Eq.
+/// 21 and 22), except for the factor that its reflectance table has at the pose of its reading. A pose of the material
+/// uses the reading of the reference with the nearest light direction, so that each lamp of an arc is compared with
+/// itself.
 class reference_readings {
  public:
   /// Throws gonio::error if there is no reading, or if the number of poses differs.
@@ -95,10 +114,10 @@ class reference_readings {
   std::vector<reading> readings_;
 };
 
-/// Throws gonio::error if the reference appears to be exchanged with the material: it is more than 5 % darker than the
-/// material, relative to the largest of its factors, in most samples, or in most samples whose half vector is more than
-/// 10 degrees from the normal. Rejects a correct measurement only if it has nothing but a highlight, or if the material
-/// is whiter than the reference.
+/// Throws gonio::error if the reference appears to be exchanged with the material: if the material is more than 5 %
+/// brighter than the reference would be with the largest of its factors, in most samples or in most samples whose half
+/// vector is more than 10 degrees from the normal. Rejects a correct measurement only if it contains little but a
+/// highlight, or if the material is whiter than the reference.
 void require_bright_reference(std::span<const measured_reflectance> usable, const reference_reflectance& reflectance);
 
 }  // namespace gonio::capture

@@ -18,26 +18,26 @@ namespace gonio::capture {
 /// The logarithm of exposure as a function of the count, from 0 to the largest count, for one colour channel. It never
 /// decreases. Exposures are relative: the middle count has exposure 1.
 ///
-/// Between its knots, which are evenly spaced over the counts, it is linear in the *logarithm* of the count. Power
-/// laws, such as a gamma or a linear sensor, are therefore exact.
+/// Between its knots, which are evenly spaced over the counts, the response is linear in the *logarithm* of the count.
+/// Power laws, such as a gamma or a linear sensor, are therefore exact.
 class camera_response {
  public:
-  /// Takes values at the counts k c / n, with c the largest count and k = 1 ... n. Values below the first knot and
-  /// below `smallest_known_count` are extrapolated. Throws gonio::error for fewer than two values, decreasing or
-  /// non-finite values, and a largest count below n.
+  /// Takes the values at n knots, the counts k c / n for k = 1 ... n, where c is the largest count. Values below the
+  /// first knot and below `smallest_known_count` are extrapolated. Throws gonio::error for fewer than two values,
+  /// decreasing or non-finite values, and a largest count below n.
   camera_response(std::uint16_t largest_count, Eigen::VectorXd log_exposures, double smallest_known_count = 0.0);
 
   /// Returns the response of a sensor whose counts are proportional to the exposure, or to its 1/gamma-th power.
   [[nodiscard]] static camera_response power_law(std::uint16_t largest_count, double gamma = 1.0);
 
   [[nodiscard]] std::uint16_t largest_count() const noexcept { return largest_; }
-  /// Exposures of smaller counts are extrapolated.
+  /// Returns the count below which exposures are extrapolated.
   [[nodiscard]] double smallest_known_count() const noexcept { return smallest_known_; }
-  /// The values at the knots.
+  /// Returns the logarithms of exposure at the knots.
   [[nodiscard]] const Eigen::VectorXd& log_exposures() const noexcept { return values_; }
 
-  /// Returns ln X of a count, which may be fractional. Below the first knot it extends the first line; a count of 0
-  /// gives -infinity.
+  /// Returns ln X of a count, which may be fractional, where X is the exposure. Below the first knot, extends the line
+  /// between the first two knots; a count of 0 gives -infinity.
   [[nodiscard]] double log_exposure(double count) const noexcept {
     const auto [left, share] = place_of(count);
     return values_[left] + share * (values_[left + 1] - values_[left]);
@@ -50,7 +50,8 @@ class camera_response {
     return (values_[left + 1] - values_[left]) / (std::log1p(1.0 / static_cast<double>(left + 1)) * count);
   }
 
-  /// Returns the unrounded count of an exposure, at most the largest count. If several match, returns the smallest.
+  /// Returns the unrounded count of an exposure, at most the largest count. If several counts have this exposure,
+  /// returns the smallest.
   [[nodiscard]] double count(double exposure) const noexcept;
 
   /// Returns the knot to the left of a count, from 0, and the fraction of the way to the next knot in the logarithm of
@@ -76,23 +77,25 @@ class camera_response {
 using exposure_counts = Eigen::ArrayXXd;
 
 struct response_options {
-  /// Weight of the smoothness relative to the mean squared residual of the data.
+  /// Weight of the smoothness term; the mean squared residual of the data has the weight 1.
   double smoothness = 3e-6;
   /// Pixels are saturated from this count on; 0 stands for the largest count.
   std::uint16_t saturation = 0;
 };
 
-/// Estimates the response of a camera whose pixels were exposed for several times each: the g that minimises
+/// Estimates the response of a camera whose pixels were each exposed at several exposure times. It is the g that
+/// minimises
 ///
 ///   sum w(Z_ij)^2 (g(Z_ij) - ln E_i - ln t_j)^2 / sum w^2 + smoothness * integral of (v(Z) d^2 g / d(ln Z)^2)^2
 ///
-/// over g and the pixels' unknown E_i (Debevec and Malik 1997, Eq. 3), with their hat function for w. It differs from
-/// the paper in two ways. First, smoothness means closeness to a power law; the paper's second difference by Z bends
-/// every camera at low counts. v is 1 in the lower half of the counts and the square of the hat above, where sensors
-/// bend. Second, a linear constraint on the slopes keeps g from decreasing.
+/// over g and the pixels' unknown E_i (Debevec and Malik 1997, Eq. 3), with their hat function for w. Z_ij is the count
+/// of pixel i at the time t_j. The objective differs from the paper's in two ways. First, smoothness means closeness to
+/// a power law; the paper's second difference with respect to Z would bend every response at low counts. v is 1 in the
+/// lower half of the counts; in the upper half, where sensors bend, it is the square of the hat function. Second, a
+/// linear constraint on the slopes keeps g from decreasing.
 ///
-/// Throws gonio::error unless there are two times, all positive and finite, and at least one pixel that is neither dark
-/// nor saturated in two exposures. O(pixels (times + knots^2) + knots^3).
+/// Throws gonio::error unless there are at least two times, all positive and finite, and at least one pixel that is
+/// neither dark nor saturated in two exposures. O(pixels (times + knots^2) + knots^3).
 [[nodiscard]] camera_response estimate_response(const exposure_counts& counts, std::span<const double> times,
                                                 std::uint16_t largest_count, const response_options& options = {});
 

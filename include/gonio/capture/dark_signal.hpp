@@ -1,7 +1,7 @@
 #pragma once
-/// The dark counts of a linear camera, from frames with the lens covered. Fits a pedestal and a current to each pixel
-/// by least squares, b + d t. Pixels with outlying counts are hot. Model: J. Janesick, "Photon Transfer", SPIE 2007,
-/// doi:10.1117/3.725073, chapter 7.
+/// The dark counts of a linear camera, from frames with the lens covered. Fits a pedestal b and a current d to each
+/// pixel by least squares: b + d t counts at the exposure time t. Pixels with outlying counts are hot. Model: J.
+/// Janesick, "Photon Transfer", SPIE 2007, doi:10.1117/3.725073, chapter 7.
 
 #include <gonio/table/stored_codes.hpp>
 
@@ -20,38 +20,40 @@ struct exposed_frame {
 
 namespace detail {
 
-/// Throws gonio::error unless there is at least one frame, all have the same size and largest count, and all times are
-/// positive and finite. `what` names a frame in messages: "a photograph".
+/// Throws gonio::error unless there is at least one frame, all frames have the same size and largest count, and all
+/// times are positive and finite. `what` names a frame in messages: "a photograph".
 void require_alike(std::span<const exposed_frame> frames, const char* what);
 
 }  // namespace detail
 
-/// The dark counts of all pixels and channels, and their uncertainty. Without frames, one given level without error.
+/// The dark counts of all pixels and channels, and their uncertainty. Constructed without frames, it is one given level
+/// for all, without error.
 class dark_signal {
  public:
   dark_signal() = default;
   explicit dark_signal(double level) : level_(level) {}
 
-  /// Fits each value of the frames. If all frames have one exposure time, the level includes the current, and all
-  /// photographs need that time. Throws gonio::error if there is no frame, if frames differ in size or largest count,
-  /// or if a time is not positive and finite. O(frames values).
+  /// Fits a pedestal and a dark current to each value. If all frames have the same exposure time, the two cannot be
+  /// separated: the pedestal then includes the current, and every photograph must have this exposure time. Throws
+  /// gonio::error if there is no frame, if frames differ in size or largest count, or if a time is not positive and
+  /// finite. O(frames values).
   explicit dark_signal(std::span<const exposed_frame> frames);
 
-  /// Returns the dark count of value `i` (as in stored_codes) in an exposure.
+  /// Returns the dark count of value `i` (as in stored_codes) at an exposure time in seconds.
   [[nodiscard]] double count(Eigen::Index i, double seconds) const noexcept {
     return pedestals_.empty() ? level_ : pedestals_[i] + currents_[i] * seconds;
   }
-  /// Returns the median over all values of the count at exposure time 0.
+  /// Returns the dark level: the median of the pedestals of all values.
   [[nodiscard]] double level() const noexcept { return level_; }
-  /// Returns the variance of `count`, as a multiple of the variance of one dark count.
+  /// Returns the variance of `count` at an exposure time in seconds, relative to the variance of a single dark count.
   [[nodiscard]] double relative_variance(double seconds) const noexcept;
   /// Returns the number of values that have their own dark count; 0 for a given level.
   [[nodiscard]] Eigen::Index size() const noexcept { return std::ssize(pedestals_); }
-  /// Returns the pixels, ascending, that have a channel which in the longest dark exposure exceeds the median by more
-  /// than eight robust deviations and by more than four counts.
+  /// Returns the hot pixels, ascending. At the longest dark exposure, one of their channels exceeds the median by more
+  /// than eight robust standard deviations and by more than four counts.
   [[nodiscard]] const std::vector<Eigen::Index>& hot_pixels() const noexcept { return hot_; }
 
-  /// Throws gonio::error if all dark frames have one exposure time and `seconds` differs from it by more than 1 %.
+  /// Throws gonio::error if all dark frames have the same exposure time and `seconds` differs from it by more than 1 %.
   void require_known(double seconds) const;
 
  private:

@@ -30,7 +30,7 @@ class device_failure : public std::runtime_error {
 /// Counts of the pixels that see the sample: one row per pixel; columns red, green and blue.
 using camera_frame = Eigen::Array<std::uint16_t, Eigen::Dynamic, 3>;
 
-/// Images of one pair of directions.
+/// Images taken at one pair of directions, with different exposure times.
 struct reading {
   std::vector<double> times;         ///< seconds of exposure of each frame
   std::vector<camera_frame> frames;  ///< all with the same pixels
@@ -44,10 +44,10 @@ struct placement {
   [[nodiscard]] bool is_reachable() const noexcept { return obstacle.empty(); }
 };
 
-/// One or several lamps. One is on at a time.
+/// One or several lamps, of which at most one is on.
 ///
 /// The driver must guarantee: `switch_on(lamp)`, with lamp < lamps(), returns when that lamp's light is steady and all
-/// others are off. `switch_off()` may be called at any time, also twice.
+/// other lamps are off. `switch_off()` may be called at any time, also twice.
 /// ```cpp
 /// struct torch {
 ///   Eigen::Index lamps() const { return 1; }
@@ -110,8 +110,8 @@ concept camera = requires(C& eye, const C& same, double seconds) {
 ///
 /// The driver must guarantee: `place(pair)` does not move the machine and returns the pair of unit vectors at which it
 /// would measure, or the reason why it cannot, such as light and viewer occluding each other. `travel(from, to)` is the
-/// largest angle in radians by which a part of the machine turns between two pairs. `measure(pair)`, for a pair that
-/// place() returned, takes images there. It leaves the lamps off, even when it throws device_failure.
+/// largest angle in radians by which a part of the machine turns between two pairs. `measure(pair)` takes images at a
+/// pair that place() returned. It leaves the lamps off, even when it throws device_failure.
 ///
 /// With a machine of your own; examples/lab has simulated ones:
 /// ```cpp
@@ -134,7 +134,7 @@ concept camera = requires(C& eye, const C& same, double seconds) {
 /// int main() {
 ///   const std::vector<gonio::direction_pair> pairs{{{0, 0, 1}, {0, 0, 1}}, {{0.6, 0, 0.8}, {0, 0, 1}}};
 ///   const gonio::capture::scan_plan plan = gonio::capture::plan_scan(open_hand{}, pairs);
-///   std::printf("%zu poses, %g radians of way\n", plan.poses.size(), plan.length);
+///   std::printf("%zu poses, %g radians of travel\n", plan.poses.size(), plan.length);
 /// }
 /// ```
 template <class G>
@@ -148,10 +148,11 @@ concept goniometer = requires(G& machine, const G& same, const direction_pair& p
 /// The exposure times of the thesis's note on relative BRDF measurement (Sec. 3), in seconds.
 inline constexpr std::array<double, 5> note_exposure_times{0.0125, 0.025, 0.05, 0.1, 0.2};
 
-/// Takes images at the given times, and at further times if these do not cover the range. It adds shorter exposures
-/// while a pixel of the shortest is in the top eighth of the counts, where chips saturate. It adds longer ones while a
-/// colour of the longest has no count above the lowest eighth. The factor is 4, within the camera's limits. Given times
-/// outside the limits are clamped. The given times come first, in their order; there must be at least one.
+/// Takes images at the given times, and at further times if the given times do not cover the range of the scene. Adds
+/// shorter exposures while a pixel of the shortest exposure is in the top eighth of the counts, where chips saturate.
+/// Adds longer exposures while a colour of the longest exposure has no count above the lowest eighth. Each added time
+/// differs by a factor of 4 from the one before, within the camera's limits. Given times outside the limits are
+/// clamped. The given times come first, in their order; there must be at least one.
 template <camera Camera>
 [[nodiscard]] reading expose_bracket(Camera& eye, std::span<const double> times = note_exposure_times) {
   constexpr double factor = 4.0;
@@ -166,7 +167,7 @@ template <camera Camera>
   const auto [least, most] = std::ranges::minmax_element(taken.times);
   const Eigen::Index darkest = least - taken.times.begin();
   const Eigen::Index brightest = most - taken.times.begin();
-  // Frames without pixels are left for the caller's check of the reading.
+  // Frames without pixels are left to the caller's check of the reading.
   const auto is_bright = [&](const camera_frame& each) {
     return each.rows() > 0 && each.maxCoeff() >= largest - largest / 8;
   };

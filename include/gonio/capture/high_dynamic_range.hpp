@@ -21,15 +21,15 @@ namespace gonio::capture {
 /// The noise of a camera's counts.
 struct sensor_noise {
   double read = 0.5;       ///< standard deviation in counts, at every count
-  double shot = 0.0;       ///< variance in counts per count
+  double shot = 0.0;       ///< variance in counts^2 per count of signal
   double relative = 0.01;  ///< standard deviation relative to the exposure: of the lamp and of the exposure time
 
   /// Throws gonio::error if a number is negative or not finite.
   void require_usable() const;
 
   /// Returns the relative variance of the exposure at a count, using the slope of the camera's response. Rounding to
-  /// whole counts adds a variance of 1/12. Averaging several pixels reduces these variances, but not that of the lamp
-  /// and of the exposure time.
+  /// whole counts adds a variance of 1/12. Averaging `pixels` pixels reduces these variances, but not the variance of
+  /// the lamp and of the exposure time.
   [[nodiscard]] double relative_variance(const camera_response& response, double count,
                                          double pixels = 1.0) const noexcept;
 };
@@ -38,33 +38,33 @@ struct sensor_noise {
 struct measured_radiance {
   double value = 0.0;
   double deviation = 0.0;  ///< standard deviation of the value
-  bool saturated = false;  ///< even in the shortest exposure: the value is a lower bound, its deviation infinite
-  bool dark = false;       ///< even in the longest exposure: the value is 0, its deviation that of one count
+  bool saturated = false;  ///< even in the shortest exposure; the value is a lower bound, its deviation infinite
+  bool dark = false;       ///< even at the shortest time; the value is a lower bound, the deviation infinite
 
   [[nodiscard]] bool usable() const noexcept { return !saturated && !dark; }
 };
 
 namespace detail {
 
-/// One exposure of a pixel, or of the mean of several: its time, exposure and count.
+/// One exposure of a pixel, or of the mean of several pixels: its time, exposure and count.
 struct exposed {
   double time = 0.0, exposure = 0.0, count = 0.0;
 };
 
-/// Returns the mean radiance of exposures, weighted by their inverse variances. The variances are those of the counts
-/// that the mean predicts. Those of the measured counts would favour counts that noise made darker, and would admit the
-/// darker half of a saturated count's distribution. Counts at which the response is extrapolated are used only if there
-/// are no others. Value and deviation are 0 if there is no exposure.
+/// Returns the mean radiance of several exposures, weighted by their inverse variances. The variances are those at the
+/// counts that the mean predicts. Variances at the measured counts would favour counts that noise made darker, and
+/// would admit the darker half of a saturated count's distribution. Counts at which the response is extrapolated are
+/// used only if all counts are such. Value and deviation are 0 if there is no exposure.
 [[nodiscard]] measured_radiance mean_radiance(std::vector<exposed> all, const camera_response& response,
                                               const sensor_noise& noise, double saturation, double pixels);
 
 void require_times(Eigen::Index images, std::span<const double> times, const std::string& what);
 
-/// The result if even the longest exposure is dark.
+/// Returns the radiance of a pixel that is dark even in the longest exposure.
 [[nodiscard]] inline measured_radiance dark_radiance(const camera_response& response, std::span<const double> times) {
   return {0.0, response.exposure(1.0) / std::ranges::max(times), false, true};
 }
-/// The result if even the shortest exposure is saturated.
+/// Returns the radiance of a pixel that is saturated even in the shortest exposure.
 [[nodiscard]] measured_radiance saturated_radiance(const camera_response& response, std::span<const double> times,
                                                    std::uint16_t saturation);
 
@@ -73,15 +73,17 @@ void require_times(Eigen::Index images, std::span<const double> times, const std
 /// Returns the radiance of a pixel from its counts at several exposure times: the mean over the exposures, weighted by
 /// inverse variance. Ignores counts of 0 and counts from `saturation` on (0 stands for the largest count).
 ///
-/// Throws gonio::error unless there are as many times as counts, at least one, all positive and finite. O(times).
+/// Throws gonio::error unless there is one time for each count, at least one, and all times are positive and finite.
+/// O(times).
 [[nodiscard]] measured_radiance merge_exposures(std::span<const std::uint16_t> counts, std::span<const double> times,
                                                 const camera_response& response, const sensor_noise& noise = {},
                                                 std::uint16_t saturation = 0);
 
-/// Returns the mean radiance of all pixels of a reading in one channel (0 to 2). Merges the pixels' mean exposures as
-/// above. Ignores a frame if any pixel is saturated, because the mean of the other pixels would differ.
+/// Returns the mean radiance of all pixels of a reading in one channel (0 to 2). Merges the exposures of the pixels'
+/// mean as for one pixel. Ignores a frame if any pixel is saturated, because the remaining pixels would have a
+/// different mean.
 ///
-/// Throws gonio::error unless the reading has as many times as frames, at least one, and all frames have the same
+/// Throws gonio::error unless the reading has one time for each frame, at least one, and all frames have the same
 /// number of pixels, at least one. O(times pixels).
 [[nodiscard]] measured_radiance merge_exposures(const reading& taken, Eigen::Index channel,
                                                 const camera_response& response, const sensor_noise& noise = {},

@@ -1,7 +1,7 @@
 #pragma once
-/// Surfaces of known shape as seen by a camera: a sphere, a plane, or a map of normals. They make an image of a curved
-/// object one measurement per pixel: Marschner et al. 2000 (doi:10.1364/AO.39.002592) for spheres, Noell, Koehler and
-/// Stricker 2014 for objects of known shape. shape/mesh_surface.hpp does this for meshes.
+/// Surfaces of known shape as seen by a camera: a sphere, a plane, or a map of normals. With a known shape, each pixel
+/// of a curved object's image is a measurement: Marschner et al. 2000 (doi:10.1364/AO.39.002592) for spheres, Noell,
+/// Koehler and Stricker 2014 for objects of known shape. shape/mesh_surface.hpp has meshes.
 
 #include <gonio/core/arrays.hpp>
 #include <gonio/core/lens_distortion.hpp>
@@ -38,8 +38,8 @@ struct placed_plane {
 using vector_map = xt::xtensor<float, 3>;
 
 /// Returns a surface from maps of its normals and positions. Normals may have any length, and zero marks pixels that do
-/// not see the surface. A lamp at a finite distance needs the positions. Throws gonio::error that names the map if its
-/// size differs from the camera's image, if a pixel is not finite, or if all normals are zero. O(pixels).
+/// not see the surface. A lamp at a finite distance needs the positions. Throws gonio::error that names the map if the
+/// map's size differs from the camera's image, if a pixel is not finite, or if all normals are zero. O(pixels).
 [[nodiscard]] surface_image surface_of_maps(const vector_map& normals, const std::string& normals_name,
                                             const lens_camera& camera, const std::optional<vector_map>& positions = {},
                                             const std::string& positions_name = "positions");

@@ -38,16 +38,19 @@ struct pixel_window {
 struct near_field_setup {
   lens_camera camera;
   surface_light light;
-  /// The region of interest: the pixels that see the disc, or those in the window, or in both if both are given.
+  /// The region of interest: the pixels that see the disc, or the pixels in the window. If both are given, the pixels
+  /// that are in both.
   std::optional<sample_disc> disc = {};
   std::optional<pixel_window> window = {};
-  /// Whether to use each pixel, row by row, for example a cluster of one material; empty: all pixels.
+  /// For each pixel, row by row, whether to use it, for example a cluster of one material. If empty, all pixels are
+  /// used.
   std::vector<bool> mask = {};
   /// Skips pixels with a channel of at least this value, and the blocks that contain them.
   std::optional<double> saturation = {};
   /// Side in pixels of the blocks that are averaged to one sample. Larger blocks give less noise and fewer samples.
   std::size_t block = 1;
-  /// For a white image: the reflectance of the white surface, and its plane if it differs from the sample's.
+  /// For a white image: the reflectance of the white surface, and the plane of the white surface if that differs from
+  /// the sample's.
   std::optional<double> white_reflectance = {};
   std::optional<placed_plane> white_plane = {};
 };
@@ -58,33 +61,35 @@ void require_usable(const near_field_setup& setup);
 
 namespace detail {
 
-/// A point of the sample, and the direction from there to the camera.
+/// A point of the sample, and the direction from this point to the camera.
 struct seen_place {
   Eigen::Vector3d position;
   direction view;
 };
 
-/// Returns the point of the disc and mask that a pixel sees, if any. Does not check the window.
+/// Returns the point of the sample that a pixel sees, if the point is in the disc and the mask contains the pixel. Does
+/// not check the window.
 [[nodiscard]] std::optional<seen_place> place_of_pixel(const near_field_setup& setup, std::size_t row,
                                                        std::size_t column);
 
-/// The reading of one pixel of the region.
+/// The reading of one pixel of the region of interest.
 struct near_field_reading {
   direction light, view;
   rgb value;  ///< f in sr^-1
   bool saturated = false;
 };
 
-/// Reads one pixel of an image. Returns nothing if it does not see the region, or if the white reference is dark or not
-/// visible there. Refuses values that are not finite, unless they are saturated.
+/// Reads one pixel of an image. Returns nothing if the pixel does not see the region of interest, or if the white
+/// reference is dark or not visible at this pixel. Throws gonio::error for values that are not finite, unless they are
+/// saturated.
 [[nodiscard]] std::optional<near_field_reading> read_pixel(const image& picture, const near_field_setup& setup,
                                                            const std::optional<white_reference>& white, std::size_t row,
                                                            std::size_t column);
 
-/// Returns the cones of a block of pixels centred at an image position.
+/// Returns the cones of light and receiver for a block of pixels centred at an image position.
 [[nodiscard]] aperture block_aperture(const near_field_setup& setup, double row, double column);
 
-/// Sums over the pixels of a block that see the region.
+/// Sums over the pixels of a block that see the region of interest.
 struct pixel_block {
   rgb values = rgb::Zero();
   direction lights = direction::Zero(), views = direction::Zero();
@@ -99,17 +104,17 @@ struct pixel_block {
 /// Returns the pixels, row by row, that see the region of interest. Throws gonio::error as `require_usable` does.
 [[nodiscard]] std::vector<Eigen::Index> pixels_of_region(const near_field_setup& setup);
 
-/// Returns the reflectance f of each of these pixels, three numbers; zero if the white reference is dark or not
+/// Returns the reflectance f in sr^-1 of each pixel of `pixels_of_region`; zero if the white reference is dark or not
 /// visible. Throws gonio::error as `near_field_samples` does.
 [[nodiscard]] std::vector<rgb> region_reflectance(const image& picture, const near_field_setup& setup,
                                                   const std::optional<white_reference>& white = {});
 
 /// Returns one sample for each block of pixels that see the region of interest, row by row from the top left corner of
-/// the image or window. Value and directions are the means over those pixels; the weight is their fraction of the
-/// block. With a white reference, each pixel's value is divided by that of the white image, and pixels where it is dark
-/// are ignored. The cones are the light's and the block's (`pixel_aperture`). Throws gonio::error as `require_usable`
-/// does, if an image's size differs from the camera's, if a pixel of the region is not finite (it is named), or if
-/// nothing of the sample is visible. O(pixels).
+/// the image or window. Value and directions are the means over these pixels; the weight is their fraction of the
+/// block. With a white reference, each pixel's value is divided by the value of the white image, and pixels where the
+/// white image is dark are ignored. The sample's cones are those of the light and of the block (`pixel_aperture`).
+/// Throws gonio::error as `require_usable` does, if an image's size differs from the camera's, if a pixel of the region
+/// is not finite (the message names it), or if all pixels of the sample are invisible or saturated. O(pixels).
 /// ```cpp
 /// const gonio::directional_light lamp{gonio::spherical_direction(theta_i, 0.0)};
 /// const auto samples = gonio::capture::near_field_samples(

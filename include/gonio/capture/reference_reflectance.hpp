@@ -1,9 +1,10 @@
 #pragma once
 /// The reflectance of a white reference: a number, or a table over the angles of light and viewer. No reference is
-/// perfectly matte; the maker's table, or your own, gives the deviation.
+/// perfectly matte: take the table from the maker, or measure it.
 ///
 /// The factor is the reference's BRDF times pi: its radiance relative to that of a perfect diffuser under the same
-/// light. A measured BRDF is proportional to it (Nielsen's thesis 2016, note on relative BRDF measurement, Eq. 18).
+/// light. A BRDF that is measured with the reference is proportional to this factor (Nielsen's thesis 2016, note on
+/// relative BRDF measurement, Eq. 18).
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>
@@ -16,14 +17,16 @@ namespace gonio::capture {
 
 /// The reflectance factor of a white reference for each pair of directions and each channel.
 ///
-/// `reference_reflectance(0.99)` is the same everywhere. Numbers convert implicitly: `.reflectance = 0.99`.
+/// `reference_reflectance(0.99)` has the same factor for all directions. Numbers convert implicitly: `.reflectance =
+/// 0.99`.
 class reference_reflectance {
  public:
-  /// The same for all directions and channels. Throws gonio::error unless it is above 0 and at most 1.
+  /// Takes one factor for all directions and channels. Throws gonio::error unless the factor is above 0 and at most 1.
   reference_reflectance(double everywhere = 0.99);  // NOLINT: a number is a reflectance
 
-  /// A table over the polar angles of light and viewer, in radians. Without viewer angles, it is the same for all
-  /// viewers. `factors` lists the viewers of the first light, then those of the next. Interpolation is bilinear.
+  /// A table over the polar angles of light and viewer, in radians. Without viewer angles, the factor is the same for
+  /// all viewers. `factors` lists the factors at the first light angle for all viewer angles, then those at the second,
+  /// and so on. Interpolation is bilinear.
   ///
   /// Throws gonio::error if there is no light angle, if angles do not ascend from 0 to at most a right angle, if there
   /// is not one factor for each pair of angles, or if a channel is not above 0 and at most `largest_possible`.
@@ -33,11 +36,10 @@ class reference_reflectance {
   /// table does not cover it: nothing is extrapolated. O(log(number of angles)).
   [[nodiscard]] rgb at(const direction_pair& pair) const;
 
-  /// Returns the largest factor over all channels of the table, sr^-1 times pi.
+  /// Returns the largest factor over all angles and channels.
   [[nodiscard]] double largest() const;
 
-  /// The upper limit of a factor. A pair of directions may exceed a perfect diffuser, but a larger number is probably a
-  /// percentage.
+  /// The upper limit of a factor. A factor may exceed 1, but a larger number is probably a percentage.
   static constexpr double largest_possible = 1.5;
 
  private:

@@ -18,7 +18,7 @@
 
 namespace gonio::capture {
 
-/// A pose that a scan could not measure, counted from 0, and the reason.
+/// A pose that a scan could not measure: its number, counted from 0, and the reason.
 struct missing_pose {
   Eigen::Index number = 0;
   std::string reason;
@@ -26,13 +26,13 @@ struct missing_pose {
 
 /// The path of a machine through pairs of directions.
 struct scan_plan {
-  std::vector<direction_pair> poses;      ///< in the order in which they are measured
-  std::vector<missing_pose> unreachable;  ///< numbered as in the requested pairs
-  double length = 0.0;                    ///< radians travelled from the first pose to the last
+  std::vector<direction_pair> poses;      ///< the poses in the order in which they are measured
+  std::vector<missing_pose> unreachable;  ///< numbered by their positions among the requested pairs
+  double length = 0.0;                    ///< radians of travel from the first pose to the last
 };
 
-/// Returns where a machine can measure a pair: as given, or by reciprocity with light and viewer exchanged. If neither
-/// is possible, returns the obstacle of the pair as given.
+/// Returns where a machine can measure a pair: as given or, by reciprocity, with light and viewer exchanged. If neither
+/// is possible, returns the obstacle for the pair as given.
 template <goniometer Machine>
 [[nodiscard]] placement place_either_way(const Machine& machine, const direction_pair& pair) {
   placement as_asked = machine.place(pair);
@@ -61,8 +61,8 @@ template <goniometer Machine>
   return plan;
 }
 
-/// Storage for the readings of a scan. `has(pose)` returns whether the reading of the pose with this number is stored.
-/// `add(pose, reading)` stores it, and returns only when a failure of this process cannot lose it.
+/// Storage for the readings of a scan. `has(pose)` returns true if the reading of the pose with this number is stored.
+/// `add(pose, reading)` stores a reading, and returns only when a crash of the process cannot lose it any more.
 ///
 /// With a model of the library, a file:
 /// ```cpp
@@ -103,15 +103,15 @@ concept scan_record = requires(J& record, const J& same, Eigen::Index pose, cons
 };
 
 struct scan_options {
-  int attempts = 2;           ///< per pose, before the scan skips it
-  int failures_in_a_row = 3;  ///< failing poses in succession after which the machine is considered broken
+  int attempts = 2;           ///< attempts at a pose before the scan skips it
+  int failures_in_a_row = 3;  ///< number of successive failing poses after which the scan stops
 };
 
 /// The result of a scan.
 struct scan_outcome {
   Eigen::Index measured = 0, kept_before = 0;
-  std::vector<missing_pose> missing;  ///< to be measured by the next scan with the same record
-  bool is_broken_off = false;         ///< too many failures in a row: not all poses were tried
+  std::vector<missing_pose> missing;  ///< poses left to the next scan with the same record
+  bool is_broken_off = false;         ///< too many poses failed in a row: not all were tried
 
   [[nodiscard]] bool is_complete() const noexcept { return missing.empty() && !is_broken_off; }
 };

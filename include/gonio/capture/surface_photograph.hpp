@@ -19,13 +19,13 @@
 
 namespace gonio::capture {
 
-/// Which pixels of a photograph are used, and how they are averaged.
+/// Which pixels of a photograph to use, and how to average them.
 struct photograph_options {
-  /// Skips pixels with a channel of at least this value, in either photograph.
+  /// Skips pixels with a channel of at least this value, in the photograph or in that of the white reference.
   std::optional<double> saturation = {};
-  /// Skips pixels at which light or camera have a smaller cosine.
+  /// Skips pixels at which the cosine of light or camera is smaller than this.
   double smallest_cosine = 0.05;
-  /// Pixels in one cell of this grid are averaged to one sample.
+  /// Pixels whose half and difference angles are in one cell of this grid are averaged to one sample.
   grid cells = grid({90, 90, 180});
 };
 
@@ -33,19 +33,19 @@ struct photograph_options {
 struct photograph_samples {
   sample_set samples;
   Eigen::Index pixels = 0;            ///< used
-  Eigen::Index saturated = 0;         ///< skipped as saturated
-  rgb pixel_deviation = rgb::Zero();  ///< relative noise of a pixel, from the scatter within cells
+  Eigen::Index saturated = 0;         ///< number of saturated pixels, which were skipped
+  rgb pixel_deviation = rgb::Zero();  ///< relative noise of a pixel, from the scatter in cells
 };
 
-/// Returns the samples of a photograph. Skips pixels at the surface's border (with a neighbour that does not see it),
-/// because they mix surface and background. Averages all pixels whose half and difference angles lie in one cell to one
-/// sample: directions, value and cones (`pixel_aperture`). The weight in each channel is `weight_of` the relative
-/// deviation of the mean of n pixels, s / sqrt(n), where s is the median scatter of pixels within cells of at least
-/// four. Does not detect surfaces that shade themselves.
+/// Returns the samples of a photograph. Skips pixels at the surface's border (with a neighbour that does not see the
+/// surface), because they mix surface and background. Averages all pixels whose half and difference angles lie in one
+/// cell to one sample: directions, value and cones (`pixel_aperture`). The weight in each channel is `weight_of` the
+/// relative deviation of the mean of n pixels, s / sqrt(n), where s is the median scatter of pixels within cells of at
+/// least four pixels. Does not detect surfaces that shade themselves.
 ///
 /// Throws gonio::error if a photograph or the reference's surface differs in size from the camera's image, if a pixel
-/// of the surface is not a number (it is named), if the lamp is inside the surface, if the lamp needs positions that
-/// the surface lacks, or if no pixel is lit and visible. O(pixels log pixels).
+/// of the surface is not a number (the message names it), if the lamp is inside the surface, if the light is a lamp and
+/// the surface has no positions, or if no pixel is lit and visible. O(pixels log pixels).
 /// ```cpp
 /// const auto found = gonio::capture::find_sphere(photograph, camera, 0.05);
 /// const auto surface = gonio::capture::surface_of(found.sphere, camera);

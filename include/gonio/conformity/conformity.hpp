@@ -1,10 +1,9 @@
 #pragma once
-/// Tests whether a part reflects like a reference. Both are measured in a few directions, the same or others. In a
-/// direction that both have, the mapped values differ only by their noise: a chi-square statistic (F if the noise was
-/// estimated). In any other direction the reference predicts the part, by the prior and its discrepancy: Rasmussen and
-/// Williams, "Gaussian Processes for Machine Learning", 2006, Eq. 2.23-2.24. The covariance of its channels is learned
-/// from the reference, as `sample_process` learns its scale. Error rates on measured materials:
-/// docs/results/conformity.md.
+/// Tests whether a part reflects like a reference. Both are measured in a few directions, not necessarily the same. In
+/// a shared direction, alike surfaces differ only by noise: a chi-square statistic (F if the noise was estimated). In
+/// any other direction, the reference predicts the part, by the prior and its discrepancy: Rasmussen and Williams,
+/// "Gaussian Processes for Machine Learning", 2006, Eq. 2.23-2.24. The covariance of the channels is estimated from the
+/// reference, as `sample_process` estimates its scale. Error rates on measured materials: docs/results/conformity.md.
 
 #include <gonio/core/rgb.hpp>
 #include <gonio/estimate/located_samples.hpp>
@@ -32,14 +31,13 @@ struct measurement_noise {
 
 struct conformity_options {
   measurement_noise part = {}, reference = {};
-  /// A part conforms if none of its values differs by more than this, relative to the value: one number, or one for
-  /// each channel.
+  /// The largest difference of a conforming part, relative to the value (0.05 is 5 %): one number, or one for each
+  /// channel.
   std::vector<double> tolerance = {0.0};
-  /// The tolerance near the mirror direction, where the half vector is within 5 degrees of the normal, if it is
-  /// another.
+  /// If set, the tolerance of directions whose half vector is within 5 degrees of the normal.
   std::optional<double> peak_tolerance = {};
-  /// If above 0, a part in red, green and blue conforms if no direction's colour differs by more than this CIELAB 1976
-  /// difference, linearised. The colours are those of reflectance factors under D65. The verdict then uses only
+  /// If above 0, a part in red, green and blue conforms if its colour differs in no direction by more than this CIELAB
+  /// 1976 difference, linearised. The colours are reflectance factors under D65. The verdict then uses only
   /// `worst_p_value`, and no other tolerance is allowed.
   double delta_e = 0.0;
   /// Half and difference angles that differ by at most this are the same direction, radians.
@@ -48,32 +46,35 @@ struct conformity_options {
 
 /// Compares one measurement of the part with the reference.
 struct compared_direction {
-  Eigen::Index number = 0;    ///< its position among the part's located samples
-  Eigen::Index measured = 0;  ///< number of the reference's samples in this direction; 0 if it is predicted
+  Eigen::Index number = 0;    ///< position of this direction among the part's located samples
+  Eigen::Index measured = 0;  ///< number of the reference's samples in this direction; 0 if the reference is predicted
   // For each channel:
-  Eigen::ArrayXd value;           ///< of the part, sr^-1
-  Eigen::ArrayXd expected;        ///< of the reference, sr^-1
-  Eigen::ArrayXd difference;      ///< of the mapped values: relative if the metric is a logarithm
+  Eigen::ArrayXd value;           ///< reflectance of the part, sr^-1
+  Eigen::ArrayXd expected;        ///< reflectance of the reference, measured or predicted, sr^-1
+  Eigen::ArrayXd difference;      ///< part minus reference, mapped: relative if the metric is a logarithm
   Eigen::ArrayXd deviation;       ///< the standard deviation of `difference` if part and reference are alike
-  double delta_e = 0.0;           ///< of the colours, CIELAB 1976 under D65; 0 unless there are three
-  double p_value = 1.0;           ///< of this direction alone
+  double delta_e = 0.0;           ///< CIELAB 1976 colour difference under D65; 0 unless there are three channels
+  double p_value = 1.0;           ///< p-value of this direction alone
   double adjusted_p_value = 1.0;  ///< p_value adjusted for all directions together, by Holm (1979)
 };
 
-/// A p-value is the probability of a difference at least as large if the part is like the reference. `shift` and
-/// `total` use the directions that both have, or all if there are none, because predictions are less certain.
+/// A p-value is the probability of a difference at least as large if the part is like the reference. `shift`,
+/// `shift_p_value` and `total_p_value` use only directions in which both were measured, because predictions are less
+/// certain. If there are none, they use all directions.
 struct conformity {
-  /// Of the whole: three times the smallest of the next three (Bonferroni), at most 1. With a tolerance of Delta E the
-  /// last of them.
+  /// The p-value of the whole comparison: three times the smallest of `shift_p_value`, `total_p_value` and
+  /// `worst_p_value` (Bonferroni), at most 1. With a Delta E tolerance, or for a single direction, it equals
+  /// `worst_p_value`.
   double p_value = 1.0;
   double shift_p_value =
-      1.0;  ///< of one shift for each channel, the same in all directions; one degree of freedom each
-  double total_p_value = 1.0;  ///< of all differences; one degree of freedom for each channel of each direction
-  double worst_p_value = 1.0;  ///< of the worst direction, adjusted for their number
+      1.0;  ///< p-value of a shift that is the same in all directions; one degree of freedom for each channel
+  double total_p_value = 1.0;  ///< p-value of all differences; one degree of freedom for each direction and channel
+  double worst_p_value = 1.0;  ///< p-value of the worst direction, adjusted for the number of directions
   Eigen::ArrayXd shift;        ///< best linear unbiased estimate of the shift of the mapped values in each channel
-  std::vector<compared_direction> directions;  ///< of the part, in its order
+  std::vector<compared_direction> directions;  ///< one for each of the part's samples, in their order
 
-  /// Returns true if there is no evidence of a difference, at this rate of false alarms among parts that are alike.
+  /// Returns true if the comparison shows no difference. `false_alarms` is the rate at which it would show one between
+  /// parts that are alike.
   [[nodiscard]] bool conforms(double false_alarms = 0.01) const noexcept { return p_value >= false_alarms; }
   /// Returns the number of directions in which the reference has no measurement.
   [[nodiscard]] Eigen::Index predicted() const noexcept {
@@ -87,44 +88,44 @@ struct conformity {
 
 namespace detail {
 
-/// The samples of a part and, after them, of a reference.
+/// The n samples of a part and, after them, those of a reference: N samples together.
 struct conformity_samples {
   Eigen::Index parts = 0;
   std::vector<half_difference> angles;
-  Eigen::MatrixXd mapped;                      ///< minus the prior's mean, N x channels
-  Eigen::MatrixXd covariance;                  ///< of the mapped reflectance by the model, for one channel, N x N
-  double independent = 0.0;                    ///< the part of its diagonal that is independent in each direction
-  Eigen::MatrixXd noise;                       ///< variances of the measurements, N x channels
-  Eigen::MatrixXd tolerance;                   ///< of the part's mapped values, parts x channels
-  std::vector<Eigen::Matrix3d> lab_by_mapped;  ///< derivatives of CIELAB, of each part; or empty
+  Eigen::MatrixXd mapped;      ///< mapped reflectance minus the prior's mean, N x channels
+  Eigen::MatrixXd covariance;  ///< of the mapped reflectance of one channel, according to the model, N x N
+  double independent = 0.0;    ///< the model's error variance that is independent in each direction
+  Eigen::MatrixXd noise;       ///< variances of the measurements, N x channels
+  Eigen::MatrixXd tolerance;   ///< tolerance of the part's mapped values, n x channels
+  std::vector<Eigen::Matrix3d> lab_by_mapped;  ///< derivatives of CIELAB, for each of the part's samples; or empty
 };
 
 /// Compares samples. Does not set `value` and `expected` of the directions.
 [[nodiscard]] conformity compare_samples(conformity_samples samples, const conformity_options& options);
 
-/// Returns the minimum of (r - x)' M (r - x) over all x within the tolerance of zero, for positive semidefinite M. Uses
-/// coordinate descent until no x moves by more than a relative 1e-9.
+/// Returns the minimum of (r - x)' M (r - x) over all x with |x_i| <= tolerance_i, for positive semidefinite M. Uses
+/// coordinate descent until no x_i moves by more than 1e-9 of the largest tolerance.
 [[nodiscard]] double least_within(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& residuals,
                                   const Eigen::VectorXd& tolerance);
 
-/// Returns the minimum of (r - x)' M (r - x) over all x with |J x| <= length, for positive definite M and regular J.
+/// Returns the minimum of (r - x)' M (r - x) over all x with |J x| <= length, for positive definite M and invertible J.
 /// Finds the Lagrange multiplier by bisection.
 [[nodiscard]] double least_within(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& residuals,
                                   const Eigen::Matrix3d& jacobian, double length);
 
 void require_possible(const conformity_options& options, Eigen::Index channels);
 
-/// Returns the tolerance of a channel at a location, relative to a value.
+/// Returns the tolerance of a channel at a location, relative to the reflectance.
 [[nodiscard]] double tolerance_of(const conformity_options& options, Eigen::Index channel, const location& at);
 
-/// Returns the CIELAB 1976 difference of two colours in sr^-1, as reflectance factors under D65.
+/// Returns the CIELAB 1976 difference of two colours in sr^-1, seen as reflectance factors under D65.
 [[nodiscard]] double delta_e_of(const rgb& one, const rgb& other);
 
-/// Joins part and reference. Keeps all channels, or one if all are equal, as for a reading of one value in three
-/// channels.
+/// Joins part and reference. Keeps a single channel if all channels are equal, as when one value was read into three
+/// channels; otherwise keeps all.
 [[nodiscard]] located_samples both_of(const located_samples& part, const located_samples& reference);
 
-/// Returns the number of distinct columns: one if all are equal, otherwise all.
+/// Returns 1 if all columns are equal, otherwise the number of columns.
 [[nodiscard]] Eigen::Index distinct_channels(const Eigen::MatrixXd& values);
 
 /// Returns the positions of measurements in the same direction as a location.
@@ -139,8 +140,8 @@ template <error_metric Metric>
   return 0.5 * (metric.forward(centre + reach, at) - metric.forward(std::max(centre - reach, 0.0), at));
 }
 
-/// Returns the same, but at least half of the relative noise. Near zero, where the map is flat, differences are
-/// invisible and no evidence.
+/// Returns `mapped_noise_of` the value, but at least half of the relative noise: near zero, where the map is flat,
+/// small differences are no evidence.
 template <error_metric Metric>
 [[nodiscard]] double mapped_deviation(const Metric& metric, double value, const location& at,
                                       const measurement_noise& noise) {
@@ -167,18 +168,20 @@ template <error_metric Metric>
 }  // namespace detail
 
 /// Compares n samples of a part with r samples of a reference, in any number of channels c: colours, wavelengths, one
-/// value. The estimator's prior and model predict directions from others; if all directions are shared, they have no
-/// effect. The model's noise is not used. Channels that are equal in all samples count as one.
+/// value. Where the reference has no measurement, the estimator's prior and model predict it from its other directions;
+/// if both were measured in all directions, prior and model have no effect. The model's noise and grazing variance are
+/// not used. If all channels are equal, they count as one.
 ///
-/// If part and reference reflect alike (within the tolerance) and have the stated noise, and all directions are shared,
-/// `conforms(a)` is false with a probability of at most a. For predicted directions this was found on average over
-/// measured materials, not for each: docs/results/conformity.md. Noise shared by channels or directions, such as a
-/// drifting lamp, is not modelled: allow for it by a tolerance. With a tolerance, each statistic is the minimum over
-/// all allowed differences. Negative values count as zero; if noise makes them, only dark noise explains them.
+/// If part and reference reflect alike (within the tolerance), have the stated noise, and were measured in the same
+/// directions, `conforms(a)` is false with a probability of at most a. For predicted directions, this holds on average
+/// over measured materials, but not for each material: docs/results/conformity.md. Noise shared by channels or
+/// directions, such as that of a drifting lamp, is not modelled: allow for it by a tolerance. With a tolerance, each
+/// statistic is its minimum over all allowed differences. Negative values count as zero; if noise causes them, state
+/// dark noise.
 ///
-/// O((n + r)^2 k + r^3 + (n c)^3). Throws gonio::error for impossible options, for a part without noise, if part and
-/// reference have different channels, and for more than 2,500 samples of the part, 6,000 of both, or 7,500 values of
-/// the part: 2,100 directions of three channels take 2.3 GB.
+/// O((n + r)^2 k + r^3 + (n c)^3) for k components. Throws gonio::error for impossible options, for a part without
+/// noise, if part and reference have different channels, and for more than 2,500 samples of the part, 6,000 of both, or
+/// 7,500 values of the part: 2,100 directions of three channels take 2.3 GB.
 ///
 /// ```cpp
 /// const gonio::reconstruction estimator{prior};
@@ -193,12 +196,12 @@ template <error_metric Metric>
   detail::require_possible(options, part.values.cols());
   const auto& metric = estimator.prior().metric();
 
-  // Join the two. The weights of samples divide the variances of their noise.
+  // Join part and reference. The noise variance of a sample is divided by the sample's weight.
   const located_samples both = detail::both_of(part, reference);
   if (options.delta_e > 0.0 && both.values.cols() != 3) refuse("a Delta E tolerance needs part and reference in RGB");
   discrepancy_model model = estimator.model();
   model.noise = 0.0;
-  model.grazing_variance = 0.0;  // a single variance for all errors, as in the calibration of p-values
+  model.grazing_variance = 0.0;  // one variance for all errors, as in the calibration of p-values
   const sample_process process = reconstruction<Metric>{estimator.prior(), model}.process_of(both);
   detail::conformity_samples samples{.parts = part.size(),
                                      .angles = both.angles(),
@@ -235,15 +238,16 @@ template <error_metric Metric>
   return found;
 }
 
-/// Estimates the noise from repeated measurements in a direction, pooled over channels and directions. The degrees of
-/// freedom are 0 if no direction is repeated. Ignores values near zero. O(n^2). Throws gonio::error for more than 5,000
-/// samples.
+/// Estimates relative noise from repeated measurements in the same direction, pooled over channels and directions. The
+/// degrees of freedom are 0 if no direction is repeated. Ignores values near zero. O(n^2). Throws gonio::error for more
+/// than 5,000 samples.
 template <error_metric Metric>
 [[nodiscard]] measurement_noise noise_of_repeats(const Metric& metric, const located_samples& samples,
                                                  const conformity_options& options = {}) {
   constexpr Eigen::Index most_samples = 5000;
   if (samples.size() > most_samples)
-    refuse({"noise is estimated from repeats of at most ", most_samples, " samples, not ", samples.size()});
+    refuse({"noise can be estimated from repeats among at most ", most_samples, " samples, not ", samples.size(),
+            ": give the noise (--noise)"});
   const Eigen::Index channels = detail::distinct_channels(samples.values);
   double squares = 0.0, freedom = 0.0;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
@@ -257,7 +261,7 @@ template <error_metric Metric>
         mean += metric.forward(samples.values(j, c), at) / static_cast<double>(same.size());
         value += samples.values(j, c) / static_cast<double>(same.size());
       }
-      // Use units of 1 % noise, mapped there. Skip values near zero, whose noise is different.
+      // Divide by the effect of 1 % noise on the mapped value. Skip values near zero, whose noise is different.
       const double mapped = detail::mapped_noise_of(metric, value, at, {.relative = 0.01});
       if (!(mapped > 0.005)) continue;
       for (const Eigen::Index j : same)
@@ -268,7 +272,7 @@ template <error_metric Metric>
   return {.relative = freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0, .degrees_of_freedom = freedom};
 }
 
-/// Pools two estimates of the same noise, weighted by their degrees of freedom.
+/// Pools two estimates of the same relative noise, weighted by their degrees of freedom.
 [[nodiscard]] measurement_noise pooled_noise(const measurement_noise& a, const measurement_noise& b);
 
 }  // namespace gonio

@@ -12,7 +12,7 @@
 
 namespace gonio::detail {
 
-/// Returns the coefficients in t^2 of atan(t) / t over pi / 2, for t from 0 to 1. The polynomials have the least
+/// Returns the coefficients of atan(t) / (t pi / 2) in powers of t^2, for t from 0 to 1. The polynomials have the least
 /// maximum relative error (Remez's exchange): 1.6e-8 with nine coefficients and 4e-14 with sixteen.
 template <std::floating_point Real>
 [[nodiscard]] constexpr auto arc_tangent_coefficients() noexcept {
@@ -28,7 +28,7 @@ template <std::floating_point Real>
         0.0075033769833896553, -0.0027784904318869678, 0.0006519744249023101, -7.2074615891761176e-05};
 }
 
-/// Returns atan(t) / t over pi / 2, given t^2 from 0 to 1. Even and odd powers are summed separately, which halves the
+/// Returns atan(t) / (t pi / 2), given t^2 from 0 to 1. Even and odd powers are summed separately, which halves the
 /// chain of dependent operations.
 template <std::floating_point Real>
 [[nodiscard]] inline Real arc_tangent_over_tangent(Real squared) noexcept {
@@ -49,18 +49,18 @@ template <std::floating_point Real>
   return Real(0.5) - std::copysign(Real(0.5), b - a);
 }
 
-/// Returns an angle as a share of a quarter turn. If `steep` is 0, `tangent` is the angle's tangent; if it is 1, the
-/// reciprocal. `squared` is its square.
+/// Returns an angle as a share of a quarter turn. `tangent` is the angle's tangent if `steep` is 0, and the reciprocal
+/// of the tangent if `steep` is 1. `squared` is the square of `tangent`.
 template <std::floating_point Real>
 [[nodiscard]] inline Real quarter_turns(Real tangent, Real squared, Real steep) noexcept {
   // Computes 1 - share or share without a branch, which the hardware could not predict.
   return std::abs(steep - tangent * arc_tangent_over_tangent(squared));
 }
 
-/// The tangent of an azimuth folded to half a turn, and the side that it is on.
+/// An azimuth folded to half a turn: its tangent and its sector.
 template <std::floating_point Real>
 struct azimuth_terms {
-  Real tangent;  ///< or its reciprocal if that is smaller than 1
+  Real tangent;  ///< the tangent or its reciprocal, whichever is at most 1
   Real steep;    ///< 1 if the azimuth is more than pi / 4 from the x axis, otherwise 0
   Real left;     ///< 1 if the azimuth is in the second quadrant, otherwise 0
 
@@ -72,8 +72,8 @@ struct azimuth_terms {
   }
 };
 
-/// Returns an azimuth as a share of half a turn, from 0 to 1 (1 is equivalent to 0), given the share of a quarter turn
-/// from the x axis.
+/// Returns an azimuth as a share of half a turn, from 0 to 1 (1 is equivalent to 0), given its angle from the x axis as
+/// a share of a quarter turn.
 template <std::floating_point Real>
 [[nodiscard]] inline Real half_turns(Real quarter, Real left) noexcept {
   return std::abs(left - quarter / 2);

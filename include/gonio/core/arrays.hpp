@@ -1,5 +1,5 @@
 #pragma once
-/// xtensor's containers of fixed rank: `xt::xtensor`. Since xtensor 0.26 its headers stand in folders.
+/// xtensor's containers of fixed rank: `xt::xtensor`. Since xtensor 0.26 its headers are in folders.
 
 #if __has_include(<xtensor/containers/xtensor.hpp>)
 #include <xtensor/containers/xtensor.hpp>

@@ -1,9 +1,9 @@
 #pragma once
-/// Preconditions between our own functions. Input from outside is refused with `gonio::error` instead.
+/// Checks preconditions between the library's own functions. Invalid input from outside throws `gonio::error` instead.
 
 #include <cassert>
 
-/// The library's only macro: define it before including gonio to install another handler.
+/// Define GONIO_ASSERT before including gonio to install another handler.
 #ifndef GONIO_ASSERT
 #define GONIO_ASSERT(condition) assert(condition)
 #endif

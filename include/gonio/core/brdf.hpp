@@ -14,7 +14,10 @@ namespace gonio {
 /// - `wi` (towards the light) and `wo` (towards the viewer) are unit vectors in the local frame, normal +z;
 /// - the value does not contain the cosine of the incident angle;
 /// - it is zero if either direction is at or below the horizon;
-/// - it is finite, reciprocal (f(wi, wo) = f(wo, wi)) and isotropic up to rounding;
+/// - it is finite and reciprocal (f(wi, wo) = f(wo, wi)) up to rounding;
+/// - it is isotropic up to rounding, unless the type says that it may be anisotropic: the material then has the axes of
+///   the local frame, and what needs an isotropic one, like a table over half and difference angles, must not be given
+///   it;
 /// - evaluation is thread safe, does not allocate and does not throw.
 ///
 /// With a model of the library:

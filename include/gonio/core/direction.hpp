@@ -55,21 +55,21 @@ struct cosine_pair {
   return std::atan2(std::hypot(w.x(), w.y()), w.z());
 }
 
-/// Returns the azimuth of a direction in (-pi, pi]. If rounding decides between the two ends, it is pi.
+/// Returns the azimuth of a direction in (-pi, pi]. Azimuths within 1e-12 of -pi become pi.
 [[nodiscard]] inline double azimuth(const direction& w) noexcept {
   const double phi = std::atan2(w.y(), w.x());
   return phi > -std::numbers::pi + 1e-12 ? phi : std::numbers::pi;
 }
 
-// Written out, like all vector operations of this header: each kind of Eigen expression would cost compile time in
-// every file that includes it.
+// All vector operations of this header are written out: each kind of Eigen expression would cost compile time in every
+// file that includes the header.
 
 /// Returns the length of a vector.
 [[nodiscard]] inline double norm_of(double x, double y, double z) noexcept {
   return std::sqrt(x * x + (y * y + z * z));
 }
 
-/// Returns a vector of length 1; the vector itself if it is zero.
+/// Returns a vector scaled to length 1; a zero vector is unchanged.
 [[nodiscard]] inline direction normalised(const direction& w) noexcept {
   const double length = norm_of(w.x(), w.y(), w.z());
   return length > 0.0 ? direction(w.x() / length, w.y() / length, w.z() / length) : w;
@@ -99,15 +99,15 @@ namespace detail {
 
 namespace detail {
 
-/// Eigen's cross product is in its Geometry module, which would double the compile time of this header.
+/// Returns a x b. Eigen's cross product is in its Geometry module, which would double the compile time of this header.
 [[nodiscard]] inline Eigen::Vector3d cross_product(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept {
   return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
 }
 
 }  // namespace detail
 
-/// Turns a direction by `angle`, in the direction `side` around it. Side 0 is parallel to the surface, unless the
-/// direction is near the normal. All in radians.
+/// Turns a direction w by `angle`, towards the azimuth `side` about w, both in radians. If w is more than 26 degrees
+/// from the normal, `side` 0 is parallel to the surface.
 [[nodiscard]] inline direction turned(const direction& w, double angle, double side) noexcept {
   const direction across = std::abs(w.z()) < 0.9 ? direction(0.0, 0.0, 1.0) : direction(1.0, 0.0, 0.0);
   const direction beside = normalised(detail::cross_product(w, across));
@@ -124,7 +124,7 @@ namespace detail {
 /// Folds an azimuth in radians into [0, pi): an isotropic reciprocal BRDF has this period in phi_d.
 [[nodiscard]] inline double fold_phi_d(double phi) noexcept {
   const double folded = phi - std::numbers::pi * std::floor(phi / std::numbers::pi);
-  // A tiny negative angle rounds up to pi itself, which is 0.
+  // A tiny negative angle rounds up to pi, which is equivalent to 0.
   return folded < std::numbers::pi ? folded : 0.0;
 }
 

@@ -12,21 +12,21 @@ namespace gonio {
 /// it.
 class message_part {
  public:
-  message_part(std::string_view text) : text_(text.data()), size_(text.size()) {}           // NOLINT: conversions are
-  message_part(const char* text) : message_part(std::string_view(text)) {}                  // NOLINT: the point
-  message_part(const std::string& text) : message_part(std::string_view(text)) {}           // NOLINT
-  message_part(double number) : real_(number), size_(real) {}                               // NOLINT
-  message_part(long long number) : integer_(number), size_(integer) {}                      // NOLINT
-  message_part(unsigned long long number) : natural_(number), size_(natural) {}             // NOLINT
-  message_part(int number) : message_part(static_cast<long long>(number)) {}                // NOLINT
-  message_part(long number) : message_part(static_cast<long long>(number)) {}               // NOLINT
-  message_part(unsigned number) : message_part(static_cast<unsigned long long>(number)) {}  // NOLINT
+  message_part(std::string_view text) : text_(text.data()), size_(text.size()) {}                // NOLINT: implicit
+  message_part(const char* text) : message_part(std::string_view(text)) {}                       // NOLINT
+  message_part(const std::string& text) : message_part(std::string_view(text)) {}                // NOLINT
+  message_part(double number) : real_(number), size_(real) {}                                    // NOLINT
+  message_part(long long number) : integer_(number), size_(integer) {}                           // NOLINT
+  message_part(unsigned long long number) : natural_(number), size_(natural) {}                  // NOLINT
+  message_part(int number) : message_part(static_cast<long long>(number)) {}                     // NOLINT
+  message_part(long number) : message_part(static_cast<long long>(number)) {}                    // NOLINT
+  message_part(unsigned number) : message_part(static_cast<unsigned long long>(number)) {}       // NOLINT
   message_part(unsigned long number) : message_part(static_cast<unsigned long long>(number)) {}  // NOLINT
 
   void append_to(std::string& sentence) const;
 
  private:
-  // Larger than the length of any text.
+  // Values of size_ that mark numbers. They are larger than the length of any text.
   static constexpr std::size_t real = std::string_view::npos, integer = real - 1, natural = real - 2;
 
   union {
@@ -35,10 +35,10 @@ class message_part {
     long long integer_;
     unsigned long long natural_;
   };
-  std::size_t size_;  ///< of the text, or the kind of number
+  std::size_t size_;  ///< the text's size, or the kind of number
 };
 
-/// Joins the parts.
+/// Returns the joined parts.
 [[nodiscard]] std::string message_of(std::initializer_list<message_part> parts);
 
 /// Thrown if external data (a file, a caller's array, a command line) is invalid. The message is one sentence that
@@ -57,7 +57,7 @@ class error : public std::runtime_error {
 /// if (found != expected) gonio::refuse({"row ", row, " has ", found, " values, expected ", expected});
 /// ```
 [[noreturn]] void refuse(const std::string& sentence);
-/// Joins the parts of the message inside the function, so that callers need no code for it.
+/// Joins the parts to the sentence, and throws gonio::error or aborts. Joining them here keeps the callers' code small.
 [[noreturn]] void refuse(std::initializer_list<message_part> parts);
 
 }  // namespace gonio

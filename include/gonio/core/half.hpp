@@ -13,7 +13,7 @@ namespace gonio {
   return static_cast<float>(Eigen::half(Eigen::half_impl::raw_uint16_to_half(bits)));
 }
 
-/// Returns the bits of the nearest half float; infinity outside of their range.
+/// Returns the bits of the nearest half float; infinity for a value outside of the range of half floats.
 [[nodiscard]] inline std::uint16_t to_half(float value) noexcept { return static_cast<Eigen::half>(value).x; }
 
 }  // namespace gonio

@@ -16,8 +16,8 @@ namespace gonio {
 
 inline constexpr std::size_t huge_page = std::size_t{1} << 21;
 
-/// Requests pages of 2 MB for memory that has not been written to. On systems without them, or other than Linux, the
-/// memory is only slower.
+/// Requests pages of 2 MB for memory that has not been written to. On systems without such pages, or other than Linux,
+/// the memory is only slower.
 inline void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #if defined(__linux__)
   void* begin = memory;
@@ -27,8 +27,8 @@ inline void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] st
 #endif
 }
 
-/// An allocator that requests pages of 2 MB if it needs more than one. On systems without them, or other than Linux,
-/// the memory is only slower. Allocates up to 2 MB more than requested.
+/// An allocator that requests pages of 2 MB for memory of more than 2 MB. On systems without such pages, or other than
+/// Linux, the memory is only slower. Allocates up to 2 MB more than requested.
 template <class T>
 struct huge_page_allocator {
   using value_type = T;
@@ -38,7 +38,7 @@ struct huge_page_allocator {
   huge_page_allocator(const huge_page_allocator<Other>& /*unused*/) noexcept {}  // NOLINT: implicit by the standard
 
   [[nodiscard]] T* allocate(std::size_t count) {
-    // `operator new` refuses impossible sizes: this compiles without exceptions.
+    // Let `operator new` refuse impossible sizes: this code throws nothing, and compiles without exceptions.
     count = std::min(count, (std::numeric_limits<std::ptrdiff_t>::max() - page) / sizeof(T));
     if (!is_large(count)) return static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{64}));
     const std::size_t bytes = (count * sizeof(T) + page - 1) / page * page;

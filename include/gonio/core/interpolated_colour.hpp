@@ -13,8 +13,8 @@
 namespace gonio {
 
 /// Returns the contribution of each wavelength to red, green and blue (3 x wavelengths) of a reflectance that is linear
-/// between the wavelengths and constant outside, as renderers read spectra. Integrates every nanometre. Throws as
-/// `spectral_colour`.
+/// between the wavelengths and constant outside, as renderers read spectra. Integrates in steps of 1 nm. Throws
+/// gonio::error for wavelengths that `spectral_colour` refuses.
 [[nodiscard]] inline Eigen::MatrixXd interpolated_colour(std::span<const double> wavelengths) {
   static_cast<void>(spectral_colour(wavelengths));  // throws for an invalid spectrum
   std::vector<double> fine;

@@ -17,19 +17,19 @@ class k_d_tree {
  public:
   using points = Eigen::Matrix<double, Dimension, Eigen::Dynamic>;
 
-  /// O(n log n).
+  /// Builds the tree in O(n log n).
   explicit k_d_tree(const points& of) : points_{of}, tree_(Dimension, points_, {leaf_size}) {}
 
   k_d_tree(const k_d_tree&) = delete;
   k_d_tree& operator=(const k_d_tree&) = delete;
 
-  /// Writes the numbers of the `count` nearest points, or of all if there are fewer, and their squared distances, the
-  /// nearest first. Returns how many there are. O(count log n); does not allocate.
+  /// Writes the indices of the `count` nearest points, or of all if there are fewer, and their squared distances, the
+  /// nearest first. Returns the number of points written. O(count log n); does not allocate.
   Eigen::Index nearest(const double* place, Eigen::Index count, std::uint32_t* numbers, double* squared) const {
     return static_cast<Eigen::Index>(tree_.knnSearch(place, static_cast<std::size_t>(count), numbers, squared));
   }
 
-  /// Returns the numbers of the points within a radius, always in the same order.
+  /// Returns the indices of the points within a radius, always in the same order.
   [[nodiscard]] std::vector<Eigen::Index> within(double radius, const double* place) const {
     std::vector<std::pair<std::uint32_t, double>> found;
     tree_.radiusSearch(place, radius * radius, found, nanoflann::SearchParams(0, 0.0F, false));

@@ -28,7 +28,7 @@ struct lens_distortion {
   /// Returns the derivatives of `distorted`.
   [[nodiscard]] Eigen::Matrix2d jacobian(const Eigen::Vector2d& ideal) const noexcept;
 
-  /// Return the radial part alone, r (1 + k1 r^2 + k2 r^4 + k3 r^6), and its derivative.
+  /// Return the distorted radius without the tangential part, r (1 + k1 r^2 + k2 r^4 + k3 r^6), and its derivative.
   [[nodiscard]] double distorted_radius(double r) const noexcept;
   [[nodiscard]] double radius_derivative(double r) const noexcept;
 };
@@ -43,22 +43,23 @@ class lens_camera {
  public:
   /// Throws gonio::error if a coefficient is not finite, or if the distortion folds within the image. The message
   /// states the radius of the fold.
-  lens_camera(const pinhole_camera& pinhole, const lens_distortion& distortion = {});  // NOLINT: a pinhole is one
+  lens_camera(const pinhole_camera& pinhole, const lens_distortion& distortion = {});  // NOLINT: implicit
 
   [[nodiscard]] const pinhole_camera& pinhole() const noexcept { return pinhole_; }
   [[nodiscard]] const lens_distortion& distortion() const noexcept { return distortion_; }
   [[nodiscard]] const camera_intrinsics& intrinsics() const noexcept { return pinhole_.intrinsics(); }
   [[nodiscard]] const Eigen::Vector3d& position() const noexcept { return pinhole_.position(); }
 
-  /// Returns the ray through a location of the image; pixel centres are at halves. Outside of the image, beyond a fold
-  /// of the distortion, returns the ray of the pinhole. Newton's method: about five steps.
+  /// Returns the ray through a location of the image; pixel centres are at 0.5, 1.5 and so on. If the location is
+  /// outside of the image and beyond a fold of the distortion, returns the pinhole's ray. Uses about five steps of
+  /// Newton's method.
   [[nodiscard]] ray ray_through(double column, double row) const noexcept;
 
   /// Returns the (column, row) at which a point is seen; nothing if it is behind the camera, or farther from the axis
   /// than the corners of the image.
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const noexcept;
 
-  /// Returns the angle of a pixel in the centre of the image, radians.
+  /// Returns the angle in radians that a pixel in the centre of the image covers.
   [[nodiscard]] double pixel_angle() const noexcept;
 
  private:
@@ -70,7 +71,7 @@ class lens_camera {
 
   pinhole_camera pinhole_;
   lens_distortion distortion_;
-  double largest_radius_ = 0.0;  ///< of undistorted locations within the image, by the radial part
+  double largest_radius_ = 0.0;  ///< of undistorted locations within the image, from the radial part alone
 };
 
 }  // namespace gonio

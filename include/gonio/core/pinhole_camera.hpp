@@ -38,7 +38,7 @@ struct camera_intrinsics {
   double focal_length_x = 0.0, focal_length_y = 0.0;
   double principal_x = 0.0, principal_y = 0.0;  ///< the intersection of the optical axis with the image
 
-  /// Returns a square image with this many pixels per side, whose width spans an angle in radians.
+  /// Returns the parameters for a square image with this many pixels per side, whose width spans an angle in radians.
   [[nodiscard]] static camera_intrinsics square(std::size_t pixels, double field_of_view);
 };
 
@@ -59,7 +59,7 @@ class pinhole_camera {
   [[nodiscard]] const Eigen::Matrix3d& rotation() const noexcept { return rotation_; }
   [[nodiscard]] const Eigen::Vector3d& position() const noexcept { return position_; }
 
-  /// Returns the ray through a location of the image; pixel centres are at halves.
+  /// Returns the ray through a location of the image; pixel centres are at 0.5, 1.5 and so on.
   [[nodiscard]] ray ray_through(double column, double row) const noexcept {
     const Eigen::Vector3d seen((column - intrinsics_.principal_x) / intrinsics_.focal_length_x,
                                (row - intrinsics_.principal_y) / intrinsics_.focal_length_y, 1.0);

@@ -6,8 +6,8 @@
 
 namespace gonio {
 
-/// Returns the text with every control character (C0, DEL, C1) and every byte that is not UTF-8 written as `\x1b`.
-/// Other text is unchanged. The sentence of every gonio::error is filtered by it.
+/// Returns the text with every control character (C0, DEL, C1) and every byte that is not UTF-8 written in hexadecimal,
+/// such as `\x1b`. Other text is unchanged. gonio::error passes its sentence through this function.
 [[nodiscard]] std::string printable(std::string_view text);
 
 }  // namespace gonio

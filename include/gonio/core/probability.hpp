@@ -9,12 +9,12 @@ namespace gonio {
 /// Returns the quantile of an F variable.
 [[nodiscard]] double f_quantile(double share, double numerator_degrees, double denominator_degrees);
 
-/// Returns the probability that a chi-square variable exceeds a value, to a relative error of about 1e-10 even if tiny;
-/// 1 for a value of 0 or less.
+/// Returns the probability that a chi-square variable exceeds a value, to a relative error of about 1e-10 even for tiny
+/// probabilities; 1 for a value of 0 or less.
 [[nodiscard]] double chi_square_tail(double value, double degrees_of_freedom);
 
-/// Returns the same for an F variable. With infinite denominator degrees, it is a chi-square variable over its degrees
-/// of freedom.
+/// Returns the probability that an F variable exceeds a value. With infinite denominator degrees, the F variable is a
+/// chi-square variable divided by its degrees of freedom.
 [[nodiscard]] double f_tail(double value, double numerator_degrees, double denominator_degrees);
 
 }  // namespace gonio

@@ -36,7 +36,7 @@ using rgb = Eigen::Array3d;
 
 namespace detail {
 
-/// Returns the cube root of CIELAB, with its linear part near black, of a channel of XYZ relative to white's.
+/// Returns CIELAB's function of a channel of XYZ divided by that of white: the cube root, but linear near black.
 [[nodiscard]] inline double lab_curve(double relative) noexcept {
   constexpr double knee = 6.0 / 29.0;
   return relative > knee * knee * knee ? std::cbrt(relative) : relative / (3.0 * knee * knee) + 4.0 / 29.0;
@@ -59,7 +59,7 @@ namespace detail {
   return to_unclipped_lab({clipped(colour.x()), clipped(colour.y()), clipped(colour.z())});
 }
 
-/// Returns the CIE 1976 colour difference Delta E*ab of two linear colours.
+/// Returns the CIE 1976 colour difference Delta E*ab of two linear colours, clipped as in `to_lab`.
 [[nodiscard]] inline double delta_e(const rgb& a, const rgb& b) noexcept {
   const rgb p = to_lab(a), q = to_lab(b);
   const double l = p.x() - q.x(), green_red = p.y() - q.y(), blue_yellow = p.z() - q.z();

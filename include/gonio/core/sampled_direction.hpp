@@ -23,14 +23,14 @@ struct basic_sampled_direction {
 
 using sampled_direction = basic_sampled_direction<double>;
 
-/// Draws directions towards the light, given the viewer's, and returns their density.
+/// Draws directions towards the light, given the direction towards the viewer, and returns their density.
 ///
 /// Requirements that the compiler cannot check:
 /// - `sample(wo, u1, u2)` takes two numbers in [0, 1); `sample(...).pdf` equals `pdf(wi, wo)` for its direction;
 /// - the weight times pdf is f cos(theta_i), and pdf is positive wherever f is;
 /// - pdf integrates to 1 over the sphere of directions, including those below the horizon, which have weight 0;
 /// - if the viewer is not above the horizon, weight and density are zero;
-/// - both are thread safe, do not allocate and do not throw.
+/// - `sample` and `pdf` are thread safe, do not allocate and do not throw.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -79,7 +79,7 @@ template <std::floating_point Real>
   return {radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(std::max(Real(0), 1 - u1))};
 }
 
-/// Returns that density in sr^-1; zero below the horizon.
+/// Returns the density of `cosine_weighted_direction` in sr^-1; zero below the horizon.
 template <std::floating_point Real>
 [[nodiscard]] Real cosine_weighted_pdf(const Eigen::Matrix<Real, 3, 1>& wi) noexcept {
   return std::max(wi.z(), Real(0)) * std::numbers::inv_pi_v<Real>;

@@ -18,8 +18,7 @@
 
 namespace gonio {
 
-/// Returns the observer's three responses at a wavelength in nanometres. They differ from the standard's tables by a
-/// percent of the peak.
+/// Returns the observer's three responses at a wavelength in nanometres. The error is about 1 % of the peak.
 [[nodiscard]] inline rgb colour_matching(double wavelength) noexcept {
   const auto lobe = [wavelength](double height, double centre, double below, double above) {
     const double z = (wavelength - centre) / (wavelength < centre ? below : above);
@@ -96,9 +95,10 @@ class spectral_colour {
   /// Returns the number of wavelengths.
   [[nodiscard]] Eigen::Index size() const noexcept { return weights_.rows(); }
 
-  /// Returns the colour of a reflectance for each wavelength. Components of saturated colours may be negative.
+  /// Returns the colour of a reflectance that has one value for each wavelength. Components of saturated colours may be
+  /// negative.
   [[nodiscard]] rgb operator()(std::span<const double> reflectance) const { return colour_of(reflectance); }
-  /// Returns the colour of reflectances in single precision.
+  /// Returns the colour of a reflectance in single precision.
   [[nodiscard]] rgb operator()(std::span<const float> reflectance) const { return colour_of(reflectance); }
 
  private:

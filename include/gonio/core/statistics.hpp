@@ -1,6 +1,6 @@
 #pragma once
-/// Order statistics. Each function takes a vector or a span of at least one number, none of them NaN, and reorders it:
-/// pass a copy if the order matters. O(n).
+/// Order statistics. Each function except `in_order` takes a vector or a span of at least one number, none of them NaN,
+/// and reorders it: pass a copy if the order matters. O(n).
 
 #include <algorithm>
 #include <cstddef>
@@ -22,7 +22,7 @@ inline constexpr double deviation_by_median = 1.4826;
   return ordered;
 }
 
-/// Returns the number at a position, from 0 on, in sorted order. Moves smaller ones before it.
+/// Returns the number at a position, counted from 0, in sorted order. Moves smaller numbers before that position.
 template <class Numbers>
 [[nodiscard]] auto nth_smallest(Numbers&& numbers, std::ptrdiff_t position) {
   const auto at = std::begin(numbers) + position;

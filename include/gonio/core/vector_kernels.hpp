@@ -1,6 +1,6 @@
 #pragma once
-/// The inner loops of dense algebra on contiguous numbers, compiled once. As expressions they would be compiled for
-/// each combination of matrices, columns and parts of columns.
+/// The inner loops of dense algebra on contiguous numbers, compiled once. As Eigen expressions they would be compiled
+/// for each combination of matrices, columns and parts of columns.
 
 #include <Eigen/Core>
 
@@ -14,8 +14,8 @@ namespace gonio {
 [[nodiscard]] float dot(const float* a, const float* b, Eigen::Index count);
 
 /// Three columns of numbers for dot products with many rows. They are stored in blocks of sixteen. The last block is
-/// aligned with the last sixteen numbers of a row, and is zero where it overlaps the block before. No product needs a
-/// remainder.
+/// aligned with the last sixteen numbers of a row, and is zero where it overlaps the block before. Products then need
+/// no loop over remaining numbers.
 class three_columns {
  public:
   explicit three_columns(const Eigen::MatrixXd& columns);
@@ -49,29 +49,31 @@ inline void prefetch(const float* numbers, Eigen::Index count) {
 /// Returns the square root of the sum of a[i]^2, even if these squares overflow or underflow.
 [[nodiscard]] double norm(const double* a, Eigen::Index count);
 
-/// Returns the power of two that brings a positive length to [1/2, 1), or the nearest one that exists; 1 for zero.
+/// Returns the power of two by which to multiply a positive length to bring it to [1/2, 1), or the nearest one that a
+/// double can hold; 1 for zero.
 [[nodiscard]] double near_inverse(double length);
 
-/// Add factor a[i] to sum[i].
+/// Add factor * a[i] to sum[i].
 void add_scaled(double factor, const double* a, double* sum, Eigen::Index count);
 void add_scaled(float factor, const float* a, float* sum, Eigen::Index count);
 
-/// Adds factor a to sum, for matrices of equal size.
+/// Adds factor * a to sum, for matrices of equal size.
 void add_scaled(double factor, const Eigen::MatrixXd& a, Eigen::MatrixXd& sum);
 
 /// Multiplies product[i] by a[i].
 void multiply(const float* a, float* product, Eigen::Index count);
 
-/// Replaces each number by its exponential, accurate to 2 units in the last place, independent of its position.
+/// Replaces each number by its exponential, accurate to 2 units in the last place. The result does not depend on the
+/// number's position.
 void exponentiate(float* numbers, Eigen::Index count);
 
 /// Replace each number by its exponential, or by its natural logarithm.
 void exponentiate(double* numbers, Eigen::Index count);
 void take_logarithms(double* numbers, Eigen::Index count);
 
-/// Calls `map` for sixteen numbers at a time, as an array that it replaces by the results. The last array is padded
-/// with zeros. Without this, Eigen would round functions differently for numbers outside of whole vector registers,
-/// depending on the memory address.
+/// Calls `map` with sixteen numbers at a time, in an array whose numbers it replaces by the results. The last array is
+/// padded with zeros. Without this, Eigen would round functions differently for numbers outside of whole vector
+/// registers, depending on the memory address.
 template <class Map>
 void map_by_sixteens(float* numbers, Eigen::Index count, Map&& map) {
   using sixteen = Eigen::Array<float, 16, 1>;

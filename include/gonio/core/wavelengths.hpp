@@ -5,8 +5,8 @@
 
 namespace gonio {
 
-/// Throws gonio::error, naming the first invalid one, unless there is at least one wavelength and all are positive,
-/// finite and ascending.
+/// Throws gonio::error unless there is at least one wavelength and all are positive, finite and ascending. The message
+/// names the first invalid one.
 void require_wavelengths(std::span<const double> wavelengths);
 
 }  // namespace gonio

@@ -25,7 +25,7 @@ struct polar_range {
   }
 };
 
-/// A combination that cannot be reached: the light in one range while the viewer is in the other.
+/// A combination that cannot be reached: light and viewer each in their range at the same time.
 struct forbidden_zone {
   polar_range light, viewer;
 };
@@ -34,11 +34,11 @@ struct forbidden_zone {
 /// an image, the rules apply to the directions at its centre.
 struct capture_constraint {
   polar_range light, viewer;              ///< the polar angles that light and viewer can reach
-  double smallest_separation = 0.0;       ///< between light and viewer, which would occlude each other
-  double light_step = 0.0;                ///< lights stand at multiples of this polar angle; 0 allows any angle
-  double light_tolerance = radians(0.5);  ///< how far the light may be from such a multiple
+  double smallest_separation = 0.0;       ///< angle between light and viewer, below which one occludes the other
+  double light_step = 0.0;                ///< if above 0, the light can only be at multiples of this polar angle
+  double light_tolerance = radians(0.5);  ///< largest distance of the light from a multiple of `light_step`
   std::vector<forbidden_zone> forbidden;
-  /// If set, the largest angle between the viewer and the plane of light and normal.
+  /// If set, the largest angle between the viewer and the plane that contains light and normal.
   std::optional<double> plane_tolerance;
   /// If not empty, the only pairs that the instrument can measure, because its light and viewers are fixed. A pair
   /// matches within half a degree.
@@ -53,12 +53,12 @@ struct capture_constraint {
   /// moves the pair into the plane of incidence.
   [[nodiscard]] std::optional<direction_pair> pose_of(const half_difference& angles) const;
 
-  /// Returns the position in `pairs` of the first that matches, up to exchange of light and viewer and to a common
-  /// azimuth.
+  /// Returns the position of the first of `pairs` that matches a pair. Pairs also match with light and viewer
+  /// exchanged, turned about the normal, or mirrored.
   [[nodiscard]] std::optional<std::size_t> fixed_pair(const direction_pair& pair) const;
 
-  /// Adds the rules one by one, in the order of the members above. Returns the name of the first with which
-  /// `leaves_some` is false; empty if it stays true for all rules.
+  /// Applies the rules one by one, in the order of the members of this class, each in addition to all before. Returns
+  /// the name of the first rule with which `leaves_some` returns false; empty if there is none.
   [[nodiscard]] std::string excluding_rule(const std::function<bool(const capture_constraint&)>& leaves_some) const;
 };
 

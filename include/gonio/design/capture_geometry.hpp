@@ -1,5 +1,5 @@
 #pragma once
-/// The measurements that one setting of an apparatus gives: one for a point sample, thousands for an image.
+/// The measurements that one setting of an apparatus gives: one for a goniometer, thousands for an image.
 /// `capture_geometry` is the concept and `point_geometry` its simplest model. The other models are in
 /// `sphere_geometry.hpp` and `near_field_geometry.hpp`.
 
@@ -23,10 +23,10 @@ using grid_step = std::array<int, 3>;
 
 /// Candidates for a measurement, numbered from 0 to size() - 1.
 ///
-/// - `allows(candidate)`: whether it can be measured. The other functions require an allowed candidate.
-/// - `centre(candidate)`: the directions of light and viewer; for an image, those at its centre.
+/// - `allows(candidate)`: true if the candidate can be measured. The other functions require an allowed candidate.
+/// - `centre(candidate)`: the directions of light and viewer; for an image, the directions at its centre.
 /// - `nearest(pair)`: the candidate whose centre is nearest to a pair of directions above the horizon.
-/// - `directions(candidate)`: the directions of all its samples; at least one.
+/// - `directions(candidate)`: the directions of all samples of the candidate; at least one.
 /// - `stepped(candidate, step)`: the candidate one step away on the grid, if it exists and is allowed. The opposite
 ///   step leads back if both exist.
 ///
@@ -83,17 +83,18 @@ concept capture_geometry = requires(const Geometry& geometry, Eigen::Index candi
   { geometry.stepped(candidate, step) } -> std::convertible_to<std::optional<Eigen::Index>>;
 };
 
-/// Every valid cell of a grid as one sample. If only the exchanged pair of directions can be reached, light and viewer
-/// are exchanged. phi_d is periodic.
+/// Every valid cell of a grid is a candidate, with a single sample. If the constraint allows a cell's pair of
+/// directions only with light and viewer exchanged, they are exchanged. phi_d is periodic.
 class point_geometry {
  public:
-  /// If the constraint lists fixed pairs, the candidates are the cells that contain them. If a cell contains two, the
-  /// first is used.
+  /// If the constraint lists fixed pairs, only the cells that contain them are allowed. If a cell contains several
+  /// pairs, the first is used.
   explicit point_geometry(valid_cells cells, capture_constraint constraint = {});
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] Eigen::Index size() const noexcept { return cells_.size(); }
-  /// If `plane_tolerance` is set, only cells with the first phi_d are allowed: each pose once.
+  /// If `plane_tolerance` is set, only cells with the first phi_d are allowed, because phi_d becomes 0 and other cells
+  /// would repeat the same pose.
   [[nodiscard]] bool allows(Eigen::Index cell) const;
   /// Returns the rule that leaves no candidate; empty if there is a candidate. O(cells).
   [[nodiscard]] std::string excluding_rule() const;

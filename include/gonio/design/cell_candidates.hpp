@@ -1,6 +1,6 @@
 #pragma once
 /// Every cell of a basis as a candidate for the next measurement. Computes E(S) of Xu et al. 2016
-/// (doi:10.1145/2980179.2982396), Eq. 15, with each of them added, in one sweep.
+/// (doi:10.1145/2980179.2982396), Eq. 15, with each cell added to S, in one sweep.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/capture_geometry.hpp>
@@ -16,13 +16,14 @@
 namespace gonio::design {
 
 /// The rows Y and W of all cells (see `expected_error`), in float. They need 8 bytes per cell and observation: 2.4 GB
-/// for a million cells and 270 observations. A prior with fewer cells (`gonio learn --thin`) needs less and loses
+/// for 1.1 million cells and 270 observations. A prior with fewer cells (`gonio learn --thin`) needs less and loses
 /// little: docs/results/directions.md.
 class cell_candidates {
  public:
-  /// 4 k m operations per cell. `sample_noise_penalties`, if not empty, holds one penalty per cell for the error of a
-  /// measurement there: m times `reading_variances` without the criterion's noise. Throws gonio::error unless there is
-  /// one for each cell, and each is finite and not negative.
+  /// Costs 4 k m operations per cell for k components and m observations. `sample_noise_penalties` is empty or has a
+  /// penalty for each cell: m times the error variance of a measurement there (`reading_variances`), without the noise
+  /// in the criterion's options. Throws gonio::error unless there is one for each cell, and each is finite and not
+  /// negative.
   template <error_metric Metric>
   cell_candidates(const pca<Metric>& basis, expected_error criterion, capture_constraint constraint = {},
                   thread_count threads = {}, std::span<const double> sample_noise_penalties = {})
@@ -36,20 +37,22 @@ class cell_candidates {
   /// Returns Y and W at some cells.
   [[nodiscard]] expected_error::rows rows_of(std::span<const Eigen::Index> cells) const;
 
-  /// Returns E of measurements at some cells.
+  /// Returns the expected error E after measurements at some cells.
   [[nodiscard]] double operator()(std::span<const Eigen::Index> cells) const;
 
-  /// E of measurements at some cells and one more, as a function of the additional cell.
+  /// A function of one cell: returns E of measurements at some cells and at this cell.
   class with_one_more;
 
-  /// Returns `with_one_more` for some cells. A call costs O(n m) instead of O(n^2 m). The result refers to this object.
+  /// Returns the function that adds one more cell to n cells. A call costs O(n m) instead of O(n^2 m) for m
+  /// observations. The function refers to this object.
   [[nodiscard]] with_one_more beside(std::span<const Eigen::Index> cells) const;
 
-  /// Returns E of measurements at some cells and one more: one value for each additional cell, infinity if the
-  /// constraint excludes it. 10 n m operations per cell for n measurements and m observations. Reads Y and W once.
+  /// Returns one value for each cell: E of measurements at `cells` and at this cell, or infinity if the constraint
+  /// excludes it. 10 n m operations per cell for n measurements and m observations. Reads Y and W once.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells) const;
 
-  /// Returns the same values, byte for byte, for a range of cells. The range must begin at a multiple of `sweep_block`.
+  /// Returns the values of `errors_with_each(cells)`, byte for byte, for a range of cells. The range must begin at a
+  /// multiple of `sweep_block`.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells, block range) const;
 
   static constexpr Eigen::Index sweep_block = 128;

@@ -15,7 +15,7 @@
 
 namespace gonio::design {
 
-/// Rows of a basis at some measurements, n x k, and the response of each to noise of 1 in every sample.
+/// Rows R of a basis at n measurements, n x k, and the response O of each measurement if all samples shift by 1.
 struct component_rows {
   Eigen::MatrixXd components;
   Eigen::VectorXd noise;
@@ -46,10 +46,11 @@ template <basis Basis>
   return rows;
 }
 
-/// Returns the fewest rows (Z, u) that reproduce R'R and R'O, ignoring eigenvalues below `negligible`.
+/// Returns the shortest matrix Z and vector u with Z'Z = R'R and Z'u = R'O for the given rows (R, O). Ignores
+/// eigenvalues of R'R up to `negligible`.
 ///
-/// With R'R = V L V', these are Z = L^1/2 V' and u = L^-1/2 V'R'O. A solution with penalty eta leaves the fraction eta
-/// / (eta + L) of a direction in V unknown. If L is far below eta, this is nearly 1. O(n k min(n, k)).
+/// With R'R = V L V', the result is Z = L^1/2 V' and u = L^-1/2 V'R'O. With a penalty eta, the fraction eta / (eta + L)
+/// of the variance along a column of V stays unknown: nearly 1 if L is far below eta. O(n k min(n, k)).
 [[nodiscard]] component_rows compressed(const component_rows& rows, double negligible);
 
 }  // namespace gonio::design

@@ -13,8 +13,8 @@
 
 namespace gonio::design {
 
-/// Recomputes the rows of all samples at each call. For the expected error, `cell_candidates` and `image_candidates`
-/// are much faster.
+/// A criterion as a `plan_objective`. Computes the rows of all samples again at each call. For the expected error,
+/// `cell_candidates` and `image_candidates` are much faster.
 ///
 /// ```cpp
 /// const gonio::design::point_geometry points(prior.cells());

@@ -1,7 +1,7 @@
 #pragma once
-/// Criteria for a set of measurements, computed from the rows of a basis at them. `expected_error` (Xu et al. 2016,
-/// doi:10.1145/2980179.2982396) is one. This file has the condition number (Nielsen et al. 2015,
-/// doi:10.1145/2816795.2818085) and two criteria of Bayesian experimental design.
+/// Criteria for a set of measurements, computed from a basis' rows at the measurements: the condition number (Nielsen
+/// et al. 2015, doi:10.1145/2816795.2818085) and two criteria of Bayesian experimental design. Another criterion,
+/// `expected_error` (Xu et al. 2016, doi:10.1145/2980179.2982396), has its own header.
 
 #include <gonio/solve/default_eta.hpp>
 
@@ -11,7 +11,7 @@
 
 namespace gonio::design {
 
-/// A number computed from the components' values at the measurements, n x k. Smaller is better. It must not depend on
+/// A number computed from the values of k components at n measurements, n x k. Smaller is better. It must not depend on
 /// the order of the rows.
 ///
 /// With a model of the library:
@@ -50,8 +50,8 @@ concept design_criterion = requires(const Criterion& criterion, const Eigen::Mat
 
 /// The ratio of the largest to the smallest of min(n, k) singular values (Nielsen et al. 2015, Eq. 8). For one
 /// measurement this ratio is always 1; the criterion is then the inverse of the row's length (section 4, after Ipsen
-/// and Wentworth 2014). Infinity if the smallest singular value is at most rounding (`singular_value_rounding`), about
-/// 1e-13. O(n k min(n, k)).
+/// and Wentworth 2014). Infinity if the smallest singular value is a rounding error, about 1e-13 of the largest or less
+/// (`singular_value_rounding`). O(n k min(n, k)).
 struct condition_number {
   [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const;
 };
@@ -63,10 +63,10 @@ void require_positive_eta(double eta);
 
 }  // namespace detail
 
-/// Tikhonov's penalty is the prior c ~ N(0, s^2 / eta I) of weights measured with noise of variance s^2. After the
-/// measurements R their covariance is s^2 (R'R + eta I)^-1. D-optimality minimises the volume of its ellipsoid. The
-/// value is the logarithm of this volume, relative to the prior's (Chaloner and Verdinelli 1995, "Bayesian Experimental
-/// Design: A Review", doi:10.1214/ss/1177009939). O(n^2 k).
+/// D-optimality. Tikhonov's penalty eta is the prior c ~ N(0, s^2 / eta I) of weights c, if measurements have noise of
+/// variance s^2. After measurements with rows R, the covariance of the weights is s^2 (R'R + eta I)^-1. The criterion
+/// is the logarithm of the volume of this covariance's ellipsoid, relative to that of the prior (Chaloner and
+/// Verdinelli 1995, "Bayesian Experimental Design: A Review", doi:10.1214/ss/1177009939). O(n^2 k).
 class d_optimality {
  public:
   /// Throws gonio::error unless eta is positive.
@@ -79,9 +79,9 @@ class d_optimality {
 };
 static_assert(design_criterion<d_optimality>);
 
-/// A-optimality minimises the expected squared error: the trace of the same covariance. Here it is the trace for the
-/// reconstruction Q c over all cells, so each weight counts by its effect on the cells. The value is a fraction of the
-/// trace without measurements. O(n^2 k).
+/// A-optimality: the expected squared error, for the covariance of the weights c that `d_optimality` uses. The error is
+/// that of the reconstruction Q c summed over all cells, so each weight counts by its effect on the cells. The value is
+/// relative to the error without measurements. O(n^2 k).
 class a_optimality {
  public:
   /// `energies`: |Q e_j|^2 of each component j, which for scaled principal components is the singular value squared.

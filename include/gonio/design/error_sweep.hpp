@@ -1,6 +1,6 @@
 #pragma once
-/// The expected error (Xu et al. 2016, doi:10.1145/2980179.2982396, Eq. 15) of some measurements and one more, for
-/// eight candidates at a time: the inner loop of a search that tries every cell.
+/// The inner loop of a search that tries every cell as one more measurement. Computes the expected error (Xu et al.
+/// 2016, doi:10.1145/2980179.2982396, Eq. 15) for eight candidates at a time.
 
 #include <gonio/design/expected_error.hpp>
 
@@ -19,7 +19,7 @@ class error_sweep {
   /// One number for each of eight candidates.
   using lanes = Eigen::Array<float, width, 1>;
   /// Tiles of eight candidates, side by side. A tile has a column for each observation, with eight numbers of Y above
-  /// eight of W, and then columns of zeros up to `columns(m)`.
+  /// eight numbers of W, and then columns of zeros up to `columns(m)`.
   using tiles = Eigen::Array<float, 2 * width, Eigen::Dynamic>;
 
   /// The number of columns of a tile, given the number of observations.
@@ -29,8 +29,9 @@ class error_sweep {
 
   error_sweep(const expected_error& criterion, const expected_error::rows& measured);
 
-  /// Writes E with each candidate of `errors.size()` tiles, given the candidates' own penalties. The first tile begins
-  /// at column `first` of `candidates`.
+  /// Writes, for each candidate of `errors.size()` tiles, E of the measurements and this candidate.
+  /// `sample_noise_penalties` has the candidates' own penalties. The first tile begins at column `first` of
+  /// `candidates`.
   void operator()(const tiles& candidates, Eigen::Index first, std::span<const lanes> sample_noise_penalties,
                   std::span<lanes> errors) const;
 
@@ -59,7 +60,7 @@ class error_sweep {
   Eigen::Array<float, measurements_together, Eigen::Dynamic> by_measurement_;
   /// Y above W in groups of four observations, side by side. In each group a measurement is a column.
   Eigen::Array<float, 2 * observations_together, Eigen::Dynamic> by_observation_;
-  Eigen::MatrixXf inverse_, cross_;  ///< K^-1 and Y W'
+  Eigen::MatrixXf inverse_, cross_;  ///< K^-1 and W Y'
   Eigen::ArrayXf squared_errors_;
   Eigen::Index channels_;
   Eigen::MatrixXf inverse_unknown_, missed_;  ///< from `remainder`; empty unless materials are left out

@@ -1,7 +1,7 @@
 #pragma once
 /// Searches that try every candidate as the next measurement, which Xu et al. 2016 (doi:10.1145/2980179.2982396) could
-/// not afford: greedy growth, and Fedorov's exchange (1972), which stops when no replacement of one measurement by any
-/// other improves the plan.
+/// not afford: greedy growth, and Fedorov's exchange (1972), which stops if no exchange of one measurement for another
+/// improves the plan.
 
 #include <gonio/design/search.hpp>
 
@@ -9,11 +9,12 @@
 
 namespace gonio::design {
 
-/// An objective that also evaluates, in one call, a set with each of all candidates added; infinity for candidates that
-/// are not allowed.
+/// An objective that also evaluates, in one call, a set of candidates with each other candidate added in turn. The
+/// value is infinity if the added candidate is not allowed.
 ///
-/// An objective may offer `best_beside(candidates)`: the best candidate to add that is not in the set; if several are
-/// equally good, the one with the lowest number. The searches then call it, so it can distribute the work.
+/// An objective may offer `best_beside(candidates)`, which returns the best candidate to add that is not in the set
+/// and, if several are equally good, the one with the lowest number. The searches then call `best_beside`, so an
+/// objective can distribute the work.
 template <class Objective>
 concept sweeping_objective = plan_objective<Objective> &&
     requires(const Objective& objective, std::span<const Eigen::Index> candidates) {
@@ -23,7 +24,7 @@ concept sweeping_objective = plan_objective<Objective> &&
 
 namespace detail {
 
-/// Returns the best candidate to add to a plan that is not in it yet.
+/// Returns the best candidate to add to a plan, among those not in it.
 template <sweeping_objective Objective>
 [[nodiscard]] Eigen::Index best_addition(const Objective& objective, std::span<const Eigen::Index> plan) {
   if constexpr (requires { objective.best_beside(plan); }) return objective.best_beside(plan);
@@ -34,8 +35,8 @@ template <sweeping_objective Objective>
 
 }  // namespace detail
 
-/// Adds the best of all candidates until there are n. A longer plan begins with the shorter one. Throws gonio::error
-/// unless n is from 1 to the number of candidates.
+/// Adds the best of all candidates to `plan` until the plan has n candidates. A plan begins with the shorter plans of
+/// the same search. Throws gonio::error unless n is from 1 to the number of candidates.
 template <sweeping_objective Objective>
 [[nodiscard]] capture_plan grow_greedily(const Objective& objective, Eigen::Index n, capture_plan plan = {},
                                          const progress& listener = {}) {
@@ -48,8 +49,9 @@ template <sweeping_objective Objective>
   return plan;
 }
 
-/// Replaces one candidate after another by the best of all, until no replacement improves the plan: n sweeps over all
-/// candidates per round. Compares in double. Ignores relative improvements below 1e-6, which float cannot resolve.
+/// Replaces one candidate of the plan after another by the best of all candidates, until no replacement improves the
+/// plan. Each round makes n sweeps over all candidates. Compares in double. Ignores relative improvements below 1e-6,
+/// which float cannot resolve.
 template <sweeping_objective Objective>
 [[nodiscard]] capture_plan exchange(const Objective& objective, capture_plan plan, const progress& listener = {}) {
   plan.value = objective(plan.candidates);

@@ -18,52 +18,51 @@ struct expected_error_options {
   double eta = default_eta;
   /// The standard deviation of every measurement's mapped value. These errors are independent.
   double noise = 0.0;
-  /// beta of Eq. 15 with O = 1 (Eq. 13): the size of one shift common to the mapped values of all samples.
+  /// beta of Eq. 15 with O = 1 (Eq. 13): the size of a shift that is common to the mapped values of all samples.
   double common_shift = 0.0;
   /// Leaves each material out of the basis before reconstructing it. Eq. 15 as printed does not: the basis has seen
   /// every material that the error averages over, so the error is smallest without a penalty.
   bool leave_out = false;
 };
 
-/// E(S) of Eq. 15. For each material that the basis was learned from, it takes the norm over all cells of the error of
-/// the reconstruction from the measurements S. E is the mean of these norms plus beta times the norm of the response to
-/// a common shift.
+/// E(S) of Eq. 15. Each observation that the basis was learned from is reconstructed from the measurements S. E is the
+/// mean norm of the errors over all cells, plus beta times the norm of the response to a common shift.
 ///
 /// As printed, the norms run over a million cells. But y_i = Q c_i with the materials' coefficients c_i, and |Q x|^2 =
 /// x'M x with the k x k matrix M = Q'Q, which is Sigma^2. Let Y = S Q C' and W = S Q M C', n x m for n measurements and
-/// m observations, K = Y Y' + eta I and B = K^-1 Y. The columns of C are orthonormal, so Y Y' = S Q Q' S'. Then
+/// m observations, with the columns y_i and w_i. Let K = Y Y' + eta I and B = K^-1 Y with the columns b_i. The columns
+/// of C are orthonormal, so Y Y' = S Q Q' S'. Then
 ///
 ///   |Q (Q+ - (SQ)+_eta S) y_i|^2 = c_i'M c_i - 2 w_i . b_i + b_i' (W Y') b_i.
 ///
-/// A measurement may also have an error of its own, of variance v: the detector's, or the error of a direction
-/// (`angular_error_penalty`). The variance of a weight over the observations is 1 / m. A reconstruction that expects
-/// this error therefore penalises the measurement by eta + m v: K = Y Y' + eta I + m diag(v). Each squared error grows
-/// by the average effect of these errors, the sum of v_i [K^-1 W Y' K^-1]_ii. Independent noise is the case of one v
-/// for all measurements.
+/// A measurement may also have an error of its own, of variance v: the detector's, or that of a direction
+/// (`angular_error_penalty`). The variance of a weight over the observations is 1 / m, so a reconstruction that expects
+/// this error penalises the measurement by eta + m v: K = Y Y' + eta I + m diag(v). Each squared error grows by the
+/// average effect of these errors, the sum of v_i [K^-1 W Y' K^-1]_ii. For independent noise, v is the same for all
+/// measurements.
 ///
-/// If a material's channels (colours or wavelengths) are left out, the mean and covariance of the others change.
-/// Woodbury's identity gives the leave-one-out formula for linear fits. (`leave_one_material_out_error` is the same
-/// error; here all samples are in cells.) C_j holds the material's rows of C, one per channel. With the channels x
-/// channels matrices
+/// If a material's channels (colours or wavelengths) are left out, the mean and covariance of the remaining
+/// observations change. Woodbury's identity gives the leave-one-out formula for linear fits.
+/// (`leave_one_material_out_error` computes the same error as a function of eta.) C_j has the material's rows of C, one
+/// per channel, and R_j is the residual of C_j' with all materials in the basis. With the channels x channels matrices
 ///
-///   X = (the residual of C_j' with all in the basis)' M (the same),
+///   X = R_j' M R_j,
 ///   L = I - 1 1' / m - C_j A' K^-1 A C_j',   A = S Q,
 ///
 /// the squared errors are the diagonal of L^-1 X L^-1. The contribution of measurement errors is computed from the
 /// basis of all materials.
 ///
-/// Cells without known components are ignored. If k is less than the number of all components, the rest of the
-/// materials is ignored too. It is the same for all S, except for its effect as noise.
+/// Cells outside of the basis are ignored. If the basis has fewer components than there are, the variance of the
+/// missing ones is ignored, too. That variance is the same for all S, except for its effect as noise.
 class expected_error {
  public:
-  /// The inputs for n measurements and m observations: Y and W, one row for each measurement, and the noise. Y is above
-  /// W in one matrix, because one product with both is faster than two products.
+  /// The inputs for n measurements and m observations: Y and W, one row for each measurement, and the noise. Y and W
+  /// are stored as one matrix, because one product with both is faster than two.
   struct rows {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> both;  ///< 2n x m
 
-    Eigen::VectorXd noise;  ///< S O of Eq. 13, n values: 1 for a sample by itself
-    Eigen::VectorXd
-        sample_noise_penalty;  ///< n values: m v of each measurement's own error, including noise; 0 if there is none
+    Eigen::VectorXd noise;  ///< n values, S O of Eq. 13: the response to a common shift, 1 for a single sample
+    Eigen::VectorXd sample_noise_penalty;  ///< n values m v, with the variance v of each measurement's own error
 
     rows() = default;
     rows(Eigen::Index n, Eigen::Index m) : both(2 * n, m), noise(n), sample_noise_penalty(Eigen::VectorXd::Zero(n)) {}
@@ -75,30 +74,31 @@ class expected_error {
     [[nodiscard]] auto weighted() const { return both.bottomRows(size()); }
   };
 
-  /// Errors over the cells that the components were learned on, all with the same weight.
+  /// Weights all cells of the basis equally.
   template <error_metric Metric>
   explicit expected_error(const pca<Metric>& basis, const expected_error_options& options = {})
       : expected_error(basis, options, basis.singular_values().array().square().matrix().asDiagonal()) {}
 
-  /// Errors in the norm x'M x of the components' weights. M is k x k, symmetric and positive semidefinite. M = Q'D Q
-  /// with a diagonal D weights the cells by D. Throws gonio::error for a negative eta, noise or shift, for a wrong
-  /// size, and if fewer than two materials can be left out.
+  /// Measures errors by the norm x'M x of the components' weights, with M = `norm`, k x k, symmetric and positive
+  /// semidefinite. M = Q'D Q with a diagonal D weights the cells by D. Throws gonio::error unless eta is positive, for
+  /// negative noise or shift, for a wrong size, and if `leave_out` is set for fewer than two materials.
   template <error_metric Metric>
   expected_error(const pca<Metric>& basis, const expected_error_options& options, const Eigen::MatrixXd& norm)
       : expected_error(basis.coefficients(), basis.channels(), options, norm) {}
 
   [[nodiscard]] const expected_error_options& options() const noexcept { return options_; }
-  /// The number of channels per material. Its observations are consecutive.
+  /// The number of channels of each material. The observations of a material are consecutive.
   [[nodiscard]] Eigen::Index channels() const noexcept { return channels_; }
-  /// C and C M: m x k. A measurement whose row of components is q has the rows C q and C M q of Y and W.
+  /// C and C M: m x k. A measurement whose row of components is q has the row C q of Y and the row C M q of W.
   [[nodiscard]] const Eigen::MatrixXd& coefficients() const noexcept { return coefficients_; }
   [[nodiscard]] const Eigen::MatrixXd& weighted_coefficients() const noexcept { return weighted_; }
   /// c_i'M c_i: the squared error of each observation if nothing is measured.
   [[nodiscard]] const Eigen::VectorXd& energies() const noexcept { return energies_; }
 
-  /// Returns Y and W, given the components' values at the measurements, n x k, and the noise of each. O(n k m).
+  /// Returns Y and W, given the components' values at the measurements, n x k, and the response of each measurement to
+  /// a common shift. O(n k m).
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components, Eigen::VectorXd noise) const;
-  /// Returns Y and W of single samples, whose noise is 1.
+  /// Returns Y and W of single samples, whose response to a common shift is 1.
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components) const;
 
   /// Returns E(S). O(n^2 m) for n measurements and m observations.
@@ -107,7 +107,7 @@ class expected_error {
   /// Returns E(S) from the components' values at the measurements, n x k.
   [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const { return (*this)(prepare(components)); }
 
-  /// m noise^2, which noise adds to each measurement's own penalty.
+  /// m noise^2: the part of each measurement's penalty that is due to noise.
   [[nodiscard]] double noise_eta() const noexcept {
     return static_cast<double>(coefficients_.rows()) * options_.noise * options_.noise;
   }
@@ -115,12 +115,12 @@ class expected_error {
   /// The errors that remain after some measurements, and the matrices for adding another one.
   struct remainder {
     Eigen::MatrixXd inverse;         ///< K^-1, n x n
-    Eigen::VectorXd squared_errors;  ///< of each observation
+    Eigen::VectorXd squared_errors;  ///< squared error of each observation
     Eigen::MatrixXd inverse_unknown,
-        missed;  ///< L^-1 and L^-1 X L^-1 of all materials, side by side: channels x m; empty unless they are left out
-    Eigen::VectorXd own_variances;   ///< v of each measurement's own error
-    double own_energy = 0.0;         ///< their contribution to each squared error
-    Eigen::VectorXd noise_response;  ///< C (SQ)+_eta S O: the effect of a common shift on the weights
+        missed;  ///< L^-1 and L^-1 X L^-1 of all materials, side by side: channels x m; empty unless `leave_out`
+    Eigen::VectorXd own_variances;   ///< variance v of each measurement's own error
+    double own_energy = 0.0;         ///< contribution of the measurements' own errors to each squared error
+    Eigen::VectorXd noise_response;  ///< C (SQ)+_eta S O: the weights' response to a common shift, times C
     double noise_energy = 0.0;       ///< |Q (SQ)+_eta S O|^2
 
     [[nodiscard]] double error(double common_shift) const;
@@ -132,8 +132,8 @@ class expected_error {
   expected_error(const Eigen::MatrixXf& coefficients, Eigen::Index channels, const expected_error_options& options,
                  const Eigen::MatrixXd& norm);
 
-  /// Sets the members of `remainder` for left-out materials, given Y' K^-1 and Y' K^-1 W Y' K^-1: m x n each. O(n m
-  /// channels + m channels^2).
+  /// Sets the members of `remainder` for left-out materials. Takes `known` = Y' K^-1 and `spread` = Y' K^-1 W Y' K^-1,
+  /// m x n each. O(n m channels + m channels^2).
   void leave_each_out(const rows& measured, const Eigen::MatrixXd& known, const Eigen::MatrixXd& spread,
                       remainder& left) const;
 
@@ -145,12 +145,14 @@ class expected_error {
 
 static_assert(design_criterion<expected_error>);
 
-/// Measurements to which one more is added. They leave A = I - (SQ)' K^-1 (SQ) unknown, and the new one changes A by a
-/// matrix of rank one. For a candidate q, let t = C A q, w = C A M A q, d = eta + q'A q and r = q'A M A q. The squared
-/// errors grow by r t^2 / d^2 - 2 t w / d. O(n m) for each candidate. If measurements have errors of their own, d
-/// includes the candidate's own eta. With a = K^-1 SQ q, b = K^-1 SQ M A q and the candidate's v, all squared errors
-/// grow by another (v + a'diag(v) a) r / d^2 - 2 a'diag(v) b / d. If materials are left out, L falls by t t' / d, and X
-/// changes as the squared errors do (`sum_of_left_out_errors`): another O(m channels).
+/// Computes E of some measurements and one more, for many candidates. With A = I - (SQ)' K^-1 (SQ), the covariance of
+/// the weights after the measurements is A / m. One more measurement changes A by a matrix of rank one. For a candidate
+/// q, let t = C A q, w = C A M A q, d = eta + q'A q and r = q'A M A q. The squared errors grow by r t^2 / d^2 - 2 t w /
+/// d. O(n m) for each candidate. If measurements have errors of their own, d includes the candidate's own penalty. With
+/// a = K^-1 SQ q, b = K^-1 SQ M A q, the variance v_q of the candidate's own error and the variances v of the
+/// measurements' own errors, all squared errors grow by another (v_q + a'diag(v) a) r / d^2 - 2 a'diag(v) b / d. If
+/// materials are left out, L decreases by t t' / d, and X changes as the squared errors do (`sum_of_left_out_errors`),
+/// for another O(m channels).
 template <class Scalar>
 class extended_error {
  public:
@@ -160,7 +162,8 @@ class extended_error {
 
   extended_error(const expected_error& criterion, const expected_error::rows& measured);
 
-  /// Returns E with each of some candidates added, given their rows of Y and W and their own penalties.
+  /// Returns, for each of some candidates, E of the measurements and this candidate. Takes the candidates' rows of Y
+  /// and W and their own penalties.
   [[nodiscard]] column operator()(const Eigen::Ref<const matrix>& y, const Eigen::Ref<const matrix>& w,
                                   const Eigen::Ref<const column>& sample_noise_penalty) const;
 
@@ -168,7 +171,7 @@ class extended_error {
   /// One column for each candidate: this makes products fastest.
   using columns = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-  /// -a and -b of each candidate (see above). Empty without measurements.
+  /// -a and -b of each candidate (as defined for this class). Empty without measurements.
   struct knowledge {
     columns once, twice;
   };
@@ -178,8 +181,8 @@ class extended_error {
   [[nodiscard]] knowledge take_away(columns& both, columns& twice) const;
   [[nodiscard]] Scalar own_growth(const knowledge& known, Eigen::Index candidate, Scalar sample_noise_penalty, Scalar d,
                                   Scalar r) const;
-  /// Returns the mean over the observations of left-out materials, given the candidate's t and w and the effect of own
-  /// errors.
+  /// Returns the mean error over all observations if materials are left out. Takes the candidate's t and w, and the
+  /// increase `own` of each squared error by the measurements' own errors.
   [[nodiscard]] Scalar mean_left_out(const Scalar* t, const Scalar* w, Scalar d, Scalar r, Scalar own) const;
 
   Scalar eta_, common_shift_;
@@ -193,7 +196,8 @@ class extended_error {
 };
 
 #if defined(GONIO_COMPILED)
-/// Descent uses double, sweeps single precision. Candidates in tiles use `error_sweep`.
+/// The searches that move candidates use double; those that try every candidate use float. Candidates in tiles use
+/// `error_sweep`.
 extern template class extended_error<float>;
 extern template class extended_error<double>;
 #endif

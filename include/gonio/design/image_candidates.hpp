@@ -21,36 +21,36 @@ namespace gonio::design {
 
 namespace detail {
 
-/// Returns the measurements of all parts, one after the other.
+/// Returns all rows of Y and W of the parts, one part after the other, for m observations.
 [[nodiscard]] expected_error::rows joined(std::span<const expected_error::rows* const> parts, Eigen::Index m);
 
 }  // namespace detail
 
-/// E of images whose samples are computed at each call: for searches that evaluate few of many candidates. Samples with
-/// information below eta / 1000 are ignored (`compressed`), which changes E by less than a thousandth.
+/// Computes E of images. Computes the rows of their samples at each call, for searches that evaluate few of many
+/// candidates. Ignores eigenvalues below eta / 1000 (`compressed`), which changes E by less than a thousandth.
 template <error_metric Metric, capture_geometry Geometry>
 class image_objective {
  public:
-  /// `basis` must be the basis of the criterion.
+  /// `basis` must be the basis from which `criterion` was made.
   image_objective(pca<Metric> basis, expected_error criterion, Geometry geometry)
       : basis_(std::move(basis)), criterion_(std::move(criterion)), geometry_(std::move(geometry)) {}
 
   [[nodiscard]] const Geometry& geometry() const noexcept { return geometry_; }
   [[nodiscard]] const expected_error& criterion() const noexcept { return criterion_; }
 
-  /// Returns Y and W of one image, compressed. O(s k min(s, k)) for s samples.
+  /// Returns Y and W of one image, compressed. O(s k min(s, k)) for s samples and k components.
   [[nodiscard]] expected_error::rows rows_of(Eigen::Index candidate) const {
     const std::vector<half_difference> directions = geometry_.directions(candidate);
     const component_rows few = compressed(rows_at(basis_, directions), 1e-3 * criterion_.options().eta);
     return criterion_.prepare(few.components, few.noise);
   }
 
-  /// Returns E of some images.
+  /// Returns the expected error E after measuring some images.
   [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const {
     return criterion_(rows_of_all(candidates));
   }
 
-  /// Returns E of some images and one more, as a function of the additional image.
+  /// Returns a function of one more image, which returns E of some images and this one.
   [[nodiscard]] auto beside(std::span<const Eigen::Index> candidates) const {
     return [this, others = rows_of_all(candidates)](Eigen::Index candidate) {
       const expected_error::rows one = rows_of(candidate);
@@ -73,12 +73,12 @@ class image_objective {
   Geometry geometry_;
 };
 
-/// E of images that are all computed beforehand, so that a search can try each of them next. Each image is compressed
-/// to 5 to 40 rows, at eta / 1000. A row needs 16 m bytes.
+/// Computes E of images. Computes the rows of all candidates beforehand, so that a search can try each image next. Each
+/// image is compressed to 5 to 40 rows, as in `image_objective`. A row needs 16 m bytes for m observations.
 template <error_metric Metric, capture_geometry Geometry>
 class image_candidates {
  public:
-  /// O(s k min(s, k)) for each candidate of s samples.
+  /// O(s k min(s, k)) for each candidate of s samples and k components.
   explicit image_candidates(image_objective<Metric, Geometry> objective, thread_count threads = {},
                             const progress& listener = {})
       : objective_(std::move(objective)), rows_(objective_.geometry().size()), threads_(threads) {
@@ -98,12 +98,12 @@ class image_candidates {
 
   [[nodiscard]] const Geometry& geometry() const noexcept { return objective_.geometry(); }
 
-  /// Returns E of some images.
+  /// Returns the expected error E after measuring some images.
   [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const {
     return objective_.criterion()(rows_of_all(candidates));
   }
 
-  /// Returns E of some images and one more, as a function of the additional image.
+  /// Returns a function of one more image, which returns E of some images and this one.
   [[nodiscard]] auto beside(std::span<const Eigen::Index> candidates) const {
     return [this, others = rows_of_all(candidates)](Eigen::Index candidate) {
       const std::array<const expected_error::rows*, 2> both{&others, &rows_[candidate]};
@@ -111,12 +111,12 @@ class image_candidates {
     };
   }
 
-  /// Returns E of some images and one more: one value for each additional candidate, infinity if it is not allowed.
+  /// Returns one value for each candidate: E of some images and this one, or infinity if this one is not allowed.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates) const {
     return errors_with_each(candidates, {0, std::ssize(rows_)});
   }
 
-  /// Returns the same for a range of the candidates.
+  /// Returns the values of `errors_with_each(candidates)` for a range of the candidates.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates, block range) const {
     std::vector<float> errors(static_cast<std::size_t>(range.size()), std::numeric_limits<float>::infinity());
     const auto with = beside(candidates);

@@ -1,6 +1,6 @@
 #pragma once
-/// Errors of a material that is left out of the basis, after a measurement is added: for one candidate
-/// (`extended_error`) or several at once (`error_sweep`).
+/// The errors of a material that is left out of the basis, after one more measurement. `extended_error` computes them
+/// for one candidate, `error_sweep` for several at once.
 
 #include <Eigen/Core>
 
@@ -10,7 +10,7 @@
 
 namespace gonio::design::detail {
 
-/// The square root of max(square, 0), because rounding can make a square negative.
+/// Returns the square root of max(square, 0), because rounding can make a square negative.
 template <class Number>
 [[nodiscard]] inline Number root_of_positive(const Number& square) {
   if constexpr (std::is_arithmetic_v<Number>)
@@ -19,8 +19,8 @@ template <class Number>
     return square.max(0).sqrt();
 }
 
-/// The state of a left-out material before the measurement: G = L^-1 and Z = L^-1 X L^-1 of `expected_error`, channels
-/// x channels each. `room` is work space for two numbers per channel.
+/// The state of a left-out material before one more measurement: G = L^-1 and Z = L^-1 X L^-1 of `expected_error`,
+/// channels x channels each. `room` is work space for two numbers per channel.
 template <class Number, class Scalar>
 struct left_out_material {
   const Scalar* inverse;
@@ -28,10 +28,10 @@ struct left_out_material {
   Number* room;
 };
 
-/// Returns the sum over a material's channels of the square roots of its squared errors, each increased by `own`. The
-/// measurement reduces L by t t' / d and X by (t u' + u t') / d - t t' r / d^2. By Sherman and Morrison, with p = G t,
-/// g = Z t - G u and a = d - t'p, the diagonal of L^-1 X L^-1 becomes Z_ii + 2 p_i g_i / a + p_i^2 (t'g - p'u + r) /
-/// a^2. O(channels^2). `t(i)` and `u(i)` are the values of channel i.
+/// Returns the sum over a material's channels of the root errors after one more measurement. `own` is added to each
+/// squared error. The measurement reduces L by t t' / d and X by (t u' + u t') / d - t t' r / d^2. By Sherman and
+/// Morrison, with p = G t, g = Z t - G u and a = d - t'p, the diagonal of L^-1 X L^-1 becomes Z_ii + 2 p_i g_i / a +
+/// p_i^2 (t'g - p'u + r) / a^2. O(channels^2). `t(i)` and `u(i)` are the values of channel i.
 template <class Channels, class Number, class Scalar, class OfT, class OfU>
 [[nodiscard]] inline Number sum_of_left_out_errors(const Channels channels,
                                                    const left_out_material<Number, Scalar>& material, const OfT& t,

@@ -10,32 +10,31 @@
 #include <vector>
 
 namespace gonio {
-class pinhole_camera;  // core/pinhole_camera.hpp, which includes more of Eigen than this file needs
+class pinhole_camera;  // defined in core/pinhole_camera.hpp, which includes more of Eigen than this file needs
 }
 
 namespace gonio::design {
 
-/// The apparatus.
 struct near_field_options {
-  /// alpha = 2 atan(r / R) in radians, for a disc of radius r and a camera at distance R from its centre.
+  /// The field of view in radians: 2 atan(r / R) for a disc of radius r and a camera at distance R from its centre.
   double field_of_view = radians(25.0);
-  /// Samples along the disc's diameter as seen from above: the image's pixels, or blocks of them.
+  /// Samples along the disc's diameter as seen from above: pixels, or blocks of pixels.
   Eigen::Index pixels = 24;
   /// Step between candidates in radians: of the polar angles, and of the azimuth between light and camera.
   double step = radians(5.0);
   /// Lights and cameras at larger polar angles are not candidates.
   double largest_polar_angle = radians(85.0);
-  /// The polar angle of the camera or of the light, if it is fixed.
+  /// If set, the polar angle at which the camera or the light is fixed.
   std::optional<double> fixed_camera = {}, fixed_light = {};
   capture_constraint constraint = {};
 };
 
-/// Returns the camera of such an image: at distance 1 in the direction wo. Its square image just contains the disc,
-/// whose radius is tan(field_of_view / 2).
+/// Returns the camera of a near-field image: at distance 1 in the direction wo. Its square image just contains the
+/// disc, whose radius is tan(field_of_view / 2).
 [[nodiscard]] pinhole_camera near_field_camera(const direction& wo, double field_of_view, Eigen::Index pixels);
 
-/// A candidate is a polar angle of the light, one of the camera, and the azimuth from camera to light. The azimuth is
-/// from 0 to pi, because its negative gives the mirror image.
+/// A candidate has a polar angle of the light, a polar angle of the camera, and the azimuth from camera to light. The
+/// azimuth is from 0 to pi, because a negative azimuth gives the mirror image.
 class near_field_geometry {
  public:
   /// Throws gonio::error unless the field of view and the largest polar angle are between 0 and 90 degrees, there are
@@ -45,16 +44,17 @@ class near_field_geometry {
   [[nodiscard]] const near_field_options& options() const noexcept { return options_; }
   [[nodiscard]] Eigen::Index size() const noexcept { return Eigen::Index{extents_[0]} * extents_[1] * extents_[2]; }
 
-  /// If light or camera is at the zenith, all azimuths are the same and only the first is allowed.
+  /// If light or camera is at the normal, all azimuths give the same image, and only the first is allowed.
   [[nodiscard]] bool allows(Eigen::Index candidate) const;
 
   /// Returns light and camera as seen from the centre of the sample. The camera is in the half plane of positive x.
   [[nodiscard]] direction_pair centre(Eigen::Index candidate) const;
 
-  /// Returns the candidate whose light and camera are nearest to those of a pair.
+  /// Returns the candidate whose light and camera are nearest to the directions of a pair.
   [[nodiscard]] Eigen::Index nearest(const direction_pair& pair) const;
 
-  /// Returns one direction for each pixel whose ray meets the disc; without such a pixel, the direction of the centre.
+  /// Returns one direction for each pixel whose ray meets the disc. If no ray does, returns the direction of the
+  /// centre.
   [[nodiscard]] std::vector<half_difference> directions(Eigen::Index candidate) const;
 
   [[nodiscard]] std::optional<Eigen::Index> stepped(Eigen::Index from, const grid_step& step) const;

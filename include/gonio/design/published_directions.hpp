@@ -27,7 +27,7 @@ const std::vector<std::vector<printed_direction>>& nielsen_table_1();
 /// The sizes of the sets in Nielsen et al. 2015.
 inline constexpr std::array<Eigen::Index, 5> nielsen_direction_counts{1, 2, 5, 10, 20};
 
-/// Whether there is a set of n directions.
+/// Returns true if there is a set of n directions.
 [[nodiscard]] constexpr bool has_nielsen_directions(Eigen::Index n) {
   return std::ranges::find(nielsen_direction_counts, n) != nielsen_direction_counts.end();
 }
@@ -35,14 +35,14 @@ inline constexpr std::array<Eigen::Index, 5> nielsen_direction_counts{1, 2, 5, 1
 /// Nielsen et al. 2015, Table 1, in radians. Throws gonio::error unless n is 1, 2, 5, 10 or 20.
 [[nodiscard]] std::vector<half_difference> nielsen_directions(Eigen::Index n);
 
-/// Nielsen et al. 2015, Table 2, in radians: n images of a sphere. All samples of an image have the given theta_d, half
-/// the angle between light and camera. theta_h = phi_d = 0 is the point whose normal is midway. Throws gonio::error
-/// unless n is 1, 2 or 5.
+/// Nielsen et al. 2015, Table 2, in radians: n images of a sphere. All samples of an image have the theta_d given here,
+/// half the angle between light and camera. theta_h = phi_d = 0 is the point whose normal is midway between light and
+/// camera. Throws gonio::error unless n is 1, 2 or 5.
 [[nodiscard]] std::vector<half_difference> nielsen_sphere_directions(Eigen::Index n);
 
 /// The five measurements of industrial goniospectrophotometers (Westlund and Meyer 2001), in radians. The light is at
-/// 45 degrees. The viewer is in its plane at 15, 25, 45, 75 and 110 degrees from the mirror direction towards the
-/// light.
+/// 45 degrees. The viewer is in the plane of incidence, 15, 25, 45, 75 and 110 degrees from the mirror direction
+/// towards the light.
 [[nodiscard]] std::vector<half_difference> westlund_meyer_directions();
 
 }  // namespace gonio::design

@@ -1,5 +1,5 @@
 #pragma once
-/// The error variances of an apparatus' readings, in the domain in which a prior is fitted.
+/// The error variances of an apparatus' readings, in the mapped domain in which a prior is fitted.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -14,8 +14,9 @@
 
 namespace gonio::design {
 
-/// Returns the error variance of a reading at each location. Noise and dark signal are evaluated for the prior's mean
-/// material, angular errors for all its materials. O(locations), times k with an angular error.
+/// Returns the error variance of a reading at each location. The effects of noise and dark signal are those on the
+/// prior's mean material; the effect of angular errors is averaged over the prior's materials. O(locations), times k
+/// components with an angular error.
 template <error_metric Metric>
 [[nodiscard]] Eigen::VectorXd reading_variances(const apparatus& with, const pca<Metric>& prior,
                                                 std::span<const location> locations, thread_count threads = {}) {

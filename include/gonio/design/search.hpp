@@ -1,9 +1,9 @@
 #pragma once
 /// Searches for the best measurements, for any geometry of candidates and any objective. Random swaps: Matusik,
 /// Pfister, Brand and McMillan 2003. Descent on the grid: after Nielsen, Jensen and Ramamoorthi 2015
-/// (doi:10.1145/2816795.2818085), section 4, whose steps follow the numerical gradient instead
-/// (examples/papers/nielsen2015/gradient_descent.hpp, no better: docs/results/figures.md). Descent from the best of
-/// many candidates: Xu et al. 2016 (doi:10.1145/2980179.2982396), section 5.1.
+/// (doi:10.1145/2816795.2818085), section 4. The paper's steps follow the numerical gradient, which is no better
+/// (examples/papers/nielsen2015/gradient_descent.hpp, docs/results/figures.md). Descent from the best of many
+/// candidates: Xu et al. 2016 (doi:10.1145/2980179.2982396), section 5.1.
 
 #include <gonio/core/error.hpp>
 #include <gonio/core/progress.hpp>
@@ -25,10 +25,12 @@
 
 namespace gonio::design {
 
-/// The value of a set of candidates; smaller is better. It must not depend on their order.
+/// Returns the value of a set of candidates; smaller is better. The value must not depend on the order of the
+/// candidates.
 ///
-/// An objective may offer `beside(candidates)`, a function of one more candidate that is cheaper than evaluating the
-/// whole set. Searches that move one candidate at a time then use it.
+/// An objective may offer `beside(candidates)`, which returns a function of one more candidate. The function returns
+/// the value of the set with this candidate, at a lower cost than for a new set. Searches that move one candidate at a
+/// time then use it.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -90,7 +92,7 @@ void require_choice(Eigen::Index n, const Geometry& geometry) {
   if constexpr (requires { geometry.excluding_rule(); }) {
     if (allowed == 0)
       refuse("the rule '" + geometry.excluding_rule() +
-             "' of the constraint leaves no candidate: it needs a wider range or a larger tolerance");
+             "' of the apparatus leaves no direction to measure: relax this rule");
   }
   if (n < 1 || n > allowed)
     refuse("cannot choose " + std::to_string(n) + " of " + std::to_string(allowed) + " candidates");
@@ -110,10 +112,10 @@ template <capture_geometry Geometry, class Generator>
   return candidate;
 }
 
-/// Returns the candidates of a plan without the one at a position.
 [[nodiscard]] std::vector<Eigen::Index> without(std::vector<Eigen::Index> candidates, Eigen::Index position);
 
-/// Returns the value of a plan as a function of the candidate at one position; infinity if the plan already has it.
+/// Returns the value of a plan as a function of the candidate at one position; infinity if another position has that
+/// candidate.
 template <plan_objective Objective>
 [[nodiscard]] auto value_of_replacement(const Objective& objective, const std::vector<Eigen::Index>& candidates,
                                         Eigen::Index position) {
@@ -133,12 +135,13 @@ template <plan_objective Objective>
   }
 }
 
-/// Whether a value is better by more than rounding. Values may be negative: some criteria are logarithms.
+/// Returns true if `value` is below `on` by more than rounding. Values may be negative: some criteria are logarithms.
 [[nodiscard]] inline bool improves(double value, double on, double rounding = 1e-12) noexcept {
   return value < on && (std::isinf(on) || on - value > rounding * std::abs(on));
 }
 
-/// Moves one candidate to the best of its six neighbours at a distance if that is better. Returns whether it moved.
+/// Moves one candidate to the best of its six neighbours at some distance, if that improves the plan. Returns true if
+/// it moved.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] bool move_one(const Geometry& geometry, const Objective& objective, capture_plan& plan,
                             Eigen::Index position, int distance) {
@@ -160,8 +163,9 @@ template <capture_geometry Geometry, plan_objective Objective>
 
 }  // namespace detail
 
-/// Moves candidates of a plan along the grid while that improves it: first in steps of 3, then of 1, each in the best
-/// of six directions, the candidates in random order. No move of one candidate by one step improves the result.
+/// Moves candidates of a plan along the grid while that improves the plan: first in steps of 3, then in steps of 1,
+/// each in the best of six directions. The candidates take turns in random order. In the end, no single step of a
+/// candidate improves the plan.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan descend(const Geometry& geometry, const Objective& objective, capture_plan plan,
                                    std::uint64_t seed = 0) {
@@ -182,9 +186,9 @@ template <capture_geometry Geometry, plan_objective Objective>
   return plan;
 }
 
-/// Adds candidates one by one, each time the best of `tries` random ones, and descends after each. One try is close to
-/// the search of Nielsen et al.; 500 give that of Xu et al. Throws gonio::error unless n is from 1 to the number of
-/// candidates.
+/// Adds candidates one by one, each the best of `tries` random ones, and calls `descend` after each. One try is close
+/// to the search of Nielsen et al.; 500 tries are the search of Xu et al. Throws gonio::error unless n is from 1 to the
+/// number of candidates.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan grow_and_descend(const Geometry& geometry, const Objective& objective, Eigen::Index n,
                                             Eigen::Index tries = 500, std::uint64_t seed = 0,
@@ -211,9 +215,9 @@ template <capture_geometry Geometry, plan_objective Objective>
   return plan;
 }
 
-/// Starts with n random candidates. `swaps` times, replaces a random one by another random candidate if that improves
-/// the plan: the search of Matusik et al., the baseline. Throws gonio::error unless n is from 1 to the number of
-/// candidates.
+/// Starts with n random candidates. Then, `swaps` times, replaces a random member of the plan by a random new candidate
+/// if that improves the plan. This is the search of Matusik et al., the baseline. Throws gonio::error unless n is from
+/// 1 to the number of candidates.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan swap_at_random(const Geometry& geometry, const Objective& objective, Eigen::Index n,
                                           Eigen::Index swaps, std::uint64_t seed = 0) {

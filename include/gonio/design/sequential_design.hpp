@@ -1,7 +1,7 @@
 #pragma once
-/// Sequential experimental design: chooses the next best measurement, given those already made. Scores each candidate
-/// by the posterior covariance that the Gaussian process behind `reconstruction` would have with it, for linear
-/// functions of the material: Cohn, Ghahramani and Jordan 1996, "Active learning with statistical models"
+/// Sequential experimental design: chooses the best next measurement, given the measurements already made. Scores each
+/// candidate by the posterior covariance that the Gaussian process of `reconstruction` would have after measuring it,
+/// for linear functions of the material: Cohn, Ghahramani and Jordan 1996, "Active learning with statistical models"
 /// (doi:10.1613/jair.295); Rasmussen and Williams 2006, Eq. 2.24. Results: docs/results/adaptive-design.md.
 
 #include <gonio/core/parallel.hpp>
@@ -19,20 +19,20 @@
 
 namespace gonio::design {
 
-/// The sensitivity of p observed points of a material to its mapped values at the candidates.
+/// The sensitivity of p observed points, such as pixels, to the mapped values of the material at the candidates.
 struct sensitivity {
-  Eigen::MatrixXd slopes;   ///< 3 p x candidates: row 3 i + c is the derivative of point i, channel c
+  Eigen::MatrixXd slopes;   ///< 3 p x candidates: row 3 i + c is the derivative of channel c of point i
   Eigen::VectorXd weights;  ///< p: the weight of each point
 };
 
-/// Returns the weighted sum over the points of their standard deviations: sum_i w_i (sum_c s_ic' P s_ic)^1/2 for the
-/// slopes s and the covariance P of each channel. O(p candidates^2).
+/// Returns the weighted sum of the points' standard deviations: sum_i w_i (sum_c s_ic' P s_ic)^1/2 for the slopes s and
+/// the covariance P of each channel. O(p candidates^2) for p points.
 [[nodiscard]] double seen_deviation(const Eigen::MatrixXd& covariance, const sensitivity& seen,
                                     thread_count threads = {});
 
-/// Returns `seen_deviation` after one more measurement with the given error variance: one value for each candidate. The
-/// measurement reduces P by P_x P_x' / (P_xx + its error variance). O(p candidates^2). The bytes do not depend on the
-/// number of threads.
+/// Returns one value for each candidate: `seen_deviation` after one more measurement at the candidate. A measurement at
+/// x reduces P by P_x P_x' / (P_xx + error variance at x). O(p candidates^2) for p points. The bytes do not depend on
+/// the number of threads.
 [[nodiscard]] std::vector<double> seen_deviation_with_each(const Eigen::MatrixXd& covariance, const sensitivity& seen,
                                                            const Eigen::VectorXd& error_variances,
                                                            thread_count threads = {});
@@ -42,15 +42,16 @@ struct candidate_posterior {
   Eigen::MatrixXd mean;        ///< candidates x 3
   Eigen::MatrixXd covariance;  ///< candidates x candidates, the same for each channel
 
-  /// Updates the covariance for a measurement at a candidate, whatever its value. O(candidates^2).
+  /// Updates the covariance for a measurement at a candidate. The covariance does not depend on the measured value.
+  /// O(candidates^2).
   void add(Eigen::Index candidate, double error_variance);
 };
 
 /// Returns 3,246 cells: 24 of theta_h, 15 of theta_d and 12 of phi_d.
 [[nodiscard]] valid_cells default_candidates();
 
-/// The cells of a coarse grid as candidates, with an estimator's prior covariance at them. A value type; copies share
-/// the covariance, 8 bytes for each pair of candidates.
+/// The cells of a coarse grid as candidates, with the covariance at the cells according to an estimator's prior. A
+/// value type; copies share the covariance, 8 bytes for each pair of candidates.
 ///
 /// ```cpp
 /// const gonio::reconstruction estimator{prior};
@@ -69,8 +70,8 @@ class sequential_design {
 
   [[nodiscard]] const reconstruction<Metric>& estimator() const noexcept { return estimator_; }
   [[nodiscard]] const point_geometry& geometry() const noexcept { return geometry_; }
-  /// The error variance of a measurement at each candidate: the estimator's, which grows towards grazing angles, plus
-  /// the apparatus'.
+  /// The error variance of a measurement at each candidate: the variance of the estimator's model, which grows towards
+  /// grazing angles, plus the variance of the apparatus.
   [[nodiscard]] const Eigen::VectorXd& error_variances() const noexcept { return before_->error_variances; }
 
   /// The locations of the candidates on the prior's cells, and the prior's functions and mean there.
@@ -104,7 +105,7 @@ class sequential_design {
     }
 
     located_rows at;          ///< the prior's functions at the candidates
-    Eigen::VectorXd offsets;  ///< the prior's mean there
+    Eigen::VectorXd offsets;  ///< the prior's mean at the candidates
     std::vector<location> locations;
     Eigen::MatrixXd covariance;
     Eigen::VectorXd error_variances;

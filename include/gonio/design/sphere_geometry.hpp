@@ -1,7 +1,8 @@
 #pragma once
 /// Images of a sphere of the material (Marschner et al. 2000, doi:10.1364/AO.39.002592; Nielsen et al. 2015,
-/// doi:10.1145/2816795.2818085, section 6). If light and camera are far away, all its points have the same theta_d,
-/// half the angle between the two. The image shows every (theta_h, phi_d) at which both are above the horizon.
+/// doi:10.1145/2816795.2818085, section 6). If light and camera are far away, all points of the sphere have the same
+/// theta_d, half the angle between light and camera. The image shows every (theta_h, phi_d) at which light and camera
+/// are above the horizon.
 
 #include <gonio/design/capture_geometry.hpp>
 
@@ -11,7 +12,8 @@
 
 namespace gonio::design {
 
-/// One candidate for each theta_d of a grid. Its samples are all valid cells of that slice, each once.
+/// Has one candidate for each theta_d of a grid: the candidate's samples are all valid cells with this theta_d, each
+/// once.
 class sphere_geometry {
  public:
   /// Light and camera must be at least `smallest_separation` radians apart.
@@ -36,7 +38,7 @@ class sphere_geometry {
 
   [[nodiscard]] std::optional<Eigen::Index> stepped(Eigen::Index from, const grid_step& step) const;
 
-  /// Returns the valid cells of a slice.
+  /// Returns the valid cells of the slice with one theta_d.
   [[nodiscard]] std::vector<Eigen::Index> cells_of(Eigen::Index slice) const;
 
  private:

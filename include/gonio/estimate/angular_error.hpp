@@ -14,18 +14,19 @@ namespace gonio {
 
 namespace detail {
 
-/// Returns eight pairs in which either the light or the viewer is turned by an angle in one of four directions.
+/// Returns eight pairs in which either the light or the viewer is turned by `angle` radians in one of four directions.
 [[nodiscard]] std::array<direction_pair, 8> misplaced_pairs(const direction_pair& meant, double angle);
 
 }  // namespace detail
 
 /// Returns the penalty to add to the prior's eta for a measurement whose light and viewer are each off by an angle in
-/// radians, in unknown directions. It is m times the variance of the error of the mapped value, taken over the m
-/// observations of the basis and over the directions of the error.
+/// radians, in unknown directions. The penalty is m times the mean square error of the mapped value, where the mean is
+/// over the m observations of the basis and over the directions of the error.
 ///
-/// A value measured at x' but assigned to x is wrong by (q(x') - q(x)) . c + o. Here o is the error of the mean
-/// material: its value at x', mapped as if it were at x. The weights c have orthonormal columns over the observations,
-/// so m times the mean square is |q(x') - q(x)|^2 + m o^2. Light and viewer move independently: their errors add. O(k).
+/// A value measured at x' but assigned to x is wrong by (q(x') - q(x)) . c + o. Here q are the k components, c the
+/// weights of an observation, and o the error of the mean material: the material's value at x', mapped as if measured
+/// at x, minus the material's mapped value at x. The columns of the m x k weights are orthonormal, so m times the mean
+/// square is |q(x') - q(x)|^2 + m o^2. The errors of light and viewer are independent: their penalties add. O(k).
 template <error_metric Metric>
 [[nodiscard]] double angular_error_penalty(const pca<Metric>& basis, const direction_pair& meant, double angle) {
   const location here = locate(basis.cells(), to_half_difference(meant.wi, meant.wo));

@@ -11,9 +11,10 @@
 
 namespace gonio::detail {
 
-/// Returns the mean of `values` over a sample's cones divided by the value on their axes, for each channel: one row for
-/// each of `numbers`. Factors are clamped to 0.01 to 100; they are 1 where nothing is reflected. `values` must have at
-/// least as many channels as the samples.
+/// Returns the mean of `values` over a sample's cones divided by the value on their axes: one row for each of the
+/// samples whose positions are in `numbers`, one column for each channel. Factors are clamped to 0.01 to 100. They are
+/// 1 for a sample without an aperture, and where `values` are not positive. `values` must have at least as many
+/// channels as the samples.
 [[nodiscard]] Eigen::MatrixXd aperture_factors(
     const sample_set& samples, const std::vector<Eigen::Index>& numbers,
     const std::function<Eigen::ArrayXd(const direction& wi, const direction& wo)>& values, thread_count threads);

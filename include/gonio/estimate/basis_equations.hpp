@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#if defined(GONIO_COMPILED)  // fits by measured materials are compiled there
+#if defined(GONIO_COMPILED)  // decompositions by measured materials are compiled in gonio::compiled
 #include <gonio/basis/measured.hpp>
 #endif
 
@@ -26,9 +26,9 @@ struct solved_channels {
 };
 
 /// The least-squares systems of measurements in a basis. Row i of a system is the basis interpolated at measurement i.
-/// Its right-hand side is the mapped value minus the offset there, and its weight multiplies the squared error.
-/// Channels that share a basis and weights share one system, with a right-hand side for each. Rows are read from the
-/// basis block by block and never copied as a whole.
+/// Its right-hand side is the mapped value minus the basis' offset at this measurement. The measurement's weight
+/// multiplies the squared error. Channels with the same basis and weights share one system, with a right-hand side for
+/// each channel. Rows are read from the basis block by block and never copied as a whole.
 template <colour_basis Basis>
 class basis_equations {
  public:
@@ -40,15 +40,16 @@ class basis_equations {
     return {mapped_already{}, std::move(functions), std::move(mapped), threads};
   }
 
-  /// Returns the number of systems: one if the channels share their basis and their weights, else one for each channel.
+  /// Returns the number of systems: one if all channels have the same basis and weights, otherwise one for each
+  /// channel.
   [[nodiscard]] Eigen::Index systems() const noexcept {
     return basis<Basis> && !measured_->weighs_channels_apart() ? 1 : channels();
   }
 
-  /// Returns a system over all functions of the basis: of one channel, or of all channels if there is only one system.
+  /// Returns the system of one channel or, if there is only one system, the system of all channels. Its unknowns are
+  /// the weights of all functions of the basis.
   [[nodiscard]] least_squares_problem problem(Eigen::Index system = 0) const;
 
-  /// Returns all systems.
   [[nodiscard]] std::vector<least_squares_problem> problems() const {
     std::vector<least_squares_problem> all;
     for (Eigen::Index system = 0; system < systems(); ++system) all.push_back(problem(system));

@@ -15,8 +15,8 @@
 namespace gonio {
 
 /// Non-negative weights make no sense for functions of arbitrary sign. Use `tikhonov`, `least_squares`, `truncated_svd`
-/// or `lasso` with principal components, and non-negative solvers with measured materials. The compiler reports this
-/// name if the two are combined.
+/// or `lasso` with principal components, and non-negative solvers with measured materials. The compiler reports the
+/// name of this concept if principal components and a non-negative solver are combined.
 template <class Basis, class Solver>
 concept non_negative_weights_need_functions_of_definite_sign =
     !(has_arbitrary_sign<Basis> && solves_non_negative<Solver>);
@@ -38,11 +38,11 @@ class decomposition {
   explicit decomposition(Basis basis, Solver solver = Solver(), thread_count threads = {})
       : basis_(std::move(basis)), solver_(std::move(solver)), threads_(threads) {}
 
-  /// Fits samples, or a table whose cells are samples of weight 1. If channels share their basis, any number of
-  /// channels is possible: they share one factorisation, and each wavelength is fitted as a grey material. Otherwise
-  /// the channels must be colours. Costs the solver plus O(samples x size of the basis) for reading the rows, and
-  /// O(samples x size^2) more if the solver uses the normal equations. Throws gonio::error for unusable samples, or if
-  /// the solver gives up.
+  /// Fits samples, or a table whose cells are samples of weight 1. If channels share their basis, there may be any
+  /// number of channels: each wavelength is fitted as a grey material, and channels with the same weights share one
+  /// factorisation. If each channel has its own basis, the channels must be colours. Costs the solver plus O(samples x
+  /// size of the basis) for reading the rows, and O(samples x size^2) more if the solver uses the normal equations.
+  /// Throws gonio::error for unusable samples, or if the solver gives up.
   template <class Samples>
   [[nodiscard]] fitted_brdf<Basis> fit(const Samples& samples) const {
     located_samples located = locate_samples(cells(), samples, threads_);

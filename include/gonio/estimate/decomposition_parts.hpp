@@ -11,7 +11,6 @@
 
 namespace gonio::detail {
 
-/// The metric of a basis, or void if it has none.
 template <class Basis>
 struct metric_of {
   using type = void;
@@ -22,8 +21,8 @@ struct metric_of<Basis> {
   using type = std::remove_cvref_t<decltype(std::declval<const Basis&>().metric())>;
 };
 
-/// Instantiation asserts one part after the other: first the members of each part, then its concept, which also checks
-/// their types.
+/// Asserts metric, basis and solver in turn: first the members of each, then its concept, which also checks their
+/// types.
 template <class Basis, class Solver>
 struct decomposition_parts {
   using metric = typename metric_of<Basis>::type;

@@ -22,14 +22,15 @@ namespace gonio {
 /// The reconstruction of Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 12, from samples whose light and viewer
 /// may be anywhere on circles of `angle` radians around their directions.
 ///
-/// On average, such a sample shows the mean of the prior's rows over the circles. At a location x its value deviates
-/// from that mean by d = (q(x) - mean q) . c + o(x) - mean o. Here o is the mean material's value at x, mapped as if x
-/// were the stated location. The variance v = mean of d^2 is an error of this sample: with m observations it adds m v
-/// to the penalty eta, so the sample has the weight eta / (eta + m v). v depends on the material: it is zero for a
-/// matte one and large on the flank of a highlight. The fit is made twice: first with v averaged over the prior's
-/// observations (C'C = I: |q(x) - mean q|^2 + m o^2), then with v averaged over the colour channels of the first fit.
+/// The expected value of such a sample uses the mean of the prior's rows q over the circles. At an actual location x
+/// the value deviates from the expected one by d = (q(x) - mean q) . c + o(x) - mean o, where c are the weights and o
+/// is the mean material's value at x, mapped as if measured at the stated location. The variance v, the mean of d^2,
+/// counts as an error of this sample: with m observations it adds m v to the penalty eta, so the sample has the weight
+/// eta / (eta + m v). v is zero for a matte material and large on the flank of a highlight, so the fit is made twice.
+/// First, v is averaged over the prior's observations, whose weights have C'C = I: m v is the mean of |q(x) - mean q|^2
+/// + m (o(x) - mean o)^2. Then v is averaged over the channels of the first fit.
 ///
-/// If these two fits agree, the angle does not matter:
+/// If this fit agrees with a fit that trusts the directions, the angular error does not matter:
 /// ```cpp
 /// const auto paint = gonio::errors_in_variables_decomposition{prior, 40.0, gonio::radians(0.5)}.fit(samples);
 /// const auto trusting = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
@@ -37,14 +38,15 @@ namespace gonio {
 template <error_metric Metric>
 class errors_in_variables_decomposition {
  public:
-  /// Throws gonio::error unless eta is positive and the angle is 0 to 45 degrees.
+  /// Throws gonio::error unless eta is positive and the angle is from 0 to 45 degrees.
   errors_in_variables_decomposition(pca<Metric> prior, double eta, double angle, thread_count threads = {})
       : prior_(std::move(prior)), solver_(eta), angle_(angle), threads_(threads) {
     if (!(angle >= 0.0 && angle <= std::numbers::pi / 4.0))
       refuse("the angular error of samples must be from 0 to 45 degrees, not " + std::to_string(degrees(angle)));
   }
 
-  /// Fits samples. O(16 n k) for n samples, plus the solver's cost. Throws gonio::error for unusable samples.
+  /// Fits samples. O(16 n k) for n samples and k components, plus the solver's cost. Throws gonio::error for unusable
+  /// samples.
   [[nodiscard]] fitted_brdf<pca<Metric>> fit(const sample_set& samples) const {
     const located_samples measured = locate_samples(prior_.cells(), samples, threads_);
     const system equations = average(measured);
@@ -56,7 +58,7 @@ class errors_in_variables_decomposition {
  private:
   static constexpr Eigen::Index sides = 4;
 
-  /// The equations averaged over the circles.
+  /// The equations of n samples, averaged over their circles.
   struct system {
     row_matrix rows;                       ///< the mean row of each sample, n x k
     Eigen::VectorXd offsets;               ///< the mean material's mapped value, n
@@ -64,7 +66,7 @@ class errors_in_variables_decomposition {
     Eigen::VectorXd sample_noise_penalty;  ///< m v over the prior's observations, n
   };
 
-  /// The values that a sample at one location would show on its circles.
+  /// The prior's rows and mapped means at 4 x 4 pairs of directions on a sample's circles.
   struct displaced {
     std::array<Eigen::RowVectorXd, sides * sides> rows;
     std::array<double, sides * sides> offsets;
@@ -111,7 +113,7 @@ class errors_in_variables_decomposition {
     return means;
   }
 
-  /// Returns m v of a material with given weights, averaged over its channels.
+  /// Returns the penalty m v of each sample for a material with the given weights, with v averaged over the channels.
   [[nodiscard]] Eigen::VectorXd sample_noise_penalties(const located_samples& measured, const system& means,
                                                        const Eigen::MatrixXd& weights) const {
     const Eigen::Index channels = weights.cols();
@@ -143,7 +145,7 @@ class errors_in_variables_decomposition {
   }
 
   [[nodiscard]] double observations() const { return static_cast<double>(prior_.coefficients().rows()); }
-  /// Returns the angle of a quarter of the circle, in radians.
+  /// Returns the angle of one of the equidistant points on a circle, in radians.
   [[nodiscard]] static double side(Eigen::Index quarter) noexcept {
     return 2.0 * std::numbers::pi * static_cast<double>(quarter) / static_cast<double>(sides);
   }
@@ -157,9 +159,9 @@ class errors_in_variables_decomposition {
 
 static_assert(estimator<errors_in_variables_decomposition<log_relative>>);
 
-/// Returns samples with the weights for a `reconstruction` by this prior if light and viewer are each off by an angle.
-/// Each weight is multiplied by e / (e + v), with the model's error variance e and the variance v of the mapped error.
-/// O(n k).
+/// Returns samples weighted for a `reconstruction` by this prior if light and viewer are each off by `angle` radians.
+/// Each weight is multiplied by e / (e + v), where e is the model's error variance and v the variance of the mapped
+/// value due to these rotations. O(n k) for n samples and k components.
 template <error_metric Metric>
 [[nodiscard]] sample_set weighted_as_misplaced(const sample_set& samples, const pca<Metric>& prior,
                                                const discrepancy_model& model, double angle) {

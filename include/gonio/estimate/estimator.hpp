@@ -7,7 +7,7 @@
 
 namespace gonio {
 
-/// A BRDF that can be tabulated on any grid faster than cell by cell.
+/// A BRDF that tabulates itself on any grid, usually faster than cell by cell.
 template <class Fit>
 concept tabulated_brdf = brdf<Fit> && requires(const Fit& fit, const valid_cells& cells) {
   { fit.tabulate(cells) } -> std::same_as<brdf_table>;
@@ -35,7 +35,7 @@ concept tabulated_brdf = brdf<Fit> && requires(const Fit& fit, const valid_cells
 ///   std::printf("%g per steradian\n", paint({0, 0, 1}, {0, 0, 1}).x());
 /// }
 /// ```
-/// With a model of your own, which returns the mean as grey:
+/// With a model of your own, a Lambertian material with the mean of the samples:
 /// ```cpp
 /// #include <gonio/estimate/estimator.hpp>
 ///

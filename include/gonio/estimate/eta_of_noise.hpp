@@ -2,10 +2,10 @@
 /// Tikhonov's penalty eta (Nielsen et al. 2015, doi:10.1145/2816795.2818085, Eq. 12) computed from the measurement
 /// noise.
 ///
-/// Prior: c ~ N(0, I/m), since the coefficients of the m training observations have orthonormal columns. If a row's
-/// error has variance sigma^2, the posterior mean minimises |Q c - y|^2 + m sigma^2 |c|^2. sigma^2 is the variance of
-/// the noise plus the variance of the model error. The model error is estimated by leaving out each training material
-/// in turn. Results: docs/results/eta.md.
+/// The coefficients of the m training observations have orthonormal columns, so the prior of the weights is c ~ N(0,
+/// I/m). If the error of each row of Q has the variance sigma^2, the posterior mean minimises |Q c - y|^2 + m sigma^2
+/// |c|^2: eta = m sigma^2. Here sigma^2 is the variance of the noise plus the variance of the model error, which
+/// appears if each training material is left out of the prior. Results: docs/results/eta.md.
 
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/leave_one_material_out_error.hpp>
@@ -38,15 +38,15 @@ template <error_metric Metric, class Samples>
     if (weights.isZero(0.0)) continue;
     errors.parts.emplace_back(prior, located.locations, weights, noise, threads);
   }
-  // An eta below 1e-7 of the largest eigenvalue has no effect. An eta of 100 times that eigenvalue gives the mean
+  // An eta below 1e-7 of the largest eigenvalue has no effect; an eta of 100 times that eigenvalue gives the mean
   // material.
   const double largest = errors.largest();
   return detail::eta_of_least(errors, 1e-7 * largest, 1e2 * largest);
 }
 
-/// Returns the range of etas for cross-validation: from the eta of no noise to that of the largest plausible noise.
-/// With few rows, GCV only sees how well they predict each other and may choose any eta by chance. Throws as
-/// `eta_of_noise` does.
+/// Returns the range of etas for cross-validation: from the eta without noise to the eta of the largest plausible
+/// noise. Without this range, cross-validation of few samples may choose any eta by chance, because it only uses how
+/// well the samples predict each other. Throws as `eta_of_noise` does.
 template <error_metric Metric, class Samples>
 [[nodiscard]] eta_range plausible_etas(const pca<Metric>& prior, const Samples& samples, double largest_noise = 0.3,
                                        thread_count threads = {}) {
@@ -55,9 +55,10 @@ template <error_metric Metric, class Samples>
   return {std::min(without, with), std::max(without, with)};
 }
 
-/// Returns the eta for samples of unknown noise, the same for all channels. Generalised cross-validation chooses it
-/// among the plausible ones; for a single sample it is the largest of these. Cross-validation does not see errors that
-/// samples share, such as those of images with a wrong camera position. Throws as `eta_of_noise` does.
+/// Returns the eta for samples of unknown noise, the same for all channels. Generalised cross-validation chooses the
+/// eta within the range of `plausible_etas`; for a single sample, it is the largest eta of the range. Cross-validation
+/// cannot detect errors that samples share, such as those of images with a wrong camera position. Throws as
+/// `eta_of_noise` does.
 ///
 /// ```cpp
 /// const double eta = gonio::eta_of_unknown_noise(prior, samples);

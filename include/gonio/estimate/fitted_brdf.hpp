@@ -21,28 +21,30 @@
 #include <type_traits>
 #include <utility>
 
-#if defined(GONIO_COMPILED)  // fits by measured materials are compiled there
+#if defined(GONIO_COMPILED)  // fits by measured materials are compiled in gonio::compiled
 #include <gonio/basis/measured.hpp>
 #endif
 
 namespace gonio {
 
-/// A BRDF: offset + rows . weights in the metric's domain, mapped back and clamped at zero. Holds the solver's report
-/// if a solver found the weights. Channels that share a basis may be colours, one value, or wavelengths; each
-/// wavelength is held as a grey material. An evaluation costs O(8 x size of the basis), or one row if rows are
-/// computed. Tabulate the fit for the inner loop of a renderer.
+/// A BRDF: the basis' offset plus the product of its row with the weights, mapped back to reflectance and clamped at
+/// zero. Holds the solver's report if a solver found the weights. Channels that share a basis may be colours, one
+/// value, or wavelengths; each wavelength is a grey material. An evaluation costs O(8 x size of the basis) or, if the
+/// basis computes its rows, one row. For the inner loop of a renderer, tabulate the fit.
 ///
-/// Stored rows are multiplied by the weights in float, computed rows in double, because functions given by a formula
-/// may cancel each other to many digits.
+/// Colours are computed from stored rows in float. `values`, wavelengths and computed rows use double, because
+/// functions given by a formula may cancel each other to many digits.
 template <colour_basis Basis>
 requires std::same_as<domain_of<Basis>, valid_cells>
 class fitted_brdf {
  public:
-  /// The largest size of a computed basis. Its row is kept on the stack, so that evaluation does not allocate.
+  /// The largest size of a basis that computes its rows. The row is kept on the stack, so that evaluation does not
+  /// allocate.
   static constexpr int most_computed_functions = 4096;
 
-  /// `weights` is (size of the basis) x channels. Throws gonio::error if it is not, if channels with a basis each are
-  /// not colours, or for more than `most_computed_functions` computed functions.
+  /// `weights` is (size of the basis) x channels. Throws gonio::error for another size, for a basis of more than
+  /// `most_computed_functions` that computes its rows, or if each channel has its own basis but the channels are not
+  /// colours.
   fitted_brdf(Basis basis, Eigen::MatrixXd weights, std::optional<solve_report> report = {},
               gonio::channels kinds = {});
 
@@ -52,13 +54,13 @@ class fitted_brdf {
   [[nodiscard]] const Basis& functions() const noexcept { return basis_; }
   /// Returns the weights, (size of the basis) x channels.
   [[nodiscard]] const Eigen::MatrixXd& weights() const noexcept { return weights_; }
-  /// Returns what the columns of the weights stand for.
+  /// Returns the channels that the columns of the weights stand for.
   [[nodiscard]] const gonio::channels& channels() const noexcept { return kinds_; }
   /// Returns the solver's report; nothing if no solver found the weights.
   [[nodiscard]] const std::optional<solve_report>& report() const noexcept { return report_; }
 
-  /// Returns the reflectance in sr^-1 as a colour, at least zero; zero below the horizon. Wavelengths are converted as
-  /// by `channels::colour`.
+  /// Returns the reflectance in sr^-1 as a colour, at least zero; zero below the horizon. Converts wavelengths by
+  /// `channels::colour`.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     return at(locate(basis_.cells(), to_half_difference(wi, wo)));
@@ -69,7 +71,7 @@ class fitted_brdf {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return Eigen::ArrayXd::Zero(kinds_.size());
     return values(locate(basis_.cells(), to_half_difference(wi, wo)));
   }
-  /// Returns the same at a location on the basis' cells.
+  /// Returns the reflectance in sr^-1 in each channel at a location on the basis' cells, at least zero.
   [[nodiscard]] Eigen::ArrayXd values(const location& place) const {
     if constexpr (basis<Basis>) {
       const Eigen::RowVectorXd row = row_at(basis_, place);
@@ -83,9 +85,9 @@ class fitted_brdf {
     }
   }
 
-  /// Returns the derivatives of the values by the weights, in the shape of the weights: sr^-1 for each unit of a weight
-  /// of the same channel. Zero below the horizon and where a value is clamped. Computed by central differences of the
-  /// metric's inverse, accurate to eight digits. O(8 x size of the basis).
+  /// Returns the derivatives of each channel's reflectance by its own weights, in sr^-1, in the shape of `weights()`.
+  /// Zero below the horizon and where the reflectance is clamped. Computed by central differences of the metric's
+  /// inverse, accurate to eight digits. O(8 x size of the basis).
   [[nodiscard]] Eigen::MatrixXd gradient(const direction& wi, const direction& wo) const requires basis<Basis> {
     Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(weights_.rows(), weights_.cols());
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return slopes;
@@ -114,7 +116,8 @@ class fitted_brdf {
     return reflectance(mapped_at(place), place);
   }
 
-  /// Returns the value at a cell of the basis in the metric's domain, as a colour or as three equal values.
+  /// Returns the value at a cell of the basis in the metric's domain: a colour, or the first three channels. If there
+  /// are fewer than three, repeats the last.
   [[nodiscard]] rgb mapped(Eigen::Index cell) const noexcept {
     if constexpr (computed)
       return mapped_at(locate_cell(basis_.cells(), cell));
@@ -122,10 +125,11 @@ class fitted_brdf {
       return {stored_value(cell, 0), stored_value(cell, 1), stored_value(cell, 2)};
   }
 
-  /// Expands the fit to a table. Multiplies the basis' rows by the weights, which reads the basis once. If the cells
-  /// are not those of the basis, interpolates the three channels. Computed rows are evaluated at the cells of the
-  /// table, unless the basis combines its functions at all of its own cells (`combining_basis`). Same bytes for any
-  /// number of threads. Wavelengths become colours: `tabulate_spectra` keeps them.
+  /// Expands the fit to a table of colours. Multiplies the basis' rows by the weights, which reads the basis once. If
+  /// `cells` are not the cells of the basis, interpolates the three channels between the cells of the basis. Computed
+  /// rows are evaluated at the cells of the table, unless the basis combines its functions at all of its own cells
+  /// (`combining_basis`). Wavelengths become colours, black if none is visible; `tabulate_spectra` keeps them. Same
+  /// bytes for any number of threads.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const;
 
   /// Expands a fit of wavelengths. Costs one table of colours for every three wavelengths. Throws gonio::error for
@@ -133,10 +137,11 @@ class fitted_brdf {
   [[nodiscard]] spectral_table tabulate_spectra(const valid_cells& cells,
                                                 thread_count threads = {}) const requires basis<Basis>;
 
-  /// Expands the fit through the metric's `inverse` at each cell. Works with any metric, but is slower for stored rows.
+  /// Expands the fit by the metric's `inverse` at each cell. Works with any metric, but is slower than `tabulate` if
+  /// rows are stored.
   [[nodiscard]] brdf_table tabulate_cells(const valid_cells& cells, thread_count threads = {}) const;
 
-  /// Red, green and blue, or three copies of the one value, over all cells of the basis, in the metric's domain.
+  /// The values of `mapped` at all cells of the basis: 3 x cells.
   using mapped_fields = Eigen::Array<float, 3, Eigen::Dynamic>;
 
   [[nodiscard]] mapped_fields mapped_field(thread_count threads = {}) const;
@@ -149,7 +154,6 @@ class fitted_brdf {
   static constexpr bool computed = computed_basis<channel_type>;
   static constexpr bool combinable = !computed || combining_basis<Basis>;
 
-  /// Returns the functions of a channel.
   [[nodiscard]] const channel_type& functions_of([[maybe_unused]] Eigen::Index channel) const noexcept {
     if constexpr (basis<Basis>)
       return basis_;
@@ -178,7 +182,6 @@ class fitted_brdf {
     return dot(weights, functions.row(cell).data(), weights_.rows()) + static_cast<float>(functions.offset(cell));
   }
 
-  /// Returns the value at any location in the metric's domain.
   [[nodiscard]] rgb mapped_at(const location& at) const noexcept {
     if constexpr (computed)
       return computed_value(at);
@@ -195,7 +198,7 @@ class fitted_brdf {
     return sum;
   }
 
-  /// Returns the three channels at a location, from one row if they share their basis.
+  /// Returns the three channels at a location. Computes a single row if the channels share their basis.
   [[nodiscard]] rgb computed_value(const location& at) const noexcept requires computed {
     Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(weights_.rows());
     rgb value;
@@ -207,7 +210,7 @@ class fitted_brdf {
     return value;
   }
 
-  /// Expands the fit one row of cells at a time, from three channels and the metric's companion values.
+  /// Expands the fit row by row from three channels and the metric's companion values.
   [[nodiscard]] brdf_table tabulate_rows(const valid_cells& cells, thread_count threads) const;
 
   [[nodiscard]] rgb reflectance(const rgb& y, const location& at) const noexcept {
@@ -216,11 +219,11 @@ class fitted_brdf {
   }
 
   Basis basis_;
-  [[no_unique_address]] own_channels channels_;  ///< the functions of each channel, if every channel has its own
+  [[no_unique_address]] own_channels channels_;  ///< the basis of each channel, unless all share one
   Eigen::MatrixXd weights_;
   std::optional<solve_report> report_;
   gonio::channels kinds_;
-  Eigen::MatrixXf float_weights_;  // for products with stored rows, in three channels
+  Eigen::MatrixXf float_weights_;  // weights of three channels, for products with stored rows
 };
 
 template <colour_basis Basis>

@@ -1,8 +1,9 @@
 #pragma once
 /// Measures how much a material shines, and splits a database into soft and specular materials. Nielsen, Jensen and
-/// Ramamoorthi 2015 (doi:10.1145/2816795.2818085), section 8: a database of mostly specular materials makes soft ones
-/// ring. The paper proposes two priors, chosen by the ratio of an in-peak to an out-of-peak sample. It states neither
-/// the directions of the two samples nor the threshold of the ratio: both are ours.
+/// Ramamoorthi 2015 (doi:10.1145/2816795.2818085), section 8: if most materials of the database are specular,
+/// reconstructions of soft materials have ringing artefacts. The paper proposes two priors, chosen by the ratio of an
+/// in-peak to an out-of-peak sample. The directions of these samples and the threshold are ours, because the paper does
+/// not state them.
 
 #include <gonio/metric/log_relative.hpp>
 #include <gonio/table/material_set.hpp>
@@ -17,10 +18,10 @@
 
 namespace gonio {
 
-/// The regions inside and outside of a highlight, by theta_h in radians. Directions between them belong to neither.
+/// The regions inside and outside of a highlight, by theta_h in radians. Directions between the two belong to neither.
 struct highlight_regions {
   double in_peak = radians(5.0);    ///< a direction with theta_h up to this is in the peak
-  double off_peak = radians(20.0);  ///< a direction with theta_h from this on is out of it
+  double off_peak = radians(20.0);  ///< a direction with theta_h from this on is out of the peak
 };
 
 namespace detail {
@@ -32,19 +33,20 @@ struct contrast_sums {
 
   contrast_sums& operator+=(const contrast_sums& other);
 
-  /// Returns the sums of the region of a cell, and adds 1 to the region's weight. Returns null for a cell of no region.
+  /// Returns the sums of the region that contains a cell, and adds 1 to the region's weight. Returns a null pointer for
+  /// a cell outside of both regions.
   [[nodiscard]] Eigen::ArrayXd* region_of(const half_difference& angles, const highlight_regions& regions);
 
   [[nodiscard]] bool complete() const noexcept { return in_weight > 0.0 && off_weight > 0.0; }
   [[nodiscard]] Eigen::ArrayXd contrasts() const;
-  /// Returns the contrasts of a grid's cells. Throws gonio::error if a region has no cells.
+  /// Returns the contrasts, if each cell of a grid was added once. Throws gonio::error if a region has no cells.
   [[nodiscard]] Eigen::ArrayXd contrasts_of_cells() const;
 
   Eigen::ArrayXd in_peak, off_peak;
   double in_weight = 0.0, off_weight = 0.0;
 };
 
-/// Computes contrasts from the cells of tables. `luminance_of(cell, material)` reads them.
+/// Computes contrasts from the cells of tables. `luminance_of(cell, material)` returns a cell's luminance.
 template <class Luminance>
 [[nodiscard]] Eigen::ArrayXd cell_contrasts(const log_relative& reference, const valid_cells& cells,
                                             Eigen::Index materials, Luminance&& luminance_of,
@@ -68,15 +70,16 @@ template <class Luminance>
 
 }  // namespace detail
 
-/// Returns the contrast of a material's highlight from measurements: the logarithm of the ratio of an in-peak to an
-/// out-of-peak luminance, both relative to the reference BRDF as in the log-relative metric (Eq. 1-4). At zero the
-/// material shines as much as the reference; a Lambertian material is far below, a mirror far above. Several samples in
-/// a region are averaged by weight, as mapped luminances.
+/// Returns the contrast of a material's highlight from measurements: the logarithm of the ratio of in-peak to
+/// out-of-peak luminance, each relative to the reference BRDF as in the log-relative metric (Eq. 1-4). A contrast of
+/// zero means that the material shines as much as the reference; a Lambertian material is far below zero, a mirror far
+/// above. The mapped luminances of several samples in a region are averaged by weight.
 ///
-/// A plain ratio depends on the exact location of the two samples, because highlights grow towards grazing. Relative to
-/// the reference it does so much less, and one threshold serves for any directions. Luminance below the metric's
-/// epsilon counts as about epsilon, so that a black material has no contrast. Returns nothing unless a sample of
-/// positive weight is in the peak and another is out of it. Throws gonio::error for unusable samples. O(samples).
+/// A plain ratio of luminances depends on the exact directions of the samples, because highlights grow towards grazing
+/// angles. Relative to the reference, the dependence is much weaker, and one threshold suits all directions. Luminance
+/// far below the metric's epsilon counts as about epsilon, so a black material is as soft as a Lambertian one. Returns
+/// nothing unless a sample of positive weight is in the peak and another is out of the peak. Throws gonio::error for
+/// unusable samples. O(samples).
 template <sample_range Samples>
 [[nodiscard]] std::optional<double> highlight_contrast(const log_relative& reference, const Samples& samples,
                                                        const highlight_regions& regions = {}) {
@@ -98,31 +101,31 @@ template <sample_range Samples>
 [[nodiscard]] double highlight_contrast(const log_relative& reference, const brdf_table& table,
                                         const highlight_regions& regions = {}, thread_count threads = {});
 
-/// Returns the contrast of each material of a set, in its order. Also throws gonio::error if the set is not complete.
-/// O(cells materials), same bytes for any number of threads.
+/// Returns the contrast of each material of a set, in the order of the set. Throws gonio::error if the grid has no cell
+/// in one of the regions, or if the set is not complete. O(cells materials), same bytes for any number of threads.
 [[nodiscard]] Eigen::ArrayXd highlight_contrasts(const log_relative& reference, const material_set& materials,
                                                  const highlight_regions& regions = {}, thread_count threads = {});
 
-/// The positions of soft and of specular materials, and the threshold between them.
+/// The positions of soft and of specular materials, and the contrast that separates them.
 struct parted_by_contrast {
   std::vector<Eigen::Index> soft, specular;
   double threshold = 0.0;
 };
 
-/// Splits materials by their contrasts, as `split_by_contrast` does. Throws gonio::error if a half would be empty, or a
-/// contrast is not finite.
+/// Splits materials by their contrasts, as `split_by_contrast` does. Throws gonio::error if there would be no soft or
+/// no specular material, or if a contrast is not finite.
 [[nodiscard]] parted_by_contrast part_by_contrast(const std::vector<std::string>& names,
                                                   const Eigen::ArrayXd& contrasts, std::optional<double> threshold);
 
-/// A database in two halves, and the threshold between them.
+/// The soft and the specular materials of a database, and the contrast that separates them.
 struct soft_and_specular {
   material_set soft, specular;
   double threshold = 0.0;
 };
 
-/// Splits a set into the materials whose contrast is below the threshold, and the others. Without a threshold, uses the
-/// median of the contrasts, which makes two halves. Throws gonio::error if a half would be empty, or a table is not
-/// finite in the regions. Copies the set: 4 bytes a value. O(cells materials).
+/// Splits a set into soft materials, whose contrast is below the threshold, and specular ones. The default threshold is
+/// the median of the contrasts. Throws gonio::error if there would be no soft or no specular material, or if a table is
+/// not finite in the regions. Copies the set: 4 bytes a value. O(cells materials).
 ///
 /// ```cpp
 /// const auto reference = gonio::log_relative::to_median_of(materials);

@@ -1,7 +1,7 @@
 #pragma once
-/// Finds the samples of a material to keep, for any number of samples: those that their process does not call wrong
-/// (wrong_samples.hpp). Of many samples, some are judged together, and each of the others by these. The search for
-/// wrong samples also starts from the nearest material of the prior, which outliers cannot drag along. Reasons:
+/// Finds the inliers among the samples of a material, by the probability that each sample is wrong (wrong_samples.hpp).
+/// If there are many samples, some are judged together, and each remaining sample is compared with these. The search
+/// for wrong samples also starts from the nearest material of the prior, on which outliers have little effect. Reasons:
 /// docs/decisions/0020-wrong-samples.md; results: docs/results/real-materials.md, docs/results/real-methods.md.
 
 #include <gonio/basis/pca.hpp>
@@ -19,56 +19,63 @@
 
 namespace gonio {
 
-/// The largest number of samples that are judged together, by one process of all of them.
+/// The largest number of samples that are judged together, by one process.
 inline constexpr Eigen::Index most_judged = 500;
-/// The largest number of contradicted samples for which the prediction by the others is reported.
+/// The largest number of contradicted samples that are reported with their predictions.
 inline constexpr Eigen::Index most_contradicted = 20;
 
-/// A sample that the others contradict, for reports.
+/// A sample that all other samples together contradict, for reports.
 struct outlying_sample {
   Eigen::Index number = 0;   ///< its position among the samples
   rgb measured;              ///< sr^-1
   rgb predicted;             ///< sr^-1, from all samples that are not contradicted
-  double deviation = 0.0;    ///< of the prediction, in the metric's domain: relative where that is a logarithm
-  double probability = 0.0;  ///< that the sample is wrong
+  double deviation = 0.0;    ///< standard deviation of prediction and sample combined, in the metric's domain
+  double probability = 0.0;  ///< probability that the sample is wrong
 
-  /// Returns the channel in which measured and predicted value differ by the largest factor. A negative value counts as
-  /// zero, and 0.001 sr^-1 is added to both.
+  /// Returns the channel in which measured and predicted value differ by the largest factor. Negative values count as
+  /// zero, and 0.001 sr^-1 is added to both values.
   [[nodiscard]] Eigen::Index worst_channel() const;
 };
 
 /// The inliers among n samples.
 struct inliers {
-  Eigen::VectorXd weights;             ///< the probability that each sample is right
-  std::vector<Eigen::Index> rejected;  ///< positions of samples with a weight below one half, the worst first
-  /// The first `most_contradicted` of these that were judged together, with the prediction by the others.
+  Eigen::VectorXd weights;             ///< the weight of each sample in a fit, from 0 to 1 (`inlier_weight`)
+  std::vector<Eigen::Index> rejected;  ///< positions of the samples that are probably wrong, the worst first
+  /// The first `most_contradicted` of those rejected samples that were judged together, with their predictions.
   std::vector<outlying_sample> contradicted = {};
-  double outlier_share = 0.0;  ///< the mean of 1 - weight over all samples
+  double outlier_share = 0.0;  ///< the mean probability that a sample is wrong
 
   /// Returns the positions of the samples whose weight is at least 0.01.
   [[nodiscard]] std::vector<Eigen::Index> kept() const;
 };
 
-/// Returns n samples as inliers.
+/// Returns the weight in a fit of a sample that is wrong with some probability: 1 / (1 + 10 p / (1 - p)). The weight
+/// 1 - p would move the estimate by more than 1 - p of the way to the sample, because the error of a right sample is
+/// about a tenth of what the other samples leave unknown there.
+[[nodiscard]] inline double inlier_weight(double probability_wrong) noexcept {
+  const double right = 1.0 - probability_wrong;
+  return right / (right + 10.0 * probability_wrong);
+}
+
+/// Returns n inliers of weight 1.
 [[nodiscard]] inliers all_inliers(Eigen::Index n);
 
-/// Returns the largest share of n samples that a count of outliers may state: 60 % minus 7.2 samples. Samples that
-/// disagree with a dozen others may be a highlight. The share is 0 for 12 samples, 24 % for 20, 53 % for 100.
+/// Returns the largest fraction of outliers to report for n samples: 0.6 - 7.2 / n, which is 0 up to 12 samples, 24 %
+/// for 20 and 53 % for 100. With a dozen samples, the samples that disagree may be a highlight.
 [[nodiscard]] inline double largest_outlier_share(Eigen::Index n) noexcept {
   return n <= 12 ? 0.0 : 0.6 - 7.2 / static_cast<double>(n);
 }
 
-/// Returns the kept samples, with their weights multiplied by the inlier weights.
+/// Returns the kept samples, each weight multiplied by the sample's inlier weight.
 [[nodiscard]] located_samples weighted(const located_samples& samples, const inliers& found);
 
 namespace detail {
 
-/// Returns the positions of the samples that are judged together: all of up to `most_judged`. Of more samples, two
-/// thirds of `most_judged` are chosen at random and one third evenly from all neighbourhoods, so that a narrow
-/// highlight is represented. O(n log n).
+/// Returns the positions of the samples that are judged together. These are all samples if there are at most
+/// `most_judged`; otherwise two thirds of `most_judged` are chosen at random and one third evenly from all
+/// neighbourhoods of directions, so that a narrow highlight is represented. O(n log n) for n samples.
 [[nodiscard]] std::vector<Eigen::Index> judged_together(const located_samples& samples);
 
-/// Returns the first three numbers of a row.
 [[nodiscard]] inline rgb first_three(const Eigen::MatrixXd& values, Eigen::Index row) {
   return {values(row, 0), values(row, 1), values(row, 2)};
 }
@@ -78,7 +85,7 @@ struct prior_functions {
   Eigen::MatrixXd coefficients;  ///< components x observations
   std::function<located_rows(std::span<const location>)> rows;
   std::function<located_samples(const located_samples&)> map;
-  /// Converts mapped values without the offset to reflectance in sr^-1: a row for each location.
+  /// Adds the offset to mapped values and converts them to reflectance in sr^-1; a row for each location.
   std::function<void(std::span<const location>, Eigen::MatrixXd& values)> invert;
 };
 
@@ -107,9 +114,9 @@ template <error_metric Metric>
 }  // namespace detail
 
 /// Finds the inliers among samples in colours. `mapped` are the samples in the prior's domain (`map_samples`),
-/// `error_variances` the variances of their errors. `all`, if given, is the process of all samples and is used for up
-/// to `most_judged` of them. For n samples, j of them judged together, k components and m materials: the cost of
-/// `judge_samples` for j, plus O(n j (j + k)) and O(j m k).
+/// `error_variances` the variances of their errors. `all`, if given, is the process of all samples; it saves time if
+/// there are at most `most_judged` samples. Costs `judge_samples` for j samples plus O(n j (j + k) + j m k), for n
+/// samples, j of them judged together, k components and m observations of the prior.
 template <error_metric Metric>
 [[nodiscard]] inliers find_inliers(const pca<Metric>& prior, const expected_covariance& expected,
                                    const located_samples& samples, const located_samples& mapped,

@@ -1,6 +1,7 @@
 #pragma once
-/// Learns the soft and the specular prior of materials that do not fit into memory, in passes over blocks of cells. The
-/// result is that of learn_soft_specular_prior. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), section 8.
+/// Learns the priors of soft and of specular materials from materials that do not fit into memory, in passes over
+/// blocks of cells. The result is that of learn_soft_specular_prior. Nielsen et al. 2015 (doi:10.1145/2816795.2818085),
+/// section 8.
 
 #include <gonio/basis/learn_streamed_pca.hpp>
 #include <gonio/basis/soft_specular_prior.hpp>
@@ -11,19 +12,19 @@
 
 namespace gonio {
 
-/// Two priors, and the accuracy of their computation.
+/// The priors of soft and of specular materials, and the accuracy of their computation.
 struct streamed_soft_specular {
   soft_specular_prior prior;
-  bool exact = true;      ///< false if at least one was found in a random subspace
-  double residual = 0.0;  ///< the larger one of both, as in `streamed_pca`
+  bool exact = true;      ///< false if one of the priors was found in a random subspace
+  double residual = 0.0;  ///< the larger of the two priors' residuals; see `streamed_pca`
 };
 
-/// Learns the principal components of each half of the materials, relative to the median of all. The materials are
-/// split by the contrast of their highlights, without a threshold at the median contrast. Makes one pass over the cells
-/// for medians and contrasts, then the passes of learn_streamed_pca for each half, which read the cells of all
-/// materials. O(cells m^2) for m columns, or O(cells m components). The same bytes for any number of threads.
-/// `options.share` is not used. Throws gonio::error as learn_soft_specular_prior does, and anything that reading
-/// throws.
+/// Learns the principal components of the soft and of the specular materials, relative to the median of all materials.
+/// Splits the materials by the contrast of their highlights, by default at the median contrast. Makes one pass over the
+/// cells for medians and contrasts, then the passes of learn_streamed_pca for each half, which read the cells of all
+/// materials. O(cells m^2) for m columns, or O(cells m components) in a random subspace. The same bytes for any number
+/// of threads. `options.share` is not used. Throws gonio::error as learn_soft_specular_prior does, and whatever
+/// `materials.read` throws.
 ///
 /// ```cpp
 /// const auto learned = gonio::learn_streamed_soft_specular(gonio::rows_of(materials), {.components = 60});

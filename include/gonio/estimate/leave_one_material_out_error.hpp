@@ -1,8 +1,8 @@
 #pragma once
-/// The expected error of a reconstruction of an unseen material, from given locations and noise. This is the expected
-/// error of Xu et al. 2016 (doi:10.1145/2980179.2982396), Eq. 12-15 (`expected_error`), except that each material is
-/// left out of the basis before it is reconstructed. The error therefore has a minimum over Tikhonov's penalty: a
-/// material that the basis contains is reconstructed best without a penalty.
+/// The expected error of reconstructing a material that is not in the basis, for given locations and noise. It is the
+/// expected error of Xu et al. 2016 (doi:10.1145/2980179.2982396), Eq. 12-15 (`expected_error`), except that each
+/// material is left out of the basis before it is reconstructed. As a function of Tikhonov's penalty, this error has a
+/// minimum. If materials were not left out, the best penalty would be zero.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -20,23 +20,24 @@ namespace gonio {
 /// over all observations (colours or wavelengths of materials).
 ///
 /// Leaving a material out needs no new components. The m observations have coefficients C, m x k, with orthonormal
-/// columns that sum to zero. Without a material's p rows C_j, the others have the mean c = -C_j'1 / (m - p) and the sum
-/// of squares S = C'C - C_j'C_j - (m - p) c c' = I - N N' with N = C_j'R, R R' = I + 1 1' / (m - p). The reconstruction
-/// by the others' components equals that by all, with S instead of I as the prior covariance of the weights:
+/// columns that sum to zero. Without the p rows C_j of a material, the remaining rows have the mean c = -C_j'1 / (m -
+/// p) and the sum of squares S = C'C - C_j'C_j - (m - p) c c' = I - N N' with N = C_j'R, R R' = I + 1 1' / (m - p). The
+/// reconstruction by the remaining materials' components equals the reconstruction by all components, with S instead of
+/// I as the prior covariance of the weights:
 ///
 ///   x = c + S A'(A S A' + eta I)^-1 (y - A c), A the rows of the basis at the locations, y the mapped measurement.
 ///
-/// With A'A = V diag(l) V', D = diag(1 / (l + eta)) and F = diag(l) D that is, by Woodbury's identity,
-/// x = c + S V (D q + F n (I - n'F n)^-1 n'D q), q = V'A'(y - A c), n = V'N.
+/// With A'A = V diag(l) V', D = diag(1 / (l + eta)), F = diag(l) D, q = V'A'(y - A c) and n = V'N, Woodbury's identity
+/// gives x = c + S V (D q + F n (I - n'F n)^-1 n'D q).
 ///
-/// If k is less than the number of all components, the variance of the materials in the missing ones counts as
-/// measurement noise, the same share of the variance everywhere. The effect of noise is computed with the basis of all
-/// materials.
+/// If k is less than the number of all components, the variance of the missing components counts as measurement noise;
+/// this variance is taken as the same fraction of the variance at every location. The effect of noise is computed with
+/// the basis of all materials.
 class leave_one_material_out_error {
  public:
-  /// Takes n locations, a weight for each as in a least-squares problem, and the relative standard deviation of the
-  /// measurements. O(n k^2 + k^3 + observations k^2). Throws gonio::error for noise that is negative or not finite, for
-  /// a number of weights other than n, and for a basis of fewer than two materials.
+  /// Takes n locations, a weight for each as in a least-squares problem, and the standard deviation of the noise
+  /// relative to the values. O(n k^2 + k^3 + observations k^2). Throws gonio::error for noise that is negative or not
+  /// finite, for a number of weights other than n, and for a basis of fewer than two materials.
   template <error_metric Metric>
   leave_one_material_out_error(const pca<Metric>& basis, std::span<const location> locations,
                                const Eigen::VectorXd& weights, double noise, thread_count threads = {})
@@ -47,7 +48,7 @@ class leave_one_material_out_error {
                basis.channels());
   }
 
-  /// Returns the largest eigenvalue of A'WA.
+  /// Returns the largest eigenvalue of A'WA, where A has the rows of the basis at the locations and W their weights.
   [[nodiscard]] double largest() const { return values_[values_.size() - 1]; }
 
   /// Returns the error at each eta, which must be positive. O(observations r^2) each, where r <= min(n, k) is the rank
@@ -55,7 +56,7 @@ class leave_one_material_out_error {
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& etas) const;
 
  private:
-  /// A'WA, and the covariance and mean of the noise in A'W y.
+  /// Sums over the locations: A'WA (`gram`), and the covariance (`noise`) and the mean (`shift`) of the noise in A'W y.
   struct sums {
     Eigen::MatrixXd gram, noise;
     Eigen::VectorXd shift;
@@ -67,7 +68,8 @@ class leave_one_material_out_error {
              const Eigen::VectorXd& variances);
   };
 
-  /// A material in the eigenvectors V: t is its difference from the others' mean, n is as above, M = Sigma^2.
+  /// A material in the coordinates of the eigenvectors V: t is the difference of its weights from the mean of all other
+  /// materials, N is the matrix in the class comment, and M is the diagonal matrix of the squared singular values.
   struct left_out {
     Eigen::MatrixXd t, n, mt, mn;  // V't, V'N, V'M t, V'M N: r x channels
     Eigen::MatrixXd nmn, nmt;      // N'M N, N'M t
@@ -96,30 +98,29 @@ class leave_one_material_out_error {
         threads);
   }
 
-  /// Throws gonio::error unless there are as many weights as locations, at least one, and two materials.
+  /// Throws gonio::error unless there is a weight for each location, at least one location, and at least two materials.
   static void require_sensible(Eigen::Index locations, const Eigen::VectorXd& weights, Eigen::Index materials);
 
   void initialise(const sums& all, const Eigen::VectorXd& singular_values, const Eigen::MatrixXf& coefficients,
                   Eigen::Index channels);
 
-  /// Computes V and l without eigenvalues that are rounding errors, and everything that does not depend on the
-  /// material. `energies` is the diagonal of M.
+  /// Computes the eigenvectors V and eigenvalues l of `gram` without those that are rounding errors, and all that does
+  /// not depend on the material. `energies` is the diagonal of M.
   void decompose(const Eigen::VectorXd& energies, const sums& all);
 
-  /// `own` has the material's rows of C as columns.
+  /// Returns the state of a left-out material. `own` has the material's rows of C as columns.
   [[nodiscard]] left_out leave_out(const Eigen::VectorXd& energies, const Eigen::MatrixXd& own,
                                    double observations) const;
 
   [[nodiscard]] double error_at(double eta) const;
 
-  /// Returns the squared bias of each channel.
   [[nodiscard]] Eigen::VectorXd squared_bias(const left_out& material, const Eigen::VectorXd& d) const;
 
   Eigen::VectorXd values_;        // l, ascending
   Eigen::MatrixXd vectors_;       // V
   Eigen::MatrixXd norm_;          // V'M V
   Eigen::MatrixXd noise_energy_;  // element-wise product of V'M V and the noise in V'A'W y
-  Eigen::VectorXd shift_;         // of V'A'W y
+  Eigen::VectorXd shift_;         // mean of the noise in V'A'W y
   std::vector<left_out> materials_;
   thread_count threads_;
 };

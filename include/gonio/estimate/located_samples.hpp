@@ -15,42 +15,40 @@ namespace gonio {
 /// One value for each colour channel of each sample: 3 x n.
 using channel_values = Eigen::Array<float, 3, Eigen::Dynamic>;
 
-/// The locations, values and positive weights of n measurements.
+/// The locations, values and weights of n measurements.
 struct located_samples {
   std::vector<location> locations;
-  Eigen::MatrixXd values;  ///< n x channels: red, green and blue in sr^-1, or any values observed over the domain
-  /// n x channels, or n x 1 if each measurement has one weight for all channels.
+  Eigen::MatrixXd values;  ///< n x channels: reflectance in sr^-1, or any other values observed at the locations
+  /// The weights, n x channels; n x 1 if each measurement has one weight for all channels.
   Eigen::MatrixXd weights;
-  gonio::channels kinds = {};  ///< the meaning of the columns of `values`, if these are reflectances
+  gonio::channels kinds = {};  ///< the channels that the columns of `values` stand for, if these are reflectances
 
   [[nodiscard]] Eigen::Index size() const noexcept { return locations.size(); }
 
-  /// Returns true if the channels have weights of their own.
+  /// Returns true if each channel has its own weights.
   [[nodiscard]] bool weighs_channels_apart() const noexcept { return weights.cols() > 1; }
-  /// Returns the weights of the measurements in one channel.
   [[nodiscard]] Eigen::VectorXd weights_of(Eigen::Index channel) const {
     return weights.col(weighs_channels_apart() ? channel : 0);
   }
 
-  /// Returns the weights of three channels in the layout of estimators.
+  /// Returns the weights in three channels: 3 x n.
   [[nodiscard]] channel_values channel_weights() const;
 
-  /// Returns the values of three channels in the layout of estimators.
+  /// Returns the values of three channels: 3 x n.
   [[nodiscard]] channel_values channels() const;
 
-  /// Returns the samples in three channels for computing, not for display: see `channels::three`.
+  /// Returns the samples in three channels, for computing but not for display: see `channels::three`.
   [[nodiscard]] located_samples in_three_channels() const;
 
-  /// Returns the half and difference angles of all samples.
   [[nodiscard]] std::vector<half_difference> angles() const;
 
-  /// Returns some of the samples, by their positions.
+  /// Returns the samples at the given positions.
   [[nodiscard]] located_samples subset(const std::vector<Eigen::Index>& positions) const;
 };
 
 namespace detail {
 
-/// Completes the locations from their angles.
+/// Computes the samples' locations on the cells from their angles.
 void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads);
 
 }  // namespace detail
@@ -59,9 +57,9 @@ void locate_angles(located_samples& samples, const valid_cells& cells, thread_co
 /// any other number of channels.
 [[nodiscard]] located_samples in_colours(located_samples samples);
 
-/// Locates samples on given cells, in their own channels. Leaves out samples of weight zero in all channels, because
-/// outlier weights must not see them. Throws gonio::error for unusable samples (`require_usable`), for a reflectance
-/// outside the range of float, or if all weights are zero. O(samples).
+/// Locates samples on given cells, in their own channels. Leaves out samples whose weight is zero in all channels, so
+/// that they do not affect outlier weights. Throws gonio::error for unusable samples (`require_usable`), for a
+/// reflectance outside the range of float, or if all weights are zero. O(samples).
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const sample_set& samples,
                                              thread_count threads = {});
 

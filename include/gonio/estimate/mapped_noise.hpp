@@ -16,19 +16,20 @@ namespace gonio {
 
 /// The errors of n measurements in the mapped domain.
 struct mapped_noise {
-  Eigen::VectorXd shift;     ///< their means, n values, not zero because the map is not linear
-  Eigen::VectorXd variance;  ///< their variances, n values
+  Eigen::VectorXd shift;     ///< means, n values: not zero, because the map is not linear
+  Eigen::VectorXd variance;  ///< variances, n values
 };
 
 namespace detail {
 
-/// Returns the medians of `count` equally likely parts of the standard normal distribution, by bisection.
+/// Divides the standard normal distribution into `count` equally likely parts, and returns their medians. Uses
+/// bisection.
 [[nodiscard]] std::vector<double> normal_quantiles(int count);
 
 }  // namespace detail
 
-/// Maps Gaussian noise whose standard deviation is relative to the value (0.02 is 2 %). The values are those of the
-/// basis' mean material. Uses 64 quantiles: an error that occurs once in a hundred measurements is an outlier, not
+/// Maps Gaussian noise whose standard deviation is relative to the value (0.02 is 2 %), for the values of the basis'
+/// mean material. Averages over 64 quantiles. They exclude errors rarer than one in a hundred, which are outliers, not
 /// noise. Throws gonio::error for noise that is negative or not finite. O(locations).
 template <basis Basis>
 [[nodiscard]] mapped_noise map_noise(const Basis& functions, std::span<const location> locations, double noise,

@@ -1,8 +1,9 @@
 #pragma once
-/// Removes dips of an estimate in the mirror direction. No measured material has one: for each of twenty materials and
-/// each theta_d up to 65 degrees, the luminance at theta_h = 0 is at least .956 of the largest below 8 degrees. Half of
-/// the estimates from 20 samples had less than .9, down to .44. The logarithm by which that direction is brighter than
-/// its surroundings is 0 to 8 in materials, but a Gaussian takes it to be symmetric. docs/decisions/0038.
+/// Removes dips of an estimate in the mirror direction (theta_h = 0). No measured material has such a dip: for each of
+/// twenty materials and each theta_d up to 65 degrees, the luminance at theta_h = 0 is at least .956 of the largest
+/// luminance at theta_h below 8 degrees. In half of the estimates from 20 random samples, this ratio was less than .9,
+/// down to .44. The components cause the dips: in materials, the logarithm of the luminance at theta_h = 0 relative to
+/// its surroundings is from 0 to 8, but a Gaussian prior is symmetric. docs/decisions/0038.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/table/brdf_table.hpp>
@@ -17,15 +18,15 @@
 
 namespace gonio {
 
-/// Takes values at one theta_d and phi_d, from theta_h = 8 degrees towards 0. Fills a value that is darker than the
-/// brightest before it with a share of the brightest.
+/// Takes values at one theta_d and phi_d, from theta_h = 8 degrees towards 0. If a value is darker than the brightest
+/// value so far, raises it towards this brightest value.
 template <class Value>
 class mirror_envelope {
  public:
-  /// The largest distance from the mirror direction, in radians.
+  /// The theta_h at which filling begins, in radians.
   static constexpr double theta_h = radians(8.0);
 
-  /// Dips are filled completely up to a theta_d of 70 degrees and not at all from 80 degrees on, where lobes of rough
+  /// Fills dips completely up to a theta_d of 70 degrees, and not at all from 80 degrees on, where lobes of rough
   /// materials are brightest outside of the mirror direction.
   explicit mirror_envelope(double theta_d) : share_(share_at(theta_d)) {}
 
@@ -36,7 +37,7 @@ class mirror_envelope {
     return angles.theta_h < theta_h && share_at(angles.theta_d) > 0.0;
   }
 
-  /// Returns the next value, filled.
+  /// Returns the next value, raised if it is in a dip.
   [[nodiscard]] Value next(const Value& value, double brightness) {
     if (brightness < most_) return value + share_ * (1.0 - brightness / most_) * brightest_;
     most_ = brightness;
@@ -49,8 +50,8 @@ class mirror_envelope {
   Value brightest_;
 };
 
-/// Returns the brightness that decides: the luminance of the channels' colour, or the mean of wavelengths without a
-/// colour.
+/// Returns the brightness by which values are compared: the luminance of the channels' colour, or the mean of the
+/// values if no wavelength is visible.
 [[nodiscard]] double brightness(const channels& kinds, const Eigen::ArrayXd& values);
 
 /// Fills the dips of a table. O(values of its highlight).

@@ -1,5 +1,6 @@
 #pragma once
-/// Converts colours outside of Rec. 709, so that a logarithm can judge them.
+/// Converts colours outside of Rec. 709 to positive numbers, because a logarithmic metric cannot distinguish negative
+/// numbers.
 
 #include <gonio/estimate/located_samples.hpp>
 
@@ -7,10 +8,10 @@
 
 namespace gonio {
 
-/// Returns the samples in a space in which outliers can be judged. The colours of a saturated material lie outside of
-/// Rec. 709: one channel is negative in all samples, and a logarithm cannot distinguish negative values. If more than
-/// one sample in ten has a negative channel, colours become CIE XYZ relative to white, which no reflectance makes
-/// negative. Returns nothing if fewer have, or if channels have weights of their own. O(samples).
+/// Returns the samples as CIE XYZ relative to white if more than one in ten has a negative channel. The colours of a
+/// saturated material lie outside of Rec. 709: one channel is negative in all samples. CIE XYZ of a reflectance is
+/// never negative. Returns nothing if fewer samples have a negative channel, if there are not three channels, or if
+/// channels have different weights. O(samples).
 [[nodiscard]] std::optional<located_samples> out_of_gamut_as_xyz(const located_samples& samples);
 
 }  // namespace gonio

@@ -1,8 +1,8 @@
 #pragma once
 /// A material reconstructed from samples, with the uncertainty of every value: the posterior of a Gaussian process
 /// whose mean is the reconstruction (Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, Eq.
-/// 2.24). docs/results/real-materials.md states how often the intervals hold on measured materials whose families the
-/// prior has not seen.
+/// 2.24). docs/results/real-materials.md states how often the intervals contain the measured values of materials whose
+/// families are not in the prior.
 
 #include <gonio/basis/discrepancy.hpp>
 #include <gonio/basis/joined.hpp>
@@ -32,26 +32,26 @@ struct reflectance_interval {
 /// The probabilities for which intervals are offered.
 enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 
-/// Returns half the width of an interval in standard deviations of the model. These are conformal factors: quantiles of
-/// the errors, in such deviations, on measured materials whose families the prior has not seen (Lee, Barber and Willett
-/// 2023, doi:10.48550/arXiv.2306.06342). Their samples were spread over all directions, below some theta_h, or in
-/// planes. `unknown` is the share of the variance before measuring that remains: errors near samples have heavy tails,
-/// errors far from all samples do not. The number of samples has an effect above 500. The intervals hold for materials
-/// like those, averaged over directions.
+/// Returns half the width of an interval in standard deviations of the model: a conformal factor (Lee, Barber and
+/// Willett 2023, doi:10.48550/arXiv.2306.06342). The factor is a quantile of the errors, in these deviations, of
+/// reconstructing measured materials whose families are not in the prior, from samples in all directions, below some
+/// theta_h, or in planes. The interval holds for such materials, averaged over directions. `unknown` is the variance
+/// after measuring divided by the variance before. It changes only the 68 % factor, because errors near samples have
+/// heavier tails than errors far from all samples. The number of samples matters only above 500.
 [[nodiscard]] double deviations_of(confidence_level level, Eigen::Index samples, double unknown) noexcept;
 
 /// The uncertainty of a reconstruction in a few numbers.
 struct certainty {
   /// The median over all directions of half the width of the 68 % interval, relative to the value.
   double known_to = 0.0;
-  /// The same median over the directions whose light or viewer is more than 80 degrees from the normal.
+  /// The median of `known_to` over the directions whose light or viewer is more than 80 degrees from the normal.
   double known_to_at_grazing = 0.0;
   /// The highlight is known to within this factor with a probability of 95 %: the median over half vectors within 5
   /// degrees of the normal and difference angles up to 70 degrees.
   double highlight_factor = 1.0;
-  /// `measured_to` is the largest angle in radians between the normal and the half vector of a sample that counts.
-  /// `known_to_beyond` is the median of `known_to` over the directions whose half vector is more than 4 degrees farther
-  /// out; 0 if these are less than a fifth of all directions.
+  /// `measured_to` is the largest angle in radians between the normal and the half vector of a kept sample.
+  /// `known_to_beyond` is the median of `known_to` over directions whose half vector is more than 4 degrees farther
+  /// from the normal than `measured_to`. It is 0 if these directions are less than a fifth of all directions.
   double measured_to = 0.0, known_to_beyond = 0.0;
 };
 
@@ -60,15 +60,15 @@ struct sample_residual {
   Eigen::Index number = 0;          ///< its position among the given samples
   rgb measured;                     ///< sr^-1
   rgb predicted;                    ///< sr^-1, from all other samples
-  double relative_deviation = 0.0;  ///< of prediction and sample combined
+  double relative_deviation = 0.0;  ///< standard deviation of prediction and sample combined
   double disagreement = 0.0;        ///< `sample_predictions::disagreement`
   bool rejected = false;
 };
 
 namespace detail {
 
-/// Summarises half the widths of intervals: of 68 % at each of `certainty_cells`, of 95 % at each of
-/// `highlight_angles`.
+/// Summarises half the widths of intervals: `everywhere` has those of the 68 % intervals at `certainty_cells`,
+/// `highlight` those of the 95 % intervals at `highlight_angles`.
 [[nodiscard]] certainty certainty_of(std::vector<double> everywhere, std::vector<double> highlight, double measured_to);
 
 /// Return the directions at which certainty is evaluated: over the whole hemisphere, and in the highlight.
@@ -85,12 +85,12 @@ class reconstructed {
   using basis_type = joined<pca<Metric>, discrepancy<Metric>>;
   using fit_type = fitted_brdf<basis_type>;
 
-  /// If there are more samples, this many random ones determine the uncertainty. The deviations are then too large,
-  /// because the other samples are ignored.
+  /// The uncertainty uses at most this many samples, chosen at random. If there are more, the stated deviations are too
+  /// large, because the remaining samples are ignored.
   static constexpr Eigen::Index most_known = 500;
 
-  /// For `reconstruction`. `known` is the process of the fitted samples, or of a subset of them. `all` is the process
-  /// of all `samples`, if they are few enough. `numbers` are the positions of `samples` in the caller's set.
+  /// Called by `reconstruction`. `known` is the process of the fitted samples, or of a subset of them. `all` is the
+  /// process of all `samples`, if they are few enough. `numbers` are the positions of `samples` in the caller's set.
   reconstructed(pca<Metric> prior, fit_type fit, sample_process known, inliers found, std::optional<sample_process> all,
                 std::shared_ptr<const located_samples> samples, std::vector<Eigen::Index> numbers, thread_count threads)
       : prior_(std::move(prior)),
@@ -109,7 +109,8 @@ class reconstructed {
   }
 
   /// Returns the reflectance in sr^-1 as a colour, at least zero; zero below the horizon. Fills dips in the mirror
-  /// direction (`mirror_envelope`), which evaluates the fit once for each row of the prior from there to 8 degrees.
+  /// direction (`mirror_envelope`): if theta_h is below 8 degrees, evaluates the fit also at each of the prior's rows
+  /// from theta_h to 8 degrees.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     return filled<rgb>(
@@ -137,8 +138,8 @@ class reconstructed {
   /// Returns the weights, their functions, and the solver's report.
   [[nodiscard]] const fit_type& fit() const noexcept { return fit_; }
 
-  /// For `reconstruction`: sets the readings through apertures, which are reported instead of the corrected values that
-  /// were fitted.
+  /// Called by `reconstruction`: sets the readings through apertures. `residuals` and `contradicted` then report
+  /// readings, not the corrected values that were fitted.
   void tell_readings(const located_samples& read) {
     readings_ = read.kinds.are_colours() ? read.values : read.in_three_channels().values;
     for (outlying_sample& each : found_.contradicted) {
@@ -151,8 +152,8 @@ class reconstructed {
 
   // ---- uncertainty ----
 
-  /// Returns the standard deviation of a value in the metric's domain. If the metric is a logarithm, it is relative to
-  /// the value. O(n (n + k)) for n samples, at most `most_known`, and k components.
+  /// Returns the standard deviation of a value in the metric's domain. If the metric is a logarithm, the deviation is
+  /// relative to the value. O(n (n + k)) for n samples, at most `most_known`, and k components.
   [[nodiscard]] double deviation(const location& at) const {
     return std::sqrt(scale_) * doubting_.deviation(row_at(prior_, at), at.angles);
   }
@@ -187,16 +188,16 @@ class reconstructed {
   [[nodiscard]] double known_to(const location& at) const {
     return std::expm1(half_width(at, confidence_level::sixty_eight_percent));
   }
-  /// Returns the same for two directions above the horizon.
+  /// Returns `known_to` for two directions above the horizon.
   [[nodiscard]] double known_to(const direction& wi, const direction& wo) const { return known_to(located(wi, wo)); }
-  /// Returns the same for all given cells. Choose a coarse grid: the uncertainty is smooth.
+  /// Returns `known_to` for all given cells. A coarse grid is enough, because the uncertainty is smooth.
   [[nodiscard]] std::vector<double> known_to(const valid_cells& cells) const {
     std::vector<double> all = half_widths(cells);
     for (double& each : all) each = std::expm1(each);
     return all;
   }
 
-  /// Returns the uncertainty in a few numbers. O(1,800 deviations).
+  /// Returns the uncertainty in a few numbers. Computes 1,440 intervals.
   [[nodiscard]] gonio::certainty certainty() const {
     std::vector<double> highlight;
     for (const half_difference& angles : detail::highlight_angles())
@@ -207,30 +208,32 @@ class reconstructed {
     return detail::certainty_of(half_widths(detail::certainty_cells()), std::move(highlight), measured_to);
   }
 
-  /// Tests whether the material is like those of the prior.
+  /// Returns how well the materials of the prior explain the samples.
   [[nodiscard]] gonio::familiarity familiarity() const { return known_.familiarity(); }
 
   // ---- samples ----
 
   /// Returns the inlier weight, from 0 to 1, of each sample of positive weight.
   [[nodiscard]] const Eigen::VectorXd& inlier_weights() const noexcept { return found_.weights; }
-  /// Returns the positions of samples whose inlier weight is below one half, the worst first.
+  /// Returns the positions of the samples that are probably wrong, the worst first.
   [[nodiscard]] const std::vector<Eigen::Index>& rejected() const noexcept { return found_.rejected; }
-  /// Returns the samples that the others contradict, the worst first; see `inliers`.
+  /// Returns the samples that all other samples contradict, the worst first; see `inliers`.
   [[nodiscard]] const std::vector<outlying_sample>& contradicted() const noexcept { return found_.contradicted; }
-  /// Returns the mean of 1 - inlier weight over all samples.
+  /// Returns the mean probability that a sample is wrong.
   [[nodiscard]] double outlier_share() const noexcept { return found_.outlier_share; }
-  /// Returns the number of samples that the fit uses.
+  /// Returns the number of samples whose inlier weight is at least 0.01.
   [[nodiscard]] Eigen::Index kept() const noexcept { return kept_; }
 
-  /// Returns each sample of positive weight with its prediction from all others. Rejected samples are included. O(n^3).
-  /// Throws gonio::error for more than `discrepancy_model::most_centres` samples.
+  /// Returns each sample of positive weight, with its prediction from all other samples. Rejected samples are included.
+  /// O(n^3) for n samples. Throws gonio::error for more than `discrepancy_model::most_centres` samples.
   [[nodiscard]] std::vector<sample_residual> residuals() const {
     if (!all_)
       refuse({"residuals can be computed for at most ", known_.expected().model.most_centres, " samples, not ",
               samples_->size()});
     const sample_predictions others = all_->predicted_without();
     const Eigen::VectorXd disagreement = others.disagreement();
+    std::vector<Eigen::Index> rejected = found_.rejected;
+    std::ranges::sort(rejected);
     std::vector<sample_residual> told;
     for (Eigen::Index i = 0; i < samples_->size(); ++i) {
       const location& at = samples_->locations[i];
@@ -240,7 +243,7 @@ class reconstructed {
                            .predicted = rgb::Zero(),
                            .relative_deviation = std::expm1(others.deviation[i]),
                            .disagreement = disagreement[i],
-                           .rejected = found_.weights[i] < 0.5};
+                           .rejected = std::ranges::binary_search(rejected, number_of(i))};
       for (Eigen::Index c = 0; c < 3; ++c)
         each.predicted[c] = reflectance_of(prior_.metric(), others.mean(i, c) + offset, at);
       if (readings_.size() > 0) each.predicted *= factor(i);
@@ -264,7 +267,8 @@ class reconstructed {
   [[nodiscard]] location located(const direction& wi, const direction& wo) const {
     return locate(prior_.cells(), to_half_difference(wi, wo));
   }
-  /// Returns a value of the fit. Fills a dip from the prior's rows that are farther from the mirror direction.
+  /// Returns a value of the fit. If it is in a dip at the mirror direction, raises it by the values at the prior's rows
+  /// of larger theta_h.
   template <class Value, class Evaluate, class Brightness>
   [[nodiscard]] Value filled(const location& at, Evaluate&& evaluate, Brightness&& brightness_of) const {
     const Value own = evaluate(at);

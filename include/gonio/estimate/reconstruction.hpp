@@ -1,9 +1,9 @@
 #pragma once
 /// Reconstructs a material from samples, with the uncertainty of every value and the samples that disagree. `gonio
 /// reconstruct` does this by default. Principal components (Nielsen et al. 2015, doi:10.1145/2816795.2818085, Eq. 12)
-/// are fitted together with a Gaussian process for everything that they cannot express (Kennedy and O'Hagan 2001,
-/// doi:10.1111/1467-9868.00294). With few measured directions the components decide, with many the measurements.
-/// Results on real materials, with families left out: docs/results/real-materials.md.
+/// are fitted together with a Gaussian process for all that the components cannot express (Kennedy and O'Hagan 2001,
+/// doi:10.1111/1467-9868.00294). With few samples, the components mainly determine the result; with many, it follows
+/// the samples. Results on real materials, with families left out: docs/results/real-materials.md.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/random.hpp>
@@ -27,13 +27,14 @@
 namespace gonio {
 
 /// Reconstructs a material from samples in four steps: maps the samples, finds the inliers by the samples' process,
-/// takes the mean of the inliers' process, and keeps that process for all questions about the result. An `estimator`.
+/// takes the mean of the inliers' process as the result, and keeps that process to compute uncertainties. An
+/// `estimator`.
 ///
 /// With m observations in the prior, the components have coefficients c ~ N(0, I / m), and the discrepancy has the
-/// variance `discrepancy_model::variance`. The mean of that process is ridge regression in its dual form: `tikhonov`
-/// with eta = m error_variance, on the components joined to the discrepancy's functions around the samples
-/// (docs/decisions/0019-discrepancy-beside-the-prior.md). Noise adds to the error variance of a sample and so lowers
-/// its weight.
+/// variance `discrepancy_model::variance`. The mean of the process of their sum is ridge regression in its dual form:
+/// `tikhonov` with eta = m error_variance, on the components and the discrepancy's functions around the samples
+/// together (docs/decisions/0019-discrepancy-beside-the-prior.md). Noise adds to the error variance of a sample and so
+/// lowers its weight.
 ///
 /// ```cpp
 /// const auto paint = gonio::reconstruction{prior}.fit(samples);
@@ -60,16 +61,17 @@ class reconstruction {
   [[nodiscard]] const pca<Metric>& prior() const noexcept { return prior_; }
   [[nodiscard]] const valid_cells& cells() const noexcept { return prior_.cells(); }
   [[nodiscard]] const discrepancy_model& model() const noexcept { return expected_.model; }
-  /// Returns the covariance that is expected before a material is measured.
+  /// Returns the covariance of a material before it is measured.
   [[nodiscard]] const expected_covariance& expected() const noexcept { return expected_; }
 
-  /// Fits samples in any channels, all by one process; each wavelength is fitted as a grey material. Inliers are found
-  /// by the samples' colours, or by three bands if no wavelength is visible. For n samples, k components and c centres:
-  /// O(n^2 (n + k)) up to `most_centres` samples, O(n (k + c)^2) for more. Throws gonio::error for unusable samples.
+  /// Fits samples in any channels, all channels by one process. Each wavelength is fitted as a grey material. Inliers
+  /// are found by the samples' colours, or by three bands if no wavelength is visible. For n samples, k components and
+  /// c centres: O(n^2 (n + k)) up to `most_centres` samples, O(n (k + c)^2) for more. Throws gonio::error for unusable
+  /// samples.
   ///
   /// A reading through an aperture is the value in a single direction times a factor. The factor is the mean of the fit
-  /// over the aperture's cones, divided by the fit on their axes. The fit is repeated three times with this factor
-  /// removed.
+  /// over the aperture's cones, divided by the fit on the cones' axes. The fit is repeated three times, each time with
+  /// the readings divided by this factor.
   [[nodiscard]] result_type fit(const sample_set& samples) const;
   /// Fits samples that are located on the prior's cells.
   [[nodiscard]] result_type fit_located(located_samples samples, std::vector<Eigen::Index> numbers = {}) const;
@@ -78,17 +80,17 @@ class reconstruction {
   [[nodiscard]] sample_process process_of(const located_samples& samples) const {
     return process_of_mapped(map_samples(prior_, samples, threads_));
   }
-  /// Returns the process, in three channels (`channels::three`), of the samples that `fit` would keep; of a random
-  /// subset if they are more than `most_centres`.
+  /// Returns the process, in three channels (`channels::three`), of the samples that `fit` would keep. If `fit` would
+  /// keep more than `most_centres`, takes `reconstructed::most_known` of them at random.
   [[nodiscard]] sample_process process_of_inliers(const located_samples& samples) const;
 
  private:
-  /// The samples that count, mapped, and their process if they are few enough.
+  /// The inliers, the mapped samples, and their processes if there are few enough samples.
   struct selection {
     inliers found;
-    std::optional<sample_process> all;      ///< of all samples
+    std::optional<sample_process> all;      ///< process of all samples
     located_samples kept;                   ///< mapped
-    std::optional<sample_process> process;  ///< of the kept samples
+    std::optional<sample_process> process;  ///< process of the kept samples
   };
 
   using solved = std::pair<basis_type, solution>;
@@ -98,20 +100,22 @@ class reconstruction {
   [[nodiscard]] sample_process process_of_mapped(const located_samples& mapped) const {
     return {expected_, locate_rows(prior_, mapped.locations), mapped, error_variances(mapped)};
   }
-  /// Returns the factors by which apertures change the values of samples that count, predicted by a fit.
+  /// Returns the factors by which apertures change the values of the samples at the positions `numbers`, as predicted
+  /// by a fit.
   [[nodiscard]] Eigen::MatrixXd aperture_factors(const sample_set& samples, const std::vector<Eigen::Index>& numbers,
                                                  const typename result_type::fit_type& fit) const;
-  /// Returns the process of the kept samples, or of a random subset.
+  /// Returns the process of the kept samples or, if they are many, of a random subset.
   [[nodiscard]] sample_process known_by(const selection& chosen) const;
 
   [[nodiscard]] solved solve(const located_samples& kept, const std::optional<sample_process>& process) const;
   [[nodiscard]] solved solve_around_centres(located_samples kept) const;
-  /// Returns a basis of the principal components and, for the discrepancy, its covariance functions at the centres.
+  /// Returns a basis of the principal components and of the discrepancy's covariance functions around the centres.
   [[nodiscard]] basis_type functions_around(const std::vector<half_difference>& centres) const {
     return {prior_, {prior_.cells(), prior_.metric(), discrepancy_functions::covariances(centres, model().lengths)}};
   }
 
-  /// Returns the variance of each sample's error: the model's plus that of the noise in the metric's domain.
+  /// Returns the variance of each sample's error in the metric's domain: the model's error variance plus the variance
+  /// of the noise.
   [[nodiscard]] Eigen::VectorXd error_variances(const located_samples& samples) const {
     Eigen::VectorXd variances = map_noise(prior_, samples.locations, model().noise, threads_).variance;
     for (Eigen::Index i = 0; i < variances.size(); ++i)
@@ -136,7 +140,7 @@ reconstruction<Metric>::reconstruction(pca<Metric> prior, const discrepancy_mode
   if (!positive(model.variance))
     refuse({"the variance of a discrepancy must be positive and finite, not ", model.variance});
   if (model.most_centres < 1 || model.most_samples < 1)
-    refuse("a discrepancy needs at least one centre and one sample");
+    refuse("most_centres and most_samples of a discrepancy must be at least 1");
 }
 
 template <error_metric Metric>
@@ -195,7 +199,7 @@ typename reconstruction<Metric>::solved reconstruction<Metric>::solve_around_cen
                           read_rows_at(whitened, all.subspan(range.begin, range.size()), out);
                         }};
   solution found = solve_rows(tikhonov(expected_.observations * model().error_variance), rows, kept, threads_);
-  // The last weights belong to combinations of covariances. Convert them to weights of the covariances.
+  // The last weights are those of combinations of covariance functions. Convert them to weights of the functions.
   Eigen::MatrixXd last(smooth.size(), found.weights.cols());
   const Eigen::Index first = found.weights.rows() - last.rows();
   for (Eigen::Index c = 0; c < last.cols(); ++c) std::copy_n(&found.weights(first, c), last.rows(), &last(0, c));
@@ -249,7 +253,7 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located
       std::make_shared<const located_samples>(kinds.are_colours() ? std::move(samples) : samples.in_three_channels());
   selection chosen = select(*colours);
   sample_process known = known_by(chosen);
-  if (!kinds.are_colours()) {  // the samples and the covariance stay, the values change
+  if (!kinds.are_colours()) {  // keep the samples and the covariance, change the values
     chosen.kept = weighted(map_samples(prior_, samples, threads_), chosen.found);
     if (chosen.process) chosen.process = chosen.process->with_values(chosen.kept.values);
   }

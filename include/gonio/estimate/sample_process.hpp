@@ -1,8 +1,8 @@
 #pragma once
 /// The samples of one material as a Gaussian process (Rasmussen and Williams, "Gaussian Processes for Machine
-/// Learning", 2006, chapters 2 and 5). Predicts other directions and each sample from the others, and tells how well
-/// the prior explains the samples. `reconstruction` uses it. Decision 19 explains why its mean is the ridge regression
-/// of Nielsen et al. 2015 (doi:10.1145/2816795.2818085, Eq. 12) with a discrepancy added.
+/// Learning", 2006, chapters 2 and 5). Predicts other directions, and each sample from all other samples. Measures how
+/// well the prior explains the samples. `reconstruction` uses it. Decision 19 explains why its mean is the ridge
+/// regression of Nielsen et al. 2015 (doi:10.1145/2816795.2818085, Eq. 12) with a discrepancy added.
 
 #include <gonio/basis/discrepancy.hpp>
 #include <gonio/estimate/located_samples.hpp>
@@ -19,47 +19,46 @@
 
 namespace gonio {
 
-/// Additional covariance for the uncertainty of a reconstruction. It would hardly improve the mean, but makes the
-/// intervals true. Chosen on measured materials without their families, from samples over all directions, below a
-/// theta_h and in planes: docs/decisions/0037-certainty-of-scans.md.
+/// Additional covariance for the uncertainty of a reconstruction. With it, the intervals contain the truth as often as
+/// stated. It would hardly improve the mean. Chosen on measured materials whose families were left out of the prior,
+/// from samples over all directions, below a theta_h and in planes: docs/decisions/0037-certainty-of-scans.md.
 struct doubt_model {
-  /// Variance of a material's deviation from its process. The deviation is known near samples and unknown far from all.
+  /// Variance of a material's deviation from its process. Only nearby samples determine this deviation.
   double variance = 1.0;
   correlation_lengths lengths{0.13, 0.55, 1.1};
-  /// Variance of errors that neighbouring samples share over the lengths of the discrepancy. With it, many close
-  /// samples say no more than a few.
+  /// Variance of errors that neighbouring samples share, with the correlation lengths of the discrepancy. Because of
+  /// these errors, many close samples reduce the uncertainty hardly more than a few.
   double shared_error_variance = 0.005;
 };
 
-/// Assumptions about materials that a prior has not seen, in the squared units of its metric (natural logarithms for
-/// `log_relative`). The defaults have the least error on twenty measured materials of the RGL database, each
-/// reconstructed by a prior without its family, at 5 to 500 measurements. Choosing them for each material by the
-/// marginal likelihood was worse there.
+/// Assumptions about materials that are not in a prior. Variances are in the squared units of the prior's metric
+/// (natural logarithms for `log_relative`). The defaults have the least error on twenty measured materials of the RGL
+/// database, each reconstructed by a prior without its family, at 5 to 500 measurements. Choosing the variances for
+/// each material by the marginal likelihood was worse.
 struct discrepancy_model {
-  double variance = 0.02;         ///< of the discrepancy
-  double error_variance = 0.007;  ///< of errors outside of prior and discrepancy, independent at each measurement
+  double variance = 0.02;         ///< variance of the discrepancy
+  double error_variance = 0.007;  ///< variance of all other errors, independent at each measurement
   correlation_lengths lengths = {};
-  /// Added to the error variance if light or viewer graze; falls by a factor of e for each 2.5 degrees above the
-  /// horizon.
+  /// Additional error variance if light or viewer graze the surface. It falls by a factor of e for each 2.5 degrees of
+  /// the angle above the horizon of the lower of the two.
   double grazing_variance = 0.05;
   doubt_model doubt = {};
-  double noise = 0.0;  ///< of the measurements, relative to their values: 0.02 is 2 %
-  /// Up to this many samples the process is exact. With more, this many random samples are the centres of the
-  /// discrepancy's functions, which smooths the discrepancy.
+  double noise = 0.0;  ///< standard deviation of the measurements, relative to their values: 0.02 is 2 %
+  /// Up to this many samples, the process is exact. If there are more, only this many random samples are centres of the
+  /// discrepancy's functions, which makes the discrepancy smoother.
   Eigen::Index most_centres = 1000;
-  /// Of more samples than this, a random subset of this size is fitted: with at most 1,100 functions, more change
-  /// little.
+  /// The largest number of samples to fit. If there are more, a random subset is fitted; more samples would hardly
+  /// change a fit of at most 1,100 functions.
   Eigen::Index most_samples = 200'000;
 };
 
-/// Returns 1 if light or viewer graze. Falls by a factor of e for each `reach` in radians that both are above the
-/// horizon.
+/// Returns exp(-a / reach), where a is the angle in radians above the horizon of light or viewer, whichever is lower.
 [[nodiscard]] double grazing_share(const half_difference& angles, double reach) noexcept;
 
-/// Returns the variance of an error at some angles, without noise.
+/// Returns the variance of a sample's error at some angles, without noise.
 [[nodiscard]] double error_variance_at(const discrepancy_model& model, const half_difference& angles) noexcept;
 
-/// A prior's functions at n locations.
+/// The k functions of a prior at n locations.
 struct located_rows {
   Eigen::MatrixXd rows;                 ///< n x k
   std::vector<half_difference> angles;  ///< n
@@ -74,57 +73,61 @@ template <basis Basis>
   return found;
 }
 
-/// The covariance of a material's mapped reflectance before any measurement, the same in each channel. A prior of m
-/// observations with components a(x), and a discrepancy, have k(x, y) = a(x)'a(y) / m + variance k_d(x, y).
+/// The covariance of a material's mapped reflectance before any measurement, the same in each channel. For a prior of m
+/// observations with components a(x), and a discrepancy with the correlation k_d, the covariance is k(x, y) = a(x)'a(y)
+/// / m + variance k_d(x, y).
 struct expected_covariance {
   double observations = 1.0;  ///< m
   discrepancy_model model;
   bool doubts = false;  ///< whether to add the variance of `discrepancy_model::doubt`
 
-  /// Returns the covariance of all pairs of n locations: n x n. O(n^2 k).
+  /// Returns the covariance of all pairs of n locations: n x n. O(n^2 k) for k components.
   [[nodiscard]] Eigen::MatrixXd among(const located_rows& all) const;
-  /// Returns the covariance of p locations with n others: p x n. O(p n k).
+  /// Returns the covariance of p locations with n other locations: p x n. O(p n k) for k components.
   [[nodiscard]] Eigen::MatrixXd between(const located_rows& some, const located_rows& others) const;
 };
 
-/// Predictions of n samples from other samples, in the metric's domain.
+/// Predictions of n samples, each from other samples, in the metric's domain.
 struct sample_predictions {
   Eigen::MatrixXd mapped;     ///< n x channels: the samples themselves
-  Eigen::MatrixXd mean;       ///< n x channels: predicted from the others
+  Eigen::MatrixXd mean;       ///< n x channels: predicted from other samples
   Eigen::VectorXd deviation;  ///< n: standard deviation of prediction and sample combined
 
-  /// Returns the mean square, over channels, of the prediction error in standard deviations: about 1 if the model is
-  /// right.
+  /// Returns, for each sample, the squared prediction error in units of its variance, averaged over channels: about 1
+  /// if the model is right.
   [[nodiscard]] Eigen::VectorXd disagreement() const;
 };
 
 /// How well the materials of a prior explain some samples.
 struct familiarity {
-  /// y' K^-1 y / n of n samples, the mean over channels: about 1 for the materials of the prior.
+  /// y' K^-1 y / n of n samples y with the covariance K, averaged over channels: about 1 for the materials of the
+  /// prior.
   double scale = 1.0;
-  /// From the F distribution with n and 4 degrees of freedom: assumes that channels are fully correlated, and that
-  /// materials differ in scale as those of docs/results/conformity.md do.
+  /// The probability that a material like those of the prior has at least the observed scale, by the F distribution
+  /// with n and 4 degrees of freedom. The p-value assumes that channels are fully correlated, and that the scales of
+  /// materials vary as in docs/results/conformity.md.
   double p_value = 1.0;
   /// Shares of y' K^-1 y: of the components (m |c|^2), of the discrepancy, and of the errors. Their sum is 1.
   double components = 0.0, discrepancy = 0.0, errors = 0.0;
 };
 
-/// Predictions of p other locations, given the samples.
+/// Predictions at p other locations, given the samples.
 struct process_prediction {
   Eigen::MatrixXd mean;        ///< p x channels, without the prior's mean
   Eigen::MatrixXd covariance;  ///< p x p, of each channel
 };
 
-/// n samples y, mapped minus the prior's mean, with the covariance K = k(X, X) + E, where E has the variances of their
-/// errors. A value type; copies share the covariance and everything computed from it, each once and on demand. Every
-/// member that needs K^-1 throws gonio::error if K is not positive definite.
+/// n samples y, mapped minus the prior's mean, at the locations X. The covariance of y is K = k(X, X) + E; the diagonal
+/// matrix E has the variances of the samples' errors. A value type. Copies share the covariance, its factors and its
+/// inverse, which are computed once, on demand. Every member that needs K^-1 throws gonio::error if K is not positive
+/// definite.
 class sample_process {
  public:
-  /// The weight of the model's own variance in a scale, as a number of samples.
+  /// The weight, as a number of samples, of a scale of 1 when a scale is estimated.
   static constexpr double known_before = 10.0;
 
-  /// `mapped` has y as its values. Each sample's entry of `error_variances` is divided by its weight. If channels have
-  /// weights of their own, the mean weight counts, except in `fit`. O(n^2 k).
+  /// `mapped` has y as its values. The diagonal of E is `error_variances` divided by the samples' weights. If weights
+  /// differ between channels, the mean over channels is used, except in `fit`. O(n^2 k) for k components.
   sample_process(const expected_covariance& expected, located_rows at, const located_samples& mapped,
                  const Eigen::VectorXd& error_variances);
 
@@ -142,37 +145,40 @@ class sample_process {
 
   /// Returns the same process with other values, n x any number of channels.
   [[nodiscard]] sample_process with_values(Eigen::MatrixXd values) const;
-  /// Returns the process with the additional covariance of `doubt_model`, for questions of uncertainty. O(n^2 k).
+  /// Returns the process with the additional covariance of `doubt_model`, for computing uncertainty. O(n^2 k).
   [[nodiscard]] sample_process with_doubts() const;
-  /// Returns the process of some samples, by position. Multiplies their weights by `inlier_weights`, if given.
-  /// O(size^2).
+  /// Returns the process of the samples at some positions. If given, `inlier_weights` (one for each sample of this
+  /// process) multiply the samples' weights. O(positions^2).
   [[nodiscard]] sample_process subset(std::span<const Eigen::Index> positions,
                                       const Eigen::VectorXd& inlier_weights = {}) const;
 
-  /// Returns the mean of the process as weights for each channel: of the prior's k components, then of n functions
-  /// k_d(X, x). The residual is weighted as in `tikhonov`; the KKT residual is that of K a = y. O(n^3 + n^2 channels).
+  /// Returns the mean of the process as weights for each channel: the weights of the prior's k components, followed by
+  /// those of the n functions k_d(X, x). The reported residual is weighted as in `tikhonov`. The KKT residual is the
+  /// largest |y - K a| relative to the largest |y|, with the solution a of K a = y. O(n^3 + n^2 channels).
   [[nodiscard]] solution fit() const;
 
   /// Predicts each sample from all others: Eq. 5.10 to 5.12. O(n^3).
   [[nodiscard]] sample_predictions predicted_without() const;
-  /// Predicts each of some samples from all samples except these, a row for each. O(n^3).
+  /// Predicts the samples at `positions`, one row each, from all other samples. O(n^3).
   [[nodiscard]] sample_predictions predicted_without(std::span<const Eigen::Index> positions) const;
 
   /// Returns the scale of all variances, s = (known_before + y' K^-1 y) / (known_before + n), averaged over channels.
-  /// It is large if the model explains the samples badly. It is learned like the variance of normal numbers.
+  /// It is large if the model explains the samples badly.
   [[nodiscard]] double scale() const;
-  /// Returns the scale of S = K - E, which excludes errors: (known_before + y' K^-1 S K^-1 y) / (known_before + tr K^-1
-  /// S). Many smooth samples show that their errors are small, but nothing about locations far from them. O(n^3).
+  /// Returns the scale of S = k(X, X), the covariance without any errors: (known_before + y' K^-1 S K^-1 y) /
+  /// (known_before + tr K^-1 S). Unlike this scale, `scale` also falls if many smooth samples show that their errors
+  /// are small, although this says nothing about locations far from them. O(n^3).
   [[nodiscard]] double scale_of_material() const;
-  /// Returns the standard deviation of the mapped value at one location, error included, for a scale of 1. `row` has k
-  /// numbers. Eq. 2.26. O(n (n + k)).
+  /// Returns the standard deviation of the mapped value at one location, including the error of a measurement, for a
+  /// scale of 1. `row` has the prior's k components at the location. Eq. 2.26. O(n (n + k)).
   [[nodiscard]] double deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const;
-  /// Returns the same deviation before any measurement. O(k).
+  /// Returns the standard deviation of `deviation` before any measurement. O(k).
   [[nodiscard]] double deviation_before(const Eigen::RowVectorXd& row, const half_difference& angles) const;
-  /// Predicts other locations: Eq. 2.25 and 2.26, without errors and the scale. O(n^3 + p^2 n).
+  /// Predicts the values at p other locations, given their covariance before any measurement: Eq. 2.25 and 2.26,
+  /// without errors of measurements and without the scale. O(n^3 + p^2 n).
   [[nodiscard]] process_prediction predict(const located_rows& places, Eigen::MatrixXd covariance_before) const;
 
-  /// Tests whether the material is like those that the prior was learned from. O(n^3).
+  /// Returns how well the materials of the prior explain the samples. O(n^3).
   [[nodiscard]] gonio::familiarity familiarity() const;
 
  private:
@@ -183,7 +189,7 @@ class sample_process {
     expected_covariance expected;
     located_rows at;
     Eigen::MatrixXd sample_weights;   ///< n x 1, or n x channels
-    Eigen::VectorXd error_variances;  ///< of a sample of weight 1
+    Eigen::VectorXd error_variances;  ///< error variances of samples of weight 1
     Eigen::MatrixXd covariance;
     mutable std::once_flag factorised, inverted;
     mutable std::optional<cholesky> factors;
@@ -192,7 +198,7 @@ class sample_process {
 
   sample_process(std::shared_ptr<const stored> shared, Eigen::MatrixXd values);
 
-  /// Returns the diagonal of E, from one column of the weights or from their mean.
+  /// Returns the diagonal of E, for the weights of one channel or for their mean over the channels.
   [[nodiscard]] static Eigen::VectorXd errors_of(const stored& parts, std::optional<Eigen::Index> column = {});
   [[nodiscard]] const cholesky& factors() const;
 

@@ -13,9 +13,9 @@
 
 namespace gonio {
 
-/// At most six strips of theta_h with equal numbers of samples, each cut into at most four parts of theta_d. Each
-/// region has at least eight samples, if there are that many. With a smaller limit chance would decide; with a larger
-/// one small sets would have a single region.
+/// Regions of samples: at most six strips of theta_h with equal numbers of samples, each cut into at most four parts of
+/// theta_d. If there are at least eight samples, each region has at least eight. In smaller regions, the scale of
+/// residuals would be chance; with larger ones, small sets would have a single region.
 class sample_regions {
  public:
   static constexpr Eigen::Index fewest_samples = 8;
@@ -25,7 +25,7 @@ class sample_regions {
 
   [[nodiscard]] Eigen::Index count() const noexcept { return strips_ * parts_; }
 
-  /// Returns the positions of all samples.
+  /// Returns the positions of all samples, region by region.
   [[nodiscard]] std::span<const Eigen::Index> all() const noexcept { return order_; }
   /// Returns the positions of one region's samples. The first regions are nearest to the highlight.
   [[nodiscard]] std::span<const Eigen::Index> operator[](Eigen::Index region) const noexcept {

@@ -16,11 +16,13 @@ struct scaled_likelihood {
 };
 
 /// Fits an `outlier_mixture` with an unknown centre by expectation-maximisation. `differences` are the logarithms of
-/// measurements minus those of a material.
+/// measurements minus the logarithms of a material's values, `outliers` the density of outliers at each measurement,
+/// and `start` the initial logarithm of the factor.
 [[nodiscard]] scaled_likelihood locate_mixture(const std::vector<double>& differences,
                                                const std::vector<double>& outliers, double start);
 
-/// Returns the best result of several starts, because the mode of the differences may be anywhere.
+/// Returns the most likely result of five starts, which are quantiles of the differences: a single start may end in a
+/// local maximum.
 [[nodiscard]] scaled_likelihood best_factor(const std::vector<double>& differences,
                                             const std::vector<double>& outliers);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// One prior for soft and one for specular materials; the measurements choose between them. Nielsen, Jensen and
+/// Two priors, one for soft and one for specular materials; the measurements decide which to use. Nielsen, Jensen and
 /// Ramamoorthi 2015 (doi:10.1145/2816795.2818085), section 8, decide whether a material is specular by the ratio of an
 /// in-peak to an out-of-peak sample. estimate/highlight_contrast.hpp defines the ratio.
 
@@ -28,10 +28,10 @@ class soft_or_specular_fit {
   }
   /// Returns the measured contrast; see `highlight_contrast`.
   [[nodiscard]] double contrast() const noexcept { return contrast_; }
-  /// Returns the fit itself: soft at index 0, specular at index 1.
+  /// Returns the fit of the chosen estimator: soft at index 0, specular at index 1.
   [[nodiscard]] const std::variant<Soft, Specular>& chosen() const noexcept { return fit_; }
 
-  /// Reflectance in sr^-1, at least zero; zero below the horizon.
+  /// Returns the reflectance in sr^-1, at least zero; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (const auto* soft = std::get_if<0>(&fit_)) return (*soft)(wi, wo);
     return (*std::get_if<1>(&fit_))(wi, wo);
@@ -47,12 +47,14 @@ class soft_or_specular_fit {
   double contrast_;
 };
 
-/// Fits measurements by the first estimator if their contrast is below the threshold, otherwise by the second. Both can
-/// be any estimators. The paper uses decompositions by the principal components of each half of a database.
+/// Fits measurements by the estimator `Soft` if their contrast is below the threshold, otherwise by `Specular`. Both
+/// can be any estimators. The paper uses decompositions by the principal components of the soft and of the specular
+/// materials of a database.
 ///
-/// Refuses measurements of which none is in the peak or none is out of it, because they do not distinguish soft from
-/// specular materials. In that case a single prior of all materials is better than a guess. If this may happen, call
-/// `highlight_contrast` first. Of the directions in the paper's Table 1, only the set of one direction is refused.
+/// To distinguish soft from specular materials takes a sample in the peak and a sample out of the peak. Throws
+/// gonio::error for measurements that lack either, for which `highlight_contrast` returns nothing; use a single prior
+/// of all materials for these. Of the sets of directions in the paper's Table 1, only the set of one direction lacks
+/// one of the two.
 ///
 /// ```cpp
 /// const auto reference = gonio::log_relative::to_median_of(materials);
@@ -65,8 +67,8 @@ class soft_or_specular_fit {
 template <estimator Soft, estimator Specular>
 class soft_or_specular {
  public:
-  /// `reference` and `regions` must be those used to find the threshold. Throws gonio::error unless the threshold is
-  /// finite and the highlight ends before the other region begins.
+  /// `reference` and `regions` must be those with which the threshold was found. Throws gonio::error unless the
+  /// threshold is finite and the region of the peak ends before the region outside of it begins.
   soft_or_specular(Soft soft, Specular specular, log_relative reference, double threshold,
                    highlight_regions regions = {})
       : soft_(std::move(soft)),
@@ -84,13 +86,13 @@ class soft_or_specular {
   [[nodiscard]] const Specular& specular() const noexcept { return specular_; }
   [[nodiscard]] double threshold() const noexcept { return threshold_; }
 
-  /// Returns the contrast of measurements. Throws gonio::error if they are unusable, or if none is in the peak or none
-  /// out of it.
+  /// Returns the contrast of measurements. Throws gonio::error if they are unusable, if none is in the peak, or if none
+  /// is out of the peak.
   template <sample_range Samples>
   [[nodiscard]] double contrast(const Samples& samples) const {
     if (const auto found = highlight_contrast(reference_, samples, regions_)) return *found;
-    refuse("the samples cannot distinguish soft from specular: one with theta_h up to " + in_degrees(regions_.in_peak) +
-           " and one with at least " + in_degrees(regions_.off_peak) + " are needed");
+    refuse("the choice of soft or specular needs a sample with theta_h up to " + in_degrees(regions_.in_peak) +
+           " and one with theta_h of at least " + in_degrees(regions_.off_peak));
   }
 
   /// Returns the kind of the material. Throws gonio::error as `contrast` does.
@@ -99,7 +101,7 @@ class soft_or_specular {
     return kind_of(contrast(samples));
   }
 
-  /// Fits by the chosen estimator, at its cost. Throws gonio::error as `contrast` and that estimator do.
+  /// Fits by the estimator that `choose` selects. Throws gonio::error as `contrast` and that estimator's `fit` do.
   template <sample_range Samples>
   [[nodiscard]] auto fit(const Samples& samples) const {
     using soft_fit = std::remove_cvref_t<decltype(soft_.fit(samples))>;

@@ -1,5 +1,5 @@
 #pragma once
-/// Ridge regression of samples by functions with known rows: `basis_equations` without a basis.
+/// Ridge regression of samples by functions whose rows are given: `basis_equations` without a basis.
 
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/row_source.hpp>
@@ -7,9 +7,9 @@
 
 namespace gonio {
 
-/// Returns the weights of k functions, k x channels. `rows` are the functions' values at the mapped samples. If all
-/// channels have the same sample weights, they are solved at once, otherwise one after the other. O(n k^2) for each
-/// solve.
+/// Returns the weights of k functions, k x channels. `rows` has the functions' values at the n mapped samples. If all
+/// channels have the same sample weights, solves once for all channels, otherwise once for each channel. O(n k^2) for
+/// each solve.
 [[nodiscard]] solution solve_rows(const tikhonov& solver, const row_source& rows, const located_samples& mapped,
                                   thread_count threads = {});
 

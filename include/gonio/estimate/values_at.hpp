@@ -13,8 +13,9 @@
 
 namespace gonio {
 
-/// Evaluates an estimate at locations on `cells`: by its `at` if it has these cells. Otherwise tabulates it if many
-/// locations are cells, and evaluates it in directions for the rest.
+/// Evaluates an estimate at n locations on `cells`: 3 x n. If the estimate is over the same cells, calls its `at`.
+/// Otherwise evaluates it in the directions of each location. If more than 4,096 locations are cells, first tabulates
+/// the estimate and reads these locations from the table.
 template <tabulated_brdf Fit>
 [[nodiscard]] channel_values values_at(const Fit& fit, const valid_cells& cells, const std::vector<location>& locations,
                                        thread_count threads = {}) {

@@ -1,10 +1,11 @@
 #pragma once
 /// Finds the wrong samples of a process. Disagreement that neighbours share belongs to the material; isolated
-/// disagreement is an error. A sample is an inlier, or has an error of large variance (mixtures of good and bad
-/// observations: Box and Tiao 1968, doi:10.1093/biomet/55.1.119). The process is extended by deviations that
-/// neighbouring samples share, near the highlight or everywhere; the samples' likelihood chooses their variances
-/// (Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, section 5.4.1). The constants were chosen
-/// on measured materials and in-plane scans of synthetic highlights: docs/decisions/0020-wrong-samples.md.
+/// disagreement is an error. Brightness and colour are judged separately, because an error of a single channel mainly
+/// changes the colour. Each either is right or has an error of large variance (Box and Tiao 1968,
+/// doi:10.1093/biomet/55.1.119). The covariance of the process includes deviations that neighbouring samples share,
+/// near the highlight or everywhere; their variances are those with the largest likelihood of the samples (Rasmussen
+/// and Williams, "Gaussian Processes for Machine Learning", 2006, section 5.4.1). The constants were chosen on measured
+/// materials and in-plane scans of synthetic highlights: docs/decisions/0020-wrong-samples.md.
 
 #include <gonio/estimate/sample_process.hpp>
 
@@ -18,58 +19,68 @@
 namespace gonio {
 
 /// Variances of deviations that belong to the material and not to errors, in the squared units of the metric (natural
-/// logarithms). They are variances of the channels' common part; each contrast of the channels has a tenth of them.
+/// logarithms), at a scale of 1 (`property_rule::scale`).
 struct shared_deviation {
   double everywhere = 0.0;
-  double in_highlight = 0.0;  ///< at theta_h = 0; a quarter of it at `rejection_rule::highlight_reach`
+  double in_highlight = 0.0;  ///< at theta_h = 0; at `rejection_rule::highlight_reach`, a quarter of this variance
 };
 
-/// Expected properties of wrong samples, and of right ones.
+/// Assumptions about one property of the samples: brightness or colour.
+struct property_rule {
+  /// Variance of a wrong sample's error in the metric's domain. The standard deviation 1.7 of the brightness is a
+  /// factor of 5.5 if the metric is a logarithm.
+  double error_variance = 2.9;
+  /// The scale of all variances of right samples is unknown. Its inverse gamma distribution for n samples has the mean
+  /// `scale` and `degrees` + n `degrees_per_sample` degrees of freedom.
+  double scale = 1.0, degrees = sample_process::known_before, degrees_per_sample = 1.0;
+};
+
+/// Assumptions about wrong samples and about right samples.
 struct rejection_rule {
-  /// The share of wrong samples has the distribution Beta(expected_number, 1). The odds that one of n samples is wrong
-  /// are about expected_number / n, and grow with the number of samples already called wrong.
-  double expected_number = 0.2;
-  /// Standard deviations of a wrong sample's error in the metric's domain: of the channels' common part (1.7 is a
-  /// factor of 5 if the metric is a logarithm), and of each channel in addition.
-  double common_error = 1.7, channel_error = 0.3;
+  /// The fraction of wrong samples has the distribution Beta(expected_number, 1), and each wrong sample lowers the
+  /// log-probability by `penalty`. The odds that a sample is wrong are exp(-penalty) (expected_number + w) / (n - w) if
+  /// w of n samples are already in the set of wrong samples.
+  double expected_number = 0.2, penalty = 1.2;
+  /// The brightness is the mean of the channels. The colour is two orthonormal contrasts between them, whose
+  /// log-likelihoods are averaged because the contrasts of a material are alike. Colours of one material deviate less
+  /// than its brightness, and by how much differs from one material to another.
+  property_rule brightness{};
+  property_rule colour{.error_variance = 1.0, .scale = 0.3, .degrees_per_sample = 0.1};
 
-  /// Variances of a wrong sample's error: in the mean of the channels times sqrt(3), and in each of their contrasts.
-  [[nodiscard]] double mean_variance() const noexcept {
-    return 3.0 * common_error * common_error + contrast_variance();
-  }
-  [[nodiscard]] double contrast_variance() const noexcept { return channel_error * channel_error; }
-
-  /// The largest share of samples that is rejected; one sample may always be.
+  /// The largest fraction of samples that the search calls wrong, but it may always call one wrong. It calls none wrong
+  /// if there are fewer than three samples.
   double largest_share = 0.6;
 
-  /// The variances of a shared deviation that are tried, ascending. Each step lowers the logarithm of the probability
-  /// by the penalty.
+  /// The variances of a shared deviation that are tried after 0, ascending. Each step to the next variance lowers the
+  /// log-probability by the penalty.
   std::vector<double> everywhere{0.1, 1.0}, in_highlight{0.3, 3.0};
   double everywhere_penalty = 6.0, highlight_penalty = 3.0;
   correlation_lengths everywhere_lengths{0.05, 0.2, 0.4}, highlight_lengths{0.05, 0.5, 1.0};
   double highlight_reach = radians(4.0);  ///< theta_h
-  /// Variance by which a material deviates from sample to sample if light or viewer graze, shared by the channels. It
-  /// falls by a factor of e for each `grazing_reach` that both are above the horizon.
+  /// Variance by which right samples with grazing light or viewer deviate independently. It falls by a factor of e for
+  /// each `grazing_reach` in radians above the horizon (`grazing_share`).
   double grazing_variance = 0.36, grazing_reach = radians(2.5);
 };
 
 struct wrong_sample {
-  Eigen::Index number = 0;   ///< its position among the samples
-  double probability = 0.0;  ///< that it is wrong
+  Eigen::Index number = 0;   ///< position of the sample among those of the process
+  double probability = 0.0;  ///< probability that the sample is wrong
 };
 
-/// The judgement of a process' samples. Also judges other samples.
+/// The result of judging the samples of a process: which are wrong. It can also judge other samples of the material.
 class judged_samples {
  public:
-  /// Returns the most probable set of wrong samples that the search found, the most certain first.
+  /// Returns the samples of which brightness or colour is wrong with a probability above one half, the most certainly
+  /// wrong first.
   [[nodiscard]] const std::vector<wrong_sample>& wrong() const noexcept { return wrong_; }
-  /// Returns for each sample the probability that it is wrong, if all others are as in the set.
+  /// Returns the probability that each sample is wrong, assuming that the sets which the search found are right about
+  /// all other samples. It is at most one half for samples beyond `rejection_rule::largest_share`.
   [[nodiscard]] const Eigen::VectorXd& probabilities() const noexcept { return probabilities_; }
-  /// Returns the deviations that the samples share.
-  [[nodiscard]] const shared_deviation& shared() const noexcept { return shared_; }
+  /// Returns the variances of the deviations that the samples share in brightness.
+  [[nodiscard]] shared_deviation shared() const { return brightness_ ? brightness_->shared : shared_deviation{}; }
 
   /// Returns the probabilities that p other samples of the material are wrong, each judged separately. `mapped` and
-  /// `error_variances` are those of the other samples. O(p n (n + k)).
+  /// `error_variances` are those of the other samples. O(p n (n + k)) for n samples of the process and k components.
   [[nodiscard]] Eigen::VectorXd probabilities(const located_rows& others, const Eigen::MatrixXd& mapped,
                                               const Eigen::VectorXd& error_variances) const;
 
@@ -77,21 +88,34 @@ class judged_samples {
   friend judged_samples judge_samples(const sample_process& samples, const rejection_rule& rule,
                                       std::span<const std::vector<bool>> starts);
 
+  /// A property of the judged samples, and what is needed to judge other samples by it.
+  struct judged_property {
+    property_rule rule;
+    Eigen::MatrixXd values;    ///< n x 1 or n x 2
+    Eigen::VectorXd log_odds;  ///< that the property of each sample is wrong
+    cholesky factors;          ///< of the covariance
+    shared_deviation shared;
+    double scale = 1.0, prior_log_odds = 0.0;
+  };
+
+  /// Returns the logarithm of the odds that a property of each of some other samples is wrong. `covariance` has the
+  /// covariance of the judged samples with the others.
+  [[nodiscard]] Eigen::VectorXd log_odds(const judged_property& known, const located_rows& others,
+                                         const Eigen::MatrixXd& values, const Eigen::VectorXd& error_variances,
+                                         const Eigen::MatrixXd& covariance) const;
+
   std::vector<wrong_sample> wrong_;
   Eigen::VectorXd probabilities_;
-  shared_deviation shared_;
   rejection_rule rule_;
   expected_covariance expected_;
   located_rows at_;
-  Eigen::MatrixXd values_;                    ///< the mean of the channels times sqrt(3), and their contrasts
-  std::optional<cholesky> mean_, contrasts_;  ///< factors of their covariances
-  double scale_ = 1.0, log_odds_ = 0.0;
+  std::optional<judged_property> brightness_, colour_;  ///< none if the property was not judged
 };
 
-/// Judges the samples of a process, each in three channels. The search starts without wrong samples, and from each of
-/// `starts`. It changes the side of one sample, or of two, while that raises the probability of the whole set; the
-/// scale of all variances is unknown. O(n^3 + n^2 rejected) for each start and each variance of the rule. Throws
-/// gonio::error for an impossible rule.
+/// Judges the samples of a process, each in three channels. Grey samples are judged by their brightness alone. The
+/// search starts from an empty set of wrong samples, and from each set of `starts` (true for a wrong sample). It adds
+/// or removes one sample, or adds two, while that raises the probability of the set. O(n^3 + n^2 wrong samples) for
+/// each property, each start and each variance of the rule, for n samples. Throws gonio::error for an impossible rule.
 [[nodiscard]] judged_samples judge_samples(const sample_process& samples, const rejection_rule& rule = {},
                                            std::span<const std::vector<bool>> starts = {});
 

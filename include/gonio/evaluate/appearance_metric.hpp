@@ -6,7 +6,6 @@
 
 namespace gonio {
 
-/// The appearance of the spheres under both lightings.
 struct appearance {
   sphere_appearance lights;
   sphere_appearance environment;
@@ -18,8 +17,9 @@ struct appearance_difference {
   double environment = 0.0;
 };
 
-/// Renders tables over given cells and compares the images as an observer of a display would. It consists of two
-/// sphere_delta_e, except for the exposure: a white Lambertian sphere has mean luminance 1 for every table.
+/// Renders tables over given cells and compares the images as an observer of a display would. Uses a `sphere_delta_e`
+/// for each lighting, but with the same exposure for every table: the exposure at which a white Lambertian sphere has
+/// mean luminance 1.
 class appearance_metric {
  public:
   /// Prepares the spheres. Needs the time and memory of two `sphere_operator`s.
@@ -27,7 +27,7 @@ class appearance_metric {
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return lights_.cells(); }
 
-  /// Operators of both lightings, which give the spheres' linear colours before clipping.
+  /// Return the operators of the two lightings. An operator gives a sphere's linear colours before clipping.
   [[nodiscard]] const render::sphere_operator& lights() const noexcept { return lights_.sphere(); }
   [[nodiscard]] const render::sphere_operator& environment() const noexcept { return environment_.sphere(); }
 

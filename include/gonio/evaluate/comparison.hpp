@@ -1,8 +1,8 @@
 #pragma once
-/// Error measures of an estimated table against its truth. None suffices alone: the mapped error is not perceptual, and
-/// a mean colour difference misses a lost highlight. Nielsen, Jensen and Ramamoorthi, "On Optimal, Minimal BRDF
-/// Sampling for Reflectance Acquisition", SIGGRAPH Asia 2015 (doi:10.1145/2816795.2818085), Eq. 1-2 (mapping, cosine
-/// weight).
+/// Error measures of an estimated table against its truth. No measure suffices alone: the mapped error is not
+/// perceptual, and a mean colour difference hardly changes if a highlight is lost. Nielsen, Jensen and Ramamoorthi, "On
+/// Optimal, Minimal BRDF Sampling for Reflectance Acquisition", SIGGRAPH Asia 2015 (doi:10.1145/2816795.2818085), Eq.
+/// 1-2 (mapped error, cosine-weighted error).
 
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/metric/error_metric.hpp>
@@ -14,7 +14,8 @@
 
 namespace gonio {
 
-/// The difference between an estimate and the truth. For values per channel, `.mean()` is the mean over the channels.
+/// The difference between an estimate and the truth. An `rgb` has a value for each channel; its `.mean()` is the mean
+/// over the channels.
 struct comparison {
   /// Root mean square of the difference in a metric's mapped domain, over the truth's cells.
   rgb mapped_rms = rgb::Zero();
@@ -23,16 +24,15 @@ struct comparison {
   /// Mean CIELAB difference of spheres under the two lights and under the environment; see appearance_metric.
   double delta_e_lights = 0.0;
   double delta_e_env = 0.0;
-  /// Highlight peak of the estimate over that of the truth; see highlight_peak. If the truth's is zero: 1 if the
-  /// estimate's is also zero, otherwise infinite.
+  /// Ratio of the highlight peaks (`highlight_peak`), estimate to truth. If the truth's peak is zero, the ratio is 1 if
+  /// the estimate's is also zero, otherwise infinite.
   rgb peak_ratio = rgb::Ones();
 };
 
 /// Returns the height of a table's highlight for each channel: the 99.9th percentile (interpolated between order
-/// statistics) over the cells with theta_h below 5 degrees, or over those of the grid's smallest theta_h if it has none
-/// below. Negative percentiles count as zero. Ignores cells with theta_d above `largest_theta_d`. Without this limit
-/// the grazing rim would determine the result, because it is brighter than any highlight. (For red paint, the 0.1 %
-/// above the percentile end at 86 degrees.)
+/// statistics) over the cells with theta_h below 5 degrees or, if there is none, with the grid's smallest theta_h.
+/// Negative percentiles count as zero. Ignores cells with theta_d above `largest_theta_d`: grazing cells are brighter
+/// than any highlight and would determine the result.
 [[nodiscard]] rgb highlight_peak(const brdf_table& table, double largest_theta_d = radians(70.0));
 
 namespace detail {
@@ -59,7 +59,8 @@ class metric_places {
   bool same_;
 };
 
-/// Sums of squares over cells: three of mapped differences, then three of cosine-weighted differences.
+/// Sums of squared differences over cells: three of mapped values (one for each channel), then three of cosine-weighted
+/// values.
 using squared_differences = Eigen::Array<double, 6, 1>;
 
 template <error_metric Metric>
@@ -87,7 +88,7 @@ template <error_metric Metric>
 }  // namespace detail
 
 /// Evaluates all error measures of an estimate over the truth's cells. An estimate over another grid is interpolated.
-/// The mapped and cosine-weighted errors use values as they are, so `metric` determines the effect of a negative value.
+/// The mapped and cosine-weighted errors use unclamped values; `metric` determines the effect of a negative value.
 /// Throws gonio::error unless `appearance` is over the truth's cells. The bytes do not depend on the number of threads.
 template <error_metric Metric>
 [[nodiscard]] comparison compare(const brdf_table& estimate, const brdf_table& truth, const Metric& metric,

@@ -1,7 +1,7 @@
 #pragma once
-/// Chooses the next measurement, given those already made: the one that minimises the expected visible error of the
-/// estimate on spheres. Glossy materials need other directions than matte ones. Results on measured materials, with
-/// families left out: docs/results/adaptive-design.md.
+/// Chooses the next measurement, given those already made. It minimises the expected visible error of the estimate on
+/// spheres. Glossy materials need other directions than matte ones. Results on measured materials, with families left
+/// out: docs/results/adaptive-design.md.
 
 #include <gonio/design/search.hpp>
 #include <gonio/design/sequential_design.hpp>
@@ -19,15 +19,14 @@
 
 namespace gonio {
 
-/// A recommended measurement.
 struct next_measurement {
   direction_pair pose;            ///< light and viewer
-  half_difference angles;         ///< the same as half and difference angles
-  double expected_delta_e = 0.0;  ///< expected error after it: the deviation of the mean Delta E, linearised
+  half_difference angles;         ///< half and difference angles of `pose`
+  double expected_delta_e = 0.0;  ///< rms Delta E after the measurement, averaged over sphere points
 };
 
-/// Chooses measurements for an estimator. It linearises the perceived error at the estimate from the samples, so the
-/// choice depends on their values. The uncertainty of a Gaussian process alone would not.
+/// Chooses measurements for an estimator. It linearises the perceived error at the estimate, so the choice depends on
+/// the values of the samples. (The uncertainty of a Gaussian process depends only on their directions.)
 ///
 /// ```cpp
 /// const gonio::measurement_chooser chooser{gonio::reconstruction{prior}};
@@ -48,15 +47,17 @@ class measurement_chooser {
   [[nodiscard]] const design::sequential_design<Metric>& candidates() const noexcept { return design_; }
 
   /// Returns the best `count` measurements to add to some samples, chosen one after another without knowing their
-  /// readings. Measures no candidate cell twice, and none that the apparatus cannot reach. O(count points
-  /// candidates^2). Throws gonio::error for unusable samples, and if there are fewer candidates.
+  /// readings. Chooses no cell that already has a sample, and no pose that the apparatus or `is_reachable` excludes.
+  /// O(count points candidates^2). Throws gonio::error for unusable samples, and if fewer than `count` candidates are
+  /// left.
   [[nodiscard]] std::vector<next_measurement> choose(
       const sample_set& samples, Eigen::Index count,
       const std::function<bool(const direction_pair&)>& is_reachable = {}) const {
     std::vector<bool> free = free_candidates(samples);
     for (Eigen::Index i = 0; is_reachable && i < std::ssize(free); ++i)
       free[i] = free[i] && is_reachable(design_.geometry().centre(i));
-    if (std::ranges::count(free, true) < count) refuse({"there are fewer than ", count, " unmeasured candidates"});
+    if (const auto left = std::ranges::count(free, true); left < count)
+      refuse({"a count of ", count, " exceeds the ", left, " directions that can be reached and are not measured yet"});
     std::optional<sample_process> process;
     if (!samples.empty()) process = design_.estimator().process_of_inliers(locate(samples));
     design::candidate_posterior known = process ? design_.posterior_of(*process) : design_.prior();
@@ -65,7 +66,6 @@ class measurement_chooser {
     const double scale = process ? process->scale() : 1.0;
     std::vector<next_measurement> chosen;
     while (std::ssize(chosen) < count) {
-      // The best candidate in addition to those already chosen.
       const std::vector<double> deviations =
           design::seen_deviation_with_each(known.covariance, seen, design_.error_variances(), threads_);
       const auto value = [&](Eigen::Index i) {

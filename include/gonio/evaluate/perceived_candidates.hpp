@@ -1,7 +1,8 @@
 #pragma once
 /// Scores candidates for a measurement by the visible error: the mean Delta E of spheres between a prior's materials
-/// and their `reconstruction` from samples, with each material's family left out of the prior. It is the measure of
-/// `next_measurement.hpp` before any reading. docs/results/adaptive-design.md compares criteria on measured materials.
+/// and their `reconstruction` from samples, with each material's family left out of the prior. It plans before any
+/// reading; `next_measurement.hpp` plans after the first readings. docs/results/adaptive-design.md compares criteria on
+/// measured materials.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/rgb.hpp>
@@ -23,12 +24,13 @@
 namespace gonio {
 
 struct perceived_options {
-  /// Weight of the variance that the process states in the squared error. The rest is the weight of the squared error
-  /// of the material's own values.
+  /// The Delta E of a point combines the variance that the process states with the squared error of the material's
+  /// reconstruction. This is the weight of the variance, from 0 to 1; the squared error has the rest.
   double variance_share = 0.5;
-  Eigen::Index most_materials = 48;  ///< if the prior has more, this many are used, evenly spaced
+  Eigen::Index most_materials = 48;  ///< the largest number of materials, evenly spaced among all
   int sphere_size = 8;               ///< number of points across each sphere
-  /// The criterion is the power mean of the materials' Delta E with this exponent. 1 is the mean, 8 nearly the maximum.
+  /// The criterion is the power mean of the materials' Delta E with this exponent. 1 gives the mean, 8 nearly the
+  /// maximum.
   double power = 1.0;
 };
 
@@ -54,10 +56,10 @@ template <error_metric Metric>
 /// A `design::sweeping_objective`. Its value is the mean Delta E over the materials, linearised at each; with
 /// `perceived_options::power` it is a power mean.
 ///
-/// Without a family, the process has the covariance P. Given samples y_X of one of the family's materials, a point of a
-/// sphere with the slopes s has the error e = s (y - P_X K^-1 y_X), and the process states the variance v = s (P - P_X
-/// K^-1 P_X') s'. The Delta E of the point is the square root of a mixture of e^2 and v, summed over the channels. One
-/// more candidate changes e and v by a matrix of rank one.
+/// Let P be the covariance of the process without a family, y the mapped values of one of the family's materials, and
+/// y_X its samples, with the covariance K. A point of a sphere with the slopes s then has the error e = s (y - P_X K^-1
+/// y_X), and the process states the variance v = s (P - P_X K^-1 P_X') s'. The Delta E of the point is the square root
+/// of a weighted mean of e^2 and v, summed over the channels. One more sample changes e and v by an update of rank one.
 ///
 /// ```cpp
 /// const gonio::design::sequential_design cells(gonio::reconstruction{prior}, gonio::design::usual_apparatus());
@@ -66,8 +68,8 @@ template <error_metric Metric>
 /// ```
 class perceived_candidates {
  public:
-  /// 4 bytes per candidate, point, channel and material: 160 MB by default. At most O(candidates^2 x points x
-  /// materials). Throws gonio::error for options out of range, and unless the prior has two families.
+  /// Needs 4 bytes for each candidate, point, channel and material: 190 MB by default. At most O(candidates^2 x points
+  /// x materials). Throws gonio::error for options out of range, and unless the prior has two families.
   template <error_metric Metric>
   explicit perceived_candidates(const design::sequential_design<Metric>& candidates,
                                 const perceived_options& options = {}, thread_count threads = {})
@@ -98,33 +100,34 @@ class perceived_candidates {
   [[nodiscard]] const design::point_geometry& geometry() const noexcept { return geometry_; }
   [[nodiscard]] Eigen::Index materials() const noexcept { return materials_; }
 
-  /// Returns the value for measurements at some candidates. O(n points materials).
+  /// Returns the value for measurements at n candidates. O(n points materials).
   [[nodiscard]] double operator()(std::span<const Eigen::Index> cells) const;
 
-  /// Returns the values for measurements at some candidates and one more: one value for each additional candidate,
-  /// infinity if the apparatus cannot reach it. O(candidates n points materials).
+  /// Returns one value for each candidate: that for measurements at `cells` and at this candidate, or infinity if the
+  /// apparatus cannot reach the candidate. O(candidates n points materials) for n cells.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells) const;
-  /// Returns the same bytes for a range of the candidates, which must begin at a multiple of `sweep_block`.
+  /// Returns the values of `errors_with_each(cells)`, with the same bytes, for a range of the candidates. The range
+  /// must begin at a multiple of `sweep_block`.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells, block range) const;
 
   static constexpr Eigen::Index sweep_block = 64;
 
  private:
-  /// Positions among a prior's names: all members of a family, and those that are evaluated.
+  /// Positions of a family's materials among a prior's names: of all members, and of the members that are evaluated.
   struct family {
     std::vector<Eigen::Index> members, judged;
   };
-  /// A material at the n candidates, in three visible channels: n x 3, minus the prior's mean.
+  /// The mapped values of a material at the n candidates in three channels, n x 3, minus the prior's mean.
   struct seen_material {
     Eigen::MatrixXd mapped;
     design::sensitivity slopes;
   };
-  /// A family's materials under the prior of the others: P = Q W + the discrepancy's covariance.
+  /// A family's materials under the prior of all other families: P = Q W + the discrepancy's covariance.
   struct left_out {
     Eigen::MatrixXd weights;            ///< W: k x n
-    Eigen::MatrixXd mapped;             ///< n x 3 per material, minus the others' mean
-    Eigen::MatrixXf seen;               ///< s P: the points of each material and channel, x n
-    Eigen::VectorXf errors, variances;  ///< before any measurement
+    Eigen::MatrixXd mapped;             ///< n x 3 per material, minus the mean of the other families
+    Eigen::MatrixXf seen;               ///< s P: (points of each material and channel) x n
+    Eigen::VectorXf errors, variances;  ///< e and v before any measurement
     [[nodiscard]] Eigen::Index materials() const noexcept { return mapped.cols() / 3; }
   };
   struct remainder;
@@ -133,18 +136,20 @@ class perceived_candidates {
                        const expected_covariance& expected, const perceived_options& options, thread_count threads);
 
   [[nodiscard]] std::vector<family> families_of(const std::vector<std::string>& names) const;
-  /// Returns F with F F' = the discrepancy's covariance, except for a hundredth of its variance.
+  /// Returns F such that F F' is the discrepancy's covariance, with an error of up to a hundredth of its variance.
   [[nodiscard]] Eigen::MatrixXf discrepancy_factor() const;
-  /// `members` has a column for each left-out observation.
+  /// Leaves a family out of the prior. `members` has a column for each of the family's observations.
   void leave_out(const Eigen::MatrixXd& members, const std::vector<seen_material>& seen,
                  const Eigen::MatrixXf& discrepancy);
   [[nodiscard]] remainder remains(const left_out& some, std::span<const Eigen::Index> cells) const;
-  /// Returns the mean Delta E of one material from e and v of all its points, raised to the power in the options.
+  /// Returns the mean Delta E of one material, raised to `perceived_options::power`, from the errors e and variances v
+  /// of all its points.
   [[nodiscard]] double seen_power(const Eigen::Ref<const Eigen::ArrayXf>& errors,
                                   const Eigen::Ref<const Eigen::ArrayXf>& variances) const;
-  /// Returns the power mean over the materials from the sum of `seen_power`.
+  /// Returns the power mean over the materials, given the sum of their `seen_power`.
   [[nodiscard]] double power_mean(double sum) const;
-  /// Adds to the sums the `seen_power` of a family's materials with each candidate of a range.
+  /// Adds to `sums`, for each candidate of a range, the `seen_power` of the family's materials after measurements at
+  /// `cells` and at the candidate.
   void add_with_each(const left_out& some, std::span<const Eigen::Index> cells, block range,
                      std::vector<double>& sums) const;
 

@@ -1,5 +1,6 @@
 #pragma once
-/// A norm for `expected_error` that measures the visible effect of errors in a basis' weights, for perceptual designs.
+/// A norm of the errors of a basis' weights that measures how visible they are. `expected_error` takes it for
+/// perceptual designs.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -20,7 +21,7 @@ namespace detail {
 /// Returns d L* / d Y of a grey of luminance Y on a display with white 1; 0 above white.
 [[nodiscard]] double lightness_slope(double luminance) noexcept;
 
-/// Returns the derivative of one point's lightness by the weights, for each observation of a basis: m x k.
+/// Returns the derivative of one point's lightness by the k weights, for each of a basis' m observations: m x k.
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXf lightness_jacobian(const pca<Metric>& basis, const render::sphere_operator& sphere,
                                                  Eigen::Index point) {
@@ -34,7 +35,7 @@ template <error_metric Metric>
   Eigen::MatrixXf components(basis.size(), entries);
   for (Eigen::Index e = 0; e < entries; ++e) components.col(e) = basis.components().row(cells[e]);
 
-  // Each observation's reflected light in each direction, and its derivative by the mapped value.
+  // Sum each observation's reflected light, and compute its derivative by each mapped value.
   constexpr double step = 0.05;
   Eigen::MatrixXf mapped = product(basis.coefficients(), components);
   Eigen::VectorXd luminances = Eigen::VectorXd::Zero(mapped.rows());
@@ -56,13 +57,14 @@ template <error_metric Metric>
 
 }  // namespace detail
 
-/// Returns M, k x k. x'Mx is the mean squared change of a sphere's CIELAB lightness when an observation's weights
-/// change by a small x. The mean is over the points of the sphere and the observations that the basis was learned from.
+/// Returns M, k x k: x'Mx is the mean squared change of a sphere's CIELAB lightness when the k weights of an
+/// observation change by a small x. The mean is over the points of the sphere and the observations that the basis was
+/// learned from.
 ///
-/// For `expected_error(basis, options, M)`: cells count by their contribution to the visible image, errors that cancel
-/// within a point's light cancel here, and light above white is ignored. Each colour channel is treated as grey. 4 k m
-/// operations for each entry of the sphere, 2 k^2 m for each point. The bytes do not depend on the number of threads.
-/// Throws gonio::error if the sphere is over other cells.
+/// Use it in `expected_error(basis, options, M)`. Cells count by their contribution to the visible image, errors may
+/// cancel in the light of a point, and light above white is ignored. Each colour channel is treated as grey. Costs 4 k
+/// m operations for each entry of the sphere and 2 k^2 m for each point, for m observations. The bytes do not depend on
+/// the number of threads. Throws gonio::error if the sphere is over other cells.
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, const render::sphere_operator& sphere,
                                              thread_count threads = {}) {
@@ -87,7 +89,7 @@ template <error_metric Metric>
 }
 
 /// Returns the mean of M for two spheres: under two directional lights, and under the closed-form environment
-/// (render/lighting.hpp). The resolution is chosen so that it takes seconds.
+/// (render/lighting.hpp). The spheres are coarse enough to take only seconds.
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, thread_count threads = {}) {
   constexpr int size = 20;

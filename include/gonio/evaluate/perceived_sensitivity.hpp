@@ -1,6 +1,6 @@
 #pragma once
-/// The visible effect of a change of a material, linearised at its estimate: CIELAB 1976 over the points of spheres. It
-/// is specific to one material; `perceived_norm` is a mean over the materials of a prior.
+/// The visible effect of changing a material, linearised at its estimate: CIELAB 1976 over the points of spheres. It is
+/// specific to one material; `perceived_norm` is a mean over the materials of a prior.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/sequential_design.hpp>
@@ -20,19 +20,20 @@ namespace gonio {
 /// equal weight. A value type: 24 bytes for each point and cell.
 class perceived_sensitivity {
  public:
-  /// Each sphere has `size` x `size` points.
+  /// Each sphere is `size` points across.
   explicit perceived_sensitivity(valid_cells cells, int size = 14, thread_count threads = {});
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
 
-  /// Returns the derivatives of CIELAB colours by the mapped values of each channel at the cells. Takes the estimate's
-  /// reflectance there in sr^-1 and its derivative by the mapped value: cells x 3 each. Weights sum to 1, so deviations
-  /// are those of a mean Delta E. Light above white is ignored. O(points x cells). Throws gonio::error for sizes that
-  /// do not match.
+  /// Returns by how much the CIELAB colour of each point changes, as a distance, for each unit of a channel's mapped
+  /// value at a cell. Takes the estimate's reflectance at the cells in sr^-1 and the derivative of reflectance by the
+  /// mapped value: cells x 3 each. The weights of the points sum to 1, so `seen_deviation` is a mean Delta E. Light
+  /// above white is ignored. O(points x cells). Throws gonio::error for sizes that do not match.
   [[nodiscard]] design::sensitivity operator()(const Eigen::MatrixXd& reflectance,
                                                const Eigen::MatrixXd& derivative) const;
 
-  /// Likewise, at mapped values: cells x 3, at the cells' locations on a metric's cells.
+  /// Returns the sensitivity of an estimate given as mapped values, cells x 3. `locations` are the locations of this
+  /// sphere's cells on the metric's cells.
   template <error_metric Metric>
   [[nodiscard]] design::sensitivity at(const Metric& metric, std::span<const location> locations,
                                        const Eigen::MatrixXd& mapped) const {

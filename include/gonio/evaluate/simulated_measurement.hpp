@@ -2,6 +2,7 @@
 /// Simulates measurements from a table, with the defects of real ones. Noell et al. 2014, section 3.1 (data ratio,
 /// outlier ratio), and relative noise as in Nielsen et al. 2015 (doi:10.1145/2816795.2818085).
 
+#include <gonio/core/brdf.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -14,22 +15,23 @@
 #include <numeric>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gonio {
 
-/// The defects of a simulated measurement.
 struct measurement_defects {
-  /// Fraction of the samples whose value is replaced by that of a random cell of the table.
+  /// Fraction of the samples that are outliers: their value is replaced by that of a random cell of the table.
   double outlier_ratio = 0.0;
   /// Standard deviation of Gaussian noise relative to the value, independent in each channel.
   double noise = 0.0;
-  /// Values are means over its cones, each of `pairs_a_reading` pairs of directions.
+  /// Each value is the mean over the cones of the aperture, computed from `pairs_a_reading` pairs of directions.
   gonio::aperture aperture = {};
   static constexpr int pairs_a_reading = 512;
 };
 
-/// Rotates a direction above the horizon by an angle in radians towards a random side. Keeps it above the horizon.
+/// Turns a direction by an angle in radians towards a random azimuth. Returns it unchanged if the result would be at or
+/// below the horizon.
 template <class Generator>
 [[nodiscard]] direction misplaced(const direction& w, double angle, Generator& generator) {
   std::uniform_real_distribution<double> any_side(0.0, 2.0 * std::numbers::pi);
@@ -41,7 +43,7 @@ template <class Generator>
 [[nodiscard]] sample_set sample_table_misplaced(const brdf_table& table, std::span<const direction_pair> pairs,
                                                 double angle, std::uint64_t seed = 0);
 
-/// Returns the number that is the fraction `share`, between 0 and 1, of `all`: at least one.
+/// Returns the fraction `share` (0 to 1) of the number `all`, rounded, at least 1.
 [[nodiscard]] inline Eigen::Index share_of(Eigen::Index all, double share) noexcept {
   return std::max<Eigen::Index>(std::llround(share * static_cast<double>(all)), 1);
 }
@@ -50,12 +52,12 @@ template <class Generator>
 /// cells.
 [[nodiscard]] std::vector<Eigen::Index> random_cells(const valid_cells& cells, Eigen::Index count, std::uint64_t seed);
 
-/// Returns the cells nearest to directions; a cell occurs twice if two directions share it. Throws gonio::error that
-/// names a direction without a valid cell.
+/// Returns the cell nearest to each direction; a cell occurs twice if two directions share it. Throws gonio::error
+/// naming the first direction without a valid cell.
 [[nodiscard]] std::vector<Eigen::Index> cells_at(const valid_cells& cells, std::span<const half_difference> directions);
 
-/// Adds defects to samples, determined by the seed. `any_value(generator)` is the value of an outlier. Throws
-/// gonio::error for an outlier ratio outside [0, 1] or negative noise.
+/// Adds outliers and noise to samples. The seed determines them. `any_value(generator)` returns the value of an
+/// outlier. Throws gonio::error for an outlier ratio outside [0, 1] or negative noise.
 template <class AnyValue>
 [[nodiscard]] sample_set corrupt(sample_set samples, const measurement_defects& defects, std::uint64_t seed,
                                  AnyValue&& any_value) {
@@ -64,7 +66,7 @@ template <class AnyValue>
   if (!(defects.noise >= 0.0 && std::isfinite(defects.noise)))
     refuse("the noise must be finite and not negative, not " + std::to_string(defects.noise));
 
-  // Replace exactly the requested fraction, so that a ratio means the same for 20 samples and for a million.
+  // Replace exactly the requested fraction, so that 20 samples have the same ratio as a million.
   std::mt19937_64 generator(seed);
   std::vector<Eigen::Index> order(samples.size());
   std::iota(order.begin(), order.end(), Eigen::Index{0});
@@ -81,17 +83,42 @@ template <class AnyValue>
   return samples;
 }
 
-/// Returns the table's values at cells, at the cells' own angles, with defects. An outlier has the value of a random
-/// cell. Throws as `corrupt` does.
+/// Returns samples of the table at some cells, with defects; their angles are those of the cells. An outlier has the
+/// value of a random cell. Throws as `corrupt` does.
 [[nodiscard]] sample_set sample_table(const brdf_table& table, std::span<const Eigen::Index> cells,
                                       const measurement_defects& defects = {}, std::uint64_t seed = 0);
 
-/// Measurements split in two.
+/// Returns `count` random pairs of directions for a material of any symmetry: those of distinct random cells, each
+/// turned about the normal to a random azimuth. Throws like `random_cells`.
+[[nodiscard]] std::vector<direction_pair> random_pairs(const valid_cells& cells, Eigen::Index count,
+                                                       std::uint64_t seed);
+
+/// Returns the values of a BRDF in pairs of directions, with defects. An outlier has the value of another pair. Throws
+/// as `corrupt` does.
+template <brdf Brdf>
+[[nodiscard]] sample_set sample_brdf(const Brdf& f, std::span<const direction_pair> pairs,
+                                     const measurement_defects& defects = {}, std::uint64_t seed = 0) {
+  sample_set samples;
+  samples.reserve(pairs.size());
+  for (const direction_pair& pair : pairs) {
+    const rgb value = defects.aperture.is_point()
+                          ? rgb(f(pair.wi, pair.wo))
+                          : mean_within(pair, defects.aperture, measurement_defects::pairs_a_reading, f);
+    samples.push_back({pair, value, 1.0, defects.aperture});
+  }
+  std::uniform_int_distribution<std::size_t> any_pair(0, std::max<std::size_t>(pairs.size(), 1) - 1);
+  return corrupt(std::move(samples), defects, seed, [&](std::mt19937_64& generator) {
+    const auto& [wi, wo] = pairs[any_pair(generator)];
+    return rgb(f(wi, wo));
+  });
+}
+
 struct sample_split {
   sample_set some, others;
 };
 
-/// Splits off `count` random samples; both parts keep their order. Throws gonio::error if there are fewer samples.
+/// Splits off `count` random samples; both parts keep their order. Throws gonio::error if there are fewer than `count`
+/// samples.
 [[nodiscard]] sample_split split_samples(const sample_set& samples, Eigen::Index count, std::uint64_t seed);
 
 }  // namespace gonio

@@ -1,7 +1,7 @@
 #pragma once
-/// The visible difference of two BRDF tables on a sphere, as in Noell, Koehler and Stricker 2014, Sec. 3.1: the mean
-/// CIELAB 1976 difference over the sphere's pixels in a natural environment, and the image of differences of their Fig.
-/// 3. An observer just notices a difference of about 1.
+/// The visible difference of two BRDF tables on a sphere, as in Noell, Koehler and Stricker 2014, section 3.1: the mean
+/// CIELAB 1976 difference over the sphere's pixels in a natural environment, and the paper's image of differences (Fig.
+/// 3). An observer just notices a difference of about 1.
 
 #include <gonio/render/false_colour.hpp>
 #include <gonio/render/sphere.hpp>
@@ -12,8 +12,8 @@
 
 namespace gonio {
 
-/// The appearance of a sphere: the CIELAB colours of its points, and its exposure relative to one at which a white
-/// Lambertian sphere has mean luminance 1.
+/// The appearance of a sphere: the CIELAB colours of its points, and its exposure. At exposure 1, a white Lambertian
+/// sphere has mean luminance 1.
 struct sphere_appearance {
   render::sphere_colours lab;
   double exposure = 1.0;
@@ -21,11 +21,12 @@ struct sphere_appearance {
 
 /// Renders tables over given cells under one lighting and compares the images as an observer of a display would.
 ///
-/// Exposure: the truth's sphere is scaled to a given mean luminance over its pixels, before clipping. Estimates use the
-/// truth's exposure, so an estimate that is too bright looks too bright. The light's brightness does not matter. The
-/// paper does not state its exposure; the default is a photographer's middle grey. Colours are linear Rec. 709, clipped
-/// to [0, 1], seen under D65, so a highlight above white counts as white. Negative reflectance counts as zero in each
-/// cell, as in log_relative: no renderer could show it, and under an environment it would darken its neighbours.
+/// Exposure: the truth's sphere is scaled to a given mean luminance over its pixels, before clipping, so the light's
+/// brightness does not matter. Estimates use the truth's exposure, so an estimate that is too bright looks too bright.
+/// The paper does not state its exposure; the default is a photographer's middle grey. Colours are linear Rec. 709,
+/// clipped to [0, 1], seen under D65, so a highlight above white counts as white. Negative reflectance counts as zero
+/// in each cell, as in log_relative: no renderer can show it, and under an environment it would cancel the light of
+/// other cells.
 ///
 /// ```cpp
 /// const gonio::render::environment_map grace(gonio::io::read_hdr("grace_probe_latlong.hdr"));
@@ -35,10 +36,10 @@ struct sphere_appearance {
 /// ```
 ///
 /// Directional lights suit rough materials. For mirror-like or mixed materials, use `environment_lighting(90, 72,
-/// grace)`: it has more entries, but loses no highlight between two lights.
+/// grace)`: it costs more entries, but misses no highlight between two lights.
 class sphere_delta_e {
  public:
-  /// The mean luminance of an exposed truth by default; white is 1.
+  /// The default mean luminance of an exposed truth; white is 1.
   static constexpr double middle_grey = 0.18;
 
   /// Prepares the sphere. Needs the time and memory of a `sphere_operator`. Throws gonio::error unless `mean_luminance`
@@ -53,8 +54,8 @@ class sphere_delta_e {
   /// Returns the sphere's operator, which gives linear colours before exposure and clipping.
   [[nodiscard]] const render::sphere_operator& sphere() const noexcept { return sphere_; }
 
-  /// Returns the appearance of a truth at its own exposure. A black sphere has exposure 1. Throws gonio::error if the
-  /// table is over other cells.
+  /// Returns the appearance of a truth at its own exposure (1 for a black sphere). Throws gonio::error if the table is
+  /// over other cells.
   [[nodiscard]] sphere_appearance expose(const brdf_table& truth, thread_count threads = {}) const;
 
   /// Returns the appearance of a table at a given exposure. Throws gonio::error if the table is over other cells.
@@ -78,9 +79,9 @@ class sphere_delta_e {
     return difference(estimate, expose(truth, threads), threads);
   }
 
-  /// Returns the image of differences of the paper's Fig. 3: each point in the false colour of its Delta E*ab.
-  [[nodiscard]] image difference_image(const sphere_appearance& a, const sphere_appearance& b,
-                                       const render::false_colour_range& range = {},
+  /// Returns the image of differences of the paper's Fig. 3: each point in the colour of its Delta E*ab
+  /// (`render::difference_colour`), darkest where Delta E*ab is at least `largest`.
+  [[nodiscard]] image difference_image(const sphere_appearance& a, const sphere_appearance& b, double largest = 20.0,
                                        const rgb& background = rgb::Zero()) const;
 
  private:

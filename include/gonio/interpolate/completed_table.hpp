@@ -8,7 +8,7 @@
 
 namespace gonio {
 
-/// A table, at least zero, that is interpolated trilinearly and resampled onto other grids.
+/// A table of values that are at least zero. Evaluation interpolates it trilinearly.
 class completed_table {
  public:
   /// Takes a table. Replaces negative values by zero.

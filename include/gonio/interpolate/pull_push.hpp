@@ -16,7 +16,7 @@ namespace gonio {
 
 namespace detail {
 
-/// An axis of `cells` cells, merged into runs of `stride` from the first on. The last run may be shorter.
+/// An axis of `cells` cells, merged into runs of `stride` cells, starting with the first. The last run may be shorter.
 struct merged_axis {
   int cells = 1;
   int stride = 1;
@@ -24,18 +24,18 @@ struct merged_axis {
 
   [[nodiscard]] int extent() const noexcept { return (cells + stride - 1) / stride; }
 
-  /// Returns the centre of a run, in cells. Runs repeat outside of an axis that wraps.
+  /// Returns the centre of a run, in cells. On an axis that wraps, `run` may be outside of the axis.
   [[nodiscard]] double centre(int run) const noexcept;
 
   /// Returns the axis with runs twice as long, unless one run already has all cells.
   [[nodiscard]] merged_axis coarser() const noexcept { return {cells, extent() > 1 ? 2 * stride : stride, wraps}; }
 
   /// Returns the coarser runs around the centre of a run, with the weights of linear interpolation: 3/4 and 1/4, except
-  /// for a shorter run at the end.
+  /// next to a shorter run at the end.
   [[nodiscard]] axis_interval parents(int run, const merged_axis& coarse) const noexcept;
 };
 
-/// A level of the pyramid: three channels of reflectance, and the weight of their information, at most 1.
+/// A level of the pyramid. A column of `cells` has three channels of reflectance and their weight, from 0 to 1.
 struct pyramid_level {
   merged_axis theta_h, theta_d, phi_d;
   Eigen::Array4Xf cells;
@@ -60,38 +60,37 @@ struct pyramid_level {
   }
 };
 
-/// Converts sums of weighted values and of weights to mean values and weights that saturate at 1.
+/// Converts sums of weighted values and of weights to mean values and a weight of at most 1.
 [[nodiscard]] Eigen::Array4f mean_of(const Eigen::Array4d& sums) noexcept;
 
-/// Returns value times weight, and weight, for summation.
+/// Returns value times weight, and the weight, of a cell, to be added up.
 [[nodiscard]] Eigen::Array4d weighted(const Eigen::Array4f& cell) noexcept;
 
 /// Pull: combines the finer cells into cells of twice their size.
 [[nodiscard]] pyramid_level pull(const pyramid_level& fine, thread_count threads);
 
-/// Push: completes each finer cell, as far as its weight is below 1, from the complete coarser cells around it.
+/// Push: completes each finer cell whose weight is below 1 from the complete coarser cells around it.
 void push(const pyramid_level& coarse, pyramid_level& fine, thread_count threads);
 
 }  // namespace detail
 
-/// Completes a table from measurements, each of which is assigned to the nearest cell.
+/// Completes a table from measurements. Each measurement is assigned to the nearest cell.
 ///
 /// - Splat: a cell has the weighted mean of its measurements and the sum of their weights, at most 1.
 /// - Pull: cells of twice the size along each axis have the weighted mean of their parts and the sum of their weights,
-///   at most 1, up to a single cell.
+///   at most 1. Pulling ends with a single cell.
 /// - Push: from the coarsest level down, a cell of weight w keeps w of its own value and takes 1 - w from the coarser
 ///   level, interpolated linearly between the centres of its cells.
 ///
-/// Extents need not be powers of two: phi_d wraps for any (reciprocity), theta_h and theta_d end. A cell measured with
-/// a weight of at least 1 keeps its mean exactly, unless it is negative. Measurements are averaged unclamped, so that
-/// noise cancels; negative results become zero. Outliers are interpolated like any other value.
+/// Extents need not be powers of two. phi_d wraps (reciprocity); theta_h and theta_d do not. A cell measured with a
+/// weight of at least 1 keeps its mean exactly, unless it is negative. Negative measurements are averaged like others,
+/// so that noise cancels; negative results become zero. Outliers are interpolated like any other value.
 ///
 /// ```cpp
 /// const auto paint = gonio::pull_push{gonio::valid_cells()}.fit(samples);
 /// ```
 class pull_push {
  public:
-  /// Completes tables over these cells.
   explicit pull_push(valid_cells cells, thread_count threads = {}) : cells_(std::move(cells)), threads_(threads) {}
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
@@ -106,11 +105,11 @@ class pull_push {
     return complete(sums);
   }
 
-  /// Completes a table, each of whose cells is a sample of weight 1.
+  /// Takes the cells of a table as samples of weight 1.
   [[nodiscard]] completed_table fit(const brdf_table& table) const;
 
  private:
-  /// Sums of weighted values and of weights, over the measurements nearest to each cell of a grid.
+  /// Sums weighted values and weights over the measurements nearest to each cell of a grid.
   class splats {
    public:
     explicit splats(const grid& over) : over_(over), sums_(Eigen::Array4Xd::Zero(4, over.size())) {}

@@ -1,9 +1,9 @@
 #pragma once
-/// Scattered measurements as a BRDF, without a prior: the value of the nearest measurement, or a mean of the k nearest
-/// weighted by inverse distance. D. Shepard, "A two-dimensional interpolation function for irregularly-spaced data",
-/// ACM 1968 (doi:10.1145/800186.810616), with weights that vanish at the next neighbour: R. Franke and G. Nielson,
-/// "Smooth interpolation of large sets of scattered data", 1980 (doi:10.1002/nme.1620151110). Needs gonio::scattered
-/// (nanoflann).
+/// Scattered measurements as a BRDF, without a prior: the value of the nearest measurement, or the mean of the k
+/// nearest measurements weighted by inverse distance. D. Shepard, "A two-dimensional interpolation function for
+/// irregularly-spaced data", ACM 1968 (doi:10.1145/800186.810616), with weights that vanish at the next neighbour: R.
+/// Franke and G. Nielson, "Smooth interpolation of large sets of scattered data", 1980 (doi:10.1002/nme.1620151110).
+/// Needs gonio::scattered (nanoflann).
 ///
 /// ```cpp
 /// const auto paint = gonio::scattered_interpolation{}.fit(gonio::io::read_cornell("garnet_red.brdf"));
@@ -24,10 +24,11 @@ namespace gonio {
 /// The fit of `scattered_interpolation`. Copies share the samples.
 class scattered_brdf {
  public:
-  /// Returns the reflectance in sr^-1, at least zero; zero below the horizon. Let d_i be the distances of the k nearest
-  /// samples, R that of the next one, and w_i the samples' weights. Then each sample has the weight w_i ((R - d_i) / (R
-  /// d_i))^p. The result is continuous, and equals a sample's value in its own direction. Exactly reciprocal; isotropic
-  /// up to rounding, which decides if more than k samples are equally near. O(k log n).
+  /// Returns the reflectance in sr^-1, at least zero; zero below the horizon. It is the mean of the k nearest samples,
+  /// in the domain of the options. With their distances d_i, their own weights w_i, and the distance R of the next
+  /// sample, sample i has the weight w_i ((R - d_i) / (R d_i))^p. The result is continuous, and equals a sample's value
+  /// in its own direction. Exactly reciprocal; isotropic except for rounding, which chooses the neighbours if more than
+  /// k are equally near. O(k log n).
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept;
 
   /// Tabulates the fit at the cells of a grid. Same bytes for any number of threads.
@@ -44,14 +45,14 @@ class scattered_brdf {
   [[nodiscard]] rgb mean_of_neighbours(const embedded_samples& of, const std::array<double, 4>& place) const noexcept;
 
   scattered_options options_;
-  /// One for all channels, or one for each channel if weights differ between channels.
+  /// A single set for all channels, or one for each channel if weights differ between channels.
   std::vector<std::shared_ptr<const embedded_samples>> channels_;
 };
 
 static_assert(tabulated_brdf<scattered_brdf>);
 
-/// Interpolates measurements and nothing else. Its resolution is that of the measurements: it has no highlight that was
-/// not measured.
+/// Interpolates measurements without a prior. The result has the resolution of the measurements, and no highlight that
+/// was not measured.
 class scattered_interpolation {
  public:
   /// Throws gonio::error for options out of their range.

@@ -10,16 +10,17 @@
 
 namespace gonio {
 
-/// Embeds pairs of directions in a space whose distance measures how different pairs are.
+/// Embeds pairs of directions in a space of four dimensions, where the distance of two points measures how much the
+/// pairs differ.
 ///
 /// With s = sqrt(theta_h / (pi / 2)) and t = theta_d / (pi / 2) the coordinates are
 /// (s, a t, b r cos 2 phi_d, b r sin 2 phi_d), where r = sin theta_h sin theta_d:
 /// - the root resolves highlights, as MERL's grid does;
 /// - 2 phi_d: by reciprocity phi_d and phi_d + pi are the same pair;
-/// - r: at theta_d = 0 there is no phi_d, and at theta_h = 0 an isotropic material does not depend on it, because it
-///   rotates both directions about the normal. r cos phi_d is half the difference of the cosines of light and viewer.
-/// Pairs have distance zero exactly if they are the same for a reciprocal isotropic material, so that these symmetries
-/// are preserved. Mirror symmetry (phi_d equivalent to -phi_d) is not assumed.
+/// - r: at theta_d = 0 there is no phi_d; at theta_h = 0 phi_d only rotates both directions about the normal, which has
+///   no effect on an isotropic material. r cos phi_d is half the difference of the cosines of light and viewer.
+/// Two pairs have distance zero exactly if any reciprocal isotropic material has the same value for both, so these
+/// symmetries hold. Mirror symmetry (phi_d equivalent to -phi_d) is not assumed.
 struct pair_embedding {
   double theta_d_scale = 1.0;  ///< a
   double phi_d_scale = 0.25;   ///< b

@@ -31,7 +31,7 @@ class any_metric {
 
   template <class Metric>
   requires(std::constructible_from<choice, Metric> && !std::same_as<Metric, any_metric>) any_metric(Metric held)
-      : held_(std::move(held)) {}  // NOLINT: conversion is the point
+      : held_(std::move(held)) {}  // NOLINT: implicit
 
   [[nodiscard]] double forward(double rho, const auto& at) const noexcept {
     return std::visit([&](const auto& metric) -> double { return metric.forward(rho, at); }, held_);
@@ -48,9 +48,9 @@ class any_metric {
     return std::visit([&](const auto& metric) { return any_metric(metric.on(cells)); }, held_);
   }
 
-  /// The largest number of any metric; zero for the others. See `row_metric`.
+  /// The number of fields that `log_relative` adds (see `row_metric`). They are zero for all other metrics.
   static constexpr int companions = log_relative::companions;
-  /// The held metric is unknown when the fields are interpolated.
+  /// Arithmetic for every metric: the held one is unknown when the fields are interpolated.
   static constexpr weighted_mean mean = weighted_mean::arithmetic;
   [[nodiscard]] std::array<float, companions> companion(Eigen::Index cell) const noexcept {
     const auto* relative = std::get_if<log_relative>(&held_);

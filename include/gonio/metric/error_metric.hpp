@@ -75,10 +75,10 @@ concept smooth_metric = error_metric<Metric> && requires(const Metric& metric, d
 /// A metric that maps a whole row of cells back at once, for fast expansion of tables.
 ///
 /// The metric adds `companions` fields of its own, which are interpolated with the three channels. `companion(cell)`
-/// returns them as an array of floats; it is not needed if there are none. `mean` states whether the interpolated row
-/// or, at the cost of a multiplication, its exponential is passed. `inverse_row(row, values, out)` takes an array with
-/// a column for each cell of `row` and 3 + companions rows. It writes `inverse` of the three channels, clamped at zero,
-/// to `out`, cell by cell.
+/// returns them as an array of floats; it is not needed if there are none. `mean` states whether `inverse_row` receives
+/// the interpolated row or, at the cost of a multiplication, its exponential. `inverse_row(row, values, out)` takes an
+/// array with a column for each cell of `row` and 3 + companions rows. It writes `inverse` of the three channels,
+/// clamped at zero, to `out`, cell by cell.
 template <class Metric>
 concept row_metric = error_metric<Metric> &&
     requires(const Metric& metric, const cell_row& row, const cell_fields<3 + Metric::companions>& values,

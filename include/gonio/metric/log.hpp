@@ -17,12 +17,13 @@ struct log : place_free_metric<log> {
   [[nodiscard]] static double unmap(double y) noexcept { return std::copysign(std::expm1(std::abs(y)), y); }
   /// Returns the derivative of `map`.
   [[nodiscard]] static double slope(double rho) noexcept { return 1.0 / (1.0 + std::abs(rho)); }
-  /// Inverts all values: up to 1/2 by the series of exp(y) - 1, above by exp, each with its argument clamped to its
-  /// range. Accurate to 5e-7 of the value, and three times as fast as Eigen's expm1, which also computes a logarithm.
+  /// Inverts all values: up to 1/2 by the series of exp(y) - 1, above 1/2 by exp. Both are computed for every value,
+  /// clamped to their ranges. Accurate to 5e-7 of the value, and three times as fast as Eigen's expm1, which also
+  /// computes a logarithm.
   static void unmap_all(std::span<float> values) {
     constexpr float border = 0.5f;
     float exp_at_border = border;
-    exponentiate(&exp_at_border, 1);  // rounded like all others
+    exponentiate(&exp_at_border, 1);  // rounded like the exponentials below
     map_by_sixteens(values.data(), std::ssize(values), [&](auto& these) {
       auto series = these;
       for (int i = 0; i < these.size(); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The log-relative metric: the logarithm of a cosine-weighted reflectance relative to that of a reference. Nielsen,
-/// Jensen and Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition", SIGGRAPH Asia 2015
+/// The log-relative metric: the logarithm of a cosine-weighted reflectance relative to a reference's. Nielsen, Jensen
+/// and Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition", SIGGRAPH Asia 2015
 /// (doi:10.1145/2816795.2818085), Eq. 1-4. Weighting by the larger cosine: Xu et al. 2016
 /// (doi:10.1145/2980179.2982396), section 3.
 
@@ -22,7 +22,7 @@ namespace gonio {
 /// The cosines that weight a reflectance in `log_relative`. Two papers differ: docs/reference/estimators.md.
 enum class cosine_weighting {
   product,  ///< cos theta_i cos theta_o: Nielsen et al. 2015, Eq. 2
-  larger,   ///< the larger of the two: Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, section 3
+  larger,   ///< the larger of the two cosines: Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, section 3
 };
 
 /// forward(rho) = ln((rho c + epsilon) / (rho_ref c + epsilon)) with the cosine weight
@@ -33,11 +33,11 @@ enum class cosine_weighting {
 /// logarithm of the reference is interpolated, and c is exact.
 class log_relative {
  public:
-  /// Avoids division by zero and bounds the influence of camera noise; the paper's value.
+  /// Avoids division by zero and bounds the influence of camera noise. The value is that of Nielsen et al. 2015.
   static constexpr double epsilon = 0.001;
 
-  /// `reference` has one value in sr^-1 for each cell. Throws gonio::error if their numbers differ or a
-  /// value is negative or not finite.
+  /// `reference` has one value in sr^-1 for each cell. Throws gonio::error if there are more or fewer values than
+  /// cells, or if a value is negative or not finite.
   log_relative(valid_cells cells, std::vector<float> reference, cosine_weighting weighting = cosine_weighting::product);
 
   /// Returns the metric relative to the median of all columns at each cell (Eq. 3). Takes a material_set or any other
@@ -47,7 +47,7 @@ class log_relative {
     return to_median_of(materials.cells, materials.values, threads);
   }
 
-  /// Returns the same for a matrix with a row of values for each cell.
+  /// Returns the metric relative to the median of each row of a matrix, which has a row for each cell.
   [[nodiscard]] static log_relative to_median_of(const valid_cells& cells, const cell_matrix& values,
                                                  thread_count threads = {});
 
@@ -126,7 +126,7 @@ class log_relative {
 
  private:
   static constexpr Eigen::Index shifts_at_once = 64;
-  /// Computes epsilon over the cosine weight, for cells of a row from `begin` on, at most `shifts_at_once`.
+  /// Computes epsilon / c, c being the cosine weight, for at most `shifts_at_once` cells of a row from `begin` on.
   void compute_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const;
 
   [[nodiscard]] static double product_of(const cosine_pair& cosine) noexcept { return cosine.i * cosine.o; }

@@ -13,8 +13,8 @@
 
 namespace gonio {
 
-/// forward(rho) = rho^(1/p), continued to negative reflectance as an odd function, -(-rho)^(1/p), so that negative
-/// measurements stay negative. The slope at zero is infinite (p > 1), so that noise around zero has a large effect.
+/// forward(rho) = rho^(1/p), continued to negative reflectance as an odd function, -(-rho)^(1/p): negative measurements
+/// stay negative. The slope at zero is infinite (p > 1): noise around zero has a large effect.
 class root : public place_free_metric<root> {
  public:
   /// Throws gonio::error unless p is finite and at least 1.

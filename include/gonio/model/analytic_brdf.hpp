@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <unsupported/Eigen/AutoDiff>
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,7 +20,7 @@
 
 namespace gonio::model {
 
-/// The shape of a lobe behind function pointers. Each kind has one object in static storage.
+/// The shape of a lobe behind function pointers. Each kind has one object in static memory.
 class lobe_kind {
  public:
   static constexpr Eigen::Index most_parameters = 4;
@@ -30,12 +31,17 @@ class lobe_kind {
   requires lobe_shape<Shape>
   [[nodiscard]] static const lobe_kind& of() {
     static_assert(parameter_count<Shape> <= most_parameters);
-    static const lobe_kind kind(Shape<double>::name, Shape<double>::parameters, &value_of<Shape>, &slopes_of<Shape>);
+    constexpr bool is_anisotropic = requires { Shape<double>::is_anisotropic; };
+    static const lobe_kind kind(Shape<double>::name, Shape<double>::parameters, is_anisotropic, &value_of<Shape>,
+                                &slopes_of<Shape>);
     return kind;
   }
 
   [[nodiscard]] std::string_view name() const noexcept { return name_; }
   [[nodiscard]] std::span<const shape_parameter> parameters() const noexcept { return parameters_; }
+
+  /// Returns true if the value changes when both directions are turned about the normal.
+  [[nodiscard]] bool is_anisotropic() const noexcept { return is_anisotropic_; }
 
   /// Returns parameters from which a fit may start.
   [[nodiscard]] values typical() const noexcept {
@@ -47,7 +53,7 @@ class lobe_kind {
   /// Returns the shape's value in sr^-1.
   [[nodiscard]] double value(const lobe_geometry& at, const values& p) const noexcept { return value_(at, p); }
 
-  /// Returns the shape's value and writes its exact derivative by each parameter (automatic differentiation).
+  /// Returns the shape's value and writes its exact derivatives with respect to the parameters.
   double value_and_slopes(const lobe_geometry& at, const values& p, values& slopes) const noexcept {
     return slopes_(at, p, slopes);
   }
@@ -58,9 +64,9 @@ class lobe_kind {
   using value_function = double (*)(const lobe_geometry&, const values&);
   using slopes_function = double (*)(const lobe_geometry&, const values&, values&);
 
-  lobe_kind(std::string_view name, std::span<const shape_parameter> parameters, value_function shape,
-            slopes_function slopes)
-      : name_(name), parameters_(parameters), value_(shape), slopes_(slopes) {}
+  lobe_kind(std::string_view name, std::span<const shape_parameter> parameters, bool is_anisotropic,
+            value_function shape, slopes_function slopes)
+      : name_(name), parameters_(parameters), is_anisotropic_(is_anisotropic), value_(shape), slopes_(slopes) {}
 
   template <template <class> class Shape>
   [[nodiscard]] static double value_of(const lobe_geometry& at, const values& p) {
@@ -87,21 +93,26 @@ class lobe_kind {
 
   std::string_view name_;
   std::span<const shape_parameter> parameters_;
+  bool is_anisotropic_;
   value_function value_;
   slopes_function slopes_;
 };
 
-/// All isotropic kinds.
+/// Returns this library's kinds, all isotropic.
 [[nodiscard]] std::span<const lobe_kind* const> lobe_kinds();
 
-/// Returns the kind with this name. Throws gonio::error that lists the names if there is none.
+/// All anisotropic kinds.
+[[nodiscard]] std::span<const lobe_kind* const> anisotropic_lobe_kinds();
+
+/// Returns the kind with this name, isotropic or anisotropic. If there is none, throws gonio::error that lists the
+/// names.
 [[nodiscard]] const lobe_kind& lobe_kind_named(std::string_view name);
 
 /// One lobe of a BRDF: a kind, a colour and the parameters of the kind.
 class analytic_lobe {
  public:
-  /// Throws gonio::error that names the parameter and its bounds if one is out of bounds, and if the colour is negative
-  /// or not finite.
+  /// Throws gonio::error for a parameter out of bounds (the message names the shape and the parameter), and for a
+  /// negative or non-finite colour.
   analytic_lobe(const lobe_kind& kind, const rgb& colour, const lobe_kind::values& parameters);
 
   [[nodiscard]] const lobe_kind& kind() const noexcept { return *kind_; }
@@ -134,6 +145,11 @@ class analytic_brdf {
   explicit analytic_brdf(std::vector<analytic_lobe> lobes = {}) : lobes_(std::move(lobes)) {}
 
   [[nodiscard]] const std::vector<analytic_lobe>& lobes() const noexcept { return lobes_; }
+
+  /// Returns true if a lobe is anisotropic.
+  [[nodiscard]] bool is_anisotropic() const noexcept {
+    return std::ranges::any_of(lobes_, [](const analytic_lobe& lobe) { return lobe.kind().is_anisotropic(); });
+  }
 
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     rgb sum = rgb::Zero();

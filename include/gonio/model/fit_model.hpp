@@ -15,7 +15,7 @@
 
 namespace gonio::model {
 
-/// A fitted model and data about its minimum.
+/// A fitted model, and figures that describe how it was found.
 struct model_fit {
   analytic_brdf model;
   double loss = 0.0;  ///< the weighted mean of the norm of the residual over measurements and channels
@@ -26,8 +26,10 @@ struct model_fit {
 
 namespace detail {
 
-/// Returns the shapes from which a fit starts. Lobes of the same kind need different starts, or they stay equal. The
-/// second is four times as rough or sharp as the first, the third a quarter, and so on alternately.
+/// Returns the parameters from which a fit starts. Lobes of the same kind need different starts; with equal starts they
+/// stay equal. The first lobe of a kind has typical values. In the second, each logarithmic parameter has four times
+/// its typical value, in the third a quarter, in the fourth 16 times, and so on. Other parameters move by a fifth of
+/// their range at each step.
 [[nodiscard]] std::vector<lobe_kind::values> typical_shapes(const std::vector<const lobe_kind*>& kinds);
 
 [[nodiscard]] model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
@@ -36,15 +38,15 @@ namespace detail {
 
 }  // namespace detail
 
-/// Fits a sum of lobes. The channels share the shapes, and each has its own colours. No colour is negative, and all
+/// Fits a sum of lobes. All channels share the shapes, and each lobe has its own colour. No colour is negative, and all
 /// parameters stay within their bounds.
 ///
-/// Needs no initial guess. It follows the consecutive optimisation of Nielsen et al. 2014 from typical shapes: first
-/// colours, then shapes, then all (the paper's last stage keeps the diffuse colour: `diffuse_stays`). For squares of
-/// linear residuals it uses variable projection instead: it varies only the shapes and solves for their best colours.
-/// `metric` maps reflectance before the comparison: lin, log or root. Throws gonio::error if there are fewer
-/// measurements than parameters, or if all are zero. O(N (L + P)^2) per iteration for N observations, L lobes and P
-/// parameters.
+/// Needs no initial guess: a shape whose axes can be rotated starts at four rotations. The fit follows the consecutive
+/// optimisation of Nielsen et al. 2014 from typical shapes: first colours, then shapes, then both (the paper's last
+/// stage keeps the diffuse colour: `diffuse_stays`). For squares of linear residuals, the fit uses variable projection
+/// instead: it varies only the shapes and solves for their best colours. `metric` maps reflectance before the
+/// comparison: lin, log or root. Throws gonio::error if there are fewer measurements than parameters, or if all are
+/// zero. O(N (L + P)^2) per iteration for N observations, L lobes and P shape parameters.
 ///
 /// ```cpp
 /// const std::vector kinds{&gonio::model::lobe_kind::of<gonio::model::lambert_shape>(),

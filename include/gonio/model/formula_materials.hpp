@@ -1,6 +1,6 @@
 #pragma once
-/// Named materials given by formulas, for demonstrations and tests. Their true values are known everywhere, and none is
-/// in a database from which a prior was learned.
+/// Named materials given by formulas, for demonstrations and tests: their true values are known everywhere, and no
+/// prior was learned from them.
 
 #include <gonio/core/error.hpp>
 #include <gonio/model/ggx.hpp>
@@ -46,7 +46,7 @@ namespace detail {
 /// conductor) and `grey-lambertian` (ideal diffuse, albedo 0.18).
 [[nodiscard]] std::vector<std::string> formula_material_names();
 
-/// Returns the material with this name. Throws gonio::error that lists the names if there is none.
+/// Returns the material with this name. If there is none, throws gonio::error that lists the names.
 [[nodiscard]] formula_brdf formula_material(std::string_view name);
 
 }  // namespace gonio::model

@@ -15,7 +15,8 @@ template <class Real>
   return f0 * (1.0 - grazing) + grazing;
 }
 
-/// The reflectance at normal incidence for a refractive index: ((1 - n) / (1 + n))^2, thesis Eq. 2.21.
+/// The reflectance of a smooth surface of refractive index n at normal incidence: ((1 - n) / (1 + n))^2, thesis Eq.
+/// 2.21.
 template <class Real>
 [[nodiscard]] Real normal_reflectance(const Real& index) {
   const Real ratio = (1.0 - index) / (1.0 + index);

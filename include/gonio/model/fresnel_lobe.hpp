@@ -1,6 +1,6 @@
 #pragma once
-/// Any lobe times the reflectance of a smooth dielectric. J. B. Nielsen et al. 2014 multiply the specular reflectance
-/// by R_F(wi . wh, eta).
+/// Any lobe times the reflectance of a smooth dielectric surface. J. B. Nielsen et al. 2014 multiply the specular
+/// reflectance by R_F(wi . wh, eta).
 
 #include <gonio/model/fresnel.hpp>
 #include <gonio/model/phong.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-/// The numbers by which industry names an appearance, integrated from a BRDF in each instrument's geometry: specular
+/// The readings of industrial appearance instruments, computed from a BRDF in each instrument's geometry: specular
 /// gloss (ISO 2813, ASTM D523), reflection haze (ISO 13803, ASTM E430), reflectance at 8 degrees with and without the
 /// specular part (CIE 15), total integrated scatter, and L*a*b* at the angles of multi-angle instruments (ASTM E2194).
 /// Colours are linear Rec. 709 under D65 for the CIE 1931 observer. An instrument's lamp and filters are not modelled.
@@ -17,32 +17,32 @@
 
 namespace gonio::model {
 
-/// A rectangle of directions, full angles in radians.
+/// The angular size of a rectangular aperture: full angles in radians.
 struct field_angles {
   double in_plane = 0.0, across = 0.0;
 };
 
-/// A source and a receptor that look at the same spot. Angles in radians.
+/// A source and a receptor that face the same spot. All angles are in radians.
 struct reflectometer {
-  double theta_i = 0.0;     ///< of the source's centre, from the normal
-  double off_mirror = 0.0;  ///< from the mirror direction to the receptor's centre, away from the normal
+  double theta_i = 0.0;     ///< angle of the source's centre from the normal
+  double off_mirror = 0.0;  ///< angle of the receptor's centre from the mirror direction, away from the normal
   field_angles source, receptor;
 };
 
-/// Specular gloss at 20, 60 or 85 degrees, in gloss units: ISO 2813:2014, Table 1.
+/// Returns the geometry of specular gloss at 20, 60 or 85 degrees: ISO 2813:2014, Table 1. Throws for other angles.
 [[nodiscard]] reflectometer gloss_meter(int degrees);
 
-/// One receptor of reflection haze beside the mirror direction of 20 degrees: 1.8 by 5.5 degrees, centred 1.9 degrees
-/// towards the normal (side -1) or away from it (+1). ISO 13803.
+/// Returns the geometry of reflection haze at 20 degrees for one of its two receptors: 1.8 by 5.5 degrees, centred 1.9
+/// degrees from the mirror direction towards the normal (side -1) or away from it (+1). ISO 13803.
 [[nodiscard]] reflectometer haze_meter(int side);
 
-/// The luminance that the gloss standard, polished black glass of refractive index 1.567, reflects of unpolarised
-/// light.
+/// Returns the fraction of unpolarised light at `theta_i` (radians) that the gloss standard reflects. The standard is
+/// polished black glass of refractive index 1.567.
 [[nodiscard]] double gloss_standard_reflectance(double theta_i);
 
 namespace detail {
 
-/// Gauss and Legendre's 16 nodes on [-1, 1]: those above 0, whose mirror images are the others.
+/// The positive nodes of 16-point Gauss-Legendre quadrature on [-1, 1]. The negative nodes are their mirror images.
 struct quadrature_node {
   double at = 0.0, weight = 0.0;
 };
@@ -55,8 +55,8 @@ inline constexpr std::array<quadrature_node, 8> gauss_legendre_16{{{0.0950125098
                                                                    {0.9445750230732326, 0.0622535239386477},
                                                                    {0.9894009349916499, 0.0271524594117540}}};
 
-/// Calls `add(x, weight)` for the integral over [from, to]. Nodes crowd at 0, where the highlight is: x = t^3, with two
-/// panels in t on each side of 0.
+/// Calls `add(x, weight)` at the quadrature nodes of an integral over [from, to]. The nodes are dense at 0, where the
+/// highlight is: x = t^3, with two panels in t on each side of 0.
 template <class Add>
 void integrate_around_zero(double from, double to, const Add& add) {
   if (from < 0.0 && to > 0.0) {
@@ -73,16 +73,17 @@ void integrate_around_zero(double from, double to, const Add& add) {
       }
 }
 
-/// In the plane of incidence at `in_plane` from the normal, then out of it by `across`.
+/// Returns the direction that is `in_plane` radians from the normal in the plane of incidence, tilted out of this plane
+/// by `across` radians.
 [[nodiscard]] inline direction tilted(double in_plane, double across) noexcept {
   return {std::sin(in_plane) * std::cos(across), std::sin(across), std::cos(in_plane) * std::cos(across)};
 }
 
 }  // namespace detail
 
-/// The share of the source's light that reaches the receptor, in each channel: the mean over the source's directions of
-/// the integral of f cos theta_o over the receptor. about 10^5 evaluations. Highlights narrower than about 1e-5
-/// radians are missed.
+/// Returns the fraction of the source's light that reaches the receptor, in each channel: the integral of f cos theta_o
+/// over the receptor, averaged over the source's directions. At most 36,864 evaluations. Misses highlights narrower
+/// than 1e-5 radians.
 template <brdf Brdf>
 [[nodiscard]] rgb reflected_share(const Brdf& f, const reflectometer& meter) {
   constexpr std::array source_nodes{-0.7745966692414834, 0.0, 0.7745966692414834};
@@ -94,7 +95,7 @@ template <brdf Brdf>
       const double theta = meter.theta_i + 0.5 * meter.source.in_plane * source_nodes[i];
       const double across = 0.5 * meter.source.across * source_nodes[k];
       const direction wi = detail::tilted(-theta, -across);
-      // The mirror direction of wi is at (theta, across).
+      // The mirror direction of wi is at (theta, across) from the normal.
       const double first = centre - 0.5 * meter.receptor.in_plane - theta, last = first + meter.receptor.in_plane;
       const double low = -0.5 * meter.receptor.across - across, high = low + meter.receptor.across;
       detail::integrate_around_zero(first, last, [&](double x, double weight_x) {
@@ -109,23 +110,23 @@ template <brdf Brdf>
   return sum;
 }
 
-/// Specular gloss in gloss units: 100 is the polished black glass of refractive index 1.567; a perfect mirror has 2,038
-/// at 20 degrees, 999 at 60 and 162 at 85. `degrees` is 20, 60 or 85.
+/// Returns specular gloss at 20, 60 or 85 degrees, in gloss units. The gloss standard has 100 at each angle; a perfect
+/// mirror has 2,038 at 20 degrees, 999 at 60 degrees and 162 at 85 degrees.
 template <brdf Brdf>
 [[nodiscard]] double specular_gloss(const Brdf& f, int degrees) {
   const reflectometer meter = gloss_meter(degrees);
   return 100.0 * luminance(reflected_share(f, meter)) / gloss_standard_reflectance(meter.theta_i);
 }
 
-/// Reflection haze at 20 degrees: the mean of the two receptors beside the mirror direction, in gloss units.
+/// Returns reflection haze at 20 degrees, in gloss units: the mean of the two receptors beside the mirror direction.
 template <brdf Brdf>
 [[nodiscard]] double reflection_haze(const Brdf& f) {
   const double both = luminance(reflected_share(f, haze_meter(-1))) + luminance(reflected_share(f, haze_meter(+1)));
   return 50.0 * both / gloss_standard_reflectance(radians(20.0));
 }
 
-/// The share of the light from an angle `theta_i` that is reflected within a cone around the mirror direction, in each
-/// channel. Angles in radians; `half_angle` at most pi / 2 - `theta_i`. about 2,000 evaluations.
+/// Returns the fraction of the light from `theta_i` that is reflected within a cone around the mirror direction, in
+/// each channel. Angles in radians; `half_angle` at most pi / 2 - `theta_i`. 1,024 evaluations.
 template <brdf Brdf>
 [[nodiscard]] rgb share_within_cone(const Brdf& f, double theta_i, double half_angle) {
   constexpr int azimuths = 32;
@@ -140,7 +141,8 @@ template <brdf Brdf>
   return sum;
 }
 
-/// The share that is reflected outside that cone. The midpoint rule of `directional_albedo`.
+/// Returns the fraction of the light from `theta_i` that is reflected outside a cone around the mirror direction, by
+/// the midpoint rule of `directional_albedo`. Angles in radians.
 template <brdf Brdf>
 [[nodiscard]] rgb share_outside_cone(const Brdf& f, double theta_i, double half_angle, int bins = 400) {
   const direction mirror = spherical_direction(theta_i, std::numbers::pi);
@@ -152,32 +154,32 @@ template <brdf Brdf>
   return sum;
 }
 
-/// L*a*b* at an aspecular angle: counted from the mirror direction of light at 45 degrees towards the light, in the
-/// plane of incidence. A perfect diffuser has L* 100; highlights and flakes have more.
+/// L*a*b* at an aspecular angle: the viewer is in the plane of incidence, at this angle from the mirror direction
+/// towards the light, which is at 45 degrees. A perfect diffuser has L* 100; highlights and flakes have more.
 struct aspecular_colour {
   double aspecular = 0.0;  ///< degrees
   rgb lab{0.0, 0.0, 0.0};
 };
 
-/// Light and viewer of an aspecular angle in degrees, the light at 45.
+/// Returns the directions of light and viewer for an aspecular angle in degrees.
 [[nodiscard]] direction_pair aspecular_directions(double aspecular);
 
 struct instrument_readings {
-  std::array<double, 3> gloss{};  ///< at 20, 60 and 85 degrees, gloss units
+  std::array<double, 3> gloss{};  ///< gloss units at 20, 60 and 85 degrees
   double haze = 0.0;              ///< `reflection_haze`
   rgb total{0.0, 0.0, 0.0};       ///< reflectance at 8 degrees into the hemisphere, specular included
-  rgb diffuse{0.0, 0.0, 0.0};     ///< the same without 4 degrees around the mirror direction, specular excluded
-  double scatter = 0.0;           ///< total integrated scatter at 8 degrees: luminance outside 2.5 degrees, of all
+  rgb diffuse{0.0, 0.0, 0.0};     ///< the same, but without 4 degrees around the mirror direction
+  double scatter = 0.0;  ///< total integrated scatter at 8 degrees: the fraction of luminance outside 2.5 degrees
   std::array<aspecular_colour, 5> colours{};  ///< at 15, 25, 45, 75 and 110 degrees, as `aspecular_angles`
 
-  /// ASTM D4039: gloss at 60 less gloss at 20 degrees.
+  /// ASTM D4039: gloss at 60 degrees minus gloss at 20 degrees.
   [[nodiscard]] double haze_index() const noexcept { return gloss[1] - gloss[0]; }
 };
 
 inline constexpr std::array<int, 3> gloss_angles{20, 60, 85};
 inline constexpr std::array<double, 5> aspecular_angles{15.0, 25.0, 45.0, 75.0, 110.0};
 
-/// All of them: about 10^6 evaluations, 0.1 s of a table.
+/// Computes all readings: about 300,000 evaluations, 0.1 s for a table.
 template <brdf Brdf>
 [[nodiscard]] instrument_readings read_instruments(const Brdf& f) {
   instrument_readings all;

@@ -8,8 +8,9 @@
 namespace gonio::model {
 
 /// (wi' M wo / |M|)^n with the isotropic M = diag(-sin tilt, -sin tilt, cos tilt); in the paper's terms C_x = -sin tilt
-/// and C_z = cos tilt. Their common scale is indistinguishable from the colour. |M|, the larger of |C_x| and |C_z|,
-/// makes the colour the lobe's largest reflectance. A sum of several lobes is `sum_of_lobes`.
+/// and C_z = cos tilt. The shape does not have the paper's common scale of C_x and C_z, which would only scale the
+/// colour. |M| is the larger of |C_x| and |C_z|; dividing by it makes the colour the lobe's largest reflectance.
+/// `sum_of_lobes` adds several lobes.
 template <class Real>
 struct lafortune_shape {
   static constexpr std::string_view name = "lafortune";
@@ -18,8 +19,8 @@ struct lafortune_shape {
       shape_parameter{"exponent", "", 0.01, 1e6, 20.0, true}};
   static auto members(auto& self) { return std::tie(self.tilt, self.exponent); }
 
-  /// pi / 4: Phong's lobe about the mirror direction; larger: towards grazing angles; 0: a diffuse lobe; negative: back
-  /// to the light.
+  /// The lobe's direction. pi / 4 gives Phong's lobe about the mirror direction, a larger tilt a lobe towards grazing
+  /// angles, 0 a diffuse lobe, a negative tilt a lobe back to the light.
   Real tilt = Real(std::numbers::pi / 4);
   Real exponent = Real(20.0);  ///< n
 

@@ -12,7 +12,7 @@
 
 namespace gonio::model {
 
-/// f = albedo / pi above the horizon.
+/// The BRDF f = albedo / pi above the horizon.
 /// ```cpp
 /// const gonio::model::lambertian grey{.albedo = gonio::rgb::Constant(0.18)};
 /// ```
@@ -28,7 +28,7 @@ struct lambertian {
 
 static_assert(brdf<lambertian>);
 
-/// The same model as the shape of a lobe: 1 / pi. The lobe's colour is the albedo.
+/// The Lambertian model as the shape of a lobe: 1 / pi. The lobe's colour is the albedo.
 template <class Real>
 struct lambert_shape {
   static constexpr std::string_view name = "lambert";

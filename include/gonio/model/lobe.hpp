@@ -12,6 +12,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -26,19 +27,27 @@ struct lobe_geometry {
   double cosine_d;    ///< between wi and the half vector, or wo and the half vector
   double tangential;  ///< the product of the tangential parts of wi and wo, x x' + y y'
   direction h;        ///< the half vector
+  double x_i, y_i;    ///< the tangential part of wi
+  double x_o, y_o;    ///< the tangential part of wo
 
   lobe_geometry(const direction& wi, const direction& wo) noexcept
-      : cosine_i(wi.z()), cosine_o(wo.z()), tangential(wi.x() * wo.x() + wi.y() * wo.y()) {
+      : cosine_i(wi.z()),
+        cosine_o(wo.z()),
+        tangential(wi.x() * wo.x() + wi.y() * wo.y()),
+        x_i(wi.x()),
+        y_i(wi.y()),
+        x_o(wo.x()),
+        y_o(wo.y()) {
     const direction sum = wi + wo;
     const double length = sum.norm();
     cosine_d = std::min(0.5 * length, 1.0);
-    // Opposite directions have no half vector. The normal is its limit within their plane.
+    // Opposite directions have no half vector. Use the normal, the limit of the half vector in their plane.
     h = length > 0.0 ? direction(sum / length) : direction(0.0, 0.0, 1.0);
   }
 
   /// The cosine between the viewer and the mirrored light: wr . wo with wr = 2 (wi . n) n - wi.
   [[nodiscard]] double mirrored_cosine() const noexcept { return cosine_i * cosine_o - tangential; }
-  /// tan^2 of the half angle; infinite if the half vector lies in the surface.
+  /// tan^2 theta_h; infinite if the half vector lies in the surface.
   [[nodiscard]] double squared_tangent_h() const noexcept { return (h.x() * h.x() + h.y() * h.y()) / (h.z() * h.z()); }
 };
 
@@ -48,13 +57,27 @@ struct shape_parameter {
   double lowest, highest;
   double typical;            ///< a value from which a fit may start
   bool logarithmic = false;  ///< a fit takes steps in the logarithm, as for a roughness or an exponent
+  bool periodic = false;     ///< both bounds mean the same: a fit starts at four values
 };
 
-/// The shape of a lobe, in sr^-1: a struct of parameters, templated on their number type, because a fit evaluates it
-/// with numbers that carry derivatives.
+/// The rotation of the axes of an anisotropic shape.
+inline constexpr shape_parameter axes_rotation{"rotation", "rad", -std::numbers::pi / 2, std::numbers::pi / 2, 0.0,
+                                               false,      true};
+
+/// Returns a squared length: that of (x, y) in axes that are rotated from x towards y, with x scaled by a and y by b.
+template <class Real>
+[[nodiscard]] Real scaled_square(double x, double y, const Real& rotation, const Real& a, const Real& b) {
+  using std::cos, std::sin;
+  const Real c = cos(rotation), s = sin(rotation);
+  const Real along = (c * x + s * y) * a, beside = (c * y - s * x) * b;
+  return along * along + beside * beside;
+}
+
+/// A struct of parameters whose call operator returns the shape of a lobe, in sr^-1. It is a template over the number
+/// type, because a fit evaluates it with numbers that carry derivatives.
 ///
 /// A model must keep rules that the compiler cannot check. `parameters` describes the `members` in their order. The
-/// value is not negative, and finite unless a cosine underflows. It does not throw.
+/// call operator does not throw. Its value is not negative, and finite unless a cosine underflows.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -135,11 +158,11 @@ void require_within_bounds(std::string_view shape, const shape_parameter& parame
 /// Throws gonio::error that names the shape unless the colour is finite and not negative.
 void require_usable_colour(std::string_view shape, const rgb& colour);
 
-/// The upper limit of reflectance for models with a pole at grazing angles, because infinity times zero light would be
-/// NaN.
+/// The upper limit of reflectance for models with a pole at grazing angles. Without the limit, infinity times zero
+/// light would be NaN.
 inline constexpr double largest_reflectance = 1e300;
 
-/// A coloured shape: f = colour * shape(wi, wo).
+/// A shape with a colour: f = colour * shape(wi, wo).
 /// ```cpp
 /// const gonio::model::ward varnish{gonio::rgb::Constant(0.1), {.roughness = 0.05}};
 /// ```
@@ -149,7 +172,8 @@ class lobe {
  public:
   using shape_type = Shape<double>;
 
-  /// Throws gonio::error that names the parameter if one is out of bounds, and if the colour is negative or not finite.
+  /// Throws gonio::error for a parameter out of bounds (the message names the parameter), and for a negative or
+  /// non-finite colour.
   explicit lobe(rgb colour = rgb::Ones(), const shape_type& shape = {}) : colour_(std::move(colour)), shape_(shape) {
     require_usable_colour(shape_type::name, colour_);
     const auto values = values_of<Shape, double>(shape_);

@@ -1,7 +1,7 @@
 #pragma once
-/// Importance sampling of analytic BRDFs, for renderers: of a single model, a sum of lobes or a fit's result. Each lobe
-/// is sampled by its `techniques_of`, and the lobes are mixed by their albedos: E. Veach and L. J. Guibas, "Optimally
-/// Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995 (doi:10.1145/218380.218498).
+/// Importance sampling of analytic BRDFs, for renderers: a single model, a sum of lobes or a fit's result. Each lobe is
+/// sampled by its `techniques_of`, and each is chosen in proportion to its albedo: E. Veach and L. J. Guibas,
+/// "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995 (doi:10.1145/218380.218498).
 
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/model/sampling_techniques.hpp>
@@ -26,8 +26,7 @@ namespace detail {
 /// One number for each interval of cos(theta_o).
 using by_viewer = std::array<double, 32>;
 
-/// A mixture of densities, with a share of each for every viewer. The shares sum to 1. Only construction allocates
-/// memory.
+/// A mixture of densities, whose shares depend on the viewer and sum to 1. Only construction allocates memory.
 class direction_mixture {
  public:
   void add(const sampling_technique::density_type& density, const by_viewer& shares) {
@@ -84,8 +83,9 @@ struct weighed_lobe {
   by_viewer albedo;
 };
 
-/// Estimates a lobe's albedo from a few of its own sampled directions, each at another azimuth. An estimate suffices,
-/// because sampling is unbiased with any shares.
+/// Estimates a lobe's albedo for each interval of cos(theta_o) from 144 samples of wi, each with a different azimuth of
+/// wo. The albedos only set the shares with which lobes are chosen, so an estimate suffices: sampling is unbiased
+/// whatever the shares.
 template <class Lobe>
 [[nodiscard]] weighed_lobe weigh(const Lobe& f, const sampling_techniques& techniques) {
   direction_mixture own;
@@ -128,14 +128,14 @@ void weigh_lobes(const Model& f, std::vector<weighed_lobe>& lobes) {
   }
 }
 
-/// Samples each lobe in proportion to its albedo, with a minimum share of about 1 %, because a lobe may be brighter
-/// elsewhere in a viewer's interval than in its middle.
+/// Samples each lobe in proportion to its albedo at the middle of a viewer's interval. Each lobe has a share of at
+/// least about 1 %, because it may be brighter elsewhere in the interval.
 [[nodiscard]] direction_mixture mixture_of(const std::vector<weighed_lobe>& lobes);
 
 }  // namespace detail
 
-/// Importance sampling of an analytic BRDF, of which it holds a copy: any lobe, `lambertian`, `ggx`, a `sum_of_lobes`,
-/// an `analytic_brdf` such as a fit's result, or a `formula_brdf`.
+/// Importance sampling of an analytic BRDF: any lobe, `lambertian`, `ggx`, a `sum_of_lobes`, an `analytic_brdf` such as
+/// a fit's result, or a `formula_brdf`. Holds a copy of the BRDF.
 /// ```cpp
 /// const gonio::model::lobe_sampler paint{gonio::model::sum_of_lobes{gonio::model::lambertian{}, gonio::model::ggx{}}};
 /// const auto drawn = paint.sample(wo, u1, u2);
@@ -143,9 +143,9 @@ void weigh_lobes(const Model& f, std::vector<weighed_lobe>& lobes) {
 /// `sample`, `pdf` and the BRDF are consistent: the weight times pdf is f cos(theta_i), and pdf integrates to 1 over
 /// the sphere of directions. Directions below the horizon can be drawn. They have weight 0, and pdf includes them.
 ///
-/// A lobe whose weights are bounded analytically is sampled by its own density alone. The others (Ward, Ward-Duer,
-/// Phong-Blinn) and wide lobes also draw cosine-weighted directions. A sum draws each lobe in proportion to its albedo
-/// for the viewer. Construction estimates the albedos with about 5,000 evaluations per lobe.
+/// A narrow lobe with analytically bounded weights is sampled by its own density alone. Lobes without such a bound
+/// (Ward, Ward-Duer, Phong-Blinn) and wide lobes also draw cosine-weighted directions. A sum draws each lobe in
+/// proportion to its albedo for the viewer. Construction estimates the albedos with about 5,000 evaluations per lobe.
 template <brdf Brdf>
 class lobe_sampler {
  public:

@@ -1,5 +1,6 @@
 #pragma once
-/// The objective of a fit of lobes to measurements: a norm of residuals, as a function of shapes and colours.
+/// The objective of a fit of lobes to measurements: a norm of the residuals as a function of the lobes' shapes and
+/// colours.
 
 #include <gonio/metric/lin.hpp>
 #include <gonio/model/analytic_brdf.hpp>
@@ -20,24 +21,26 @@ namespace gonio::model {
 
 /// The norm of the residuals.
 enum class fit_norm {
-  l2,    ///< half their squares: follows the peaks of highlights
-  l1,    ///< their sizes, smoothed at zero (see `model_fit_options::rounding`): follows the base of highlights
-  huber  ///< squares if small, sizes if large
+  l2,    ///< half the squared residuals: follows the peaks of highlights
+  l1,    ///< absolute residuals, smoothed at zero (`model_fit_options::rounding`): follows the base of highlights
+  huber  ///< squares of small residuals, absolute values of large ones
 };
 
 struct model_fit_options {
   fit_norm norm = fit_norm::l2;
   /// Multiplies reflectance by the cosine of the light before mapping it.
   bool cosine_weighted = false;
-  /// The residual at which the L1 and Huber norms change from squares to sizes, relative to the median size of the
-  /// mapped measurements. L1 is sqrt(r^2 + (rounding median)^2), so that the error of its minimum is smaller than
-  /// rounding times median.
+  /// The residual at which the L1 and Huber norms change from squares to absolute values, relative to the median
+  /// absolute value of the mapped measurements. For L1, a residual r counts sqrt(r^2 + (rounding * median)^2), which
+  /// moves the minimum by less than rounding * median.
   double rounding = 1e-3, huber_width = 0.1;
-  /// The largest fraction of light, from up to 88 degrees, that a channel of the model may reflect; 1 is all.
+  /// The largest allowed albedo of the model in any channel, with light at seven angles up to 88 degrees. An albedo of
+  /// 1 means that all light is reflected.
   double largest_albedo = std::numeric_limits<double>::infinity();
-  /// Lambertian lobes keep the colour of the first stage, as Nielsen et al. 2014 print the last one.
+  /// If true, Lambertian lobes keep their colour from the first stage, as in the last stage that Nielsen et al. 2014
+  /// print.
   bool diffuse_stays = false;
-  /// Random starts in addition to the consecutive scheme. The best result is kept.
+  /// Number of random starts in addition to the consecutive optimisation. The best result is kept.
   Eigen::Index random_starts = 0;
   std::uint64_t seed = 0;
   Eigen::Index iteration_limit = 200;
@@ -46,7 +49,7 @@ struct model_fit_options {
 
 namespace detail {
 
-/// A metric chosen at run time, so that the code below is compiled only once.
+/// A metric chosen at run time, so that `model_loss` is compiled only once.
 struct chosen_metric {
   std::function<double(double)> forward, slope;
   bool linear = false;
@@ -66,13 +69,13 @@ class model_loss {
 
   [[nodiscard]] Eigen::Index lobes() const noexcept { return std::ssize(kinds_); }
   [[nodiscard]] Eigen::Index shapes() const noexcept { return std::ssize(owners_); }
-  /// Shape parameters first, then the colours, lobe by lobe for each channel.
+  /// Returns the number of unknowns: first the shape parameters, then the colours, lobe by lobe for each channel.
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return shapes() + 3 * lobes(); }
 
-  /// Returns true if a lobe has no shape, like Lambert's.
+  /// Returns true if a lobe has no shape parameters, like Lambert's.
   [[nodiscard]] bool is_diffuse(Eigen::Index lobe) const { return kinds_[lobe]->parameters().empty(); }
 
-  /// Returns the parameters, with logarithms of those marked logarithmic.
+  /// Returns coded parameters: the logarithm of each parameter marked logarithmic, all other parameters unchanged.
   [[nodiscard]] Eigen::VectorXd coded(std::span<const lobe_kind::values> parameters) const;
   [[nodiscard]] std::vector<lobe_kind::values> parameters_of(const Eigen::VectorXd& u) const;
 
@@ -80,33 +83,35 @@ class model_loss {
 
   [[nodiscard]] analytic_brdf model(const Eigen::VectorXd& x) const;
 
-  /// Returns the products of all columns with one another: L values of shapes, P slopes by coded parameters, and three
-  /// measured channels. They determine all quantities that are linear in the colours. One matrix for all channels if
-  /// each observation has the same weight in all, otherwise one per channel. O(N (L + P)^2).
+  /// Returns the weighted products with one another of L + P + 3 columns over the N observations: the values of L
+  /// shapes, their P slopes with respect to the coded parameters, and three measured channels. These products suffice
+  /// for the squared loss of linear residuals, its gradient and its Hessian, for any colours. Returns a single matrix
+  /// if each observation weighs its channels equally, otherwise one matrix per channel. O(N (L + P)^2).
   [[nodiscard]] std::vector<Eigen::MatrixXd> products(const Eigen::VectorXd& u) const;
 
-  /// Returns the best colours in least squares of linear residuals, L x 3. Lobes that are dark everywhere stay black.
+  /// Returns the colours that minimise the squares of linear residuals, L x 3 for L lobes. Lobes that are dark
+  /// everywhere stay black.
   [[nodiscard]] Eigen::MatrixXd solve_colours(const std::vector<Eigen::MatrixXd>& products) const;
 
-  /// Half the mean square of linear residuals with the best colours, as a function of the shapes alone.
+  /// Returns half the mean square of linear residuals as a function of the shapes alone, each with its best colours.
   [[nodiscard]] local_parabola projected(const Eigen::VectorXd& u) const;
 
-  /// The loss as a function of shapes and colours, with its Gauss-Newton parabola. Other norms than squares are
-  /// reweighted squares, with weights that depend on each residual. Adds half the squared excess of each albedo over
-  /// the largest one allowed, times the steepness times the loss of a black model.
+  /// Returns the loss as a function of shapes and colours, with its Gauss-Newton parabola. Norms other than L2 are
+  /// reweighted squares, with weights that depend on each residual. Adds a penalty: half the squared excess of each
+  /// albedo over `largest_albedo`, times the steepness, times the loss of a black model.
   [[nodiscard]] local_parabola joint(const Eigen::VectorXd& x, double albedo_steepness = 0.0) const;
 
-  /// Whether residuals are linear in the colours and are squared.
+  /// Returns true if residuals are linear in the colours and are squared.
   [[nodiscard]] bool separates() const noexcept { return metric_.linear && options_.norm == fit_norm::l2; }
 
-  /// The loss of a black model.
+  /// Returns the loss of a black model.
   [[nodiscard]] double of_nothing() const noexcept { return loss_of_nothing_; }
 
-  /// Returns the largest albedo of each channel, relative to the largest one allowed. Uses the midpoint rule over
-  /// `bins`^2 half vectors at each angle.
+  /// Returns the largest albedo of each channel, relative to `largest_albedo`. Integrates over `bins`^2 half vectors at
+  /// each angle.
   [[nodiscard]] rgb relative_albedo(const Eigen::VectorXd& x, int bins) const;
 
-  /// Returns shapes and their best colours in least squares of linear residuals.
+  /// Returns the shapes followed by their best colours, which minimise the squares of linear residuals.
   [[nodiscard]] Eigen::VectorXd with_colours(const Eigen::VectorXd& u) const;
 
  private:
@@ -125,14 +130,16 @@ class model_loss {
   /// L x 3.
   [[nodiscard]] Eigen::MatrixXd colours(const Eigen::VectorXd& x) const;
 
-  /// Returns the lobes' albedos and their slopes by coded parameters: a column of L + P for each of `albedo_angles`.
+  /// Returns the L lobes' albedos and their P slopes with respect to the coded parameters, a column per albedo angle;
+  /// for anisotropic lobes, at each of four azimuths.
   [[nodiscard]] Eigen::MatrixXd lobe_albedos(const std::vector<lobe_kind::values>& parameters, int bins) const;
   void add_albedo_penalty(const std::vector<lobe_kind::values>& parameters, const Eigen::MatrixXd& colour,
                           double steepness, local_parabola& to) const;
 
-  /// Returns the products with the weights of one channel.
+  /// Returns the products of `products(u)` for one channel, with its weights.
   [[nodiscard]] Eigen::MatrixXd products(const Eigen::VectorXd& u, Eigen::Index channel) const;
-  /// Returns the best colours of `channels` channels from `first` on, which share these products.
+  /// Returns the best colours of `channels` successive channels that share these products; `first` is the first of
+  /// them.
   [[nodiscard]] Eigen::MatrixXd solve_colours(const Eigen::MatrixXd& products, Eigen::Index first,
                                               Eigen::Index channels) const;
 
@@ -143,12 +150,12 @@ class model_loss {
     return metric_.forward(reflectance * cosine(seen));
   }
 
-  /// Writes the values of all shapes, then their slopes by coded parameters.
+  /// Writes the values of all shapes, then their slopes with respect to the coded parameters.
   void evaluate(const lobe_geometry& at, const std::vector<lobe_kind::values>& parameters,
                 Eigen::Ref<Eigen::VectorXd> out) const;
 
   struct norm_value {
-    double loss, curvature;  ///< of a residual; the loss has the slope curvature times residual
+    double loss, curvature;  ///< of a residual; the slope of the loss is curvature times residual
   };
   [[nodiscard]] norm_value norm_of(double residual) const;
 

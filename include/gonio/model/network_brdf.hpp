@@ -21,17 +21,17 @@
 
 namespace gonio::model {
 
-/// A BRDF given by the 675 parameters of a network, `[W1 6x21][b1][W2 21x21][b2][W3 21x3][b3]`. Matrices are row-major
-/// and multiply a row vector from the right.
+/// A BRDF given by the 675 parameters of a network, `[W1 6x21][b1][W2 21x21][b2][W3 21x3][b3]`. Matrices are row-major,
+/// and a row vector is multiplied by a matrix on its right.
 ///
 /// The input is the half vector and the difference vector at phi_h = 0: (sin theta_h, 0, cos theta_h) and (sin theta_d
-/// cos phi_d, sin theta_d sin phi_d, cos theta_d). The output y gives max(exp(y) - 1, 0) in sr^-1. phi_d is folded,
-/// which makes the BRDF reciprocal. Parameters are finite.
+/// cos phi_d, sin theta_d sin phi_d, cos theta_d). The BRDF is max(exp(y) - 1, 0) in sr^-1 for the output y. phi_d is
+/// taken modulo pi, which makes the BRDF reciprocal. The parameters must be finite.
 class network_brdf {
  public:
   static constexpr std::size_t parameter_count = 675;
   static constexpr std::size_t width = 21;
-  /// The exp of a larger output overflows float.
+  /// The largest output that is used: exp of a larger one overflows float.
   static constexpr double largest_output = 88.0;
 
   explicit network_brdf(std::span<const float, parameter_count> parameters) noexcept {
@@ -53,7 +53,7 @@ class network_brdf {
     return {value(y[0]), value(y[1]), value(y[2])};
   }
 
-  /// Index of each layer's first weight among the parameters. Its biases follow the weights.
+  /// Index of each layer's first weight among the parameters. A layer's biases follow its weights.
   static constexpr std::size_t first_layer = 0, second_layer = 147, third_layer = 609;
 
  private:
@@ -79,7 +79,7 @@ class network_brdf {
 
 static_assert(brdf<network_brdf>);
 
-/// Networks and the names of their materials, one for each network.
+/// Networks, and for each network the name of its material.
 struct named_networks {
   std::vector<std::string> names;
   std::vector<network_brdf> networks;
@@ -87,8 +87,8 @@ struct named_networks {
 
 namespace detail {
 
-/// Evaluates networks at a block of cells in float. A layer stores each unit with all cells, so that the loops run
-/// along the cells and vectorise.
+/// Evaluates networks at a block of cells in float. For each unit of a layer, the values of all cells are stored
+/// together, so that loops over the cells vectorise.
 class network_block {
  public:
   static constexpr std::size_t cells = 256;
@@ -96,7 +96,7 @@ class network_block {
   /// Computes the inputs, which all networks share.
   network_block(const valid_cells& all, block range);
 
-  /// Writes red, green and blue of one network at cell i to out[stride i].
+  /// Writes red, green and blue of a network at cell i to `out`, starting at out[stride * i].
   void evaluate(const network_brdf& network, float* out, std::size_t stride);
 
  private:
@@ -130,8 +130,8 @@ class network_block {
 
 }  // namespace detail
 
-/// Evaluates networks at every valid cell: `out` becomes (cells, 3 networks). The bytes do not depend on the number of
-/// threads. The values agree with the networks' double arithmetic to 1e-4 of the value or 1e-6 sr^-1.
+/// Evaluates networks at every valid cell: `out` becomes cells x (3 * networks). The bytes do not depend on the number
+/// of threads. The values agree with the networks' double arithmetic to 1e-4 of the value or 1e-6 sr^-1.
 void tabulate_networks(std::span<const network_brdf> networks, const valid_cells& cells, cell_matrix& out,
                        thread_count threads = {}, const progress& listener = {});
 

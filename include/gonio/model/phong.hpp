@@ -1,5 +1,6 @@
 #pragma once
-/// Cosine lobes about the mirror direction and about the normal, and a variant between them.
+/// Three lobes: a cosine lobe about the mirror direction (Phong), one about the normal (Blinn-Phong), and a variant
+/// between the two.
 /// J. B. Nielsen, J. R. Frisvad, K. Conradsen and H. Aanaes, "Addressing Grazing Angle Reflections in Phong Models",
 /// SIGGRAPH Asia 2014 posters. The normalisations are those of Akenine-Moeller, Haines and Hoffman, "Real-Time
 /// Rendering", 2008.
@@ -24,7 +25,7 @@ template <class Base, class Real>
 
 }  // namespace detail
 
-/// Modified Phong: (s + 2) / (2 pi) (wr . wo)^s, with the mirrored light wr. 2014, Eq. 1.
+/// Modified Phong: (s + 2) / (2 pi) (wr . wo)^s, where wr is the mirror direction of wi. 2014, Eq. 1.
 template <class Real>
 struct phong_shape {
   static constexpr std::string_view name = "phong";
@@ -54,8 +55,8 @@ struct blinn_phong_shape {
 };
 static_assert(lobe_shape<blinn_phong_shape>);
 
-/// The variant between the two: ((1 - alpha) (wr . wo) + alpha (h . n)^4)^s. 2014, Eq. 3. It has no normalisation, so
-/// its colour is the paper's k_s. A negative base counts as zero.
+/// The variant between Phong and Blinn-Phong: ((1 - alpha) (wr . wo) + alpha (h . n)^4)^s. 2014, Eq. 3. It has no
+/// normalisation, so its colour is the paper's k_s. A negative base counts as zero.
 template <class Real>
 struct phong_blinn_shape {
   static constexpr std::string_view name = "phong-blinn";

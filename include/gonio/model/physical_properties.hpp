@@ -12,22 +12,23 @@
 
 namespace gonio::model {
 
-/// The largest violation found, and where.
+/// The largest violation of a property, and the pair of directions where it was found.
 struct worst_pair {
-  double amount = 0.0;  ///< 0 if there is no violation
+  double amount = 0.0;  ///< largest violation; 0 if there is none
   direction_pair at{direction(0.0, 0.0, 1.0), direction(0.0, 0.0, 1.0)};
-  double median = 0.0;  ///< of the amounts of all pairs tested
+  double median = 0.0;  ///< median violation of all pairs tested
 };
 
-/// The density of the tested pairs of directions: `steps`^3 half vectors and viewers, denser near highlights.
+/// Determines the pairs of directions to test: `steps`^3 combinations of viewers and half vectors, denser near
+/// highlights.
 struct pair_grid {
   int steps = 24;
 };
 
 namespace detail {
 
-/// Returns the pair with the largest `amount(wi, wo)`. The viewer has an azimuth off the axes, so that anisotropic
-/// models are tested off their axes.
+/// Returns the pair with the largest `amount(wi, wo)`. The azimuth of the viewers is not that of an axis, so that
+/// anisotropic models are tested off their axes.
 template <class Amount>
 [[nodiscard]] worst_pair worst_of_pairs(const pair_grid& grid, Amount&& amount) {
   constexpr double pi = std::numbers::pi, azimuth = 0.4;
@@ -38,7 +39,7 @@ template <class Amount>
     for (int j = 0; j < grid.steps; ++j)
       for (int k = 0; k < grid.steps; ++k) {
         const direction wo = spherical_direction(share(i) * pi / 2.0, azimuth);
-        // Half vectors near the normal give lights near the mirror direction.
+        // Half vectors near the normal give directions of light near the mirror direction.
         const direction h = spherical_direction(share(j) * share(j) * pi / 2.0, 2.0 * pi * share(k));
         const direction wi = 2.0 * h.dot(wo) * h - wo;
         if (!(wi.z() > 0.0 && h.dot(wo) > 0.0)) continue;
@@ -53,7 +54,7 @@ template <class Amount>
 
 }  // namespace detail
 
-/// Returns the largest difference between f(wi, wo) and f(wo, wi), relative to the larger value.
+/// Returns the pair with the largest difference between f(wi, wo) and f(wo, wi), relative to the larger value.
 template <brdf Brdf>
 [[nodiscard]] worst_pair worst_asymmetry(const Brdf& f, const pair_grid& grid = {}) {
   return detail::worst_of_pairs(grid, [&](const direction& wi, const direction& wo) {
@@ -61,14 +62,15 @@ template <brdf Brdf>
   });
 }
 
-/// Returns how far the reflectance falls below zero, in sr^-1.
+/// Returns the pair at which the reflectance falls farthest below zero, and by how much, in sr^-1.
 template <brdf Brdf>
 [[nodiscard]] worst_pair worst_negative(const Brdf& f, const pair_grid& grid = {}) {
   return detail::worst_of_pairs(grid,
                                 [&](const direction& wi, const direction& wo) { return -rgb(f(wi, wo)).minCoeff(); });
 }
 
-/// Returns the largest change if both directions rotate about the normal by 120 degrees, relative to the larger value.
+/// Returns the pair at which the reflectance changes most if light and viewer rotate about the normal by 120 degrees.
+/// The change is relative to the larger value.
 template <brdf Brdf>
 [[nodiscard]] worst_pair worst_anisotropy(const Brdf& f, const pair_grid& grid = {}) {
   constexpr double angle = 2.0 * std::numbers::pi / 3.0;
@@ -79,7 +81,7 @@ template <brdf Brdf>
 
 namespace detail {
 
-/// Calls `add(wi, wo, weight)` for a viewer at an angle from the normal. The sum of f times weight is
+/// Calls `add(wi, wo, weight)` for a viewer at the angle `theta` from the normal. The sum of f times weight is
 /// `directional_albedo`.
 template <class Add>
 void for_each_light(double theta, int bins, const Add& add) {
@@ -101,8 +103,8 @@ void for_each_light(double theta, int bins, const Add& add) {
 
 /// Returns the directional-hemispherical reflectance: the integral over wi of f cos theta_i, for a viewer (by
 /// reciprocity, a light) at an angle from the normal, in radians and below pi / 2. Uses the midpoint rule over half
-/// vectors in sqrt(theta_h) with `bins`^2 evaluations. It resolves highlights wider than about 1e-4 radians. The error
-/// is about 2e-3 where the lobe meets the horizon.
+/// vectors in sqrt(theta_h) with `bins`^2 evaluations. The rule resolves highlights wider than about 1e-4 radians. The
+/// error is about 2e-3 if the highlight extends to the horizon.
 template <brdf Brdf>
 [[nodiscard]] rgb directional_albedo(const Brdf& f, double theta, int bins = 400) {
   rgb sum = rgb::Zero();
@@ -111,13 +113,13 @@ template <brdf Brdf>
   return sum;
 }
 
-/// The reflected fraction of light from an angle to the normal, in radians.
+/// The fraction of light that is reflected if it arrives at the angle `theta` from the normal, in radians.
 struct albedo_at_angle {
   double theta = 0.0;
   rgb value{0.0, 0.0, 0.0};
 };
 
-/// Returns `directional_albedo` in steps of five degrees up to 85, and at 88.
+/// Returns `directional_albedo` at every five degrees up to 85, and at 88 degrees.
 template <brdf Brdf>
 [[nodiscard]] std::vector<albedo_at_angle> albedo_by_angle(const Brdf& f, int bins = 400) {
   std::vector<albedo_at_angle> all;
@@ -128,16 +130,30 @@ template <brdf Brdf>
   return all;
 }
 
-/// The largest albedo over the channels, and its angle. A value above 1 means that more light leaves than arrives.
+/// The largest albedo of any channel at any angle, and this angle. A value above 1 means that more light leaves than
+/// arrives.
 struct largest_albedo {
   double value = 0.0, theta = 0.0;
 };
 
 [[nodiscard]] largest_albedo largest_of(const std::vector<albedo_at_angle>& albedos);
 
-/// Returns the largest over the angles of `albedo_by_angle`.
+/// Returns the largest albedo over the angles of `albedo_by_angle`; of an anisotropic BRDF, at four azimuths.
 template <brdf Brdf>
 [[nodiscard]] largest_albedo find_largest_albedo(const Brdf& f, int bins = 400) {
+  if constexpr (requires { f.is_anisotropic(); }) {
+    if (f.is_anisotropic()) {
+      largest_albedo found;
+      for (const double azimuth : {0.0, 45.0, 90.0, 135.0}) {
+        const auto turned = [&f, turn = radians(azimuth)](const direction& wi, const direction& wo) noexcept -> rgb {
+          return f(turned_about_normal(wi, turn), turned_about_normal(wo, turn));
+        };
+        const largest_albedo here = largest_of(albedo_by_angle(turned, bins));
+        if (here.value > found.value) found = here;
+      }
+      return found;
+    }
+  }
   return largest_of(albedo_by_angle(f, bins));
 }
 

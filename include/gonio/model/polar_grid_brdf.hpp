@@ -1,6 +1,6 @@
 #pragma once
-/// Isotropic materials on a uniform grid of both polar angles and the azimuth difference, the format of measurements in
-/// renderers for NVIDIA's Material Definition Language (MDL specification 1.10.2, appendix B).
+/// Isotropic materials on a uniform grid of both polar angles and of the azimuth difference: the format of measurements
+/// in renderers for NVIDIA's Material Definition Language (MDL specification 1.10.2, appendix B).
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
@@ -14,11 +14,11 @@
 
 namespace gonio::model {
 
-/// The number of cells along each axis, all of equal angular size. Azimuth 0 is the light's side, 180 degrees the side
-/// of the mirror direction.
+/// The number of cells along each axis, all of equal angular size. At azimuth 0 the viewer is on the light's side, at
+/// 180 degrees on the side of the mirror direction.
 struct polar_grid {
-  Eigen::Index polar = 90;     ///< of theta_i from 0 to 90 degrees, and of theta_o
-  Eigen::Index azimuth = 180;  ///< of |phi_o - phi_i| from 0 to 180 degrees
+  Eigen::Index polar = 90;     ///< cells of theta_i from 0 to 90 degrees, and of theta_o
+  Eigen::Index azimuth = 180;  ///< cells of |phi_o - phi_i| from 0 to 180 degrees
 
   [[nodiscard]] Eigen::Index size() const noexcept { return polar * polar * azimuth; }
 
@@ -26,10 +26,10 @@ struct polar_grid {
 };
 
 /// A BRDF in sr^-1 given at the centres of the cells of a polar grid. It is trilinear between centres and constant
-/// outside the outermost. A value type; copies share the values.
+/// outside the outermost centres. A value type; copies share the values.
 ///
-/// Measurements are not reciprocal. The `brdf` concept requires reciprocity, so the value is the mean of both orders of
-/// the directions, as in MDL's renderers. `as_measured` returns a single order.
+/// Measurements are not reciprocal. The `brdf` concept requires reciprocity, so the value is the mean of f(wi, wo) and
+/// f(wo, wi), as in MDL's renderers. `as_measured` returns f(wi, wo).
 class polar_grid_brdf {
  public:
   /// Takes one value for each cell, or three (linear Rec. 709). theta_i varies slowest, then theta_o, then the azimuth.
@@ -64,9 +64,9 @@ static_assert(brdf<polar_grid_brdf>);
 void require_polar_grid(const polar_grid& grid);
 
 /// Evaluates a BRDF at the centres of all cells: one channel if it is grey everywhere, otherwise three. A grid has one
-/// value for both sides of the plane of light and normal. Measured tables may differ between the sides, so the value is
-/// their mean. Throws gonio::error like `require_polar_grid`, and for values that are not finite. The bytes do not
-/// depend on the number of threads.
+/// value for viewers on both sides of the plane of light and normal. Measured tables may differ between the two sides,
+/// so the value is the mean of both. Throws gonio::error like `require_polar_grid`, and for values that are not finite.
+/// The bytes do not depend on the number of threads.
 template <brdf Brdf>
 [[nodiscard]] polar_grid_brdf tabulate_polar(const Brdf& f, const polar_grid& grid = {}, thread_count threads = {}) {
   require_polar_grid(grid);

@@ -22,8 +22,8 @@ namespace gonio::model {
 
 namespace detail {
 
-/// Returns the polar angle up to which (exponent + 1) / (2 pi) cos^exponent has the integral u. Accurate for large
-/// exponents, whose cosines are all near 1.
+/// Returns the polar angle within which the density (exponent + 1) / (2 pi) cos^exponent has the integral u. Accurate
+/// for large exponents, whose cosines are all near 1.
 [[nodiscard]] inline double power_cosine_angle(double exponent, double u) noexcept {
   const double log_cosine = std::log1p(-u) / (exponent + 1.0);
   return std::atan2(std::sqrt(-std::expm1(2.0 * log_cosine)), std::exp(log_cosine));
@@ -38,8 +38,7 @@ namespace detail {
 }
 
 /// Returns the density of wi, given the density of its half vector above the horizon: dh / d wi = 1 / (4 |wo . h|), and
-/// |wo . h| is half the length of wi + wo. If wi is opposite to wo, many half vectors reflect it. It counts as never
-/// drawn.
+/// |wo . h| is half the length of wi + wo. Returns 0 if wi is opposite to wo, where many half vectors reflect wo to wi.
 template <class Density>
 [[nodiscard]] double reflected_density(const direction& wi, const direction& wo, const Density& of_half) noexcept {
   const direction sum = wi + wo;
@@ -50,7 +49,7 @@ template <class Density>
 
 }  // namespace detail
 
-/// Density cos(theta_i) / pi.
+/// Draws directions with the density cos(theta_i) / pi.
 struct cosine_directions {
   [[nodiscard]] direction sample(const direction& /*wo*/, double u1, double u2) const noexcept {
     return cosine_weighted_direction(u1, u2);
@@ -60,11 +59,11 @@ struct cosine_directions {
   }
 };
 
-/// Density (n + 1) / (2 pi) cos^n of the angle to M wo, M = diag(tangential, tangential, normal): Phong's lobe about
-/// the mirror direction, and Lafortune's lobe.
+/// Draws directions with the density (n + 1) / (2 pi) cos^n of the angle to M wo, where M = diag(tangential,
+/// tangential, normal): Phong's lobe about the mirror direction, and Lafortune's lobe.
 struct power_cosine_directions {
   double exponent = 1.0;                   ///< n
-  double tangential = -1.0, normal = 1.0;  ///< of M; the default is the mirror direction
+  double tangential = -1.0, normal = 1.0;  ///< the diagonal of M; the default gives the mirror direction
 
   [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
     return turned(axis(wo), detail::power_cosine_angle(exponent, u1), 2.0 * std::numbers::pi * u2);
@@ -81,7 +80,7 @@ struct power_cosine_directions {
   }
 };
 
-/// Half vectors with density (n + 1) / (2 pi) (h . n)^n: Blinn-Phong's.
+/// Draws half vectors with the density (n + 1) / (2 pi) (h . n)^n of Blinn-Phong.
 struct power_cosine_half_vectors {
   double exponent = 1.0;
 
@@ -95,51 +94,60 @@ struct power_cosine_half_vectors {
   }
 };
 
-/// Half vectors with Gaussian slopes: the density is exp(-(h_x / alpha_x)^2 - (h_y / alpha_y)^2, both over h_z^2) over
-/// pi alpha_x alpha_y h_z^3. Walter 2005. With a single alpha it is Beckmann's distribution times the cosine.
+/// Draws half vectors with Gaussian slopes: the density is exp(-((h_x / alpha_x)^2 + (h_y / alpha_y)^2) / h_z^2) / (pi
+/// alpha_x alpha_y h_z^3). Walter 2005. If alpha_x = alpha_y, it is Beckmann's distribution times the cosine.
 struct gaussian_half_vectors {
   double alpha_x = 0.2, alpha_y = 0.2;
+  double rotation = 0.0;  ///< azimuth of the axis of alpha_x in radians
 
   [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
     const double radius = std::sqrt(-std::log1p(-u1)), angle = 2.0 * std::numbers::pi * u2;
     const direction h(alpha_x * radius * std::cos(angle), alpha_y * radius * std::sin(angle), 1.0);
-    return detail::reflected(wo, h.normalized());
+    return detail::reflected(wo, turned_about_normal(h.normalized(), rotation));
   }
   [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
     return detail::reflected_density(wi, wo, [&](const direction& h) {
-      const double x = h.x() / (h.z() * alpha_x), y = h.y() / (h.z() * alpha_y), exponent = x * x + y * y;
+      const direction own = turned_about_normal(h, -rotation);
+      const double x = own.x() / (h.z() * alpha_x), y = own.y() / (h.z() * alpha_y), exponent = x * x + y * y;
       if (!(exponent < 700.0)) return 0.0;
       return std::exp(-exponent) * std::numbers::inv_pi / (alpha_x * alpha_y * h.z() * h.z() * h.z());
     });
   }
 };
 
-/// Half vectors of the GGX facets visible from wo: density G1(wo) D(h) max(wo . h, 0) / cos(theta_o). Heitz 2018,
-/// sampled as in Dupuy and Benyoub 2023.
+/// Draws half vectors among the GGX facets visible from wo, with the density G1(wo) D(h) max(wo . h, 0) / cos(theta_o).
+/// Heitz 2018, sampled as in Dupuy and Benyoub 2023.
 struct ggx_visible_normals {
-  double alpha = 0.2;
+  double alpha_x = 0.2, alpha_y = 0.2;
+  double rotation = 0.0;  ///< azimuth of the axis of alpha_x in radians
 
   [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
-    // Stretch the viewer's direction so that the facets become a hemisphere.
-    const direction seen = direction(alpha * wo.x(), alpha * wo.y(), wo.z()).normalized();
-    // Reflections by the hemisphere fill a cap uniformly. Draw one, take its half vector, and undo the stretching.
+    // Stretch the viewer's direction so that the visible facets become a hemisphere.
+    const direction own = turned_about_normal(wo, -rotation);
+    const direction seen = direction(alpha_x * own.x(), alpha_y * own.y(), own.z()).normalized();
+    // Directions reflected by the hemisphere fill a spherical cap uniformly. Draw such a direction, take its half
+    // vector, and undo the stretching.
     const double z = (1.0 - u1) * (1.0 + seen.z()) - seen.z(), azimuth = 2.0 * std::numbers::pi * u2;
     const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
     const direction half = direction(sine * std::cos(azimuth), sine * std::sin(azimuth), z) + seen;
-    return detail::reflected(wo, direction(alpha * half.x(), alpha * half.y(), half.z()).normalized());
+    const direction h = direction(alpha_x * half.x(), alpha_y * half.y(), half.z()).normalized();
+    return detail::reflected(wo, turned_about_normal(h, rotation));
   }
   [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
-    // wo . h of the density cancels against wo . h of the reflection.
+    // The factor wo . h of the facets' density and the factor 1 / (wo . h) of the reflection cancel.
     const direction sum = wi + wo;
     if (!(sum.z() > 0.0)) return 0.0;
-    return 0.5 * detail::ggx_distribution(sum.normalized(), alpha) *
-           detail::ggx_masking_over_twice_cosine(wo.z(), alpha);
+    if (alpha_x == alpha_y)
+      return 0.5 * detail::ggx_distribution(sum.normalized(), alpha_x) *
+             detail::ggx_masking_over_twice_cosine(wo.z(), alpha_x);
+    const anisotropic_ggx_shape<double> facets{.alpha_x = alpha_x, .alpha_y = alpha_y, .rotation = rotation};
+    return 0.5 * facets.distribution(sum.normalized()) * facets.masking_over_twice_cosine(wo.z(), wo.x(), wo.y());
   }
 };
 
 // ---- the densities of each lobe ----------------------------------------------------------------------------------
 
-/// A density, and the fraction of a lobe's directions that it draws.
+/// A density, and the fraction of a lobe's directions drawn from it.
 struct sampling_technique {
   using density_type = std::variant<cosine_directions, power_cosine_directions, power_cosine_half_vectors,
                                     gaussian_half_vectors, ggx_visible_normals>;
@@ -152,17 +160,19 @@ using sampling_techniques = std::vector<sampling_technique>;
 
 namespace detail {
 
-/// A tenth of the directions is cosine-weighted if a lobe's weights are otherwise unbounded. No weight then exceeds 10
-/// pi f.
+/// The share of cosine-weighted directions for a lobe whose weights are otherwise unbounded. With this share, no weight
+/// exceeds 10 pi f.
 inline constexpr double defensive_share = 0.1;
 
-/// Adds cosine-weighted directions with share 1 / (1 + exponent): a wide lobe is nearly diffuse, a narrow one is not.
+/// Adds cosine-weighted directions with the share 1 / (1 + exponent), because a wide lobe is nearly diffuse.
 [[nodiscard]] sampling_techniques with_cosine_if_wide(const sampling_technique::density_type& density, double exponent);
 
-/// With Gaussian slopes, Ward's lobe has the weight (wo . h) h_z^3 sqrt(cos theta_i / cos theta_o) (Walter 2005).
-/// Ward-Duer's has no root and grows without bound towards grazing viewers.
-[[nodiscard]] inline sampling_techniques ward_techniques(double alpha_x, double alpha_y) {
-  return {{gaussian_half_vectors{alpha_x, alpha_y}, 1.0 - defensive_share}, {cosine_directions{}, defensive_share}};
+/// With Gaussian slopes, the weight of Ward's lobe is (wo . h) h_z^3 sqrt(cos theta_i / cos theta_o) (Walter 2005). The
+/// weight of Ward-Duer's lobe has 1 / cos theta_o instead of the root. Both weights grow without bound towards grazing
+/// viewers.
+[[nodiscard]] inline sampling_techniques ward_techniques(double alpha_x, double alpha_y, double rotation = 0.0) {
+  return {{gaussian_half_vectors{alpha_x, alpha_y, rotation}, 1.0 - defensive_share},
+          {cosine_directions{}, defensive_share}};
 }
 
 }  // namespace detail
@@ -190,30 +200,35 @@ inline constexpr double defensive_share = 0.1;
   return detail::ward_techniques(shape.roughness, shape.roughness);
 }
 [[nodiscard]] inline sampling_techniques techniques_of(const anisotropic_ward::shape_type& shape) {
-  return detail::ward_techniques(shape.roughness_x, shape.roughness_y);
+  return detail::ward_techniques(shape.roughness_x, shape.roughness_y, shape.rotation);
 }
 [[nodiscard]] inline sampling_techniques techniques_of(const anisotropic_ward_duer::shape_type& shape) {
-  return detail::ward_techniques(shape.roughness_x, shape.roughness_y);
+  return detail::ward_techniques(shape.roughness_x, shape.roughness_y, shape.rotation);
 }
-/// The weight is cos theta_i / ((wo . h) h_z), and 2 (wo . h) h_z = cos theta_i + cos theta_o: at most 2.
+/// The weight is cos theta_i / ((wo . h) h_z). It is at most 2, because 2 (wo . h) h_z = cos theta_i + cos theta_o.
 [[nodiscard]] inline sampling_techniques techniques_of(const ward_bounded::shape_type& shape) {
   return {{gaussian_half_vectors{shape.roughness, shape.roughness}, 1.0}};
 }
 [[nodiscard]] inline sampling_techniques techniques_of(const anisotropic_ward_bounded::shape_type& shape) {
-  return {{gaussian_half_vectors{shape.roughness_x, shape.roughness_y}, 1.0}};
+  return {{gaussian_half_vectors{shape.roughness_x, shape.roughness_y, shape.rotation}, 1.0}};
 }
 
-/// The weight is F min((wo . h) / (cos theta_o h_z), 2 cos theta_i / max(cos theta_i, cos theta_o)): at most 2.
+/// The weight is F min((wo . h) / (cos theta_o h_z), 2 cos theta_i / max(cos theta_i, cos theta_o)). It is at most 2.
 [[nodiscard]] inline sampling_techniques techniques_of(const torrance_sparrow::shape_type& shape) {
   return {{gaussian_half_vectors{shape.slope, shape.slope}, 1.0}};
 }
-/// The weight is F G1(wi): at most 1.
-[[nodiscard]] inline sampling_techniques techniques_of(const ggx& f) { return {{ggx_visible_normals{f.alpha}, 1.0}}; }
+/// The weight is F G1(wi). It is at most 1.
+[[nodiscard]] inline sampling_techniques techniques_of(const ggx& f) {
+  return {{ggx_visible_normals{f.alpha, f.alpha}, 1.0}};
+}
 [[nodiscard]] inline sampling_techniques techniques_of(const ggx_lobe::shape_type& shape) {
-  return {{ggx_visible_normals{shape.alpha}, 1.0}};
+  return {{ggx_visible_normals{shape.alpha, shape.alpha}, 1.0}};
+}
+[[nodiscard]] inline sampling_techniques techniques_of(const anisotropic_ggx::shape_type& shape) {
+  return {{ggx_visible_normals{shape.alpha_x, shape.alpha_y, shape.rotation}, 1.0}};
 }
 
-/// A shape times a Fresnel factor has the techniques of the shape.
+/// Returns the techniques of a shape, for this shape times a Fresnel factor.
 template <class Shape>
 requires requires(const Shape& shape) {
   techniques_of(shape.lobe);
@@ -228,7 +243,7 @@ template <template <class> class Shape>
 
 namespace detail {
 
-/// Takes the techniques of the shape if the lobe is of this kind.
+/// If the lobe has this shape, writes the shape's techniques to `taken` and returns true.
 template <template <class> class Shape>
 [[nodiscard]] bool take_if_same(const analytic_lobe& f, sampling_techniques& taken) {
   if (f.kind().name() != Shape<double>::name) return false;
@@ -247,8 +262,8 @@ template <template <class> class... Shapes>
 
 }  // namespace detail
 
-/// Chooses by the name of the lobe's kind. A kind outside this library uses cosine-weighted directions, which is
-/// unbiased, but noisy at its highlight.
+/// Returns the techniques of a lobe, chosen by the name of its kind. For a kind outside this library, returns
+/// cosine-weighted directions, which are unbiased but noisy at the lobe's highlight.
 [[nodiscard]] sampling_techniques techniques_of(const analytic_lobe& f);
 
 }  // namespace gonio::model

@@ -3,7 +3,7 @@
 ///
 /// Smits, "An RGB-to-Spectrum Conversion for Reflectances", Journal of Graphics Tools 4(4), 1999
 /// (doi:10.1080/10867651.1999.10487511): a colour is a non-negative sum of white, a secondary and a primary colour.
-/// Here the seven spectra are the smoothest non-negative ones with exactly that colour.
+/// Here each of these seven spectra is the smoothest non-negative spectrum with exactly its colour.
 
 #include <gonio/core/rgb.hpp>
 
@@ -13,16 +13,17 @@
 
 namespace gonio::model {
 
-/// A spectrum for each linear Rec. 709 colour: linear between its wavelengths, constant outside. Under D65 it has that
-/// colour for the observer of core/spectrum.hpp. It is not negative if the colour is not. It is linear among colours
-/// whose channels have the same order.
+/// Gives each linear Rec. 709 colour a spectrum: linear between its wavelengths, constant outside. Under D65, the
+/// spectrum has the given colour for the observer of core/spectrum.hpp. A colour without negative channels has a
+/// spectrum without negative values. The spectrum is a linear function of the colour among colours with the same order
+/// of their channels by size.
 class smooth_spectra {
  public:
-  /// Wavelengths from 380 to 760 nanometres, every 20.
+  /// Uses wavelengths from 380 to 760 nanometres in steps of 20.
   smooth_spectra();
 
-  /// Takes wavelengths in nanometres. Throws gonio::error unless they ascend, and if no spectrum at them has a primary
-  /// colour. Solves six quadratic programs.
+  /// Takes wavelengths in nanometres. Throws gonio::error unless they ascend, and if some primary colour has no
+  /// spectrum at them. Solves six quadratic programs.
   explicit smooth_spectra(std::vector<double> wavelengths);
 
   [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return wavelengths_; }
@@ -32,7 +33,7 @@ class smooth_spectra {
 
  private:
   std::vector<double> wavelengths_;
-  Eigen::ArrayXXd primaries_, secondaries_;  ///< columns: red, green, blue; and white without each of them
+  Eigen::ArrayXXd primaries_, secondaries_;  ///< primaries: red, green, blue; secondaries: white without each of these
 };
 
 }  // namespace gonio::model

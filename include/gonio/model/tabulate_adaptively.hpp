@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <functional>
 #include <iterator>
 
@@ -23,9 +24,18 @@ namespace gonio::model {
 /// The sizes of the tables. docs/results/renderers.md lists the error of each size.
 struct adaptive_resolution {
   Eigen::Index theta_i = 32;           ///< polar angles of wi, uniform from 0 to pi/2
-  Eigen::Index values = 96;            ///< rows and columns of the reflectance at each theta_i
+  Eigen::Index values = 96;            ///< rows and columns of each reflectance table at each theta_i
   Eigen::Index visible_normals = 128;  ///< rows and columns of the density of visible normals at each theta_i
   Eigen::Index normals = 256;          ///< polar angles of the distribution of normals
+};
+
+/// The sizes of the tables of an anisotropic material.
+struct anisotropic_resolution {
+  Eigen::Index phi_i = 33;            ///< azimuths of wi, uniform from -pi to pi, both included; at least 3
+  Eigen::Index theta_i = 24;          ///< polar angles of wi, uniform from 0 to pi/2
+  Eigen::Index values = 48;           ///< rows and columns of the reflectance at each wi
+  Eigen::Index visible_normals = 48;  ///< rows and columns of the density of visible normals at each wi
+  Eigen::Index normals = 128;         ///< azimuths and polar angles of the distribution of normals
 };
 
 namespace detail {
@@ -34,14 +44,16 @@ using brdf_function = std::function<rgb(const direction& wi, const direction& wo
 
 [[nodiscard]] adaptive_brdf_parts tabulated_adaptively(const brdf_function& f, const adaptive_resolution& resolution,
                                                        thread_count threads);
+[[nodiscard]] adaptive_brdf_parts tabulated_adaptively(const brdf_function& f, const anisotropic_resolution& resolution,
+                                                       thread_count threads);
 [[nodiscard]] unit_square_tables tabulated_over(const brdf_function& f, const adaptive_brdf_parts& normals,
                                                 thread_count threads);
 
 }  // namespace detail
 
-/// Returns the tables of a BRDF. `as_measured(wi, wo)` of the result is f(wi, wo) at the nodes of all tables, and
-/// interpolated between them. If wo is below the horizon, f(wi, wo) cos(theta_o) continues linearly, with negative
-/// values. Cells that the horizon crosses are then interpolated without a bend.
+/// Returns the tables of an isotropic BRDF. At the nodes of the tables, `as_measured(wi, wo)` of the result is f(wi,
+/// wo); between them it is interpolated. At nodes with wo below the horizon, f(wi, wo) cos(theta_o) is extrapolated
+/// linearly to negative values, so that cells that the horizon crosses are interpolated without a bend.
 ///
 /// Throws gonio::error for fewer than 2 or more than 4096 numbers along any axis, and for values that are not finite.
 /// The bytes do not depend on the number of threads. O(theta_i values^2) evaluations of f.
@@ -52,11 +64,20 @@ template <brdf Brdf>
   return adaptive_brdf(detail::tabulated_adaptively(evaluated, resolution, threads));
 }
 
-/// The default limit of the relative change of a material's albedo by its tables.
+/// Returns the tables of an anisotropic BRDF, over the azimuths of the light, too:
+/// `tabulate_adaptively(f, anisotropic_resolution{})`. A template, so that `{}` means the other one.
+template <brdf Brdf, std::same_as<anisotropic_resolution> Resolution>
+[[nodiscard]] adaptive_brdf tabulate_adaptively(const Brdf& f, const Resolution& resolution,
+                                                thread_count threads = {}) {
+  const auto evaluated = [&f](const direction& wi, const direction& wo) -> rgb { return f(wi, wo); };
+  return adaptive_brdf(detail::tabulated_adaptively(evaluated, resolution, threads));
+}
+
+/// The default limit of the relative albedo error of a material's tables.
 inline constexpr double usual_albedo_tolerance = 0.006;
 
-/// Returns the largest relative difference between the albedos of a BRDF and of its tables as measured, at 0, 20, 40,
-/// 60 and 80 degrees of wi. 800,000 evaluations of each.
+/// Returns the largest relative difference between the albedo of a BRDF and the albedo of its tables as measured, at 0,
+/// 20, 40, 60 and 80 degrees of wi. Evaluates each 800,000 times.
 template <brdf Brdf>
 [[nodiscard]] double albedo_error(const Brdf& f, const adaptive_brdf& tables, thread_count threads = {}) {
   std::array<double, 5> errors{};
@@ -64,7 +85,7 @@ template <brdf Brdf>
       std::ssize(errors), 1,
       [&](Eigen::Index i) {
         const double theta = radians(20.0 * static_cast<double>(i));
-        // `directional_albedo` integrates over its first direction, so light and viewer are exchanged.
+        // `directional_albedo` integrates over its first direction, so exchange light and viewer.
         const auto exchanged = [&f](const direction& wo, const direction& wi) noexcept -> rgb { return f(wi, wo); };
         const auto measured = [&tables](const direction& wo, const direction& wi) noexcept -> rgb {
           return tables.as_measured(wi, wo);
@@ -76,10 +97,10 @@ template <brdf Brdf>
   return *std::ranges::max_element(errors);
 }
 
-/// Returns a BRDF's tables at the default resolution if they keep its albedo within `tolerance`. Otherwise uses nearly
-/// twice the angles, and if needed also half as many rows and columns again. Linear interpolation is too bright where a
-/// narrow highlight grows towards grazing angles. A file of the tables has 7, 13 or 24 MB. Throws like
-/// `tabulate_adaptively`.
+/// Returns a BRDF's tables at the default resolution if their albedo differs by at most `tolerance` (`albedo_error`).
+/// Otherwise uses nearly twice as many theta_i, and if needed also 1.5 times as many rows and columns. Too few make the
+/// tables too bright where a narrow highlight grows towards grazing angles. A file of the tables has 7, 13 or 24 MB.
+/// Throws like `tabulate_adaptively`.
 template <brdf Brdf>
 [[nodiscard]] adaptive_brdf tabulate_keeping_albedo(const Brdf& f, double tolerance = usual_albedo_tolerance,
                                                     thread_count threads = {}) {
@@ -91,7 +112,7 @@ template <brdf Brdf>
 }
 
 /// Returns the reflectance table of another BRDF over a material's own normals, for `adaptive_brdf_parts`: for example
-/// three wavelengths of a material that is tabulated in colours. O(theta_i values^2) evaluations of f.
+/// of three wavelengths, for a material that is tabulated in colours. O(theta_i values^2) evaluations of f.
 template <brdf Brdf>
 [[nodiscard]] unit_square_tables tabulate_over(const adaptive_brdf& material, const Brdf& f,
                                                thread_count threads = {}) {

@@ -10,9 +10,9 @@
 
 namespace gonio::model {
 
-/// D F G / (4 cos theta_i cos theta_o): Beckmann's distribution, Schlick's Fresnel factor, and the masking of
-/// V-cavities. Eq. 2.21 is printed with cos theta_i, which is not reciprocal. Here, as in its source, the angle is to
-/// the half vector.
+/// The shape D F G / (4 cos theta_i cos theta_o): Beckmann's distribution D, Schlick's Fresnel factor F, and the
+/// masking G of V-cavities. The thesis prints Eq. 2.21 with cos theta_i, which is not reciprocal. Here, as in the
+/// source of that equation, the cosine is between light and half vector.
 template <class Real>
 struct torrance_sparrow_shape {
   static constexpr std::string_view name = "torrance-sparrow";
@@ -21,18 +21,18 @@ struct torrance_sparrow_shape {
   static auto members(auto& self) { return std::tie(self.slope, self.f0); }
 
   Real slope = Real(0.2);  ///< m, the root mean square slope of the facets
-  Real f0 = Real(0.1);     ///< reflectance of a facet at normal incidence; the lobe's colour also scales the whole
+  Real f0 = Real(0.1);     ///< reflectance of a facet at normal incidence; the colour scales the lobe, too
 
   [[nodiscard]] Real operator()(const lobe_geometry& at) const {
     const double cosine_h = at.h.z();
     const double largest_cosine = std::max(at.cosine_i, at.cosine_o);
-    // G over 4 cos theta_i cos theta_o. The cosines cancel where light is masked.
+    // Compute G / (4 cos theta_i cos theta_o). The cosines cancel where facets mask each other.
     const double masking = std::min(
         {0.25 / (at.cosine_i * at.cosine_o), 0.5 * cosine_h / at.cosine_d / largest_cosine, largest_reflectance});
     return distribution(at.squared_tangent_h()) * fresnel_schlick(at.cosine_d, f0) * masking;
   }
 
-  /// D of Eq. 2.20, in sr^-1, given tan^2 of the angle between facet and normal.
+  /// The distribution D of Eq. 2.20, in sr^-1, given tan^2 of the angle between facet and normal.
   [[nodiscard]] Real distribution(double squared_tangent) const {
     using std::exp;
     const Real squared_slope = slope * slope;

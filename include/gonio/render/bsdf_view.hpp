@@ -1,8 +1,8 @@
 #pragma once
 /// A material's interface for a renderer: `eval`, `eval_pdf` and `sample`, with standard library types only. This
 /// header includes no other gonio header and also compiles as C++17, so a renderer's own files need neither Eigen nor
-/// the rest of the library: one file makes the material, the others use a `bsdf_view`. docs/learn/renderer.md has
-/// recipes for pbrt-v4, Mitsuba 3 and Cycles.
+/// the rest of the library: one file makes the material, and all other files use a `bsdf_view`. docs/learn/renderer.md
+/// has recipes for pbrt-v4, Mitsuba 3 and Cycles.
 
 #include <array>
 
@@ -18,8 +18,8 @@ class bsdf_view {
   using vector = std::array<float, 3>;
   using colour = std::array<float, 3>;
 
-  /// A direction towards the light, f cos(theta_i) / pdf there, and pdf in sr^-1. It carries light if `pdf` is positive
-  /// and the weight is not black.
+  /// A direction wi towards the light with its density `pdf` in sr^-1 and the weight f cos(theta_i) / pdf. It carries
+  /// light if `pdf` is positive and the weight is not black.
   struct sampled {
     vector wi{0.0f, 0.0f, 1.0f};
     colour weight{};
@@ -32,7 +32,7 @@ class bsdf_view {
         eval_(&value_of<Sampler>),
         eval_pdf_(&density_of<Sampler>),
         sample_(&drawn_from<Sampler>) {}
-  /// A temporary material cannot be viewed.
+  /// Deleted, because a view must not outlive its material.
   template <class Sampler>
   explicit bsdf_view(const Sampler&&) = delete;
 

@@ -4,8 +4,9 @@
 /// (doi:10.1007/978-3-7091-6453-2_2); the grid is that of Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH
 /// 2003 (doi:10.1145/882262.882343).
 ///
-/// An angle in a quadrant is identified by s / (s + c) with its sine s and cosine c. This ratio rises almost evenly
-/// from 0 to 1 and is independent of a common factor. Its values at the cells' borders are tabulated once.
+/// An angle from 0 to 90 degrees is identified by s / (s + c) with its sine s and cosine c. This ratio rises almost
+/// evenly from 0 to 1 and does not change if s and c have a common factor. The ratios at the cells' borders are
+/// tabulated once.
 
 #include <gonio/table/grid.hpp>
 
@@ -23,8 +24,8 @@ namespace gonio::render {
 
 namespace detail {
 
-/// Counts how many ascending borders a number has reached. A table over the range gives the starting point, and one
-/// comparison finishes the search.
+/// Counts how many of some ascending borders a number has reached. A table over the range gives the count up to one
+/// border, and one comparison completes it.
 template <std::floating_point Real>
 class border_counter {
  public:
@@ -44,7 +45,7 @@ class border_counter {
   }
 
  private:
-  /// Returns false if a bin has two borders.
+  /// Fills the table. Returns false if a bin has two borders.
   bool fill(Eigen::Index bins, Real end) {
     bins_per_unit_ = static_cast<Real>(bins) / end;
     before_.assign(bins + 1, 0);  // the last bin is for `end` itself
@@ -65,10 +66,11 @@ class border_counter {
 }  // namespace detail
 
 /// Finds the same cells as `grid::nearest`, which uses arc functions, in a fraction of the time. Use it for one pair at
-/// a time. For many pairs at once, or positions between cells, use `to_grid_coordinates`: its polynomials have more
-/// instructions than a processor can look ahead, so single pairs wait for each value (bench/render/lookup_table.cpp).
-/// Near a border, rounding in `float` may give the neighbour: within 1e-6 radians, some pairs in a million. `double`
-/// gave no other cell in ten million pairs. Both directions may have the same positive factor.
+/// a time. For many pairs at once, or positions between cells, use `to_grid_coordinates`. For single pairs,
+/// `to_grid_coordinates` is slower, because its polynomials have more instructions than a processor can look ahead
+/// (bench/render/lookup_table.cpp). In `float`, rounding may give the neighbouring cell within 1e-6 radians of a
+/// border, which happens to some pairs in a million. In `double`, ten million pairs gave no other cell. The two
+/// directions need not be of unit length, but must have the same length.
 ///
 /// Construction allocates some kilobytes. After that it does not allocate, lock or throw, and may be used from many
 /// threads.
@@ -78,7 +80,8 @@ class cell_finder {
   /// O(theta_h + theta_d + phi_d).
   explicit cell_finder(const grid& cells = grid()) : rows_(cells.extents().theta_d), columns_(cells.extents().phi_d) {
     const auto [theta_h, theta_d, phi_d] = cells.extents();
-    // The border before node k is half a cell from it. On the theta_h axis, that is not the middle of two angles.
+    // The border before node k is half a cell from the node. On the theta_h axis, that border is not midway between the
+    // angles of two nodes.
     const double shift = cells.anchor() == cell_anchor::centre ? 0.0 : -0.5;
     constexpr double half_pi = std::numbers::pi / 2.0;
     std::vector<double> h, d, phi;
@@ -87,7 +90,7 @@ class cell_finder {
       h.push_back(std::sqrt(share(half_pi * fraction * fraction)));
     }
     for (int k = 1; k < theta_d; ++k) d.push_back(share(half_pi * (k + shift) / theta_d));
-    // After the last node of a periodic axis there may be a border to the first.
+    // After the last node of the periodic axis there may be a border between it and the first node.
     for (int k = 1; k + shift < phi_d; ++k) {
       const double angle = std::numbers::pi * (k + shift) / phi_d;
       phi.push_back(angle < half_pi ? share(angle) : 1.0 + share(angle - half_pi));
@@ -106,8 +109,8 @@ class cell_finder {
     bool exists = false;
   };
 
-  /// Returns the linear number of the cell, phi_d fastest and theta_h slowest; `none` if a direction is at or below the
-  /// horizon, or not finite. Directions are any type with components `[0]`, `[1]`, `[2]`.
+  /// Returns the linear number of the cell, phi_d fastest and theta_h slowest. Returns `none` if a direction is at or
+  /// below the horizon, or not finite. Directions are any type with components `[0]`, `[1]`, `[2]`.
   template <class Direction>
   [[nodiscard]] Eigen::Index operator()(const Direction& wi, const Direction& wo) const noexcept {
     return at(wi[0], wi[1], wi[2], wo[0], wo[1], wo[2]);
@@ -121,10 +124,11 @@ class cell_finder {
   [[nodiscard]] place find(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) const noexcept {
     const Real sx = ix + ox, sy = iy + oy, sz = iz + oz, dx = ix - ox, dy = iy - oy, dz = iz - oz;
     const Real across = sx * sx + sy * sy, sum = across + sz * sz, difference = dx * dx + dy * dy + dz * dz;
-    // Also false for NaN.
+    // The condition is also false for NaN.
     if (!(iz > 0 && oz > 0 && sum + difference <= largest)) return {};
     const Real length = std::sqrt(sum), radius = std::sqrt(across), apart = std::sqrt(difference);
-    // The difference vector, rotated with the half vector to the pole, times the radius. On the axis it is not rotated.
+    // The difference vector, rotated by the rotation that takes the half vector to the normal, times the radius. If the
+    // half vector is the normal, it is not rotated.
     const bool on_axis = !(across > 0);
     const Real along = sx * dx + sy * dy;
     const Real x = on_axis ? dx : (sz * along - across * dz) / length, y = on_axis ? dy : sx * dy - sy * dx;
@@ -141,7 +145,7 @@ class cell_finder {
     return s / (s + c);
   }
 
-  /// Maps an azimuth, folded to half a turn, to [0, 2). The fold maps pi to 0.
+  /// Maps an azimuth modulo pi to [0, 2).
   [[nodiscard]] static Real half_turn_share(Real x, Real y) noexcept {
     const bool is_below = y < 0;
     const Real up = is_below ? -y : y, right = is_below ? -x : x, side = std::abs(x);

@@ -51,14 +51,15 @@ class shared_components {
     });
   }
 
-  /// Takes combinations of a basis' components, a column of weights for each (k x r): the functions of a spatially
-  /// varying BRDF map (`io::svbrdf_header`). Throws gonio::error unless there are k rows. O(cells k r).
+  /// Takes r functions that are combinations of a basis' k components, as for a spatially varying BRDF map
+  /// (`io::svbrdf_header`). `combinations` is k x r: a column of weights for each function. Throws gonio::error unless
+  /// there are k rows. O(cells k r).
   template <log_relative_components Basis>
   shared_components(const Basis& basis, const Eigen::Ref<const Eigen::MatrixXf>& combinations)
       : index_(basis.cells().grid()), size_(combinations.cols()), epsilon_(static_cast<float>(basis.metric().epsilon)) {
     if (combinations.rows() != basis.size() || size_ < 1)
-      refuse("combinations of " + std::to_string(combinations.rows()) + " components, but there are " +
-             std::to_string(basis.size()));
+      refuse("the combinations have " + std::to_string(combinations.rows()) + " rows, expected one for each of the " +
+             std::to_string(basis.size()) + " components");
     read(basis, [&](Eigen::Index cell, Stored* out) {
       for (Eigen::Index r = 0; r < size_; ++r) {
         double sum = 0.0;
@@ -95,7 +96,7 @@ class shared_components {
           const Eigen::Index number = index_(h, d, p);
           const Eigen::Index cell = basis.cells().representative(grid().linear(cell_index{h, d, p}));
           Stored* const row = values_.data() + number * stride();
-          // Zeros are far below epsilon and are clamped to a floor, as in `log_relative`.
+          // References of zero are far below epsilon and are clamped to a floor, as in `log_relative`.
           const double reference = static_cast<double>(basis.metric().reference()[cell]);
           row[0] = static_cast<Stored>(static_cast<float>(std::log(std::max(reference, 1e-8))));
           row[1] = static_cast<Stored>(static_cast<float>(basis.offset(cell)));
@@ -168,7 +169,7 @@ class component_brdf {
       : components_(&components), weights_(weights.size(), 0.0f) {
     if (weights.rows() != components.size() || weights.cols() != 3 || !weights.allFinite())
       refuse("a BRDF of " + std::to_string(components.size()) +
-             " components needs one finite weight per component for each of " + "3 channels, not " +
+             " components needs one finite weight per component for each of 3 channels, not " +
              std::to_string(weights.rows()) + " x " + std::to_string(weights.cols()));
     // Store the three weights of a component adjacently.
     for (Eigen::Index k = 0; k < weights.rows(); ++k)

@@ -55,10 +55,11 @@ class environment_map {
 
   /// Returns the radiance from a world direction, which must not be zero and may have any length.
   [[nodiscard]] rgb operator()(const direction& d) const noexcept {
-    // In half turns: downwards from +y, and around from +z (the left edge).
+    // In units of pi: the angle downwards from +y, and the angle around from +z (the left edge).
     const double down = half_turns(d.y(), std::sqrt(d.x() * d.x() + d.z() * d.z()));
     const double around = half_turns(-d.z(), d.x()) + (std::signbit(d.x()) ? 0.0 : 1.0);
-    // The south pole, and the direction +z from the left, are at the far edges of the last row and column.
+    // The south pole is at the far edge of the last row. The direction +z, if reached from the left, is at the far edge
+    // of the last column.
     const auto row = std::min(static_cast<std::size_t>(down * static_cast<double>(rows())), rows() - 1);
     const auto column = std::min(static_cast<std::size_t>(around * static_cast<double>(rows())), columns() - 1);
     return pixel(image_, row, column);
@@ -69,12 +70,11 @@ class environment_map {
     return towards(row, column, rows());
   }
 
-  /// The cosine and sine of an angle from +y, up.
+  /// The direction of a row: cosine (`along`) and sine (`across`) of its angle from +y (up).
   struct height {
     double along = 0.0, across = 0.0;
   };
-  /// Returns the unit vector towards a height and a position along the row, in columns from the left edge of the first
-  /// one.
+  /// Returns the unit vector of a height and a position along the row, in columns from the left edge of the image.
   [[nodiscard]] static direction towards(const height& up, double column, std::size_t rows) noexcept {
     const double longitude = column * std::numbers::pi / static_cast<double>(rows) - std::numbers::pi;
     return {up.across * std::sin(longitude), up.along, -up.across * std::cos(longitude)};
@@ -95,7 +95,8 @@ class environment_map {
     return towards({std::cos(polar), std::sin(polar)}, static_cast<double>(column) + 0.5, rows);
   }
 
-  /// Returns the azimuth of a point from the x axis in half turns; below the axis, that of the opposite point.
+  /// Returns the azimuth of a point from the x axis in units of pi. For a point below the axis, returns the azimuth of
+  /// the opposite point.
   [[nodiscard]] static double half_turns(double x, double y) noexcept {
     const detail::azimuth_terms<double> phi(x, y);
     return detail::half_turns(detail::quarter_turns(phi.tangent, phi.tangent * phi.tangent, phi.steep), phi.left);
@@ -115,14 +116,16 @@ class environment_map {
 
 namespace detail {
 
-/// Calls `visit(row, column)` for all pixels along Hilbert's curve through the smallest square with a power of two as
-/// side that contains the image. Pixels near in this order are near in the image.
+/// Calls `visit(row, column)` for all pixels along Hilbert's curve. The curve fills the smallest square that contains
+/// the image and whose side is a power of two. Pixels that are near each other on the curve are near each other in the
+/// image.
 template <class Visit>
 void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&& visit) {
   const std::size_t side = std::bit_ceil(std::max(rows, columns));
   for (std::size_t place = 0; place < side * side; ++place) {
-    // Two bits of the place choose a quadrant at each level, from the finest on, and the curve within it is rotated to
-    // fit. The curve visits both quadrants of the upper half first, so an image twice as wide as high has no gap.
+    // At each level, from the finest, two bits of `place` choose a quadrant, and the part of the curve inside it is
+    // rotated to fit. The curve fills the upper half of the square first. In an image twice as wide as high, whose
+    // width is a power of two, successive pixels are therefore adjacent.
     std::size_t row = 0, column = 0, rest = place;
     for (std::size_t half = 1; half < side; half *= 2, rest /= 4) {
       const bool lower = (rest & 2) != 0, right = lower != ((rest & 1) != 0);
@@ -144,11 +147,11 @@ void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&&
 
 /// Approximates the map by directional lights. Draws `count` pixels with probability proportional to luminance times
 /// solid angle, one in each of `count` equal strata along a Hilbert curve. Each light has the pixel's radiance * solid
-/// angle / (count * probability), so all have the same luminance. A pixel drawn several times becomes one light with
-/// the sum. The expected image over seeds is the image under `all_lights`.
+/// angle / (count * probability), so all have the same luminance. A pixel that is drawn n times becomes one light, n
+/// times as bright. The expected image over seeds is the image under `all_lights`.
 ///
-/// Rough surfaces need fewer lights. A mirror shows each light as a dot for any affordable number; use
-/// `environment_lighting(90, 72, map)` there, whose bins are dense at highlights.
+/// Rough surfaces need fewer lights. A mirror shows each light as a dot for any affordable number of lights; for
+/// mirrors, use `environment_lighting(90, 72, map)`, whose bins are dense at highlights.
 ///
 /// Throws gonio::error if count is 0. O(pixels). The result depends only on `seed`.
 [[nodiscard]] directional_lighting important_lights(const environment_map& map, std::size_t count, std::uint64_t seed);

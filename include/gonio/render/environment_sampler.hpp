@@ -22,11 +22,11 @@ struct sampled_light {
   double pdf = 0.0;
 };
 
-/// Draws directions of an environment map: a pixel in proportion to its luminance times solid angle, and a uniform
-/// direction within it. Holds the map.
+/// Draws a pixel of an environment map in proportion to its luminance times solid angle, and then a direction that is
+/// uniform within the pixel. Holds the map.
 ///
 /// Pixels are ordered along Hilbert's curve (M. Steigleder and M. McCool, "Generalized Stratified Sampling Using the
-/// Hilbert Curve", Journal of Graphics Tools 8(3), 2003), so evenly spread first numbers give evenly spread directions.
+/// Hilbert Curve", Journal of Graphics Tools 8(3), 2003), so evenly spaced numbers u1 give evenly spread directions.
 class environment_sampler {
  public:
   /// O(pixels); 16 bytes each.
@@ -44,7 +44,7 @@ class environment_sampler {
     const auto above = std::upper_bound(first + guess[0], first + guess[1], share);
     const std::size_t place = above - first, pixel_number = order_[place];
     const std::size_t row = pixel_number / map_.columns(), column = pixel_number % map_.columns();
-    // The position of the first number within its pixel serves as a third random number.
+    // The position of u1 within its pixel's share serves as a third random number.
     const double within = std::clamp((share - reached_[place]) / (*above - reached_[place]), 0.0, 1.0);
     const double height = edges_[row] + within * (edges_[row + 1] - edges_[row]);
     const double across = std::sqrt(std::max(0.0, 1.0 - height * height));
@@ -64,10 +64,10 @@ class environment_sampler {
   }
 
   environment_map map_;
-  std::vector<std::uint32_t> order_;  ///< the pixels along the curve
+  std::vector<std::uint32_t> order_;  ///< the pixels, ordered along the curve
   std::vector<double>
       reached_;  ///< the sums of luminance times solid angle before each pixel on the curve, and the total
-  std::vector<std::uint32_t> guesses_;  ///< positions along the curve at equal steps of that sum
+  std::vector<std::uint32_t> guesses_;  ///< positions along the curve at equal steps of `reached_`
   std::vector<double> edges_;           ///< cosines of the angles from +y at the borders between rows
   double pdf_per_luminance_ = 0.0;
 };

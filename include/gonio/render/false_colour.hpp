@@ -1,7 +1,6 @@
 #pragma once
-/// Numbers as colours. Blue, green, red for the size of a difference: Noell, Koehler and Stricker 2014, Fig. 3, CIELAB
-/// differences "from blue (0.0), over green to red (20.0 and higher)". Blue, white, red for signed values. Light to
-/// dark for shares, and distinct colours for categories; both suit all kinds of colour vision.
+/// Colours for numbers, suitable for all kinds of colour vision: light to dark for errors, uncertainties and shares;
+/// blue, white and red for signed values; distinct colours for categories.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/rgb.hpp>
@@ -13,23 +12,6 @@
 
 namespace gonio::render {
 
-/// The values that show as pure blue and pure red; the default is the paper's. Their mean shows as pure green.
-struct false_colour_range {
-  double blue = 0.0;
-  double red = 20.0;
-};
-
-/// Returns the linear colour of a value: blue up to `range.blue`, red from `range.red` on, through green, mixing two
-/// neighbours in proportion. The paper does not say how its colours are mixed. Here it is in linear light: within the
-/// range, red - blue is twice the relative position minus 1. Values must not be NaN.
-[[nodiscard]] inline rgb false_colour(double value, const false_colour_range& range = {}) noexcept {
-  GONIO_ASSERT(range.blue < range.red);
-  GONIO_ASSERT(value == value);
-  // -1 is blue, 0 green, 1 red.
-  const double place = std::clamp(2.0 * (value - range.blue) / (range.red - range.blue) - 1.0, -1.0, 1.0);
-  return {std::max(place, 0.0), 1.0 - std::abs(place), std::max(-place, 0.0)};
-}
-
 /// Returns the linear colour of a signed value: white at zero, red from `limit` on, blue from -limit down, mixed in
 /// linear light. From -limit to limit, red - blue is value / limit. Values must not be NaN.
 [[nodiscard]] inline rgb diverging_colour(double value, double limit) noexcept {
@@ -39,12 +21,13 @@ struct false_colour_range {
   return {1.0 + std::min(share, 0.0), 1.0 - std::abs(share), 1.0 - std::max(share, 0.0)};
 }
 
-/// Returns the linear colour of a share from 0 (light) to 1 (dark blue); others are clipped. Lightness decreases
+/// Returns the linear colour of a share from 0 (light) to 1 (dark blue); other shares are clipped. Lightness decreases
 /// evenly, so the order is visible to all kinds of colour vision. Black is reserved for missing values. Shares must not
 /// be NaN.
 [[nodiscard]] inline rgb sequential_colour(double share) noexcept {
   GONIO_ASSERT(share == share);
-  // From #f3ecd2 to #123a63, as in examples/report: quarters of the display's mixture, in linear light.
+  // Five colours from #f3ecd2 to #123a63 in linear light, mixed in equal steps of display values, as in
+  // examples/report.
   constexpr std::array<std::array<double, 3>, 5> quarters{{{0.8963, 0.8388, 0.6445},
                                                            {0.4955, 0.5241, 0.4692},
                                                            {0.2251, 0.2918, 0.3255},
@@ -58,8 +41,16 @@ struct false_colour_range {
           (1.0 - above) * low[2] + above * high[2]};
 }
 
-/// Returns the position of a value on a logarithmic scale: 0 up to `lowest`, which must be positive, 1 at `highest`,
-/// more above.
+/// Returns the linear colour of a CIELAB difference: light for zero, dark for `largest` and more. The default of
+/// `largest` is that of Noell, Koehler and Stricker 2014, Fig. 3. Their colours go from blue over green to red, an
+/// order that is not visible without a scale.
+[[nodiscard]] inline rgb difference_colour(double delta_e, double largest = 20.0) noexcept {
+  GONIO_ASSERT(largest > 0.0);
+  return sequential_colour(delta_e / largest);
+}
+
+/// Returns the position of a value on a logarithmic scale: 0 for values up to `lowest`, 1 for `highest`, above 1 for
+/// larger values. `lowest` must be positive.
 [[nodiscard]] inline double place_by_factors(double value, double lowest, double highest) noexcept {
   return std::log(std::max(value, lowest) / lowest) / std::log(highest / lowest);
 }
@@ -72,8 +63,8 @@ struct false_colour_range {
 /// The number of categories that have colours.
 inline constexpr int categories = 8;
 
-/// Returns the linear colour of one of 8 categories: those of Okabe and Ito (Color Universal Design, 2002), with light
-/// grey instead of black, which is reserved for no category.
+/// Returns the linear colour of one of 8 categories: the colours of Okabe and Ito (Color Universal Design, 2002), with
+/// light grey instead of black. Black is reserved for points without a category.
 [[nodiscard]] inline rgb category_colour(int category) noexcept {
   GONIO_ASSERT(category >= 0 && category < categories);
   constexpr std::array<std::array<double, 3>, categories> colours{{{0.791, 0.347, 0.0},

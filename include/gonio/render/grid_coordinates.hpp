@@ -43,7 +43,7 @@ template <std::floating_point Real>
   return cells.anchor() == cell_anchor::centre ? Real(0.5) : Real(0);
 }
 
-/// Returns the nodes nearest to a position. The phi_d node may equal its extent, which stands for the first.
+/// Returns the nodes nearest to a position. The phi_d node may equal its extent, which stands for node 0.
 template <std::floating_point Real>
 [[nodiscard]] inline cell_index nearest_nodes(const gonio::grid& cells, const grid_coordinates<Real>& place) noexcept {
   const auto [heights, rows, columns] = cells.extents();
@@ -58,14 +58,14 @@ template <std::floating_point Real>
 /// The terms of a pair of directions, before square roots are taken.
 template <std::floating_point Real>
 struct pair_terms {
-  Real squared_h;         ///< of the tangent of theta_h, or its inverse if that is more than 1
-  Real squared_d;         ///< likewise for theta_d
+  Real squared_h;         ///< tan^2 theta_h, or its inverse where `steep_h` is 1
+  Real squared_d;         ///< tan^2 theta_d, or its inverse where `steep_d` is 1
   Real squared_sum;       ///< |wi + wo|^2
-  Real along, beside;     ///< relative to the half vector, the difference vector has the ratio along : beside |wi + wo|
+  Real along, beside;     ///< tan(phi_d) = beside |wi + wo| / along
   Real steep_h, steep_d;  ///< 1 if theta_h or theta_d is more than pi / 4, otherwise 0
 
-  /// Takes directions above the horizon. Selections are only among computed numbers: g++ does not vectorise a loop that
-  /// chooses between two computations that may trap.
+  /// Takes directions above the horizon. Computes both results before it selects one: g++ does not vectorise a loop
+  /// that chooses between two computations that may trap.
   pair_terms(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) noexcept {
     const Real sx = ix + ox, sy = iy + oy, sz = iz + oz, dx = ix - ox, dy = iy - oy, dz = iz - oz;
     const Real across = sx * sx + sy * sy, up = sz * sz, difference = dx * dx + dy * dy + dz * dz;
@@ -74,7 +74,8 @@ struct pair_terms {
     squared_h = std::min(across, up) / std::max(across, up);
     steep_d = difference > squared_sum ? Real(1) : Real(0);
     squared_d = std::min(difference, squared_sum) / std::max(difference, squared_sum);
-    // The difference vector, rotated with the half vector to the pole, times both lengths.
+    // The difference vector, rotated by the rotation that takes the half vector to the normal, times the lengths of
+    // both.
     along = sz * (sx * dx + sy * dy) - across * dz;
     beside = sx * dy - sy * dx;
   }
@@ -82,7 +83,8 @@ struct pair_terms {
 
 }  // namespace detail
 
-/// Whether the pair is above the horizon, every component is a number, and their magnitudes sum to at most 1e7.
+/// Returns true if both directions are above the horizon, every component is a number, and the magnitudes of all
+/// components sum to at most 1e7.
 template <std::floating_point Real>
 [[nodiscard]] inline bool is_above_horizon(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) noexcept {
   const Real sum = std::abs(ix) + std::abs(iy) + std::abs(iz) + std::abs(ox) + std::abs(oy) + std::abs(oz);
@@ -90,8 +92,8 @@ template <std::floating_point Real>
 }
 
 /// Returns the coordinates of a pair of directions above the horizon. They agree with `to_half_difference` within 4e-7
-/// (`float`) or 1e-13 (`double`), except that phi_d is 0 if the half vector is the normal. Both directions may have the
-/// same positive factor. Four square roots and four divisions.
+/// (`float`) or 1e-13 (`double`), except that phi_d is 0 if the half vector is the normal. The directions need not be
+/// of unit length, but must have the same length. Four square roots and four divisions.
 template <std::floating_point Real>
 [[nodiscard]] inline grid_coordinates<Real> to_grid_coordinates(Real ix, Real iy, Real iz, Real ox, Real oy,
                                                                 Real oz) noexcept {
@@ -111,7 +113,7 @@ struct component_arrays {
   [[nodiscard]] Eigen::Index size() const noexcept { return x.size(); }
 };
 
-/// Computes the coordinates of several pairs side by side. Each step of `to_grid_coordinates` is a loop that compilers
+/// Computes the coordinates of several pairs at once. Each step of `to_grid_coordinates` is a loop that compilers
 /// vectorise (bench/render/lookup_table.cpp).
 template <std::floating_point Real>
 class grid_coordinates_block {
@@ -178,7 +180,7 @@ class grid_coordinates_block {
     for (Eigen::Index i = 0; i < size; ++i) tangents[i] = detail::quarter_turns(tangents[i], squares[i], steep[i]);
   }
 
-  /// Uses Eigen, because a compiler's loop would set errno for negative numbers one by one.
+  /// Uses Eigen, because a compiled loop would handle negative numbers one by one to set errno.
   static void take_roots(lanes& squares) noexcept {
     Eigen::Map<Eigen::Array<Real, static_cast<int>(size), 1>, Eigen::Aligned64> values(squares.data());
     values = values.sqrt();

@@ -1,7 +1,7 @@
 #pragma once
 /// Importance sampling of isotropic BRDFs for a renderer. Draws half vectors from a distribution tabulated for each of
-/// some viewers, or cosine-weighted directions, with a ratio for each viewer. After J. Lawrence, S. Rusinkiewicz and R.
-/// Ramamoorthi, "Efficient BRDF Importance Sampling Using a Factored Representation", SIGGRAPH 2004
+/// 16 viewers, or cosine-weighted directions, in a ratio chosen for each viewer. After J. Lawrence, S. Rusinkiewicz and
+/// R. Ramamoorthi, "Efficient BRDF Importance Sampling Using a Factored Representation", SIGGRAPH 2004
 /// (doi:10.1145/1015706.1015751), whose half-vector factor is tabulated here without factorisation, and M. Pharr, W.
 /// Jakob and G. Humphreys, "Physically Based Rendering", 2023, Sec. 9.6 (densities of reflected directions).
 
@@ -24,31 +24,32 @@ namespace gonio::render {
 
 namespace detail {
 
-/// Rings about the normal, finer towards it like MERL's, each divided into sectors of azimuth from the viewer's.
-/// Sectors on the left stand for those on the right too. A distribution is constant in solid angle within each bin.
+/// Divides half vectors into rings about the normal, finer towards it like MERL's, and each ring into sectors of
+/// azimuth from the viewer's azimuth. Sectors on the left also stand for those on the right. A distribution is constant
+/// in solid angle within each bin.
 template <std::floating_point Real>
 class half_vector_bins {
  public:
   static constexpr Eigen::Index rings = 60, sectors = 8, count = rings * sectors;
-  /// The part of a distribution before each bin, and 1 at the end.
+  /// For each bin, the share of the distribution that is in the bins before; 1 at the end.
   using cumulative = std::array<float, count + 1>;
 
   half_vector_bins() {
     for (Eigen::Index ring = 0; ring <= rings; ++ring) {
       const double share = static_cast<double>(ring) / static_cast<double>(rings);
       const double s = std::sin(share * share * (std::numbers::pi / 4.0));
-      heights_[ring] =
-          static_cast<Real>(2.0 * s * s);  // 1 - cos; the area above it on the unit sphere is 2 pi times that
+      heights_[ring] = static_cast<Real>(2.0 * s * s);  // 1 - cos of the angle; times 2 pi, the solid angle within it
     }
   }
 
-  /// Returns the solid angle of a bin on both sides.
+  /// Returns the solid angle of a bin: its left and its right part together.
   [[nodiscard]] Real solid_angle(Eigen::Index bin) const noexcept {
     const Eigen::Index ring = bin / sectors;
     return (heights_[ring + 1] - heights_[ring]) * (2 * std::numbers::pi_v<Real> / static_cast<Real>(sectors));
   }
 
-  /// Returns a half vector within a bin, on its left side, for a viewer in the xz plane. Both numbers are from 0 to 1.
+  /// Returns a half vector in the left part of a bin, for a viewer in the xz plane. `along` and `around` are its
+  /// position in the bin, from 0 to 1.
   [[nodiscard]] Eigen::Matrix<Real, 3, 1> within(Eigen::Index bin, Real along, Real around) const noexcept {
     const Eigen::Index ring = bin / sectors;
     const Real height = heights_[ring] + along * (heights_[ring + 1] - heights_[ring]);
@@ -82,7 +83,7 @@ class half_vector_bins {
 /// to share it. Its own tables need 31 KB.
 ///
 /// `sample`, `pdf` and the BRDF are consistent: the weight times pdf is f cos(theta_i), and pdf integrates to 1 over
-/// the sphere of directions. One or two in a hundred half vectors reflect the viewer below the horizon. These
+/// the sphere of directions. One or two half vectors in a hundred reflect the viewer below the horizon. The resulting
 /// directions have weight 0, and pdf includes them, as the tests of renderers expect. At least a tenth of the
 /// directions is cosine-weighted, so a weight is at most 10 pi f. `gonio-papers importance-sampling` compares its
 /// variance with that of cosine-weighted directions.
@@ -95,7 +96,7 @@ class half_vector_sampler {
  public:
   using vector = Eigen::Matrix<Real, 3, 1>;
 
-  /// Measures the BRDF with about 150,000 evaluations.
+  /// Tabulates the distributions with about 150,000 evaluations of the BRDF.
   explicit half_vector_sampler(Brdf f) : f_(std::move(f)), distributions_(viewers), ratios_(viewers) {
     for (Eigen::Index viewer = 0; viewer < viewers; ++viewer) {
       distributions_[viewer] = distribution_for(viewer);
@@ -107,6 +108,14 @@ class half_vector_sampler {
 
   /// Draws a direction from two numbers in [0, 1). Weight and density are zero if wo is not above the horizon.
   [[nodiscard]] basic_sampled_direction<Real> sample(const vector& wo, Real u1, Real u2) const noexcept {
+    basic_sampled_direction<Real> drawn = draw(wo, u1, u2);
+    if (drawn.wi.z() > 0 && drawn.pdf > 0)
+      drawn.weight = Eigen::Array<Real, 3, 1>(f_(drawn.wi, wo)) * (drawn.wi.z() / drawn.pdf);
+    return drawn;
+  }
+
+  /// Draws the same direction, but leaves its weight 0: for another BRDF.
+  [[nodiscard]] basic_sampled_direction<Real> draw(const vector& wo, Real u1, Real u2) const noexcept {
     if (!(wo.z() > 0)) return {};
     const Eigen::Index viewer = viewer_of(wo);
     const Real ratio = ratios_[viewer];
@@ -114,8 +123,6 @@ class half_vector_sampler {
     drawn.wi = u1 < ratio ? mirrored(wo, viewer_turn(wo).from_plane(half_vector(viewer, u1 / ratio, u2)))
                           : cosine_weighted_direction((u1 - ratio) / (1 - ratio), u2);
     drawn.pdf = pdf(drawn.wi, wo);
-    if (drawn.wi.z() > 0 && drawn.pdf > 0)
-      drawn.weight = Eigen::Array<Real, 3, 1>(f_(drawn.wi, wo)) * (drawn.wi.z() / drawn.pdf);
     return drawn;
   }
 
@@ -127,19 +134,20 @@ class half_vector_sampler {
     return ratio * half_vector_pdf(viewer, wi, wo) + (1 - ratio) * cosine_weighted_pdf(wi);
   }
 
-  /// Returns the fraction of half vectors for a viewer.
+  /// Returns the fraction of directions that are drawn by half vectors for a viewer.
   [[nodiscard]] Real ratio_of(const vector& wo) const noexcept { return ratios_[viewer_of(wo)]; }
 
  private:
   static constexpr Eigen::Index viewers = 16;
   using bins = detail::half_vector_bins<Real>;
 
-  /// Returns the index of a viewer by sqrt(1 - cos theta_o), which gives nearly equal steps of the angle.
+  /// Returns the index of a viewer. It is proportional to sqrt(1 - cos theta_o), which gives nearly equal steps of the
+  /// angle.
   [[nodiscard]] static Eigen::Index viewer_of(const vector& wo) noexcept {
     const Real place = std::sqrt(std::max(1 - wo.z(), Real(0))) * static_cast<Real>(viewers);
     return std::min<std::size_t>(static_cast<std::size_t>(place), viewers - 1);
   }
-  /// Returns a viewer in the xz plane, at the fraction `share` of its index's interval.
+  /// Returns a viewer in the xz plane. `share` is its position in the interval of its index, from 0 to 1.
   [[nodiscard]] static vector a_viewer(Eigen::Index viewer, double share) {
     const double place = (static_cast<double>(viewer) + share) / static_cast<double>(viewers);
     const double z = 1.0 - place * place;
@@ -167,7 +175,7 @@ class half_vector_sampler {
     }
   };
 
-  /// Draws a half vector for a viewer in the xz plane. The upper half of the second number's range is the right side.
+  /// Draws a half vector for a viewer in the xz plane. If u2 is at least 1/2, the half vector is on the right side.
   [[nodiscard]] vector half_vector(Eigen::Index viewer, Real u1, Real u2) const noexcept {
     const auto& before = distributions_[viewer];
     const auto above = std::upper_bound(before.begin() + 1, before.end() - 1, static_cast<float>(u1));
@@ -191,8 +199,9 @@ class half_vector_sampler {
     return density * length / (4 * std::abs(wo.dot(h)));
   }
 
-  /// Returns the density of half vectors that minimises the variance under uniform illumination: in each bin
-  /// proportional to the root mean square of f cos(theta_i) per solid angle of half vectors, plus a small uniform part.
+  /// Returns the distribution of half vectors that minimises the variance under uniform illumination. In each bin, the
+  /// density is proportional to the root mean square of f cos(theta_i) per solid angle of half vectors, plus a small
+  /// uniform part.
   [[nodiscard]] typename bins::cumulative distribution_for(Eigen::Index viewer) const {
     std::array<double, bins::count> share{};
     double sum = 0.0;
@@ -234,12 +243,12 @@ class half_vector_sampler {
     return std::max(static_cast<double>(value.mean()), 0.0) * static_cast<double>(wi.z());
   }
 
-  /// Returns the fraction of half vectors that minimises the variance of a viewer's weights.
+  /// Returns the fraction of directions drawn by half vectors that minimises the variance of a viewer's weights.
   [[nodiscard]] Real best_ratio(Eigen::Index viewer) const {
     const vector wo = a_viewer(viewer, 0.5);
     constexpr std::array ratios{0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
     std::array<double, ratios.size()> second_moment{};
-    // Stratified directions of an equal mixture, each with its moments under every ratio.
+    // Draw stratified directions, half of them by half vectors, and sum up the second moments for every ratio.
     constexpr int side = 24;
     for (int i = 0; i < side; ++i)
       for (int j = 0; j < side; ++j)

@@ -32,7 +32,8 @@ struct node_interval {
   Real share;
 };
 
-/// Returns the nodes around a position, in units of nodes. Positions outside are clamped to the first or last node.
+/// Returns the nodes around a position, in units of nodes. Positions outside of the axis are clamped to the first or
+/// last node.
 template <std::floating_point Real>
 [[nodiscard]] inline node_interval<Real> clamped_nodes(Real place, int extent) noexcept {
   const Real inside = std::clamp(place, Real(0), static_cast<Real>(extent - 1));
@@ -40,7 +41,7 @@ template <std::floating_point Real>
   return {lower, std::min(lower + 1, extent - 1), inside - static_cast<Real>(lower)};
 }
 
-/// Returns the nodes on a periodic axis, for positions from -1/2 to its extent.
+/// Returns the nodes of a periodic axis around a position, which is from -1/2 to the extent of the axis.
 template <std::floating_point Real>
 [[nodiscard]] inline node_interval<Real> periodic_nodes(Real place, int extent) noexcept {
   const auto upper = static_cast<int>(place + 1);
@@ -55,26 +56,26 @@ template <std::floating_point Real>
 /// The cells at whose node both directions are above the horizon, numbered in the grid's linear order like
 /// `valid_cells`.
 ///
-/// For a given theta_d and phi_d, these cells reach up to some theta_h. For a given theta_h and theta_d they are
-/// contiguous, so a number is the offset of its row plus phi_d.
+/// For a given theta_d and phi_d, these cells range from theta_h = 0 to some largest theta_h. For a given theta_h and
+/// theta_d they are contiguous in phi_d, so a cell's number is the offset of its row plus its phi_d.
 class horizon_index {
  public:
-  /// O(cells of the grid). Throws gonio::error if no cell is above the horizon at some theta_d and phi_d. That can only
-  /// happen with more cells along theta_d than twice the square of theta_h's extent.
+  /// O(cells of the grid). Throws gonio::error if, at some theta_d and phi_d, no cell is above the horizon. That can
+  /// only happen with more cells along theta_d than twice the square of the number along theta_h.
   explicit horizon_index(const gonio::grid& cells = gonio::grid());
 
   /// Returns the number of cells above the horizon.
   [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
   [[nodiscard]] const gonio::grid& grid() const noexcept { return grid_; }
 
-  /// Returns the number of a cell. For a cell below the horizon, returns that of the cell above it with the same
-  /// theta_d and phi_d and the largest theta_h. This extends a table, so that look-ups near the horizon find no hole.
+  /// Returns the number of a cell. For a cell below the horizon, returns the number of the cell above the horizon with
+  /// the same theta_d and phi_d and the largest theta_h. Look-ups near the horizon then find no hole.
   [[nodiscard]] Eigen::Index operator()(Eigen::Index theta_h, Eigen::Index theta_d, Eigen::Index phi_d) const noexcept {
     const Eigen::Index layer = std::min<Eigen::Index>(theta_h, last_[theta_d * columns_ + phi_d]);
     return begin_[layer * rows_ + theta_d] + static_cast<std::uint32_t>(phi_d);  // modulo 2^32
   }
 
-  /// Returns the same cell's number among all cells of the grid, as in `grid::linear`.
+  /// Returns the number among all cells of the grid (`grid::linear`) of the cell that `operator()` numbers.
   [[nodiscard]] Eigen::Index linear(Eigen::Index theta_h, Eigen::Index theta_d, Eigen::Index phi_d) const noexcept {
     const Eigen::Index layer = std::min<Eigen::Index>(theta_h, last_[theta_d * columns_ + phi_d]);
     return (layer * rows_ + theta_d) * columns_ + phi_d;
@@ -94,7 +95,8 @@ class horizon_index {
     return around(place, *this);
   }
 
-  /// Likewise, with the numbers that `number_of(theta_h, theta_d, phi_d)` returns.
+  /// Returns the cells around a position as the overload without `number_of` does, but with the numbers that
+  /// `number_of(theta_h, theta_d, phi_d)` returns.
   template <std::floating_point Real, class NumberOf>
   [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& place,
                                                const NumberOf& number_of) const noexcept {

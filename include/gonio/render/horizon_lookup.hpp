@@ -1,6 +1,6 @@
 #pragma once
-/// Look-up in a table for images. Between cells it interpolates the reflected light, f times both cosines, instead of
-/// f.
+/// Look-up in a table for images. Between cells, interpolates f times the cosines of light and viewer instead of f, and
+/// divides by the interpolated cosines.
 ///
 /// A cell just above the horizon hardly determines f: in Eq. 1 of Nielsen, Jensen and Ramamoorthi 2015
 /// (doi:10.1145/2816795.2818085), an error of epsilon becomes epsilon / (cos theta_i cos theta_o) in f, and an estimate
@@ -34,7 +34,7 @@ class horizon_lookup {
   }
 
  private:
-  /// The weight of cells on the horizon itself.
+  /// The smallest weight, for cells on the horizon itself.
   static constexpr double smallest_weight = 1e-9;
 
   const brdf_table* table_;

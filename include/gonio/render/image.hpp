@@ -8,15 +8,15 @@
 
 namespace gonio::render {
 
-/// Copies an image into a larger one. Its top left corner is at (row, column).
+/// Copies `picture` into `canvas`, with its top left corner at (row, column).
 void paste(image& canvas, const image& picture, std::size_t row, std::size_t column);
 
-/// Returns images from left to right, aligned at the top, with `margin` pixels of `background` around each (neighbours
-/// share a margin).
+/// Joins images from left to right, aligned at the top, with `margin` pixels of `background` around each image
+/// (neighbours share a margin).
 [[nodiscard]] image side_by_side(std::span<const image> images, std::size_t margin = 0,
                                  const rgb& background = rgb::Zero());
 
-/// Returns images from top to bottom, aligned at the left; otherwise like `side_by_side`.
+/// Joins images from top to bottom, aligned at the left; otherwise like `side_by_side`.
 [[nodiscard]] image stacked(std::span<const image> images, std::size_t margin = 0, const rgb& background = rgb::Zero());
 
 }  // namespace gonio::render

@@ -1,6 +1,6 @@
 #pragma once
-/// Light on the sphere: J. B. Nielsen's two directional lights (thesis 2016, Sec. 4.2: an oblique one in front, a
-/// grazing one behind), and environments integrated over the half vector.
+/// Light on a sphere: two directional lights (J. B. Nielsen's thesis, 2016, Sec. 4.2: an oblique light in front, a
+/// grazing light behind), and environments integrated over the half vector.
 ///
 /// World axes: x to the right, y up, z towards a camera at infinity. The sum of f * weight over all incident directions
 /// of a lighting is the radiance towards the camera: the reflected part of the rendering equation (thesis, Eq. 2.7).
@@ -29,6 +29,16 @@ struct surface_frame {
                       .normalized()),
         tangent(bitangent.cross(surface_normal)),
         normal(surface_normal) {}
+
+  /// Returns the frame whose tangent runs about an axis, as grooves do on a turned part. At the poles it is arbitrary.
+  [[nodiscard]] static surface_frame around(const direction& axis, const direction& surface_normal) noexcept {
+    surface_frame frame(surface_normal);
+    const direction along = axis.cross(surface_normal);
+    if (!(along.squaredNorm() > 1e-20)) return frame;
+    frame.tangent = along.normalized();
+    frame.bitangent = surface_normal.cross(frame.tangent);
+    return frame;
+  }
 
   [[nodiscard]] direction to_local(const direction& world) const noexcept {
     return {tangent.dot(world), bitangent.dot(world), normal.dot(world)};
@@ -118,8 +128,9 @@ class directional_lighting {
 
 static_assert(sphere_lighting<directional_lighting>);
 
-/// Returns the thesis's lights: from [1, 1, 1] in front, and from [-1, -1, -3] behind the sphere. The second reaches
-/// the camera only at grazing angles, on the lower left rim. Both are white, of irradiance 1.
+/// Returns the thesis's lights: from [1, 1, 1] in front, and from [-1, -1, -3] behind the sphere. The camera sees the
+/// second light's reflection only at grazing angles, on the lower left rim. Both lights are white and have irradiance
+/// 1.
 [[nodiscard]] inline directional_lighting two_lights() {
   return directional_lighting({{{1.0, 1.0, 1.0}}, {{-1.0, -1.0, -3.0}}});
 }
@@ -130,13 +141,13 @@ static_assert(sphere_lighting<directional_lighting>);
 [[nodiscard]] inline rgb environment_radiance(const direction& d) noexcept {
   struct window {
     direction centre;
-    double width;  // radians, where radiance falls to 1/e
+    double width;  // radians from the centre at which the radiance is 1/e of that at the centre
     rgb radiance;
     double cosine_of_edge;
   };
   static const auto windows = [] {
     const auto make = [](const direction& towards, double width, double intensity, const rgb& colour) {
-      // At 2.6 widths exp(-x^4) is 1e-20, which is lost next to the sky in double precision.
+      // At 2.6 widths, exp(-x^4) is 1e-20, which double precision loses when the sky is added.
       return window{towards.normalized(), radians(width), intensity * colour, std::cos(radians(2.6 * width))};
     };
     return std::array{make({-0.5, 0.55, 0.67}, 6.0, 40.0, {1.0, 0.82, 0.55}),
@@ -168,7 +179,7 @@ struct formula_environment {
 /// dense at highlights) and in phi_h, with exact solid angles dw_h. Each bin stands for dw_i = 4 cos(theta_d) dw_h of
 /// incident directions.
 ///
-/// A light narrower than a bin (4 degrees of the default's phi_h) gives rings on matte spheres. `Radiance` is any
+/// A light narrower than a bin (5 degrees in phi_h by default) gives rings on matte spheres. `Radiance` is any
 /// `rgb(const direction&)` over world directions that is safe to call concurrently.
 template <class Radiance = formula_environment>
 requires std::is_invocable_r_v<rgb, const Radiance&, const direction&>

@@ -27,10 +27,10 @@
 
 namespace gonio::render {
 
-/// How values are looked up: at the nearest cell, or interpolated between the eight cells around.
+/// How values are looked up: at the nearest cell, or interpolated between the eight cells around a position.
 enum class interpolation { nearest, trilinear };
 
-/// A source of a table: values at the cells of a grid, such as a `brdf_table`.
+/// The source of a `lookup_table`: values at the cells of a grid, such as a `brdf_table`.
 template <class Table>
 concept table_over_cells = requires(const Table& table, Eigen::Index linear) {
   { table.cells().grid() } -> std::convertible_to<grid>;
@@ -43,14 +43,15 @@ template <class Stored>
 concept stored_number =
     std::same_as<Stored, float> || std::same_as<Stored, double> || std::same_as<Stored, Eigen::half>;
 
-/// Stores values in sr^-1 of the cells above the horizon, at least zero, times a power of two that keeps half numbers
-/// in range. After construction it does not allocate, lock or throw, and any number of threads may read.
+/// A table of values in sr^-1, at least zero. Half numbers are divided by a power of two that keeps them in range.
+/// Cells below the horizon repeat cells above it. After construction, the table does not allocate, lock or throw; any
+/// number of threads may read it.
 ///
 /// Look-up is black if a direction is at or below the horizon, if a component is NaN, or if the magnitudes of all
 /// components sum to more than 1e7. Directions need not be of unit length, but must have the same length.
 /// ```cpp
 /// const auto paint = gonio::render::lookup_table<Eigen::half>::of(table);  // a brdf_table
-/// const Eigen::Array3f f = paint(wi, wo);                          // sr^-1, without the cosine
+/// const auto f = paint(wi, wo);  // sr^-1, without the cosine, in float or double like the directions
 /// ```
 template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>
 class lookup_table {
@@ -73,7 +74,7 @@ class lookup_table {
     return from_merl(planes, gonio::grid(extents, infer_convention(planes, extents).anchor));
   }
 
-  /// Likewise, on a grid with a known anchor.
+  /// Converts the data of a MERL file like the other overload, for a grid with a known anchor.
   [[nodiscard]] static lookup_table from_merl(std::span<const double> planes, const gonio::grid& cells) {
     const Eigen::Index plane = cells.size();
     if (std::ssize(planes) != 3 * plane)
@@ -155,8 +156,8 @@ class lookup_table {
   static constexpr bool is_half = std::is_same_v<Stored, Eigen::half>;
   using computed =
       std::conditional_t<std::is_same_v<Stored, double>, double, float>;  ///< type in which values are blended
-  using storage =
-      std::conditional_t<is_half, std::uint16_t, Stored>;  ///< compilers do not see Eigen's class as numbers
+  using storage = std::conditional_t<is_half, std::uint16_t, Stored>;     ///< bits of half numbers, as compilers do not
+                                                                          ///< treat Eigen's class as a number
 
   /// `value_of(cell_index)` returns red, green and blue.
   template <class ValueOf>
@@ -174,15 +175,15 @@ class lookup_table {
           const std::array<double, 3> value = value_of(cell_index{h, d, p});
           for (Eigen::Index channel = 0; channel < 3; ++channel) {
             if (!std::isfinite(static_cast<float>(value[channel])))
-              refuse("a table for rendering is not finite at theta_h " + std::to_string(h) + ", theta_d " +
-                     std::to_string(d) + ", phi_d " + std::to_string(p));
+              refuse("a table for rendering is not finite in cell (" + std::to_string(h) + ", " + std::to_string(d) +
+                     ", " + std::to_string(p) + ") of (theta_h, theta_d, phi_d)");
             values[3 * number + channel] = std::max(value[channel], 0.0);
           }
         }
     store(index, values);
   }
 
-  /// Stores values of the cells above the horizon.
+  /// Stores the values of the cells above the horizon, extended to all cells.
   void store(const horizon_index& index, const std::vector<double>& values) {
     const auto [heights, rows, columns] = grid().extents();
     scale_ = scale_of(values);
@@ -197,7 +198,7 @@ class lookup_table {
     values_.resize(values_.size() + read_beyond, storage(0));
   }
 
-  /// The location read for a pair: one cell, or eight with weights.
+  /// The location that is read for a pair of directions: one cell, or the first of eight cells with fractions.
   template <std::floating_point Real>
   using place_of = std::conditional_t<Interpolation == interpolation::nearest, std::int32_t, cell_corner<Real>>;
 
@@ -209,8 +210,8 @@ class lookup_table {
       return cells_.around(coordinates);
   }
 
-  /// The number of values read for a location: three, or in each of four rows the three of both neighbours along phi_d,
-  /// padded to whole vectors.
+  /// The number of values that are read for a location, padded to whole vectors: the three channels of the nearest cell
+  /// or, for trilinear look-up, four rows with the three channels of both neighbours along phi_d.
   static constexpr Eigen::Index read_of_place = Interpolation == interpolation::nearest ? 4 : 4 * 8;
 
   void read(std::int32_t nearest, storage* out) const noexcept {
@@ -228,7 +229,7 @@ class lookup_table {
     }
   }
 
-  /// Blends the values that were read, times a factor.
+  /// Blends the values that were read for a location, and multiplies the result by `factor`.
   template <std::floating_point Real>
   [[nodiscard]] static Eigen::Array<Real, 3, 1> blended(const place_of<Real>& where, const computed* values,
                                                         computed factor) noexcept {
@@ -254,7 +255,7 @@ class lookup_table {
   }
 
   /// Returns the stored values as numbers to compute with, in place. Half numbers, which are at least zero, are
-  /// converted into `wide`: their bits are shifted, times 2^112.
+  /// converted into `wide` by a shift of their bits and a multiplication by 2^112.
   template <std::size_t Size>
   [[nodiscard]] static const computed* widened(const std::array<storage, Size>& stored,
                                                std::array<computed, Size>& wide) noexcept {
@@ -267,7 +268,8 @@ class lookup_table {
     }
   }
 
-  /// Returns 1; for half numbers, the power of two that brings the largest value near the end of their range, 65504.
+  /// Returns the factor by which values are divided: 1, or for half numbers the power of two that brings the largest
+  /// value near the end of their range, 65504.
   [[nodiscard]] static double scale_of(const std::vector<double>& values) {
     const double largest = *std::ranges::max_element(values);
     if (!is_half || !(largest > 0.0)) return 1.0;

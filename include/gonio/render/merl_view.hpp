@@ -21,12 +21,12 @@
 namespace gonio::render {
 
 /// A view of three planes of red, green and blue in the scale of MERL's files, phi_d fastest and theta_h slowest. The
-/// planes must outlive it. It reads them like `lookup_table::from_merl`: negative values, which mark cells without a
-/// value, are black, and cells below the horizon extend those above. It holds an index of the grid, 100 KB. After
-/// construction it does not allocate, lock or throw, and any number of threads may read.
+/// planes must outlive it. The view reads them like `lookup_table::from_merl`: negative values, which mark cells
+/// without a value, are black, and cells below the horizon repeat cells above it. The view holds an index of the grid,
+/// 100 KB. After construction it does not allocate, lock or throw, and any number of threads may read.
 /// ```cpp
 /// const gonio::render::merl_view paint(planes);  // what the file holds behind its header, 3 x 90 x 90 x 180
-/// const Eigen::Array3f f = paint(wi, wo);        // sr^-1, without the cosine
+/// const auto f = paint(wi, wo);  // sr^-1, without the cosine, in float or double like the directions
 /// ```
 /// Values are not checked in advance. A value that is not finite is returned as it is.
 template <interpolation Interpolation = interpolation::nearest>
@@ -36,13 +36,13 @@ class merl_view {
   /// (`infer_convention`), as in `read_merl`. Throws gonio::error if the planes do not have the grid's size.
   explicit merl_view(std::span<const double> planes, const grid_extents& extents = {})
       : merl_view(planes, gonio::grid(extents, infer_convention(planes, extents).anchor)) {}
-  /// Likewise, on a grid with a known anchor.
+  /// Takes a grid with a known anchor. Throws gonio::error if the planes do not have the grid's size.
   merl_view(std::span<const double> planes, const gonio::grid& cells) : planes_(planes), index_(cells), finder_(cells) {
     if (std::ssize(planes) != 3 * cells.size())
       refuse("a MERL table needs three planes of " + std::to_string(cells.size()) + " values, not " +
              std::to_string(planes.size()) + " values");
   }
-  /// Temporary planes cannot be viewed.
+  /// Deleted, because a view must not outlive its planes.
   explicit merl_view(std::vector<double>&& planes, const grid_extents& extents = {}) = delete;
   merl_view(std::vector<double>&& planes, const gonio::grid& cells) = delete;
 

@@ -26,8 +26,9 @@ struct cell_corner {
   Real theta_h = 0, theta_d = 0, phi_d = 0;
 };
 
-/// All cells of a grid, including those below the horizon, and two more per row. For MERL's grid this is a third more
-/// than the cells above the horizon, which `horizon_index` numbers. In return, finding a cell reads no memory.
+/// Numbers all cells of a grid, including those below the horizon, and two more per row. For MERL's grid, these are a
+/// third more than the cells above the horizon, which `horizon_index` numbers. In return, finding a cell reads no
+/// memory.
 class padded_grid {
  public:
   /// Throws gonio::error if there are more than (2^31 - 1) / 3 cells.
@@ -36,7 +37,7 @@ class padded_grid {
         columns_(cells.extents().phi_d + 2),
         step_h_(cells.extents().theta_h > 1 ? cells.extents().theta_d * columns_ : 0),
         step_d_(cells.extents().theta_d > 1 ? columns_ : 0) {
-    // With the margins, up to three times as many cells are numbered.
+    // With two more cells per row, there are up to three times as many numbers as cells.
     constexpr Eigen::Index largest = std::numeric_limits<std::int32_t>::max() / 3;
     if (cells.size() > largest)
       refuse("a grid for rendering has " + std::to_string(cells.size()) + " cells, more than " +
@@ -47,11 +48,12 @@ class padded_grid {
   [[nodiscard]] Eigen::Index size() const noexcept {
     return Eigen::Index{grid_.extents().theta_h} * grid_.extents().theta_d * columns_;
   }
-  /// The offset to the next cell along theta_h and along theta_d; 0 if there is only one.
+  /// The offset to the next cell along theta_h and along theta_d; 0 if the axis has only one cell.
   [[nodiscard]] Eigen::Index step_h() const noexcept { return step_h_; }
   [[nodiscard]] Eigen::Index step_d() const noexcept { return step_d_; }
 
-  /// Takes phi_d from -1, which stands for the last, to its extent, which stands for the first.
+  /// Returns the number of a cell. phi_d may be -1, which stands for the last cell of the row, or the extent of the
+  /// axis, which stands for the first.
   [[nodiscard]] std::int32_t operator()(Eigen::Index theta_h, Eigen::Index theta_d, Eigen::Index phi_d) const noexcept {
     return static_cast<std::int32_t>((theta_h * grid_.extents().theta_d + theta_d) * columns_ + phi_d + 1);
   }
@@ -69,7 +71,7 @@ class padded_grid {
     const auto [heights, rows, columns] = grid_.extents();
     const auto h = inside(place.theta_h, heights), d = inside(place.theta_d, rows);
     const Real p = place.phi_d * static_cast<Real>(columns) - detail::first_node<Real>(grid_) +
-                   1;  // counted from the cell before the first
+                   1;  // 1 for the repeated cell before the first
     const int lower_h = lower(h, heights), lower_d = lower(d, rows), lower_p = std::min(static_cast<int>(p), columns);
     return {(lower_h * rows + lower_d) * columns_ + lower_p, h - static_cast<Real>(lower_h),
             d - static_cast<Real>(lower_d), p - static_cast<Real>(lower_p)};

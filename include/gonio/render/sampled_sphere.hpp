@@ -1,7 +1,7 @@
 #pragma once
 /// Renders a sphere in an environment like a path tracer: combines importance sampling of the BRDF and of the
 /// environment. E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH
-/// 1995 (doi:10.1145/218380.218498): the balance heuristic. A sphere only has light that is reflected once.
+/// 1995 (doi:10.1145/218380.218498): the balance heuristic. A sphere reflects light only once.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
@@ -26,15 +26,16 @@ namespace gonio::render {
 /// A camera at infinity in front of the sphere, as in render/sphere.hpp.
 struct sampled_sphere_view {
   int size = 256;                 ///< rows and columns of the image
-  int samples = 64;               ///< pairs of directions per pixel: one by the BRDF, one by the environment
+  int samples = 64;               ///< half the number of directions per pixel
   std::uint64_t seed = 1;         ///< determines all draws
   double white = 1.0;             ///< the mean luminance that a white Lambertian sphere would have
-  bool shows_environment = true;  ///< around the sphere; otherwise black
+  bool shows_environment = true;  ///< shows the environment around the sphere; otherwise black
+  bool is_turned = false;         ///< see `sphere_view::is_turned`
 };
 
-/// Returns the mean luminance of a white Lambertian sphere in an environment over all points of its disc: the sum over
-/// the pixels of the sphere's phase function, 2/3 (sin a + (pi - a) cos a) / pi for a parallel light at the angle a
-/// from the camera. O(pixels).
+/// Returns the mean luminance of a white Lambertian sphere in an environment over all points of its disc. Sums, over
+/// the pixels of the environment, their luminance times the sphere's phase function, 2/3 (sin a + (pi - a) cos a) / pi
+/// for a parallel light at the angle a from the camera. O(pixels).
 [[nodiscard]] double white_sphere_luminance(const environment_map& map);
 
 namespace detail {
@@ -44,9 +45,9 @@ struct sample_numbers {
   double x = 0.0, y = 0.0, u = 0.0, v = 0.0;
 };
 
-/// A sequence of quadruples that fill [0, 1)^4 evenly from a random start. u increases in equal steps. The others step
-/// by powers of the root of t^4 = t + 1 (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
-/// Any short run also fills the other three dimensions evenly.
+/// A sequence of quadruples (x, y, u, v) that fill [0, 1)^4 evenly from a random start. u increases in equal steps. x,
+/// y and v step by powers of the root of t^4 = t + 1 (M. Roberts, "The Unreasonable Effectiveness of Quasirandom
+/// Sequences", 2018), so any short run also fills these three dimensions evenly.
 class even_numbers {
  public:
   even_numbers(Eigen::Index count, std::mt19937_64& generator);
@@ -66,12 +67,13 @@ class even_numbers {
   sample_numbers first_;
 };
 
-/// Light towards the camera from a drawn direction, and the densities in sr^-1 of both ways to draw it.
+/// Light that is reflected towards the camera from a drawn direction, and the densities in sr^-1 with which the
+/// material and the light draw this direction.
 struct drawn_light {
   rgb reflected = rgb::Zero();  ///< BRDF times radiance times cosine
   double by_material = 0.0, by_light = 0.0;
 
-  /// Returns the density if a fraction `share` of all draws is by the material.
+  /// Returns the density of the direction if the material draws the fraction `share` of all directions.
   [[nodiscard]] double density(double share) const noexcept { return share * by_material + (1.0 - share) * by_light; }
 };
 
@@ -118,15 +120,19 @@ class sphere_tiles {
   struct location {
     double x, y, squared;
     [[nodiscard]] bool is_on_sphere() const noexcept { return squared < 1.0; }
-    [[nodiscard]] surface_frame surface() const noexcept { return surface_frame({x, y, std::sqrt(1.0 - squared)}); }
   };
+  [[nodiscard]] surface_frame surface_at(const location& seen) const noexcept {
+    const direction normal(seen.x, seen.y, std::sqrt(1.0 - seen.squared));
+    return view_.is_turned ? surface_frame::around(direction::UnitY(), normal) : surface_frame(normal);
+  }
   [[nodiscard]] location at(double row, double column) const noexcept {
     const double x = column / view_.size * 2.0 - 1.0, y = 1.0 - row / view_.size * 2.0;
     return {x, y, x * x + y * y};
   }
 
-  /// Returns the fraction of draws by the material, in eighths, with the smallest second moment under the balance
-  /// heuristic. Estimates it from a tile, with equally many draws of both kinds.
+  /// Returns the fraction of directions to be drawn by the material, in eighths: the fraction with the smallest second
+  /// moment under the balance heuristic. Estimates the second moments from a tile, with equally many directions drawn
+  /// by material and light.
   [[nodiscard]] double share_of_material(Eigen::Index top, Eigen::Index left, std::mt19937_64& generator) const {
     std::array<double, 7> second_moments{};
     constexpr Eigen::Index pairs = side * side;
@@ -135,7 +141,7 @@ class sphere_tiles {
       const sample_numbers u = numbers[i];
       const location seen = at(static_cast<double>(top) + side * u.y, static_cast<double>(left) + side * u.x);
       if (!seen.is_on_sphere()) continue;
-      const surface_frame surface = seen.surface();
+      const surface_frame surface = surface_at(seen);
       for (const drawn_light& drawn : {draw_by_material(material_, light_, surface, u.u, u.v),
                                        draw_by_light(material_, light_, surface, u.u, u.v)})
         if (const double value = luminance(drawn.reflected); value > 0.0)
@@ -159,7 +165,7 @@ class sphere_tiles {
         const location seen = at(static_cast<double>(row) + u.y, static_cast<double>(column) + u.x);
         if (!seen.is_on_sphere()) {
           if (view_.shows_environment) sum += light_.map()(direction(seen.x, seen.y, -3.0));
-        } else if (const drawn_light drawn = draw(material_, light_, seen.surface(), u.u, u.v);
+        } else if (const drawn_light drawn = draw(material_, light_, surface_at(seen), u.u, u.v);
                    (drawn.reflected > 0.0).any()) {
           sum += drawn.reflected / drawn.density(exact);
         }
@@ -179,9 +185,9 @@ class sphere_tiles {
 }  // namespace detail
 
 /// Renders an image of a sphere in linear light. Scales the environment so that a white Lambertian sphere would have
-/// the mean luminance `view.white`. The material samples itself and returns its BRDF from `brdf()`, like
-/// `half_vector_sampler`. The fraction of a pixel's directions drawn by the BRDF is chosen for each tile of 8 x 8
-/// pixels. The bytes do not depend on the number of threads. O(pixels x samples).
+/// the mean luminance `view.white`. `material` must draw its own directions and have `brdf()`, like
+/// `half_vector_sampler`. The fraction of directions that the BRDF draws is chosen for each tile of 8 x 8 pixels. The
+/// bytes do not depend on the number of threads. O(pixels x samples).
 template <direction_sampler Sampler>
 [[nodiscard]] image render_sphere(const Sampler& material, const environment_sampler& light,
                                   const sampled_sphere_view& view = {}, thread_count threads = {},

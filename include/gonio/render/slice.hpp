@@ -12,7 +12,7 @@
 
 namespace gonio::render {
 
-/// The scale of theta_h along the image.
+/// The scale of theta_h along the horizontal axis of the image.
 enum class slice_axis {
   /// Steps of sqrt(theta_h), as in MERL's tables: a highlight of a few degrees fills a quarter of the image.
   square_root,
@@ -40,8 +40,8 @@ struct slice_view {
 
 /// Returns f * pi over theta_h (along x, 0 at the left) and theta_d (along y, 0 at the bottom), both from 0 to 90
 /// degrees, at pixel centres. The factor pi shows a white Lambertian surface as white; nothing is clipped. Grazing
-/// reflection is in the top row, mirror reflection in the left column, retro-reflection at the bottom. All of it is
-/// above the horizon. On MERL's grid the default image has one pixel for each cell. Through a nearest_lookup, the
+/// reflection is in the top row, mirror reflection in the left column, retro-reflection at the bottom. All pixels are
+/// above the horizon. With MERL's grid, the default image has one pixel for each cell. With a nearest_lookup, the
 /// grazing corner at the top right is black, because its cells are at 90.5 degrees.
 template <brdf Brdf>
 [[nodiscard]] image render_slice(const Brdf& f, const slice_view& view = {}, thread_count threads = {}) {

@@ -1,10 +1,10 @@
 #pragma once
-/// Orthographic images of a sphere with a BRDF, for any `brdf`, and the same image as a linear map of a table's values,
-/// for evaluating many tables quickly.
+/// Orthographic images of a sphere with any BRDF. For many tables, a faster way: the image as a linear map of a table's
+/// values.
 ///
-/// Pixel centres form a regular grid over the square around the unit disc. Those strictly inside belong to the sphere
-/// (1020 of 36 x 36). Exposure: the lighting is scaled so that a white Lambertian sphere (f = 1/pi) has mean luminance
-/// 1 over the sphere's pixels. Nothing else about the image depends on the BRDF.
+/// Pixel centres form a regular grid over the square around the unit disc. Pixel centres strictly inside the disc
+/// belong to the sphere (1020 of 36 x 36). Exposure: the lighting is scaled so that a white Lambertian sphere (f =
+/// 1/pi) has mean luminance 1 over the sphere's pixels. The exposure does not depend on the BRDF.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
@@ -28,15 +28,18 @@ struct sphere_view {
   int size = 256;
   /// Samples per pixel along each axis.
   int supersampling = 1;
-  /// Shown around the sphere, and blended into partly covered pixels (if supersampling > 1).
+  /// The colour around the sphere. With supersampling, partly covered pixels blend sphere and background.
   rgb background = rgb::Zero();
+  /// For an anisotropic BRDF: its x axis runs about the vertical axis, as grooves do on a turned sphere. Otherwise its
+  /// x axis is arbitrary.
+  bool is_turned = false;
 };
 
 /// A point of the sphere that a sample of the image sees.
 struct sphere_point {
   std::uint32_t row = 0;
   std::uint32_t column = 0;
-  /// In world axes, as in render/lighting.hpp.
+  /// The surface normal in world axes, as in render/lighting.hpp.
   direction normal;
 };
 
@@ -45,10 +48,31 @@ struct sphere_point {
 
 namespace detail {
 
-/// Number of samples in a thread's block.
+/// Number of samples that a thread computes at a time.
 inline constexpr Eigen::Index sphere_block = 32;
 
-/// Returns the factor that scales the mean of a white sphere's luminances to 1; 1 if no light reaches it.
+/// Converts directions in `surface_frame{normal}`, which lights have, to a frame around the vertical axis, if asked
+/// for.
+class turned_axes {
+ public:
+  turned_axes(const direction& normal, bool is_turned) : is_turned_(is_turned) {
+    if (!is_turned) return;
+    const direction x = surface_frame(normal).to_local(surface_frame::around(direction::UnitY(), normal).tangent);
+    cosine_ = x.x();
+    sine_ = x.y();
+  }
+  [[nodiscard]] direction of(const direction& w) const noexcept {
+    if (!is_turned_) return w;
+    return {cosine_ * w.x() + sine_ * w.y(), cosine_ * w.y() - sine_ * w.x(), w.z()};
+  }
+
+ private:
+  bool is_turned_;
+  double cosine_ = 1.0, sine_ = 0.0;
+};
+
+/// Returns the factor that scales the mean luminance of a white sphere's points to 1. Returns 1 if no light reaches the
+/// sphere.
 [[nodiscard]] inline double exposure_from(const std::vector<double>& white_luminances) noexcept {
   const double sum = std::accumulate(white_luminances.begin(), white_luminances.end(), 0.0);
   return sum > 0.0 ? static_cast<double>(white_luminances.size()) / sum : 1.0;
@@ -67,9 +91,10 @@ template <brdf Brdf, sphere_lighting Lighting>
   for_each_index(
       points.size(), detail::sphere_block,
       [&](Eigen::Index point) {
+        const detail::turned_axes axes(points[point].normal, view.is_turned);
         lighting.for_each_incident(points[point].normal,
                                    [&](const direction& wi, const direction& wo, const rgb& weight) {
-                                     radiance[point] += rgb(f(wi, wo)) * weight;
+                                     radiance[point] += rgb(f(axes.of(wi), axes.of(wo))) * weight;
                                      white[point] += luminance(weight) * std::numbers::inv_pi;
                                    });
       },
@@ -92,8 +117,8 @@ template <brdf Brdf, sphere_lighting Lighting>
 /// One colour for each point of a sphere, in the order of `sphere_points`; linear light.
 using sphere_colours = Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// The image of a sphere as a sparse linear map of the values of a table over given cells. Look-up is at the nearest
-/// cell; a direction whose cell is invalid contributes nothing. `apply(table)` equals
+/// The image of a sphere as a sparse linear map of the values of a table over given cells. Each direction takes the
+/// value of the nearest cell; a direction whose cell is invalid contributes nothing. `apply(table)` equals
 /// `render_sphere(nearest_lookup{table}, ...)` up to the rounding of weights to float.
 ///
 /// Memory: 16 bytes per incident direction and point; 73 MB for the default environment at 36 x 36 points, 14 kB
@@ -128,7 +153,7 @@ class sphere_operator {
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
 
-  /// Returns the points whose colours `apply` returns.
+  /// Returns the points of the sphere, in the order in which `apply` returns their colours.
   [[nodiscard]] const std::vector<sphere_point>& points() const noexcept { return points_; }
 
   /// Returns the number of non-zero entries for each of the three channels.

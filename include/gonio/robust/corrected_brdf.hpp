@@ -13,12 +13,12 @@ namespace gonio {
 
 /// The effect of one round of the correction iteration.
 struct correction_round {
-  /// Weighted root mean square of sigma - 1 at the samples before the round, over all channels: the relative error of
-  /// the estimate as seen by the round.
+  /// Relative error of the estimate before the round: the weighted root mean square of sigma - 1 over samples and
+  /// channels. Here sigma is the factor that would correct the estimate at a sample (Eq. 12).
   double error = 0.0;
-  /// Mean of |sigma - 1| at the samples for the correction that was found.
+  /// Mean of |sigma - 1| at the samples, where sigma is the factor by which the round changes the estimate.
   double change = 0.0;
-  /// Share of the samples' channels with an inlier weight below one half.
+  /// Fraction of the inlier weights below one half. Each sample has three inlier weights, one for each channel.
   double down_weighted = 0.0;
 };
 
@@ -37,7 +37,7 @@ class corrected_brdf {
   [[nodiscard]] const Initial& initial() const noexcept { return initial_; }
   /// Returns the product of all rounds' corrections, without a unit.
   [[nodiscard]] const brdf_table& correction() const noexcept { return correction_; }
-  /// Returns the weights of the correction functions in each round: functions x 3.
+  /// Returns the weights of the correction functions: for each round a matrix, functions x 3 channels.
   [[nodiscard]] const std::vector<Eigen::MatrixXd>& weights() const noexcept { return weights_; }
   [[nodiscard]] const std::vector<correction_round>& history() const noexcept { return history_; }
 

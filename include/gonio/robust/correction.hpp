@@ -1,6 +1,6 @@
 #pragma once
-/// Correction functions: the factors from the approximation of each measured material by the others to the material
-/// itself. Noell, Koehler and Stricker 2014, section 2, Eq. 3-6.
+/// Correction functions: each measured material divided by its approximation by the other materials. Noell, Koehler and
+/// Stricker 2014, section 2, Eq. 3-6.
 
 #include <gonio/basis/measured.hpp>
 #include <gonio/metric/lin.hpp>
@@ -25,21 +25,22 @@ namespace gonio {
 /// The factor that corrects an estimate, Eq. 4, 5 and 12. It is finite even if the estimate is zero or tiny, because
 /// measured materials have cells that are exactly zero.
 struct correction_factor {
-  /// Added to measurement and estimate, in sr^-1: differences well below it have little effect. A white surface has
-  /// 0.318.
+  /// Added to measurement and estimate, in sr^-1, so that differences much smaller than this offset have little effect.
+  /// For comparison: the BRDF of a white diffuser is 0.318.
   float offset = 1e-3f;
   /// The smallest denominator.
   float smallest = 1e-6f;
 
-  /// Factors and estimates are clamped to these. A combination of materials extrapolated from a few bad samples may
-  /// exceed the range of float, and so may products of several rounds.
+  /// The largest factor and the largest estimate; larger ones are clamped. Unclamped, a combination of materials
+  /// extrapolated from a few bad samples may exceed the range of float, and so may the product of several rounds'
+  /// factors.
   static constexpr float largest_factor = 1e12f, largest_estimate = 1e24f;
 
-  /// Returns the quotient as printed in the paper, except that denominators below a millionth are replaced by a
+  /// Returns the factor as printed in the paper, except that denominators below a millionth are replaced by a
   /// millionth.
   [[nodiscard]] static constexpr correction_factor as_printed() noexcept { return {0.0f, 1e-6f}; }
 
-  /// Returns sigma of a measurement and its estimate (numbers, or arrays of them). Negative measurements count as zero.
+  /// Returns sigma, given arrays of measurements and of their estimates. Negative measurements count as zero.
   template <class Values>
   [[nodiscard]] auto quotient(const Values& measured, const Values& estimate) const {
     return ((measured.max(0.0f) + offset) / (estimate + offset).max(smallest)).min(largest_factor);
@@ -55,8 +56,8 @@ struct correction_factor {
 /// How correction functions are made and used.
 struct correction_rule {
   correction_factor factor = {};
-  /// Whether the constant function 1 is one of them. It prevents drift of the iteration: if nothing is left to correct,
-  /// the others can only approximate 1.
+  /// Whether to add the constant function 1. It keeps the iteration from drifting: if nothing is left to correct, the
+  /// other functions can only approximate 1.
   bool has_constant = true;
 
   /// Returns the rule of the paper: one correction function for each material, nothing else.
@@ -67,8 +68,8 @@ struct correction_rule {
 
 namespace detail {
 
-/// Converts an array of mapped values, a row for each cell, to reflectances, at least zero. A metric that is chosen at
-/// run time has `held()`.
+/// Converts an array of mapped values, a row for each cell, to reflectances, at least zero. Row 0 belongs to cell
+/// `first`.
 template <error_metric Metric, class Values>
 void unmap_at_cells(const Metric& metric, const valid_cells& cells, Eigen::Index first, Values& values) {
   const std::span<float> all(values.data(), values.size());
@@ -86,11 +87,12 @@ void unmap_at_cells(const Metric& metric, const valid_cells& cells, Eigen::Index
   }
 }
 
-/// The approximations of a basis' materials by the others that take part, and the factors that correct them.
+/// Approximates each material of a basis by all other materials that are not excluded, and computes the factors that
+/// correct these approximations.
 template <error_metric Metric, normal_solver Solver>
 class leave_one_out_approximations {
  public:
-  /// Throws gonio::error if fewer than two materials take part.
+  /// Throws gonio::error if fewer than two materials are left after exclusions.
   leave_one_out_approximations(measured<Metric> materials, const Solver& solver, thread_count threads)
       : materials_(at_least_two(std::move(materials))), solver_(solver), threads_(threads) {
     const Eigen::Index count = materials_.size();
@@ -105,7 +107,8 @@ class leave_one_out_approximations {
 
   [[nodiscard]] const measured<Metric>& materials() const noexcept { return materials_; }
 
-  /// Returns the approximations without the materials of these names. Approximations that did not use them are kept.
+  /// Returns a copy without the materials of these names. Computes only those approximations again that used one of
+  /// them.
   [[nodiscard]] leave_one_out_approximations without(const std::vector<std::string>& excluded) const {
     leave_one_out_approximations fewer(*this);
     fewer.materials_ = at_least_two(materials_.without(excluded));
@@ -121,7 +124,8 @@ class leave_one_out_approximations {
     return fewer;
   }
 
-  /// Writes the factors of the last computed approximations into their columns of cells x 3 `functions`.
+  /// Writes the correction factors into `tables`, cells x 3 `functions`. Writes only the columns of materials whose
+  /// approximations the constructor or the latest `without` computed.
   void write_factors(const correction_factor& factor, cell_matrix& tables, Eigen::Index functions) const {
     for (Eigen::Index c = 0; c < 3; ++c) {
       auto channel = tables.middleCols(c * functions, functions);
@@ -137,7 +141,7 @@ class leave_one_out_approximations {
  private:
   [[nodiscard]] static measured<Metric> at_least_two(measured<Metric> materials) {
     if (materials.columns().size() < 2)
-      refuse("correction functions need at least two materials: each is explained by the others");
+      refuse("correction functions need at least two materials, because each is approximated by all others");
     return materials;
   }
 
@@ -180,16 +184,17 @@ class leave_one_out_approximations {
   Solver solver_;
   thread_count threads_;
   std::array<Eigen::MatrixXf, 3> weights_;            // column i explains material i
-  std::array<std::vector<Eigen::Index>, 3> renewed_;  // columns that were solved last
+  std::array<std::vector<Eigen::Index>, 3> renewed_;  // materials whose approximations are new
 };
 
 }  // namespace detail
 
-/// Corrections C_i of the materials of a basis, one for each, followed by the constant function 1, which leaves a
-/// correct estimate unchanged. Their metric is linear (Eq. 16).
+/// One correction C_i for each material of a basis, followed by the constant function 1 if
+/// `correction_rule::has_constant`. Their metric is linear (Eq. 16).
 ///
-/// A material that is excluded, in the `measured` basis or by `without`, takes no part in any correction: it has none
-/// of its own and is not in the approximation of others. Corrections therefore keep the materials alive.
+/// A material that is excluded, in the `measured` basis or by `without`, has no correction of its own and is not used
+/// to approximate other materials. The corrections hold the materials in memory, because `without` computes
+/// approximations again.
 ///
 /// ```cpp
 /// const gonio::measured materials{gonio::expand(prior), gonio::log{}};
@@ -207,13 +212,14 @@ class correction : public material_functions<lin> {
   /// Returns how the corrections were made and how to apply them.
   [[nodiscard]] const correction_rule& rule() const noexcept { return rule_; }
 
-  /// Returns the corrections without the materials of these names. Corrections whose approximations used one of them
-  /// are computed again, at the cost of making that many corrections. All are copied. Throws gonio::error for an
-  /// unknown name, or if fewer than two materials are left.
+  /// Returns the corrections without the materials of these names. Computes a correction again if its approximation
+  /// used one of these materials, and copies all other corrections. Throws gonio::error for an unknown name, or if
+  /// fewer than two materials are left.
   [[nodiscard]] correction without(const std::vector<std::string>& excluded) const { return without_(*this, excluded); }
 
  private:
-  /// Computes the corrections whose approximations were computed again, and copies the others from `known`, if given.
+  /// Computes the corrections of the materials whose approximations were just computed, and copies all other
+  /// corrections from `known`, if given.
   template <class Approximations>
   correction(Approximations approximations, const correction_rule& rule, const correction* known)
       : material_functions<lin>(approximations.materials().names(), approximations.materials().cells(), lin{},
@@ -247,7 +253,7 @@ class correction : public material_functions<lin> {
   }
 
   correction_rule rule_;
-  /// Keeps the materials and their approximations, for any metric.
+  /// Implements `without`. Owns the materials and their approximations, whose type depends on the metric.
   std::function<correction(const correction&, const std::vector<std::string>&)> without_;
 };
 

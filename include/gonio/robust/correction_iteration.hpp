@@ -17,33 +17,34 @@
 
 namespace gonio {
 
-/// The end of the iteration.
+/// When the iteration ends, and how strongly it prefers no correction.
 struct correction_limits {
   int rounds = 10;
-  /// Converged if sigma differs from 1 by less than this, on average over the samples.
+  /// Converged if |sigma - 1| is less than this, averaged over the samples.
   double smallest_change = 1e-3;
-  /// Added to the diagonal of the normal equations, with its counterpart on the constant function, like as many samples
-  /// that need no correction. A few samples say little about a hundred functions except noise.
+  /// Penalty on the squared distance of the weights from the weights that correct nothing: 1 for the constant function,
+  /// 0 for all other functions. Only used if there is a constant function. Without the penalty, a few samples would
+  /// determine the weights of a hundred functions mostly by their noise.
   double inertia = 1.0;
 };
 
 namespace detail {
 
-/// Summarises a round, given the inlier weight of each measurement, its total weight, the wanted factor of its
-/// estimate, and the factor that was found.
+/// Summarises a round, given an entry for each channel of each sample: `inlier_weights`, total `weights`, the `wanted`
+/// factor of the estimate (Eq. 12), and the factor `found` by the round.
 [[nodiscard]] correction_round describe_round(const channel_values& inlier_weights, const channel_values& weights,
                                               const channel_values& wanted, const channel_values& found,
                                               thread_count threads);
 
-/// Returns the product of all rounds' corrections over the cells, given the weights of the functions in each round.
+/// Returns the product of all rounds' corrections over the cells, given the weights of the k functions in each round.
 /// O(cells k rounds).
 [[nodiscard]] brdf_table total_correction(const correction& corrections, const std::vector<Eigen::MatrixXd>& weights,
                                           thread_count threads);
 
 }  // namespace detail
 
-/// The iteration as an object that steps. Reads rows in place if the basis stores them. A round costs O(samples k^2)
-/// for k functions, and O(samples k) if the weights are those of the round before.
+/// The iteration, one round at a time. Reads rows at cells in place. A round costs O(samples k^2) for k functions, and
+/// O(samples k) if the inlier weights have not changed since the previous round.
 ///
 /// ```cpp
 /// gonio::correction_run run{initial, corrections, gonio::locate_samples(corrections.cells(), samples)};
@@ -77,11 +78,11 @@ class correction_run {
   [[nodiscard]] channel_values inlier_weights() const { return weighting_.weigh(measured_, estimated()); }
   [[nodiscard]] channel_values sigma() const { return factor().quotient(measured_, estimated()); }
 
-  /// Makes one round with the weights of the weighting.
+  /// Makes one round with the current `inlier_weights()`.
   correction_round step() { return step(inlier_weights()); }
 
-  /// Makes one round with given inlier weights. If they are those of the round before, only the right-hand sides of the
-  /// normal equations are computed again (Eq. 9-10 with Eq. 16).
+  /// Makes one round with given inlier weights. If they have not changed since the previous round, only the right-hand
+  /// sides of the normal equations are computed again (Eq. 9-10 with Eq. 16).
   correction_round step(const channel_values& inlier_weights) {
     const channel_values wanted = sigma(), weights = inlier_weights * confidence_;
     if (weights.cols() != gram_weights_.cols() || (weights != gram_weights_).any())
@@ -97,7 +98,8 @@ class correction_run {
     return history_.back();
   }
 
-  /// Returns true if the last correction is 1 almost everywhere, or the number of rounds is reached.
+  /// Returns true if the latest round changed the estimates by less than `smallest_change` on average, or if `rounds`
+  /// rounds have been made.
   [[nodiscard]] bool converged() const noexcept {
     if (history_.empty()) return limits_.rounds <= 0;
     return std::ssize(history_) >= limits_.rounds || history_.back().change < limits_.smallest_change;
@@ -105,7 +107,7 @@ class correction_run {
 
   [[nodiscard]] const std::vector<correction_round>& history() const noexcept { return history_; }
 
-  /// Returns the estimate of another run, after its rounds so far, at the samples of this one.
+  /// Returns the current estimate of another run at the samples of this run.
   [[nodiscard]] channel_values estimated_by(const correction_run& other) const {
     const channel_values started = values_at(other.initial_, corrections_.cells(), locations_, threads_);
     channel_values total = channel_values::Ones(3, started.cols());
@@ -114,7 +116,7 @@ class correction_run {
     return factor().correct(started, total);
   }
 
-  /// Returns the estimate after the rounds so far. O(cells k rounds).
+  /// Returns the estimate after the rounds so far. O(cells rounds k) for k functions.
   [[nodiscard]] corrected_brdf<Initial> result() const {
     return {initial_, detail::total_correction(corrections_, weights_, threads_), factor(), weights_, history_};
   }
@@ -154,7 +156,7 @@ class correction_run {
   channel_values measured_;
   channel_values confidence_;
   channel_values started_, total_;
-  channel_values gram_weights_;  // the weights for which these were built:
+  channel_values gram_weights_;  // the weights with which `grams_` were built
   std::array<Eigen::MatrixXd, 3> grams_;
   Eigen::MatrixXd rhs_;
   std::vector<Eigen::MatrixXd> weights_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Finds the measured material nearest to measurements, most of which may be outliers: a robust start for other
+/// Finds the measured material nearest to measurements, even if most of them are outliers: a robust start for other
 /// estimators. Outliers distort a linear combination of materials, but a single material times a factor cannot follow
 /// them.
 
@@ -25,23 +25,22 @@
 
 namespace gonio {
 
-/// A material times a factor.
 struct scaled_material {
   Eigen::Index material = 0;
   double factor = 1.0;
 };
 
 /// For each colour channel, finds the material and its factor under which the measurements are most likely a mixture of
-/// inliers and outliers (estimate/outlier_mixture.hpp). A few samples exclude most materials, but if four of five
-/// samples are outliers, thousands are needed to distinguish the rest. So 1,500 samples select twenty materials, and
-/// 20,000 samples one of these. With more samples the cost stays O(materials).
+/// inliers and outliers (estimate/outlier_mixture.hpp). The search has two stages, because a few samples exclude most
+/// materials, but thousands are needed to distinguish similar materials if four of five samples are outliers: 1,500
+/// random samples select twenty materials, and 20,000 samples select one of the twenty. The cost is O(materials) for
+/// any number of samples.
 template <error_metric Metric>
 class nearest_material {
  public:
   explicit nearest_material(measured<Metric> materials, std::uint64_t seed = 0, thread_count threads = {})
       : materials_(std::move(materials)), seed_(seed), threads_(threads) {}
 
-  /// Returns the choice for each channel.
   [[nodiscard]] std::array<scaled_material, 3> choose(const located_samples& samples) const {
     const located_samples few = samples.subset(random_choice(samples.size(), 1'500, seed_));
     const located_samples many = samples.subset(random_choice(samples.size(), 20'000, seed_));
@@ -54,7 +53,8 @@ class nearest_material {
     return chosen;
   }
 
-  /// Fits a table of the chosen material. Throws gonio::error for unusable samples.
+  /// Returns a table of the chosen materials, one for each channel, times their factors. Throws gonio::error for
+  /// unusable samples.
   template <class Samples>
   [[nodiscard]] completed_table fit(const Samples& samples) const {
     const auto chosen = choose(in_colours(locate_samples(materials_.cells(), samples, threads_)));
@@ -65,7 +65,7 @@ class nearest_material {
     return completed_table(brdf_table(cells, std::vector<float>(found.data(), found.data() + found.size())));
   }
 
-  /// Returns the chosen materials at given locations on the materials' cells.
+  /// Returns the reflectance of the chosen materials at n locations on their cells, 3 x n.
   [[nodiscard]] channel_values values(const std::array<scaled_material, 3>& chosen,
                                       const std::vector<location>& locations) const {
     // A factor from a few bright samples may exceed the range of float.
@@ -89,7 +89,7 @@ class nearest_material {
     return reflectance_of(materials_.metric(), mapped, at);
   }
 
-  /// Samples of one channel as data of a mixture.
+  /// The logarithms of one channel's samples, and the density of outliers at each.
   struct evidence {
     evidence(const located_samples& samples, Eigen::Index channel, double offset_of_logarithm)
         : locations(&samples.locations), offset(offset_of_logarithm) {

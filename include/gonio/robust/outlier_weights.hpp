@@ -1,6 +1,7 @@
 #pragma once
-/// The inlier weight of a measurement, given an estimate of it: the concept, and weights of a single residual. Noell,
-/// Koehler and Stricker 2014, Eq. 13. estimate/outlier_mixture.hpp has `automatic_weights`, which need no parameter.
+/// The inlier weight of a measurement, given its estimate: the concept, and weights that depend on one residual alone.
+/// Noell, Koehler and Stricker 2014, Eq. 13. estimate/outlier_mixture.hpp has `automatic_weights`, which need no
+/// parameter.
 
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
@@ -16,8 +17,8 @@ namespace gonio {
 ///
 /// Requirements that the compiler cannot check: `weigh` returns one number from 0 to 1 for each channel of each sample;
 /// estimates are at least zero, measurements may be negative, both are finite; the order of the samples has no effect
-/// except for rounding; all members are const and thread safe. If weights stay the same from round to round, an
-/// iteration builds its normal equations only once.
+/// except for rounding; all members are const and thread safe. If the weights are the same in two successive rounds,
+/// the iteration does not build its normal equations again.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -70,9 +71,9 @@ struct trust_all {
 
 static_assert(outlier_weighting<trust_all>);
 
-/// exp(-gamma |rho - estimate| / estimate), Eq. 13, with the estimate at least a millionth. If the estimate is above
-/// the measurement, the weight is at least e^-gamma, so that a start that is too bright can decrease. A highlight that
-/// the estimate does not have yet looks like outliers.
+/// The weight exp(-gamma |rho - estimate| / estimate) of a measurement rho, Eq. 13, with the estimate at least a
+/// millionth. A measurement from zero to its estimate has a weight of at least e^-gamma, so a start that is too bright
+/// can decrease. If the estimate has no highlight yet, the samples of the highlight get the weights of outliers.
 struct relative_deviation_weights {
   double gamma = 3.0;
 

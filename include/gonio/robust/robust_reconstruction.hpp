@@ -1,6 +1,7 @@
 #pragma once
-/// Reconstructs a BRDF from measurements of unknown quality by correction functions, with everything chosen. Extends
-/// Noell, Koehler and Stricker 2014 by a start that resists outliers and by weights without a parameter.
+/// Reconstructs a BRDF by correction functions from measurements of unknown quality, without parameters to choose.
+/// Extends Noell, Koehler and Stricker 2014 by a start that resists outliers and by outlier weights without a
+/// parameter.
 
 #include <gonio/core/random.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
@@ -26,16 +27,16 @@ class reweighted_combination {
  public:
   reweighted_combination(measured<Metric> materials, const located_samples& samples, thread_count threads);
 
-  /// Returns the weights of the materials, k x 3, with x >= 0.
+  /// Returns non-negative weights of the materials, k x 3.
   [[nodiscard]] solution solve(const channel_values& inlier_weights) const;
-  /// Returns weights that also fit other samples, all of which are inliers.
+  /// Returns weights that fit these samples and, with inlier weights of 1, the samples of `others`.
   [[nodiscard]] solution solve(const channel_values& inlier_weights, const reweighted_combination& others) const;
 
   /// Returns the combination's reflectance at the samples.
   [[nodiscard]] channel_values values(const solution& found) const;
 
-  /// Returns the factors that convert squared errors of the mapped reflectance to relative ones: the square of the
-  /// slope of ln(rho + offset) over that of the metric, at the estimates.
+  /// Returns the factors that convert squared errors of mapped reflectance to squared relative errors. At an estimate,
+  /// the factor is the squared ratio of two slopes: that of ln(rho + offset) and that of the metric.
   [[nodiscard]] channel_values relative(const channel_values& estimates, const std::array<float, 3>& offsets) const;
 
  private:
@@ -54,22 +55,22 @@ class reweighted_combination {
 /// Settings of the start of `robust_reconstruction`. The defaults were chosen on the ten test materials of Nielsen et
 /// al. 2015 (doi:10.1145/2816795.2818085) and fifteen difficult ones (docs/results/robust-estimation.md).
 struct robust_start {
-  /// The number of random samples for the start.
+  /// The largest number of samples for the start, chosen at random.
   Eigen::Index samples = 20'000;
-  /// The number of samples for the final iteration: more do not improve the estimate of a hundred unknowns.
+  /// The largest number of samples for the final iteration; more do not improve the estimate of a hundred unknowns.
   Eigen::Index most_samples = 50'000;
   int combinations = 5;
   int corrections = 4;
-  /// The weight, in samples, of the expectation that the surface is like the nearest material at all cells. It decides
-  /// where nothing was measured: a combination that fits all samples, none of them in the highlight, may have any
-  /// highlight.
+  /// The nearest material's values over all cells are fitted together with the samples, with this total weight, in
+  /// samples. They determine the result where nothing was measured: otherwise, without samples in the highlight, a
+  /// combination that fits all samples may have any highlight.
   double expectation = 1.0;
   /// Rounds of the final iteration that use the inlier weights of the start.
   int initial_weight_rounds = 3;
   std::uint64_t seed = 0;
 };
 
-/// The final iteration of `robust_reconstruction` as an object that steps, like `correction_run`.
+/// The final iteration of `robust_reconstruction`, one round at a time, like `correction_run`.
 template <error_metric Metric>
 class robust_run {
  public:
@@ -94,17 +95,16 @@ class robust_run {
 };
 
 /// Fits samples with any share of outliers, in these steps:
-/// 1. Find the nearest material (`nearest_material`) by at most 20,000 of the samples.
-/// 2. Combine materials for relative errors five times, and correct the combination four times, with new outlier
+/// 1. Find the nearest material (`nearest_material`) from at most 20,000 of the samples.
+/// 2. Combine materials by relative errors five times, then correct the combination four times, with new outlier
 ///    weights each time. The result is rough, but identifies the inliers.
-/// 3. Combine materials again under their own metric from the inliers; where there are none, the nearest material is
-///    expected.
-/// 4. Correct this with more samples: three rounds with the inlier weights of step 2, then with its own.
+/// 3. Combine materials again in their own metric, from the inliers; where there are none, follow the nearest material.
+/// 4. Correct this combination with more samples: three rounds with the inlier weights of step 2, then with new ones.
 ///
-/// Outliers are identified separately in each region of the samples. Otherwise a fit that is good elsewhere would take
-/// a highlight that it misses for outliers, and never recover.
+/// Outliers are identified separately in each region of the samples. Otherwise, if a fit misses a highlight but is good
+/// elsewhere, it would take the highlight for outliers and never recover.
 ///
-/// No parameter depends on the data: see `automatic_weights`.
+/// No parameter must be adapted to the data: see `automatic_weights`.
 ///
 /// ```cpp
 /// const gonio::measured materials{gonio::expand(prior), gonio::log{}};
@@ -147,7 +147,7 @@ class robust_reconstruction {
   [[nodiscard]] located_samples some_of(const located_samples& samples, Eigen::Index count) const;
   /// Makes steps 1 to 3.
   [[nodiscard]] initial_state initial_state_of(const located_samples& some) const;
-  /// Returns the expected values of a surface without measurements, at cells all over the grid.
+  /// Returns the chosen material's values at up to 1,000 cells all over the grid, as samples.
   [[nodiscard]] located_samples expectation(const nearest_material<Metric>& nearest,
                                             const std::array<scaled_material, 3>& chosen) const;
 
@@ -225,9 +225,9 @@ solution reweighted_combination<Metric>::combine(const std::array<normal_equatio
   return scatter_columns(concatenate_columns(found), functions_.columns(), functions_.unknowns());
 }
 
-/// Makes a step in which a sample's weight is divided by its factor if this is above 1. Without it some outliers would
-/// dominate despite their small weights: where the estimate is near zero, the factor is in the hundreds, and its
-/// squared error is minimised.
+/// Makes a step in which a sample's weight is divided by its wanted factor sigma if sigma is above 1. Without the
+/// division, some outliers would dominate despite small weights: the step minimises the squared error of sigma, which
+/// is in the hundreds where the estimate is near zero.
 template <class Run>
 correction_round damped_step(Run& run, const channel_values& inlier_weights) {
   return run.step(inlier_weights / run.sigma().max(1.0f));

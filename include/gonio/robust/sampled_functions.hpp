@@ -1,6 +1,6 @@
 #pragma once
-/// The functions of a basis at given locations, for iterations that solve for their weights repeatedly with the same
-/// rows and different weights of the samples: Noell, Koehler and Stricker 2014, Eq. 7-10.
+/// The functions of a basis at given locations, for iterations that solve for weights repeatedly with the same rows but
+/// different sample weights: Noell, Koehler and Stricker 2014, Eq. 7-10.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/vector_kernels.hpp>
@@ -20,7 +20,8 @@
 
 namespace gonio {
 
-/// Rows at cells are read in place. Rows between cells are interpolated once and stored, 12 bytes a function.
+/// Reads the rows of a basis at cells in place. Interpolates rows between cells once and stores them, 12 bytes for each
+/// location and function.
 template <colour_basis Basis>
 requires tabulated_basis<std::remove_cvref_t<decltype(channel_of(std::declval<const Basis&>(), 0))>>
 class sampled_functions {
@@ -37,17 +38,16 @@ class sampled_functions {
         if (locations[i].count == 1) rows_[c][i] = channels_[c].row(locations[i].cell[0]).data();
   }
 
-  /// Returns the number of locations.
   [[nodiscard]] Eigen::Index size() const noexcept { return rows_[0].size(); }
   /// Returns the number of functions of the basis, including excluded ones.
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return unknowns_; }
-  /// Returns the functions that take part, ascending.
+  /// Returns the numbers of the functions that are not excluded, in ascending order.
   [[nodiscard]] const std::vector<Eigen::Index>& columns() const noexcept { return columns_; }
 
-  /// Returns Q = A'VA and m = A'Vb of one channel, where `weights` (the diagonal of V) and `values` (b) are arrays of n
-  /// floats. Skips rows whose weight, times the value if that is above 1, is less than a millionth of the largest
-  /// weight. Products are double: a Gram matrix of float products is indefinite if columns nearly depend on each other,
-  /// and no solver can certify its optimum. At most n k^2 operations.
+  /// Returns Q = A'VA and m = A'Vb of one channel. A has the functions' rows at the n locations; `weights` (the
+  /// diagonal of V) and `values` (b) are arrays of n floats. Skips a row if its weight times max(1, |value|) is less
+  /// than a millionth of the largest weight. Products are double: if columns are nearly dependent, a Gram matrix of
+  /// float products is indefinite, and no solver can certify its optimum. At most n k^2 operations for k functions.
   template <class Weights, class Values>
   [[nodiscard]] normal_equations normal(Eigen::Index channel, const Weights& weights, const Values& values) const {
     using sum_type = detail::product_sum<double>;
@@ -69,7 +69,7 @@ class sampled_functions {
   }
 
   /// Returns m = A'Vb alone, k x 3 for the three channels, for a known Q. Weights and values are 3 x n. Skips the same
-  /// rows as `normal`, so that m is in the range of Q except for rounding. Reads the rows once, which is its cost.
+  /// rows as `normal`, so m is in the range of Q except for rounding. Costs one pass over the rows.
   [[nodiscard]] Eigen::MatrixXd rhs(const channel_values& weights, const channel_values& values) const {
     const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(unknowns_, 3);
     std::array<float, 3> least{};
@@ -89,7 +89,8 @@ class sampled_functions {
         threads_);
   }
 
-  /// Returns A x at all locations, 3 x n, for weights of the functions in each channel, k x 3. Reads the rows once.
+  /// Returns the weighted sums A x of the functions at all n locations, 3 x n, for weights x of the k functions in each
+  /// channel, k x 3. Reads the rows once.
   [[nodiscard]] channel_values apply(const Eigen::MatrixXd& x) const {
     const Eigen::MatrixXf weights = x.cast<float>();
     channel_values values(3, size());

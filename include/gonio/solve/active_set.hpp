@@ -1,10 +1,10 @@
 #pragma once
-/// A primal active-set method for min 1/2 x'Q x - m'x + lambda |x|_1, with or without x >= 0. NNLS, Lasso and
-/// non-negative Lasso are the same algorithm with different allowed signs.
+/// A primal active-set method for min 1/2 x'Q x - m'x + lambda |x|_1 (Q and m as in normal_equations.hpp), with or
+/// without x >= 0. NNLS, Lasso and non-negative Lasso are the same algorithm with different allowed signs.
 ///
-/// With x >= 0 and lambda = 0 it is Lawson and Hanson's (Solving Least Squares Problems, 1974,
-/// doi:10.1137/1.9781611971217, algorithm NNLS) on the normal equations (Bro and de Jong, J. Chemometrics 11, 1997,
-/// doi:10.1002/(SICI)1099-128X(199709/10)11:5<393::AID-CEM483>3.0.CO;2-L); with both signs it is the feature-sign
+/// With x >= 0 and lambda = 0, the method is NNLS by Lawson and Hanson (Solving Least Squares Problems, 1974,
+/// doi:10.1137/1.9781611971217) on the normal equations (Bro and de Jong, J. Chemometrics 11, 1997,
+/// doi:10.1002/(SICI)1099-128X(199709/10)11:5<393::AID-CEM483>3.0.CO;2-L); with both signs, it is the feature-sign
 /// search of Lee, Battle, Raina and Ng (NIPS 2006).
 
 #include <gonio/solve/compensated.hpp>
@@ -24,12 +24,12 @@
 
 namespace gonio {
 
-/// Weights are passive (free, but with a fixed sign) or zero. A step lets the most promising column enter, then moves
-/// to the optimum of the passive columns; columns that would change sign leave. As long as the passive columns are
-/// independent, every step lowers the objective, so that no passive set recurs. A column that turns out to depend on
-/// others except for rounding leaves again, which may raise the objective. It is barred until another column has
-/// entered, and `step_limit` ends cycles. A step costs O(k p + p^2) for p passive columns, and O(p^2) more for each
-/// that leaves.
+/// Each weight is passive (free, with a fixed sign) or zero. A step lets the most promising column enter the passive
+/// columns and moves to their optimum; columns whose weights would change sign leave. While the passive columns are
+/// independent, every step lowers the objective, so no passive set recurs. A column that depends on other passive
+/// columns up to rounding leaves again, which may raise the objective; it is barred until another column has entered.
+/// `step_limit` ends cycles. A step costs O(k p + p^2) for k columns, p of them passive, and O(p^2) more for each
+/// column that leaves.
 template <sign_rule Signs>
 class active_set {
  public:
@@ -61,12 +61,13 @@ class active_set {
     update_descent();
     look_for_entering();
     if (entering_ >= 0) return;
-    // If columns depend on each other except for rounding, so many may have left that one of them is needed again.
+    // If columns depend on each other up to rounding, too many may have left: one of the barred columns may be needed
+    // again.
     barred_.assign(barred_.size(), false);
     choose_entering();
   }
 
-  /// Lets one column enter and settles.
+  /// Lets one column enter and moves to the optimum of the passive columns.
   void step() {
     const Eigen::Index entering = entering_;
     sign_[entering] = descent_[entering] > 0.0 ? 1.0 : -1.0;
@@ -84,7 +85,7 @@ class active_set {
   [[nodiscard]] const Eigen::VectorXd& result() const noexcept { return x_; }
 
  private:
-  /// Returns false if only rounding keeps the column from entering.
+  /// Adds a column to the passive ones. Returns false if it cannot enter because of rounding.
   [[nodiscard]] bool enter(Eigen::Index column) {
     if (!append(column)) return exchange(column);
     const Eigen::VectorXd z = optimum_of_passive();
@@ -104,8 +105,8 @@ class active_set {
     return true;
   }
 
-  /// Lets a column enter that depends on the passive ones, which can only shorten |x|_1. Moves along the direction that
-  /// leaves A x unchanged until a passive weight is zero, and replaces that column.
+  /// Lets a column enter that depends on the passive columns. Only |x|_1 can then become smaller: moves along the
+  /// direction that leaves A x unchanged until a passive weight is zero, and replaces the column of this weight.
   [[nodiscard]] bool exchange(Eigen::Index column) {
     if (lambda_ == 0.0) return false;
     Eigen::VectorXd combination(std::ssize(passive_));
@@ -148,8 +149,9 @@ class active_set {
     return z;
   }
 
-  /// Moves to the optimum of the passive columns. Stops at the first sign change on the way and lets that column leave,
-  /// until no sign changes. If the optimum is `refined`, leaving columns are barred, because they entered by rounding.
+  /// Moves to the optimum of the passive columns. Where a weight would change its sign on the way, stops, lets this
+  /// column leave and starts again. If the optimum is `refined`, bars leaving columns, because they entered due to
+  /// rounding.
   void settle(bool refined = false) {
     for (int round = 0; !passive_.empty(); ++round) {
       if (round > step_limit(x_.size())) refuse("an active set does not converge: the normal equations overflow");
@@ -179,8 +181,8 @@ class active_set {
     }
   }
 
-  /// Refines z iteratively with residuals in twice the precision. The optimum of an ill-conditioned passive set is then
-  /// independent of the order in which its columns entered. Signs may change.
+  /// Refines the weights z of the passive columns iteratively, with residuals in twice the precision. The optimum of an
+  /// ill-conditioned passive set is then independent of the order in which its columns entered. Signs may change.
   void refine(Eigen::VectorXd& z) const {
     Eigen::VectorXd correction(z.size());
     for (int round = 0; round < 3; ++round) {
@@ -207,7 +209,7 @@ class active_set {
     for (const Eigen::Index j : passive_) descent_ -= x_[j] * gram_.col(j);
   }
 
-  /// Chooses the entering column. Refines the weights before deciding that none can enter.
+  /// Chooses the column that enters next. Refines the weights before deciding that no column can enter.
   void look_for_entering() {
     choose_entering();
     if (entering_ >= 0) return;
@@ -218,9 +220,9 @@ class active_set {
     choose_entering();
   }
 
-  /// Drops and bars the passive column with the smallest pivot, if the passive weights are not at their optimum. This
-  /// happens if a column became passive although it depends on others except for rounding. Returns whether a column was
-  /// dropped.
+  /// Drops and bars the passive column with the smallest relative pivot, if the passive weights are not at their
+  /// optimum. This happens if a column became passive although it depends on others up to rounding. Returns true if a
+  /// column was dropped.
   [[nodiscard]] bool drop_unresolved() {
     double worst = 0.0, least = std::numeric_limits<double>::infinity();
     std::ptrdiff_t weakest = -1;
@@ -238,14 +240,15 @@ class active_set {
     return true;
   }
 
-  /// Returns the size of the terms that cancel in the gradient, for columns of length 1.
+  /// Returns the size of the terms of the gradient that cancel each other, for columns of length 1.
   [[nodiscard]] double terms() const {
     double sum = rhs_scale_;
     for (const Eigen::Index j : passive_) sum += std::abs(x_[j]) * norms_[j];
     return sum;
   }
 
-  /// Chooses the zero column that lowers the objective fastest per length of A x, if by more than rounding.
+  /// Chooses, among the columns of weight zero, the column that lowers the objective fastest per unit length of A x.
+  /// Chooses none if no column lowers it by more than rounding.
   void choose_entering() {
     double best = 1e-15 * terms();
     entering_ = -1;
@@ -262,7 +265,7 @@ class active_set {
   Eigen::VectorXd rhs_;
   double lambda_;
   growing_cholesky factor_;
-  std::vector<Eigen::Index> passive_;  // in the order of the factor
+  std::vector<Eigen::Index> passive_;  // in the order in which the factor contains them
   Eigen::VectorXd sign_;               // 0: not passive
   Eigen::VectorXd x_, descent_, norms_;
   std::vector<bool> barred_;
@@ -271,8 +274,8 @@ class active_set {
 };
 static_assert(solver_iteration<active_set<sign_rule::any>>);
 
-/// Returns the optimum, from weights near it: the last stage of a method that finds the support. Throws gonio::error
-/// naming the `method` if it does not converge.
+/// Returns the optimum, starting from weights near it. This is the last stage of a method that finds the support (the
+/// non-zero weights) first. Throws gonio::error naming the `method` if it does not converge.
 template <sign_rule Signs>
 [[nodiscard]] Eigen::VectorXd finish_by_active_set(const normal_equations& normal, Eigen::Index right_hand_side,
                                                    double lambda, const Eigen::VectorXd& near_optimum,
@@ -283,8 +286,8 @@ template <sign_rule Signs>
   return exact.result();
 }
 
-/// Minimises 1/2 x'Q x - m'x + lambda |x|_1 under a sign rule, for every right-hand side by the iteration
-/// `start(column)`, and certifies the result (`detail::certified`). `problem` is a least_squares_problem or
+/// Minimises 1/2 x'Q x - m'x + lambda |x|_1 under a sign rule and certifies the result (`detail::certified`).
+/// `start(column)` returns the iteration for a right-hand side. `problem` is a least_squares_problem or
 /// normal_equations. Throws gonio::error naming the `method` if no optimum can be certified.
 template <sign_rule Signs, quadratic_problem Problem, class Start>
 [[nodiscard]] solution solve_signed(const Problem& problem, double lambda, const std::string& method, Start&& start) {
@@ -296,7 +299,7 @@ template <sign_rule Signs, quadratic_problem Problem, class Start>
       auto run = start(column);
       iterations += run_to_convergence(run, step_limit(normal.unknowns()), method);
       weights.col(column) = run.result();
-    } catch (const error&) {  // it cycles: the certification finds the optimum in another way
+    } catch (const error&) {  // the iteration cycles: certification finds the optimum in another way
       weights.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
     }
   }

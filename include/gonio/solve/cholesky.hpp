@@ -6,7 +6,7 @@
 
 namespace gonio {
 
-/// Returns A A', both triangles, for m x k: m^2 k operations.
+/// Returns A A', both triangles, for A of m x k: m^2 k operations.
 [[nodiscard]] Eigen::MatrixXd product_with_transpose(const matrix_view& a);
 
 /// The Cholesky factorisation A = L L' of a symmetric matrix. Reads its lower triangle; k^3 / 3 operations.

@@ -1,5 +1,5 @@
 #pragma once
-/// Chooses the penalty of a Tikhonov solver by how well each observation is predicted from the others. Leave-one-out
+/// Chooses the penalty of a Tikhonov solver by how well each observation is predicted from all others. Leave-one-out
 /// (PRESS): Allen, Technometrics 16, 1974 (doi:10.1080/00401706.1974.10489157). Generalised cross-validation: Golub,
 /// Heath and Wahba, Technometrics 21, 1979 (doi:10.1080/00401706.1979.10489751). Both assume independent errors of the
 /// rows. They fail for shared errors, such as those of an image's pixels if light or camera are misplaced
@@ -26,8 +26,7 @@ struct eta_range {
 /// The criteria for choosing eta. With the residual r = W^(1/2) (A x - b) at eta, the leverages h_i = w_i a_i (A'WA +
 /// eta I)^-1 a_i', and sums over the n rows of positive weight:
 enum class eta_criterion {
-  generalised_cross_validation,  ///< n sum r_i^2 / (n - sum h_i)^2: leave-one-out with every leverage replaced by their
-                                 ///< mean
+  generalised_cross_validation,  ///< n sum r_i^2 / (n - sum h_i)^2: leave-one-out with the mean leverage for all rows
   leave_one_out,  ///< sum (r_i / (1 - h_i))^2: the weighted squared error of each row predicted from all others
 };
 
@@ -36,11 +35,12 @@ enum class eta_criterion {
 
 namespace detail {
 
-/// Returns the position of the least score; the last one if several are equal except for rounding.
+/// Returns the position of the lowest score. If several scores are the lowest except for rounding, returns the last
+/// position.
 [[nodiscard]] Eigen::Index last_least(const Eigen::VectorXd& scores);
 
-/// Minimises a function of many etas: among eight per decade from first to last, then among 31 between the neighbours
-/// of the best.
+/// Minimises a function of eta: tries eight etas per decade from first to last, then 31 between the neighbours of the
+/// best. `scores` computes the function for many etas at once.
 template <class Scores>
 [[nodiscard]] double eta_of_least(const Scores& scores, double first, double last) {
   const auto steps = std::max<Eigen::Index>(std::llround(8.0 * std::log10(last / first)), 1);
@@ -51,8 +51,8 @@ template <class Scores>
   return fine[last_least(scores(fine))];
 }
 
-/// The sum of the scores of several problems with the same eta. `largest` of each is the largest eigenvalue of its
-/// A'WA.
+/// The sum of the scores of several problems with the same eta. The `largest()` of a problem is the largest eigenvalue
+/// of its A'WA.
 template <class Scores>
 struct summed_scores {
   std::vector<Scores> parts;
@@ -74,35 +74,34 @@ void require_etas(const eta_range& range);
 }  // namespace detail
 
 /// Returns the criterion at each eta, summed over all right-hand sides, in the squared units of W^(1/2) b. Throws
-/// gonio::error unless every eta is positive and finite, and as `choose_eta` does. Its complexity is that of
-/// `choose_eta`.
+/// gonio::error unless every eta is positive and finite, and as `choose_eta` does. As fast as `choose_eta`.
 [[nodiscard]] Eigen::VectorXd cross_validate(const least_squares_problem& problem, eta_criterion criterion,
                                              const Eigen::VectorXd& etas);
 
 /// Returns the eta of `tikhonov` that minimises a criterion for all right-hand sides together.
 ///
 /// Tries eight candidates per decade, from 1e-10 of the largest eigenvalue of A'WA, below which rounding dominates, to
-/// 100 times that eigenvalue; then 31 between the neighbours of the best. Of equal scores the largest eta wins: x stays
-/// near 0 unless the data favour a smaller eta. A choice at the lower end means that no penalty is needed, one at the
-/// upper end that the rows do not predict each other. With few rows this happens by chance, so pass a `plausible` range
-/// if one is known (`plausible_etas` computes it from a prior).
+/// 100 times that eigenvalue; then 31 between the neighbours of the best. Among equal scores, chooses the largest eta:
+/// x stays near 0 unless the data favour a smaller eta. A choice at the lower end means that no penalty is needed; a
+/// choice at the upper end, that the rows do not predict each other. With few rows, such choices happen by chance, so
+/// pass a range of `plausible` etas if it is known (`plausible_etas` computes it from a prior).
 ///
 /// Only rows of positive weight are observations. With fewer than two, returns `plausible.highest` if it is finite,
 /// otherwise throws. Also throws gonio::error if all observations are zero, if one is not finite, and for an impossible
 /// range.
 ///
-/// n x n dual: O(n^2 k + n^3). Tall: O(n k^2 + k^3); leave-one-out also reads the rows twice, in O(n k (k + E r)) for E
-/// candidates.
+/// For n observations of k unknowns: O(n^2 k + n^3) through the n x n dual if n <= k, else O(n k^2 + k^3), and
+/// leave-one-out reads the rows twice more, in O(n k (k + E r)) for E candidates and r right-hand sides.
 [[nodiscard]] double choose_eta(const least_squares_problem& problem, eta_criterion criterion,
                                 const eta_range& plausible = {});
 
-/// Returns one eta for several problems, which minimises the sum of their criteria. Ignores problems with fewer than
-/// two observations if others have more.
+/// Returns the eta that minimises the sum of the criterion over several problems. Ignores problems with fewer than two
+/// observations unless all have so few.
 [[nodiscard]] double choose_eta(std::span<const least_squares_problem> problems, eta_criterion criterion,
                                 const eta_range& plausible = {});
 
-/// `tikhonov` with the eta that `choose_eta` chooses for each problem. It needs the rows, because normal equations do
-/// not distinguish observations. The objective and the KKT residual use the chosen eta.
+/// `tikhonov` with the eta that `choose_eta` chooses for each problem. It needs the rows of the problem, because normal
+/// equations do not distinguish observations. The objective and the KKT residual use the chosen eta.
 class automatic_tikhonov {
  public:
   /// Throws gonio::error for an impossible range.

@@ -7,7 +7,7 @@
 
 namespace gonio {
 
-/// A sum of products that also accumulates the rounding errors.
+/// A sum of products that also accumulates the rounding errors of its terms.
 class compensated_sum {
  public:
   explicit compensated_sum(double start = 0.0) noexcept : sum_(start) {}

@@ -1,7 +1,7 @@
 #pragma once
 /// Coordinate descent on the normal equations for min 1/2 x'Q x - m'x + lambda |x|_1, with or without x >= 0, with
-/// covariance updates and the active-set trick of Friedman, Hastie and Tibshirani (J. Stat. Software 33, 2010,
-/// doi:10.18637/jss.v033.i01).
+/// covariance updates and sweeps over the non-zero weights alone as in Friedman, Hastie and Tibshirani (J. Stat.
+/// Software 33, 2010, doi:10.18637/jss.v033.i01).
 
 #include <gonio/solve/active_set.hpp>
 
@@ -13,9 +13,10 @@
 
 namespace gonio {
 
-/// A step sweeps over all weights once, and then a few times over those that are not zero. Sweeps find the support
-/// quickly, but the weights slowly, at a rate that decreases with the condition number. Once a step leaves the signs
-/// unchanged, `active_set` finishes from there. A sweep costs O(k) for each weight that changes.
+/// A step sweeps over all weights once, and then a few times over the non-zero weights. Sweeps find quickly which
+/// weights are zero; if the condition number is large, they find the values of the non-zero weights slowly. After a
+/// step that leaves the signs unchanged, or after 20 steps, `active_set` finishes. A sweep costs O(k) for each weight
+/// that changes.
 template <sign_rule Signs>
 class coordinate_descent {
  public:
@@ -27,7 +28,7 @@ class coordinate_descent {
         x_(Eigen::VectorXd::Zero(normal.unknowns())),
         descent_(normal.rhs().col(right_hand_side)) {}
 
-  /// Sweeps, or finishes by the active set.
+  /// Makes a step of sweeps. Once the signs do not change, finishes by the active set.
   void step() {
     const Eigen::VectorXd before = x_.cwiseSign();
     for (Eigen::Index j = 0; j < x_.size(); ++j) relax(j);
@@ -42,9 +43,9 @@ class coordinate_descent {
 
  private:
   static constexpr int sweeps_over_support = 4;
-  static constexpr int patience = 20;  // steps; the active set does not need the exact support
+  static constexpr int patience = 20;  // steps; the active set then finds the exact support
 
-  /// Moves one weight to its optimum with the others fixed: a soft threshold.
+  /// Moves one weight to its optimum while all others stay fixed: a soft threshold.
   void relax(Eigen::Index j) {
     const double square = normal_.gram()(j, j);
     if (square == 0.0) return;

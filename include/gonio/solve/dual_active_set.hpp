@@ -1,6 +1,7 @@
 #pragma once
 /// The dual active-set method for strictly convex quadratic programs: Goldfarb and Idnani, Mathematical Programming 27,
-/// 1983 (doi:10.1007/BF02591962). Active bounds are not rows of the systems: their weights leave the systems.
+/// 1983 (doi:10.1007/BF02591962). Active bounds are not rows of the linear systems: their weights are removed from the
+/// systems.
 
 #include <gonio/solve/compensated.hpp>
 #include <gonio/solve/growing_cholesky.hpp>
@@ -19,8 +20,8 @@
 namespace gonio {
 
 /// Minimises 1/2 y'(G + shift I) y - q'y under the constraints of a program. Each point is optimal for its working set,
-/// a subset of the constraints. A step adds the most violated constraint and drops those in the way, and the objective
-/// rises.
+/// a subset of the constraints. A step adds the most violated constraint and drops constraints that prevent it from
+/// holding; the objective rises.
 ///
 /// Adding or dropping one constraint costs O(k p + p^2 + w p^2 + w^2 p) for k weights, p of them free, and w active
 /// rows.
@@ -29,12 +30,12 @@ class dual_active_set {
   using vector = Eigen::VectorXd;
 
   /// Starts with the constraints of `start` as equations, except those whose multipliers have the wrong sign. If
-  /// `start` is empty, it starts without inequalities, like Goldfarb and Idnani. Keeps a reference to `program`; `rhs`
-  /// is q.
+  /// `start` is empty, starts without inequalities, like Goldfarb and Idnani. Keeps a reference to `program`; `rhs` is
+  /// q of the objective.
   dual_active_set(const scaled_program& program, vector rhs, const active_constraints& start = {}, double shift = 0.0);
 
-  /// Returns the result of `neighbour`, which had a shift, solved again without it. Only free weights with independent
-  /// columns change. The active constraints stay.
+  /// Returns the optimum for the active constraints of `neighbour`, without its shift. Changes only free weights with
+  /// independent columns; the active constraints stay.
   [[nodiscard]] static dual_active_set polished(const dual_active_set& neighbour, vector rhs);
 
   /// Adds one constraint. Throws gonio::error if the constraints contradict each other.
@@ -55,20 +56,20 @@ class dual_active_set {
   [[nodiscard]] active_constraints active() const;
 
  private:
-  // A violation or multiplier below this share of `terms` is rounding.
+  // A violation or a multiplier below this share of `terms` counts as rounding.
   static constexpr double rounding = 1e-13;
-  // Below this share of `terms`, the solution is refined before a violation counts.
+  // If a violation is below this share of `terms`, the solution is refined before the violation counts.
   static constexpr double small_violation = 1e-9;
 
-  // Constraints are numbered from 0 for the bounds and from k for the rows.
+  // The direction of a step. (Constraints are numbered: bounds from 0, rows from k.)
   struct direction {
-    vector z;           // of the free weights
-    vector row_rate;    // what the multiplier of each active row loses
-    vector bound_rate;  // what the multiplier of each active bound loses
+    vector z;           // change of the free weights
+    vector row_rate;    // decrease of each active row's multiplier
+    vector bound_rate;  // decrease of each active bound's multiplier
     double slope = 0.0;
     bool dependent = false;
   };
-  struct half_space {  // normal'y >= bound
+  struct half_space {  // the points y with normal'y >= bound
     vector normal;
     double bound = 0.0;
   };
@@ -93,14 +94,14 @@ class dual_active_set {
 
   void advance(const vector& free_part, double free_length, const vector& row_part, double row_length);
 
-  /// Computes the gradient of the Lagrangian, which is zero for free weights.
+  /// Computes the multipliers of the bounds: the gradient of the Lagrangian, which is zero for free weights.
   void update_bound_multipliers();
 
-  /// Returns the size of the terms that cancel in the gradient.
+  /// Returns the size of the terms of the gradient that cancel each other.
   [[nodiscard]] double terms() const;
 
-  /// Drops the constraint whose multiplier has the wrong sign by the largest amount. Returns whether there was one.
-  /// Ends the method if the constraint cannot be dropped because its column depends on the free ones.
+  /// Drops the constraint whose multiplier has the wrong sign by the largest amount. Returns true if there was such a
+  /// constraint. Ends the method if the constraint cannot be dropped because its column depends on the free columns.
   [[nodiscard]] bool drop_wrong_sign();
 
   /// Chooses the most violated constraint, equations first.
@@ -108,30 +109,30 @@ class dual_active_set {
 
   [[nodiscard]] double violation(Eigen::Index constraint) const;
 
-  /// Goldfarb and Idnani's step 2: moves towards the constraint as far as the multipliers of the others allow, drops
-  /// the constraint that limits the move, and repeats until the new constraint holds.
+  /// Goldfarb and Idnani's step 2: moves towards the constraint as far as the multipliers of the active constraints
+  /// allow, drops the constraint that limits the move, and repeats until the new constraint holds.
   void add(Eigen::Index constraint);
 
-  /// Returns a constraint as a half space; for an equation, the side on which y is not.
+  /// Returns a constraint as a half space; for an equation, the half space that does not contain y.
   [[nodiscard]] half_space half_space_of(Eigen::Index constraint) const;
 
   [[nodiscard]] direction direction_towards(const vector& normal) const;
 
-  /// Returns the active inequality whose multiplier reaches zero first.
+  /// Returns the active inequality whose multiplier reaches zero first in a direction.
   [[nodiscard]] obstacle first_obstacle(const direction& way) const;
 
   void activate(Eigen::Index constraint);
 
   [[nodiscard]] bool drop(Eigen::Index constraint);
 
-  /// Replaces the bound `dropped`, which would make the free columns dependent, by `added`. y moves along the null
-  /// direction of G, which changes no multiplier, until `added` holds. Only possible without rows, which might not
-  /// determine that direction either.
+  /// Replaces the bound `dropped` by `added`, if dropping alone would make the free columns dependent. Then y moves
+  /// along the null direction of G until `added` holds, which changes no multiplier. Gives up if `added` is a row or if
+  /// a row is active, because the row might not determine that direction.
   void exchange(Eigen::Index added, Eigen::Index dropped);
 
-  /// Handles a constraint that the active ones forbid: its normal is a combination of theirs, and dropping an
-  /// inequality does not help. If the right-hand sides contradict each other by more than rounding, there is no
-  /// solution (Farkas) and it throws. Otherwise the violation is tolerated.
+  /// Handles a constraint that the active constraints forbid: its normal is a combination of their normals, and
+  /// dropping an inequality does not help. If the right-hand sides contradict each other by more than rounding, no
+  /// solution exists (Farkas): throws gonio::error. Otherwise tolerates the violation.
   void tolerate(Eigen::Index constraint, double bound, const direction& way);
 
   [[nodiscard]] std::string describe(Eigen::Index constraint) const;
@@ -146,11 +147,11 @@ class dual_active_set {
 
   const scaled_program& program_;
   vector rhs_;
-  double rhs_size_;  // its largest entry
+  double rhs_size_;  // largest entry of the right-hand side
   double shift_;
   working_set set_;
   vector y_, bound_multiplier_, row_multiplier_;
-  std::vector<bool> tolerated_;  // violated by rounding only, and cannot be repaired
+  std::vector<bool> tolerated_;  // constraints violated by rounding alone, which cannot be repaired
   Eigen::Index violated_ = -1;
   int changes_ = 0;
   bool singular_ = false;

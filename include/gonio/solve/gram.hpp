@@ -14,8 +14,8 @@ namespace gonio {
 /// number of threads.
 ///
 /// `Products` is the precision of the products and of their sums over 128 rows; these sums are added in double. `float`
-/// takes about 0.6 times as long, and on measured materials changes entries by up to 1e-7 of their columns' lengths.
-/// docs/results/solvers.md shows the effect on each solver.
+/// takes about 0.6 times as long as `double`. On measured materials, it changes entries by up to 1e-7 of their columns'
+/// lengths. docs/results/solvers.md shows the effect on each solver.
 template <class Products = double, class Derived>
 requires(std::same_as<typename Derived::Scalar, float>&& bool(Derived::IsRowMajor)) [[nodiscard]] Eigen::MatrixXd
     gram(const Eigen::MatrixBase<Derived>& rows, thread_count threads = {}) {

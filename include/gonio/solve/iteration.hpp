@@ -8,7 +8,8 @@
 
 namespace gonio {
 
-/// An iteration towards the optimum of one right-hand side. For convergence plots, write the loop yourself.
+/// An iteration towards the optimum of one right-hand side. `run_to_convergence` is the loop around it; for convergence
+/// plots, write your own loop.
 ///
 /// Requirements that the compiler cannot check: except for rounding, a step does not raise the objective (primal
 /// method) or does not lower it (dual method); `converged` is cheap.
@@ -80,7 +81,7 @@ int run_to_convergence(Iteration& run, int limit, const std::string& method) {
 }
 
 /// Returns a number of steps far above the needs of any problem with so many unknowns. An iteration that takes more
-/// cycles.
+/// steps is cycling.
 [[nodiscard]] inline int step_limit(Eigen::Index unknowns) { return static_cast<int>(10 * unknowns + 100); }
 
 }  // namespace gonio

@@ -19,17 +19,17 @@ void require_penalty(double lambda);
 
 }  // namespace detail
 
-/// Minimises 1/2 |W^(1/2) (A x - b)|^2 + lambda |x|_1 exactly: coordinate descent finds the support, an active set the
-/// weights. lambda is in the units of A'Wb. Throws gonio::error if no optimum can be certified, by the rows if there
-/// are any (solve/signed_solution.hpp).
+/// Minimises 1/2 |W^(1/2) (A x - b)|^2 + lambda |x|_1 exactly. Coordinate descent finds the support (the non-zero
+/// weights), and an active-set method its weights. lambda is in the units of A'Wb. Throws gonio::error if no optimum
+/// can be certified; certification uses the rows if there are any (solve/signed_solution.hpp).
 template <sign_rule Signs>
 class basic_lasso {
  public:
   static constexpr bool non_negative = Signs == sign_rule::non_negative;
   using iteration = coordinate_descent<Signs>;
 
-  /// Throws gonio::error unless lambda is finite and not negative. Zero gives least squares (NNLS if x >= 0) with as
-  /// few independent columns as possible.
+  /// Throws gonio::error unless lambda is finite and not negative. If lambda is 0, minimises least squares (NNLS if x
+  /// >= 0), with weights on independent columns only.
   explicit basic_lasso(double lambda) : lambda_(lambda) { detail::require_penalty(lambda); }
 
   [[nodiscard]] double lambda() const noexcept { return lambda_; }

@@ -26,16 +26,17 @@ namespace gonio {
 /// read in place (`row_source`) and not stored.
 class least_squares_problem {
  public:
-  /// `rows` is n x k, `right_hand_side` n x r, `weights` n (all 1 if empty). Throws gonio::error naming the first
-  /// offending row if the sizes do not match, the problem is empty, a number is not finite or a weight is negative.
+  /// `rows` is n x k, `right_hand_side` is n x r, and `weights` has n numbers (all 1 if empty). Throws gonio::error if
+  /// the sizes do not match, the problem is empty, a number is not finite or a weight is negative; for a number, the
+  /// message names the first such row.
   least_squares_problem(row_matrix rows, Eigen::MatrixXd right_hand_side, Eigen::VectorXd weights = {})
       : least_squares_problem(rows_of(std::move(rows)), std::move(right_hand_side), std::move(weights)) {
     read_all();
   }
 
-  /// Takes rows that are read on demand. All member functions but sizes, right-hand side and weights read them, and
-  /// throw gonio::error for a number that is not finite. The message names its row and its column (of the whole, for a
-  /// subset).
+  /// Takes rows that are read on demand. All member functions except those for sizes, right-hand side and weights read
+  /// them, and throw gonio::error for a number that is not finite. The message names the row and the column; for a
+  /// subset, the column of the original problem.
   least_squares_problem(row_source rows, Eigen::MatrixXd right_hand_side, Eigen::VectorXd weights = {},
                         thread_count threads = {})
       : equations_(std::make_shared<const stored>(std::move(rows), std::move(right_hand_side), std::move(weights))),
@@ -43,7 +44,7 @@ class least_squares_problem {
 
   /// Returns b: n x r.
   [[nodiscard]] const Eigen::MatrixXd& right_hand_side() const noexcept { return equations_->right_hand_side; }
-  /// Returns the diagonal of W: n.
+  /// Returns the n weights: the diagonal of W.
   [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return equations_->weights; }
 
   [[nodiscard]] Eigen::Index equations() const noexcept { return equations_->rows.rows; }
@@ -60,7 +61,7 @@ class least_squares_problem {
   /// Returns W^(1/2) A for the rows of positive weight: observations() x k. For small problems.
   [[nodiscard]] row_matrix weighted_rows() const;
 
-  /// Returns W^(1/2) b for the same rows: observations() x r.
+  /// Returns W^(1/2) b for the rows of positive weight: observations() x r.
   [[nodiscard]] Eigen::MatrixXd weighted_right_hand_side() const;
 
   /// Returns the normal equations. O(n k^2) the first time; O(k^2) for a subset of a problem that already has them.
@@ -68,11 +69,12 @@ class least_squares_problem {
   /// squares underflow (numbers of about 1e-154 and below).
   [[nodiscard]] const normal_equations& normal() const;
 
-  /// Returns the same equations in some of the unknowns, in the given order. Their normal equations are a submatrix.
+  /// Returns the problem with only some of the unknowns, in the given order. Its normal equations are a submatrix of
+  /// those of this problem.
   [[nodiscard]] least_squares_problem subset(std::span<const Eigen::Index> columns) const;
 
   /// Returns sqrt(sum of w (a x - b)^2) for each right-hand side, given its solution as a column of `x`. Reads the
-  /// rows: O(n k r). Throws gonio::error if one is not finite.
+  /// rows: O(n k r). Throws gonio::error if a row is not finite.
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::MatrixXd& x) const;
 
   /// Calls `use(range, rows)` for consecutive blocks of A in double precision, one after the other.
@@ -101,7 +103,7 @@ class least_squares_problem {
     std::optional<normal_equations> equations;
   };
 
-  /// Reads rows. All rows are read here.
+  /// Returns the rows of a range. All reading goes through this function.
   [[nodiscard]] row_matrix read(block range) const;
 
   static void require_finite(const row_matrix& part, Eigen::Index first_row);
@@ -112,13 +114,15 @@ class least_squares_problem {
 
   [[nodiscard]] normal_equations assemble_finite() const;
 
-  /// Throws gonio::error naming a column or right-hand side that is not zero although its sum of squares is.
+  /// Throws gonio::error if the sum of squares of a column or right-hand side underflows although it is not zero. The
+  /// message names the column or right-hand side.
   void require_no_underflow(const normal_equations& normal) const;
 
   std::shared_ptr<const stored> equations_;
   thread_count threads_;
-  std::optional<std::vector<Eigen::Index>> columns_;    // of the whole; absent if all
-  std::shared_ptr<const least_squares_problem> whole_;  // has the normal equations of a subset
+  std::optional<std::vector<Eigen::Index>> columns_;  // columns of `whole_`; absent if all
+  std::shared_ptr<const least_squares_problem>
+      whole_;  // the original problem of a subset, which takes its normal equations from it
   std::shared_ptr<lazy_normal_equations> normal_ = std::make_shared<lazy_normal_equations>();
 };
 

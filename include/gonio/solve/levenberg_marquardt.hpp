@@ -1,6 +1,7 @@
 #pragma once
-/// Non-linear least squares of a few unknowns within bounds, by normal equations: J. J. More, "The Levenberg-Marquardt
-/// Algorithm: Implementation and Theory", 1978 (doi:10.1007/BFb0067700), with steps restricted to the bounds.
+/// Non-linear least squares of a few unknowns within bounds, by normal equations. The method is that of J. J. More,
+/// "The Levenberg-Marquardt Algorithm: Implementation and Theory", 1978 (doi:10.1007/BFb0067700), with steps restricted
+/// to the bounds.
 
 #include <gonio/core/assertion.hpp>
 
@@ -15,8 +16,8 @@
 
 namespace gonio {
 
-/// The value of a function at a point, with the parabola that approximates it there. For 1/2 |r|^2, gradient and
-/// Hessian are J'r and J'J.
+/// The value of a function at a point, with the parabola that approximates the function near this point. For 1/2 |r|^2
+/// with the Jacobian J of r, gradient and Hessian are J'r and J'J.
 struct local_parabola {
   double value = 0.0;
   Eigen::VectorXd gradient;
@@ -30,11 +31,12 @@ struct unknown_bounds {
 
 struct levenberg_marquardt_options {
   Eigen::Index iteration_limit = 200;
-  /// Converged if no unknown moves by more than this share of itself, or of 1 if it is smaller.
+  /// The descent has converged if no unknown moves by more than this share of itself (or of 1 if it is smaller than 1).
   double smallest_step = 1e-12;
-  /// Converged if the parabola promises a gain below this share of the value.
+  /// The descent has converged if the parabola promises a gain below this share of the value.
   double smallest_gain = 1e-15;
-  /// Converged if the parabola promises a smaller gain: smaller differences of values are rounding.
+  /// The descent has converged if the parabola promises a gain below this number, in units of the value: smaller
+  /// differences are rounding.
   double resolution = 0.0;
 };
 
@@ -43,7 +45,7 @@ struct local_minimum {
   Eigen::VectorXd unknowns;
   double value = 0.0;
   Eigen::Index evaluations = 0;
-  bool converged = false;  ///< false: stopped by the limit of iterations
+  bool converged = false;  ///< false after the iteration limit, or if the function is not finite at the start
   /// The KKT residual: the gain that the parabola still promises within the bounds, as a share of the value at the
   /// start.
   double promised_gain = 0.0;
@@ -51,8 +53,9 @@ struct local_minimum {
 
 namespace detail {
 
-/// Approximately minimises g's + s'Hs / 2 over steps within the bounds: holds an unknown whose step leaves the box at
-/// its border, and solves for the others again. O(n^4) at worst.
+/// Approximately minimises g's + s'Hs / 2 over steps s within the bounds, for the gradient g and the Hessian H: if the
+/// step of an unknown leaves the bounds, holds this unknown at the bound and solves for the remaining unknowns again.
+/// O(n^4) for n unknowns at worst.
 [[nodiscard]] Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
                                            const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest);
 
@@ -63,21 +66,23 @@ namespace detail {
 /// Returns the decrease of a parabola along a step.
 [[nodiscard]] double promised_gain(const local_parabola& here, const Eigen::VectorXd& step);
 
-/// Adapts the trust in the parabola to the results of previous steps.
+/// The damping and the curvature of the next parabola, adapted to the results of previous steps.
 struct step_control {
   static constexpr double largest_damping = 1e12;
 
   double damping = 1e-3;
-  double bend = 1.0;  ///< observed curvature as a share of the parabola's
+  double bend = 1.0;  ///< ratio of the observed curvature to that of the parabola
 
-  /// Adapts both to a step that changed the value by `change` and was expected to lower it by `promised`.
+  /// Adapts damping and bend after a step that changed the value by `change` and was expected to lower it by
+  /// `promised`.
   void learn(const local_parabola& here, const Eigen::VectorXd& step, double change, double promised);
 };
 
 }  // namespace detail
 
-/// Descends from a start, which is first moved into the bounds. `function(unknowns)` returns a `local_parabola` and is
-/// called once for each evaluation. O(n^3) in addition to an evaluation.
+/// Minimises a function by descent from a start, which is first moved into the bounds. `function(unknowns)` returns a
+/// `local_parabola` and is called once for each evaluation. A step costs O(n^3) for n unknowns in addition to an
+/// evaluation.
 ///
 /// ```cpp
 /// const auto found = gonio::levenberg_marquardt(f, start, {lowest, highest});
@@ -127,7 +132,7 @@ template <class Function>
     found.unknowns = candidate;
     here = std::move(there);
   }
-  // Report the value, and the gain that an undamped step would still promise.
+  // Report the value, and the gain that an undamped step would promise.
   found.value = here.value;
   const Eigen::VectorXd undamped = detail::damped_parabola_step(found.unknowns, here, 0.0, bounds);
   found.promised_gain = detail::promised_gain(here, undamped) / scale;

@@ -17,7 +17,7 @@
 
 namespace gonio {
 
-/// D x <= d, E x = e and, if `non_negative`, x >= 0, which needs no rows. D and E may be empty.
+/// Constraints D x <= d, E x = e and, if `non_negative`, x >= 0, which needs no rows of D. D and E may be empty.
 struct linear_constraints {
   Eigen::MatrixXd D = {};  ///< inequalities x k
   Eigen::VectorXd d = {};  ///< inequalities
@@ -25,11 +25,12 @@ struct linear_constraints {
   Eigen::VectorXd e = {};  ///< equalities
   bool non_negative = false;
 
-  /// Throws gonio::error, naming the row, unless the sizes match each other and `unknowns` and all numbers are finite.
+  /// Throws gonio::error, naming the row, unless the sizes match each other and the number of unknowns, and all numbers
+  /// are finite.
   void require_consistent(Eigen::Index unknowns) const;
 
-  /// Returns the constraints themselves, which makes them a `constraint_policy`: the same for every problem. Throws as
-  /// `require_consistent` does.
+  /// Returns these constraints for a problem of `unknowns` unknowns. This makes the class a `constraint_policy`. Throws
+  /// as `require_consistent` does.
   [[nodiscard]] linear_constraints operator()(Eigen::Index unknowns) const;
 
  private:
@@ -37,8 +38,8 @@ struct linear_constraints {
                                  const std::string& kind);
 };
 
-/// Makes the constraints of a problem with a given number of unknowns. If all constraints of a policy include x >= 0,
-/// it states so by `static constexpr bool non_negative = true;`.
+/// A function that returns the constraints of a problem with a given number of unknowns. A policy whose constraints
+/// always include x >= 0 declares `static constexpr bool non_negative = true;`.
 ///
 /// With a model of the library:
 /// ```cpp
@@ -86,7 +87,7 @@ struct non_negative_weights {
   [[nodiscard]] linear_constraints operator()(Eigen::Index) const { return {.non_negative = true}; }
 };
 
-/// x >= 0, and the weights sum to 1.
+/// The constraints that x >= 0 and that the weights sum to 1.
 struct convex_weights {
   static constexpr bool non_negative = true;
   [[nodiscard]] linear_constraints operator()(Eigen::Index unknowns) const;
@@ -95,35 +96,35 @@ struct convex_weights {
 static_assert(constraint_policy<linear_constraints> && constraint_policy<non_negative_weights> &&
               constraint_policy<convex_weights>);
 
-/// True if a policy promises x >= 0 at compile time. (linear_constraints has its flag at run time only, so it does
-/// not.)
+/// True if a policy promises x >= 0 at compile time. False for `linear_constraints`, which has its flag only at run
+/// time.
 template <class Policy>
 inline constexpr bool promises_non_negative = false;
 template <class Policy>
 requires requires { typename std::bool_constant<Policy::non_negative>; }
 inline constexpr bool promises_non_negative<Policy> = Policy::non_negative;
 
-/// The Lagrange multipliers of the rows. At the optimum Q x - m + D' `inequality` + E' `equality` is zero, or not
-/// negative where x >= 0 holds with equality.
+/// The Lagrange multipliers of the rows of D and E. At the optimum, an entry of Q x - m + D' `inequality` + E'
+/// `equality` is zero or, where x >= 0 holds with equality, not negative.
 struct constraint_multipliers {
-  Eigen::VectorXd inequality;  ///< >= 0, as many as rows of D
-  Eigen::VectorXd equality;    ///< of any sign, as many as rows of E
+  Eigen::VectorXd inequality;  ///< not negative, one for each row of D
+  Eigen::VectorXd equality;    ///< of any sign, one for each row of E
 };
 
-/// Returns the unit of each weight: sqrt(Q_jj), the length of its column. For a column of zeros it is the size of the
-/// column's coefficients in the rows, relative to the rows' largest coefficient per unit of the other weights; 1
-/// without any. O(k rows).
+/// Returns the unit of each weight: sqrt(Q_jj), the length of its column. The unit of a column j of zeros is the
+/// largest |D_ij| / s_i over the rows i of D and E, or 1 if that is zero, where s_i is the largest |D_il| / sqrt(Q_ll)
+/// over all columns l that are not zero (the largest |D_il| if the row has no such column). O(k rows).
 [[nodiscard]] Eigen::VectorXd column_lengths(const normal_equations& normal, const linear_constraints& constraints);
 
 namespace detail {
 
-/// A row of the constraints at x, in units in which the columns have length 1.
+/// A row of the constraints at x, for columns scaled to length 1.
 struct judged_row {
   double activity = 0.0;  ///< D_i x
-  double largest = 0.0;   ///< |D_ij| / length_j
+  double largest = 0.0;   ///< the largest |D_ij| / length_j
 
   judged_row(const Eigen::VectorXd& row, const Eigen::VectorXd& lengths, const Eigen::Ref<const Eigen::VectorXd>& x);
-  /// `size` is the largest |x_j| length_j.
+  /// Returns (bound - activity) / (|bound| + largest `size`), where `size` is the largest |x_j| length_j.
   [[nodiscard]] double relative_slack(double bound, double size) const;
 };
 
@@ -137,10 +138,10 @@ struct judged_row {
 
 /// Returns the violation of the KKT conditions of min 1/2 x'Q x - m'x under linear constraints for one right-hand side:
 /// the largest of
-/// - stationarity of the Lagrangian (only the sign of its gradient where x_j = 0 under x >= 0), in units of
-///   `column_lengths`, relative to the largest sum of terms as in `scaled_gradient`, or to the largest weight in these
-///   units, if that is larger, as may happen with columns of zeros;
-/// - each row's violation, relative to |d_i| and the size of its coefficients times that of the weights;
+/// - stationarity of the Lagrangian in units of `column_lengths` (under x >= 0, a positive entry of its gradient where
+///   x_j = 0 is no violation), relative to the larger of two numbers: the largest sum of terms as in `scaled_gradient`,
+///   and the largest weight in these units;
+/// - each row's violation, relative to |d_i| + the largest coefficient times the largest weight in these units;
 /// - a negative multiplier of an inequality, relative to the terms of the gradient;
 /// - complementarity: the smaller of an inequality's relative multiplier and its relative slack.
 /// With x >= 0 alone it equals `kkt_violation(normal, x, 0.0, sign_rule::non_negative)`. O(k (r + s)) for r rows and s

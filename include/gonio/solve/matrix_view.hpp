@@ -7,7 +7,7 @@
 
 namespace gonio {
 
-/// A matrix or a block of one, with contiguous columns. Any other expression of doubles is copied into one.
+/// A matrix or a block of a matrix, with contiguous columns. Any other expression of doubles is copied into a matrix.
 using matrix_view = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
 }  // namespace gonio

@@ -16,15 +16,17 @@
 
 namespace gonio {
 
-/// Minimise 1/2 x'Q x - m'x with Q = A'WA and m = A'Wb (c = -m in Eq. 10), for one or more right-hand sides b.
+/// The problem to minimise 1/2 x'Q x - m'x with Q = A'WA and m = A'Wb (c = -m in Eq. 10), for one or more right-hand
+/// sides b.
 ///
-/// It is a problem of its own: solvers accept it in place of a `least_squares_problem`. A subset of the columns is a
-/// submatrix, so that leave-one-out problems never read the data again.
+/// Solvers accept normal equations in place of a `least_squares_problem`. The normal equations of some columns are a
+/// submatrix, so leave-one-out problems never read the data again.
 class normal_equations {
  public:
-  /// `gram` is Q, k x k, symmetric and positive semidefinite; `rhs` is m, k x r; `rhs_squared_norm` holds b'Wb of each
+  /// `gram` is Q, k x k, symmetric and positive semidefinite; `rhs` is m, k x r; `rhs_squared_norm` has b'Wb of each
   /// right-hand side (zeros if empty: `residual` is then meaningless). Throws gonio::error if sizes do not match or are
-  /// 0, or if a number is not finite, naming the column. Does not check symmetry. O(k^2 + k r).
+  /// 0, if a number is not finite, or if a squared norm is negative; for a number, the message names the column. Does
+  /// not check symmetry. O(k^2 + k r).
   normal_equations(Eigen::MatrixXd gram, Eigen::MatrixXd rhs, Eigen::VectorXd rhs_squared_norm = {});
 
   /// Returns Q, both triangles.
@@ -38,14 +40,15 @@ class normal_equations {
   [[nodiscard]] Eigen::Index right_hand_sides() const noexcept { return rhs_.cols(); }
   [[nodiscard]] const normal_equations& normal() const noexcept { return *this; }
 
-  /// Returns 1/2 x'Q x - m'x for each right-hand side, given its x as a column. O(k^2 r).
+  /// Returns 1/2 x'Q x - m'x for each right-hand side. `x` has a column for each right-hand side. O(k^2 r).
   [[nodiscard]] Eigen::VectorXd objective(const Eigen::MatrixXd& x) const;
 
   /// Returns sqrt(x'Q x - 2 m'x + b'Wb), the weighted norm of A x - b. Cancellation hides residuals below about 1e-8 of
-  /// |b|: compute those from the rows of the problem.
+  /// |b|; compute such residuals from the rows of the problem.
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::MatrixXd& x) const;
 
-  /// Returns the problem with the rows of both. Throws gonio::error if their sizes differ.
+  /// Returns the normal equations of a problem that has the rows of both problems. Throws gonio::error if their sizes
+  /// differ.
   friend normal_equations operator+(const normal_equations& a, const normal_equations& b);
 
   /// Returns the problem over some of the columns, in the given order: a submatrix.
@@ -63,12 +66,13 @@ class normal_equations {
 
 [[nodiscard]] normal_equations operator+(const normal_equations& a, const normal_equations& b);
 
-/// Returns the problem of predicting column `target` of a Gram matrix from other columns: b = A e_target. With the Gram
-/// matrix of a whole basis, each leave-one-out problem is O(k^2) and reads no data.
+/// Returns the problem of predicting column `target` of A from other columns of A, given the Gram matrix of A: b is
+/// column `target`. With the Gram matrix of a whole basis, each leave-one-out problem costs O(k^2) for k columns and
+/// reads no data.
 [[nodiscard]] normal_equations leave_one_out(const Eigen::MatrixXd& gram, Eigen::Index target,
                                              std::span<const Eigen::Index> columns);
 
-/// Returns all columns from 0 to k - 1 except one.
+/// Returns the columns from 0 to k - 1 without column `left_out`.
 [[nodiscard]] std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out);
 
 /// A problem for a solver that uses the normal equations alone.

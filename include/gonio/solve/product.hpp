@@ -5,10 +5,10 @@
 
 namespace gonio {
 
-/// Returns A B for m x k and k x n: 2 m n k operations. `product(a.transpose(), b)` is A' B.
+/// Returns A B for A of m x k and B of k x n: 2 m n k operations. `product(a.transpose(), b)` is A' B.
 [[nodiscard]] Eigen::MatrixXd product(const matrix_view& a, const matrix_view& b);
 
-/// Adds A B to sum, by way of the product itself: for few columns.
+/// Adds A B to `sum`, through a temporary product: for few columns.
 void add_product(const matrix_view& a, const matrix_view& b, Eigen::MatrixXd& sum);
 
 }  // namespace gonio

@@ -16,15 +16,15 @@ namespace gonio {
 namespace detail {
 
 /// Sums A'A over blocks of the rows of A. Products and their sums within a block are `Scalar`; blocks are added in
-/// double. A'A is a sum of outer products. A tile of it stays in registers while a block is read row by row. A block is
-/// stored in strips of as many columns as a cache line has numbers, each strip row by row. A tile reads one strip, and
-/// part of another, from end to end.
+/// double. A'A is a sum of outer products. A tile of A'A stays in registers while a block is read row by row. A block
+/// is stored in strips of columns as wide as a cache line, each strip row by row. For a tile, the loop reads one strip,
+/// and part of another strip, from end to end.
 template <class Scalar>
 class product_sum {
  public:
   static constexpr Eigen::Index block_rows = 128;
   static constexpr Eigen::Index strip_columns = 64 / Eigen::Index{sizeof(Scalar)};
-  /// This many columns fill eight vector registers with sums, which hides the latency of a multiply-add.
+  /// The number of columns whose sums fill eight vector registers, which hides the latency of a multiply-add.
   static constexpr Eigen::Index tile_columns = std::max(EIGEN_MAX_ALIGN_BYTES, 16) / 8;
 
   /// Makes room for blocks of at most `rows` rows.
@@ -36,12 +36,12 @@ class product_sum {
     std::fill_n(sum_.data(), sum_.size(), 0.0);
   }
 
-  /// Returns a number of the block.
+  /// Returns a number of the block, to be written before `add`.
   [[nodiscard]] Scalar& operator()(Eigen::Index row, Eigen::Index column) {
     return block_[column / strip_columns * strip_size_ + row * strip_columns + column % strip_columns];
   }
 
-  /// Writes numbers times a factor into a row of the block, from its first column on.
+  /// Writes `count` numbers times a factor into a row of the block, starting at column 0.
   template <class Number>
   void put(Eigen::Index row, const Number* numbers, Eigen::Index count, Scalar factor = 1) {
     const Eigen::Index whole = count / strip_columns * strip_columns;
@@ -53,7 +53,7 @@ class product_sum {
 
   /// Adds the products of the first `rows` rows of the block.
   void add(Eigen::Index rows) {
-    // So few strips at once that they stay in the cache while all strips below pass.
+    // Take few enough strips at a time for them to stay in the cache while all strips below are read.
     constexpr Eigen::Index together = 14;
     for (Eigen::Index first = 0; first < strips_; first += together)
       for (Eigen::Index left = first; left < strips_; ++left)
@@ -78,8 +78,8 @@ class product_sum {
  private:
   using piece = Eigen::Array<Scalar, strip_columns, 1>;
 
-  /// Adds the products of a strip with some columns of another. Uses a parameter pack instead of loops over the
-  /// columns: without unrolling, the products would be in memory.
+  /// Adds the products of a strip with some columns of another strip. Uses a parameter pack instead of loops over the
+  /// columns: without unrolling, the sums would be in memory.
   template <std::size_t... Column>
   void add_tile(Eigen::Index rows, Eigen::Index strip, Eigen::Index column,
                 std::index_sequence<Column...> /*columns*/) {

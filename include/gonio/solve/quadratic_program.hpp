@@ -1,8 +1,8 @@
 #pragma once
 /// Least squares under linear constraints: Noell, Koehler and Stricker 2014, Eq. 10. Uses the dual active-set method of
-/// Goldfarb and Idnani 1983 (doi:10.1007/BF02591962). If the Gram matrix is singular, adds proximal points around it
-/// (Rockafellar, SIAM J. Control Optim. 14, 1976, doi:10.1137/0314056), the regularisation of qpOASES (Ferreau et al.,
-/// Math. Prog. Comp. 6, 2014, doi:10.1007/s12532-014-0071-1).
+/// Goldfarb and Idnani 1983 (doi:10.1007/BF02591962). If the Gram matrix is singular, runs that method for a sequence
+/// of proximal points (Rockafellar, SIAM J. Control Optim. 14, 1976, doi:10.1137/0314056): the regularisation of
+/// qpOASES (Ferreau et al., Math. Prog. Comp. 6, 2014, doi:10.1007/s12532-014-0071-1).
 
 #include <gonio/solve/dual_active_set.hpp>
 #include <gonio/solve/linear_constraints.hpp>
@@ -26,7 +26,7 @@ struct program_optimum {
   Eigen::VectorXd weights;
   constraint_multipliers multipliers;
   double kkt_residual = std::numeric_limits<double>::infinity();  ///< see `kkt_violation`
-  int iterations = 0;                                             ///< constraints added or dropped
+  int iterations = 0;                                             ///< number of constraints added or dropped
 };
 
 /// Solves one quadratic program for any of its right-hand sides.
@@ -40,12 +40,12 @@ class program_solver {
       : normal_(normal), constraints_(constraints), program_(normal, constraints) {}
 
   /// Starts from x = 0 under x >= 0, otherwise from the optimum without inequalities. Throws gonio::error if there is
-  /// no solution, because the constraints contradict each other or the objective is unbounded, or if none is found.
+  /// no solution (the constraints contradict each other, or the objective is unbounded), or if none is found.
   [[nodiscard]] program_optimum solve(Eigen::Index right_hand_side) const;
 
  private:
   static constexpr double good = 1e-11;        // KKT residual
-  static constexpr double sufficient = 1e-10;  // of proximal points, which approach some optima slowly
+  static constexpr double sufficient = 1e-10;  // KKT residual: proximal points approach some optima slowly
   static constexpr double largest_shift = 1e-9, smallest_shift = 1e-11;  // the diagonal of G is about 1
   static constexpr int patience = 20, proximal_limit = 200;              // points
 
@@ -55,25 +55,26 @@ class program_solver {
     for (int steps = 0; steps < limit && !run.converged(); ++steps) run.step();
   }
 
-  /// Returns all weights at zero under x >= 0: usually far fewer than k become free, one after the other.
+  /// Returns a start for x >= 0: all weights are zero, because far fewer than k of them usually become free.
   [[nodiscard]] active_constraints origin() const;
 
   [[nodiscard]] program_optimum judge(const iteration& run, const vector& q, Eigen::Index right_hand_side) const;
 
-  /// Minimises the objective plus shift/2 |y - last y|^2, with decreasing shifts, until the last y is the optimum.
+  /// Minimises the objective plus shift/2 |y - last y|^2 repeatedly, with decreasing shifts, until the last y is the
+  /// optimum.
   [[nodiscard]] program_optimum solve_by_proximal_points(Eigen::Index right_hand_side, const vector& q,
                                                          active_constraints active, int changes) const;
 
-  /// Returns true if weights are larger than a least-squares problem in double precision can explain, or large and not
-  /// optimal without help of their size. A KKT residual is relative to the gradient's terms, so that large enough
-  /// weights would always pass.
+  /// Returns true if weights are larger than a least-squares problem in double precision can explain. Also returns true
+  /// if they are large and were accepted only because of their size: a KKT residual is relative to the gradient's
+  /// terms, which grow with the weights.
   [[nodiscard]] bool is_suspicious(const program_optimum& found, const vector& y, const vector& q) const;
 
-  /// Returns the proximal point, or the result of polishing it without the shift if that is better.
+  /// Returns the proximal point or, if that is better, the point polished without the shift.
   [[nodiscard]] program_optimum best(const iteration& run, const vector& q, Eigen::Index right_hand_side) const;
 
-  /// Returns true for an unbounded feasible direction along which the objective decreases without curvature beyond
-  /// rounding. If m comes from equations, the slope is at most |b| times the square root of the curvature.
+  /// Returns true if the objective decreases without limit along a feasible direction, in which its curvature is a
+  /// rounding error. (If m comes from equations, the slope is at most |b| times the square root of the curvature.)
   [[nodiscard]] bool falls_for_ever(const vector& movement, const vector& q, Eigen::Index right_hand_side) const;
 
   [[nodiscard]] static std::string falling(const vector& movement);
@@ -89,19 +90,19 @@ namespace detail {
 [[nodiscard]] solution certified_program(const normal_equations& normal, const linear_constraints& constraints,
                                          solution found);
 
-/// Certifies the solution of a problem with rows and sets its residual from the rows. If the normal equations are not
-/// accurate enough, finds the solution again from the rows (`certified`) if there are no constraint rows, and otherwise
-/// throws gonio::error.
+/// Certifies the solution of a problem with rows and computes its residual from the rows. If the normal equations are
+/// not accurate enough, finds the solution again from the rows (`certified`) or, if there are constraint rows, throws
+/// gonio::error.
 [[nodiscard]] solution certified_program(const least_squares_problem& problem, const linear_constraints& constraints,
                                          solution found);
 
-/// Solves all right-hand sides by `solve_one(solver, column)`.
+/// Solves a program for all right-hand sides: `solve_one(solver, column)` solves it for one.
 template <quadratic_problem Problem, class SolveOne>
 [[nodiscard]] solution solve_program(const Problem& problem, const linear_constraints& constraints,
                                      const SolveOne& solve_one) {
   const normal_equations& normal = problem.normal();
   const program_solver solver(normal, constraints);
-  // A problem with rows, and x >= 0 alone, can be solved without the normal equations.
+  // If the problem has rows but there are no constraint rows, the rows give a second way to solve it.
   constexpr bool has_rows = std::same_as<Problem, least_squares_problem>;
   const bool second_chance = has_rows && constraints.d.size() == 0 && constraints.e.size() == 0;
   solution found;
@@ -151,8 +152,8 @@ class quadratic_program {
 
   /// Throws gonio::error if the constraints do not fit the problem or contradict each other, if the objective is
   /// unbounded, or if the optimum is not found in a number of steps proportional to k and the constraint rows. If the
-  /// normal equations of a problem with rows are not accurate enough, solves it from the rows under x >= 0 alone
-  /// (solve/signed_solution.hpp), and refuses it under constraint rows.
+  /// normal equations of a problem with rows are not accurate enough, solves the problem from its rows
+  /// (solve/signed_solution.hpp) or, if there are constraint rows, throws gonio::error.
   [[nodiscard]] solution solve(const least_squares_problem& problem) const { return solve_any(problem); }
   [[nodiscard]] solution solve(const normal_equations& normal) const { return solve_any(normal); }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Passes over a tall matrix that is never in memory: A'A, A'(A U) and A U, a block of rows at a time. Rows are divided
 /// into a fixed number of groups, whose sums are added as a binary tree. The result has the same bytes for any number
-/// of threads, and of processes that each own some subtrees.
+/// of threads, and for any number of processes if each process owns subtrees.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/solve/matrix_view.hpp>
@@ -21,48 +21,50 @@ inline constexpr Eigen::Index row_groups = 64;
 /// All groups.
 inline constexpr block all_row_groups{0, row_groups};
 
-/// Returns the rows of some groups. All groups but the last nonempty one have multiples of 128 rows, as equal as
-/// possible. Groups of a small matrix may be empty.
+/// Returns the rows of some groups. Groups are as equal as possible; each has a multiple of 128 rows, except the last
+/// group that is not empty. Groups of a small matrix may be empty.
 [[nodiscard]] block rows_of_groups(Eigen::Index rows, block groups);
 
-/// Returns the sum of `of_group` over the groups of a subtree: 2^n groups, the first a multiple of 2^n. Throws
-/// gonio::error for other groups. Holds a matrix for each thread, and with one thread at most 7 more.
+/// Returns the sum of `of_group` over the groups of a subtree: 2^n groups, where the number of the first is a multiple
+/// of 2^n. Throws gonio::error for other groups. Holds one matrix for each thread; with one thread, at most 7 more.
 [[nodiscard]] Eigen::MatrixXd sum_over_groups(block groups, thread_count threads,
                                               const std::function<Eigen::MatrixXd(Eigen::Index group)>& of_group);
 
-/// Returns the sum of the sums of equal subtrees, in order, as sum_over_groups adds them: of [0, 8) and [8, 16), for
-/// example. Throws gonio::error unless their number is a power of two.
+/// Returns the total of the sums of subtrees of equal size, given in order: for example of the groups [0, 8) and [8,
+/// 16). Adds them as sum_over_groups does. Throws gonio::error unless the number of sums is a power of two.
 [[nodiscard]] Eigen::MatrixXd sum_of_subtrees(std::vector<Eigen::MatrixXd> sums);
 
-/// Returns A'A of the rows of a subtree of groups: columns x columns. n k^2 operations for n rows and k columns. Each
-/// thread holds two matrices of that size.
+/// Returns A'A of the n rows of a subtree of groups, k x k for k columns. n k^2 operations. Each thread holds two
+/// matrices of that size.
 [[nodiscard]] Eigen::MatrixXd gram(const row_source& rows, block groups, thread_count threads = {});
 
-/// Receives A U for a block of at most 128 rows. Is called from several threads at once.
+/// Receives A U for a block of at most 128 rows. It is called from several threads at once.
 using product_writer = std::function<void(block range, const Eigen::MatrixXd& product)>;
 
-/// Returns A'(A U) of the same rows for U of columns x l: columns x l. 4 n k l operations. Each thread holds two
-/// matrices of that size and 128 rows. If given, `write` receives A U.
+/// Returns A'(A U), k x l, for the n rows of a subtree of groups and U of k x l. 4 n k l operations. Each thread holds
+/// two matrices of that size and 128 rows. If given, `write` receives A U.
 [[nodiscard]] Eigen::MatrixXd gram_times(const row_source& rows, const Eigen::MatrixXd& vectors, block groups,
                                          thread_count threads = {}, const product_writer& write = {});
 
-/// Computes only A U, for any range of groups. 2 n k l operations.
+/// Computes A U alone, for any range of groups. 2 n k l operations for n rows and U of k x l.
 void for_each_product(const row_source& rows, const Eigen::MatrixXd& vectors, block groups, thread_count threads,
                       const product_writer& write);
 
-/// How several processes share passes over groups. For one process, nothing is set.
+/// Tells how several processes share passes over groups. If there is only one process, its members are not set.
 struct shared_groups {
   using sum_of = std::function<Eigen::MatrixXd(block groups)>;
 
   block own = all_row_groups;  ///< the subtree of this process; empty if there are more processes than groups
-  /// Returns the sum over all groups, at every process: calls `of_groups` with `own`, and adds the sums along the tree.
+  /// Returns the sum over all groups, at every process: calls `of_groups` with `own`, and adds the sums of all
+  /// processes along the tree.
   std::function<Eigen::MatrixXd(const sum_of& of_groups)> sum;
-  /// Completes numbers for each row at the process that writes. Each process has those of its own groups.
+  /// Gathers numbers for each row at the process that writes the result. Each process provides the numbers of its own
+  /// groups.
   std::function<void(std::span<float> numbers, Eigen::Index rows)> complete;
 
-  /// Calls `sum` if set; otherwise computes the sum alone.
+  /// Calls `sum` if it is set; otherwise computes the sum over all groups in this process.
   [[nodiscard]] Eigen::MatrixXd sum_over_all(const sum_of& of_groups) const;
-  /// Calls `complete` if set.
+  /// Calls `complete` if it is set.
   void complete_rows(std::span<float> numbers, Eigen::Index rows) const;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The matrix of a least-squares problem, read a block of rows at a time from an array, from the table of a basis, or
-/// from interpolation between its cells. A million rows by 99 need no second copy.
+/// The matrix of a least-squares problem, read a block of rows at a time: from an array, from the table of a basis, or
+/// by interpolation between the cells of a table. A million rows of 99 numbers need no second copy.
 
 #include <gonio/core/compiled_alignment.hpp>
 #include <gonio/core/parallel.hpp>
@@ -19,7 +19,7 @@ using row_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::
 /// The destination of a block of rows: contiguous rows at any distance.
 using row_block = Eigen::Ref<row_matrix, 0, Eigen::OuterStride<>>;
 
-/// Returns some columns of a block, from `first` on.
+/// Returns a view of `count` columns of a block, starting with column `first`.
 [[nodiscard]] row_block columns_of_block(row_block all, Eigen::Index first, Eigen::Index count);
 
 /// A matrix of `rows` x `columns` numbers. `read(range, out)` writes the rows of a range into `out`, which has that

@@ -11,16 +11,17 @@
 
 namespace gonio {
 
-/// The inequalities that hold with equality: the start of a solver, and its result.
+/// The inequalities that hold with equality. A solver starts from them and returns them.
 struct active_constraints {
-  std::vector<bool> bounds;  ///< of each weight: x_j = 0; empty for none
-  std::vector<bool> rows;    ///< of each row of D; empty for none
+  std::vector<bool> bounds;  ///< for each weight, whether x_j = 0; empty for none
+  std::vector<bool> rows;    ///< for each row of D; empty for none
 };
 
-/// min 1/2 y'G y - q'y subject to n_i'y = b_i for the first `equalities` rows n_i, n_i'y >= b_i for the others, and, if
-/// `non_negative`, y >= 0. It is the program of normal equations in y = S x. The diagonal matrix S has powers of two
-/// near the `column_lengths`. Each row is multiplied by a power of two that brings its largest coefficient to [1/2, 1).
-/// Hence nothing is rounded. The diagonal of G is in [1/4, 1), or zero.
+/// The program min 1/2 y'G y - q'y subject to n_i'y = b_i for the first `equalities` rows n_i, n_i'y >= b_i for all
+/// further rows, and, if `non_negative`, y >= 0. It is the program of normal equations in y = S x. The diagonal matrix
+/// S has powers of two near the `column_lengths`. Each row is multiplied by a power of two that brings its largest
+/// coefficient to [1/2, 1). Scaling by powers of two rounds nothing. The numbers on the diagonal of G are in [1/4, 1),
+/// or zero.
 struct scaled_program {
   using vector = Eigen::VectorXd;
 
@@ -29,13 +30,13 @@ struct scaled_program {
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return G.rows(); }
   [[nodiscard]] Eigen::Index rows() const noexcept { return b.size(); }
 
-  /// Returns q of one right-hand side.
+  /// Returns q of the scaled program for one right-hand side of the normal equations.
   [[nodiscard]] vector rhs(const normal_equations& normal, Eigen::Index right_hand_side) const {
     return normal.rhs().col(right_hand_side).cwiseProduct(inverse_scale);
   }
   /// Returns x, given y.
   [[nodiscard]] vector weights(const vector& y) const { return y.cwiseProduct(inverse_scale); }
-  /// Returns the multipliers of the original constraints.
+  /// Returns the multipliers of the original constraints, given those of the scaled rows.
   [[nodiscard]] constraint_multipliers multipliers(const vector& of_rows) const;
 
   Eigen::Index equalities;

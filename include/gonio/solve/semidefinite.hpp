@@ -6,8 +6,8 @@
 
 namespace gonio {
 
-/// Solves A X = B for a symmetric positive semidefinite A, whose lower triangle is read. X is zero in directions in
-/// which A vanishes. L D L' with pivoting: k^3 / 3 operations, and 2 k^2 for each column of B.
+/// Solves A X = B for a symmetric positive semidefinite k x k matrix A, whose lower triangle is read. X is zero in
+/// directions in which A vanishes. Uses L D L' with pivoting: k^3 / 3 operations, and 2 k^2 for each column of B.
 [[nodiscard]] Eigen::MatrixXd solve_semidefinite(const matrix_view& a, const matrix_view& b);
 
 }  // namespace gonio

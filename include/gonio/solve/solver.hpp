@@ -17,32 +17,33 @@ namespace gonio {
 struct solve_report {
   Eigen::VectorXd residual;      ///< weighted norm of A x - b
   Eigen::VectorXd objective;     ///< 1/2 x'Q x - m'x (Noell et al. 2014, Eq. 10), plus the solver's own penalty
-  Eigen::VectorXd kkt_residual;  ///< violation of the solver's own optimality (KKT) conditions, see kkt.hpp
-  int iterations = 0;            ///< of all right-hand sides together; 0 for a direct solver
+  Eigen::VectorXd kkt_residual;  ///< violation of the optimality (KKT) conditions of the solver's problem, see kkt.hpp
+  int iterations = 0;            ///< sum over all right-hand sides; 0 for a direct solver
 };
 
-/// The result of a solver. Weights that no solver found have no report: store other weights as a matrix.
+/// The result of a solver. Weights that no solver found have no report: store such weights as a matrix.
 struct solution {
   Eigen::MatrixXd weights;  ///< k x r, one column for each right-hand side
   solve_report report;
 };
 
-/// Joins solutions of several problems in the same unknowns, right-hand side by right-hand side.
+/// Joins the solutions of several problems with the same unknowns: the right-hand sides of each problem follow those of
+/// the problem before.
 [[nodiscard]] solution concatenate_columns(std::span<const solution> parts);
 
-/// Extends a solution in some of `unknowns` columns to all of them: the other weights are zero.
+/// Extends a solution in some of `unknowns` columns to all columns. The weights of all other columns are zero.
 [[nodiscard]] solution scatter_columns(solution found, std::span<const Eigen::Index> columns, Eigen::Index unknowns);
 
 /// Returns a solution of a problem's normal equations with the residual computed from the rows. Normal equations give
-/// it only to half of the digits.
+/// the residual only to half of the digits.
 [[nodiscard]] solution with_residual_of_rows(solution found, const least_squares_problem& problem);
 
 namespace detail {
 
-/// The largest KKT residual of a success.
+/// The largest KKT residual that counts as success.
 inline constexpr double kkt_residual_limit = 1e-9;
 
-/// Throws gonio::error naming the solver if a KKT residual is larger.
+/// Returns the solution. Throws gonio::error naming the solver if a KKT residual is above `kkt_residual_limit`.
 [[nodiscard]] solution require_certified(solution found, std::string_view solver);
 
 }  // namespace detail
@@ -54,8 +55,8 @@ inline constexpr double kkt_residual_limit = 1e-9;
 /// normal equations alone). A solver that does not reach it finds the optimum in another way or throws gonio::error.
 /// Solving is const and thread safe.
 ///
-/// A solver whose weights cannot be negative declares `static constexpr bool non_negative = true;`, because such a
-/// combination makes no sense for basis functions of arbitrary sign.
+/// A solver whose weights cannot be negative declares `static constexpr bool non_negative = true;`: such a solver makes
+/// no sense for basis functions of arbitrary sign.
 ///
 /// With a model of the library:
 /// ```cpp

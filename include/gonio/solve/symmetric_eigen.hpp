@@ -6,20 +6,21 @@
 
 namespace gonio {
 
-/// A = V diag(values) V', values ascending.
+/// The decomposition A = V diag(values) V', values ascending.
 struct symmetric_eigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;  ///< orthonormal columns
 };
 
-/// Decomposes a symmetric matrix, whose lower triangle is read; about 9 k^3 operations. Throws gonio::error naming
-/// `what` was decomposed if the iteration does not converge.
+/// Decomposes a symmetric k x k matrix, whose lower triangle is read; about 9 k^3 operations. Throws gonio::error if
+/// the iteration does not converge; `what` names the matrix in the message.
 [[nodiscard]] symmetric_eigen decompose_symmetric(const matrix_view& a, const char* what);
 
-/// Returns the eigenvalues alone, ascending: about 4/3 k^3 operations.
+/// Returns the eigenvalues of a symmetric k x k matrix alone, ascending: about 4/3 k^3 operations.
 [[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const matrix_view& a, const char* what);
 
-/// Returns the eigenvalues of a symmetric tridiagonal matrix, ascending, given its diagonal and subdiagonal: O(k^2).
+/// Returns the eigenvalues of a symmetric tridiagonal k x k matrix, ascending, given its diagonal and subdiagonal:
+/// O(k^2).
 [[nodiscard]] Eigen::VectorXd tridiagonal_eigenvalues(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside,
                                                       const char* what);
 

@@ -1,15 +1,15 @@
 #pragma once
-/// Products with matrices of a few columns, such as the right-hand sides of three colour channels. Their cost is
-/// reading the large matrix, which no blocking reduces.
+/// Products with matrices of a few columns, such as the right-hand sides of three colour channels. Their cost is that
+/// of reading the large matrix, which processing it in blocks would not reduce.
 
 #include <gonio/solve/matrix_view.hpp>
 
 namespace gonio {
 
-/// Returns A B for m x k and k x n, as sums of columns of A: 2 m n k operations, reads A n times.
+/// Returns A B for A of m x k and B of k x n, as sums of columns of A: 2 m n k operations, reads A n times.
 [[nodiscard]] Eigen::MatrixXd thin_product(const matrix_view& a, const matrix_view& b);
 
-/// Returns A' B for k x m and k x n, as products of their columns: 2 m n k operations, reads A n times.
+/// Returns A' B for A of k x m and B of k x n, as products of their columns: 2 m n k operations, reads A n times.
 [[nodiscard]] Eigen::MatrixXd thin_transposed_product(const matrix_view& a, const matrix_view& b);
 
 }  // namespace gonio

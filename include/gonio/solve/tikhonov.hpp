@@ -9,15 +9,15 @@ namespace gonio {
 /// Minimises |W^(1/2) (A x - b)|^2 + eta |x|^2 exactly.
 ///
 /// A wide problem (fewer rows than unknowns) is solved through its n x n dual, x = A~' (A~ A~' + eta I)^-1 b~ with A~ =
-/// W^(1/2) A, in O(n^2 k). A tall one is solved through the k x k normal equations (A~'A~ + eta I) x = A~'b~ in O(n
-/// k^2). Both give the same x.
+/// W^(1/2) A, in O(n^2 k). Any other problem is solved through the k x k normal equations (A~'A~ + eta I) x = A~'b~ in
+/// O(n k^2). Both give the same x.
 class tikhonov {
  public:
   enum class form { automatic, primal, dual };
 
   /// Throws gonio::error unless eta is positive and finite. For principal components of m training observations, eta =
-  /// m sigma^2, where sigma^2 is the error variance of one row, noise plus model error, in the metric's units
-  /// (`eta_of_noise`).
+  /// m sigma^2, where sigma^2 is the error variance of one row: noise plus model error, in the squared units of the
+  /// metric (`eta_of_noise`).
   explicit tikhonov(double eta, form solved_as = form::automatic);
 
   [[nodiscard]] double eta() const noexcept { return eta_; }

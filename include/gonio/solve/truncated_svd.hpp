@@ -1,7 +1,7 @@
 #pragma once
 /// Least squares in the directions that explain most of the matrix: regularisation by truncated singular value
 /// decomposition. Hansen, BIT 27, 1987 (doi:10.1007/BF01937276). The share of explained variance is chosen as by
-/// Nielsen, "Statistical surface recovery" (doctoral thesis, DTU 2016, contribution C.V, Eq. 4-7).
+/// Nielsen, "Anatomically correct surface recovery" (doctoral thesis, DTU 2016, contribution C.V, Eq. 4-7).
 
 #include <gonio/solve/solver.hpp>
 
@@ -12,12 +12,12 @@ namespace gonio {
 ///
 /// A wide problem (fewer rows than unknowns) is solved through its n x n dual in O(n^2 k), all others through the k x k
 /// normal equations. Both give the same x, unless the share ends within a group of equal singular values. The squares
-/// are computed as eigenvalues. A share of 1 therefore drops the smallest ones whose sum is less than epsilon times
-/// their number of the total: they are rounding errors. If such directions matter, use `least_squares`.
+/// are computed as eigenvalues. A share of 1 therefore drops the smallest squares, which are rounding errors: up to a
+/// sum of k epsilon of the total for k squares. If such directions matter, use `least_squares`.
 ///
 /// The KKT residual is computed from the problem and an orthonormal basis V of the subspace, and is the largest of
-/// - the part of A'WA V outside of the subspace, |(I - VV') A'WA V|, relative to the largest eigenvalue of A'WA:
-///   zero if singular vectors span V;
+/// - the part of A'WA V outside of the subspace, |(I - VV') A'WA V|, relative to the largest eigenvalue of A'WA: zero
+///   if singular vectors span the subspace;
 /// - the gradient in the subspace, |V'(A'W(A x - b))|, relative to |A'Wb| + that eigenvalue times |x|;
 /// - the part of x outside of the subspace, relative to |x|.
 /// Magnitudes are those of the largest entry.

@@ -1,7 +1,7 @@
 #pragma once
-/// A reading is the mean of the reflectance over two cones of directions, under which lamp and receiver are seen from
-/// the sample. A receiver of half a degree in front of a mirror-like lobe a tenth as wide reads a hundredth of the
-/// peak.
+/// A reading is the mean of the reflectance over two cones of directions: those of the lamp and of the receiver, as
+/// seen from the sample. If a mirror-like lobe is a tenth as wide as the receiver's cone, the reading is about a
+/// hundredth of the lobe's peak.
 
 #include <gonio/core/direction.hpp>
 
@@ -25,7 +25,7 @@ struct aperture {
 inline constexpr double largest_half_angle = radians(45.0);
 
 /// Returns the half angle, in radians, of a cone with this solid angle, in steradians. Throws gonio::error unless the
-/// solid angle is from 0 to that of the largest half angle.
+/// half angle is from 0 to `largest_half_angle`.
 [[nodiscard]] double half_angle_of(double solid_angle);
 
 /// Returns `count` pairs of directions spread evenly over both cones (Vogel 1979, "A better way to construct the
@@ -33,7 +33,8 @@ inline constexpr double largest_half_angle = radians(45.0);
 /// ring i of one cone is paired with the bit-reversed ring of the other (Hammersley's points).
 [[nodiscard]] std::vector<direction_pair> pairs_within(const direction_pair& axes, const aperture& cones, int count);
 
-/// Returns the mean of `value(light, receiver)` over `count` such pairs, which is a reading.
+/// Returns a reading: the mean of `value(light, receiver)` over the pairs of `pairs_within`, or its value at the axes
+/// if all pairs are below the horizon.
 template <class Value>
 [[nodiscard]] auto mean_within(const direction_pair& axes, const aperture& cones, int count, Value&& value) {
   const std::vector<direction_pair> pairs = pairs_within(axes, cones, count);

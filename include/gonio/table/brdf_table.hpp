@@ -2,6 +2,7 @@
 /// A dense RGB table of a BRDF over the valid cells of a grid.
 
 #include <gonio/core/brdf.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/uninitialised.hpp>
 #include <gonio/table/location.hpp>
@@ -24,7 +25,7 @@ class brdf_table {
   /// Copies values of shape (cells, 3). Throws gonio::error unless there are 3 values per cell.
   brdf_table(valid_cells cells, const std::vector<float>& values);
 
-  /// Returns a table without values, for callers that set all of them.
+  /// Returns a table of uninitialised values, for callers that set all of them.
   [[nodiscard]] static brdf_table uninitialised(valid_cells cells) {
     return brdf_table(std::move(cells), without_values());
   }
@@ -89,9 +90,13 @@ class nearest_lookup {
 
 static_assert(brdf<nearest_lookup>);
 
-/// Evaluates a BRDF at every valid cell. Same bytes for any number of threads.
+/// Evaluates a BRDF at every valid cell. Same bytes for any number of threads. Throws gonio::error for a BRDF that says
+/// that it is anisotropic.
 template <brdf Brdf>
 [[nodiscard]] brdf_table tabulate(const Brdf& f, const valid_cells& cells, thread_count threads = {}) {
+  if constexpr (requires { f.is_anisotropic(); })
+    if (f.is_anisotropic())
+      refuse("the BRDF is anisotropic, but a table over half and difference angles needs an isotropic one");
   brdf_table table = brdf_table::uninitialised(cells);
   for_each_index(
       cells.size(), 4096,

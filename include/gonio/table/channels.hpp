@@ -63,7 +63,7 @@ class channels {
   Eigen::Index size_ = 3;
   std::vector<double> wavelengths_;
   illuminant light_ = illuminant::d65;
-  std::optional<spectral_colour> colour_;  ///< of several wavelengths, if one is visible
+  std::optional<spectral_colour> colour_;  ///< converts several wavelengths, if one of them is visible
 };
 
 /// Throws gonio::error, saying that `name` has no colour, if no wavelength is visible.

@@ -11,12 +11,12 @@
 
 namespace gonio {
 
-/// Locations numbered from 0 to `size()`: the valid cells of a grid for BRDFs, the coordinates of vertices for shapes.
+/// `size()` locations, numbered from 0: the valid cells of a grid for BRDFs, the coordinates of vertices for shapes.
 ///
 /// Requirements that the compiler cannot check: copies are cheap; equal domains number the same locations in the same
-/// way; `locate_cell(locations, i)`, found by argument-dependent lookup, returns the location that reads only location
-/// i. Observations over a domain have three channels of colour, unless the domain declares otherwise: `static constexpr
-/// int channels = 1;`.
+/// way; `locate_cell(locations, i)`, found by argument-dependent lookup, returns the `location` that reads only the
+/// value of location i. Observations over a domain have three channels of colour, unless the domain declares otherwise:
+/// `static constexpr int channels = 1;`.
 ///
 /// ```cpp
 /// struct wavelengths {
@@ -45,7 +45,7 @@ template <domain Places>
 requires requires { Places::channels; }
 inline constexpr int channels_over<Places> = Places::channels;
 
-/// Returns the number of channels of an observation at some wavelengths or, without any, in colours.
+/// Returns the number of channels of an observation: the number of wavelengths or, if there are none, `channels_over`.
 template <domain Places>
 [[nodiscard]] Eigen::Index channels_at(const std::vector<double>& wavelengths) noexcept {
   return wavelengths.empty() ? channels_over<Places> : std::ssize(wavelengths);

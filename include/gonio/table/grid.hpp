@@ -49,7 +49,8 @@ struct grid_extents {
 /// A grid of any extents; the default is MERL's 90 x 90 x 180 with values at cell centres.
 ///
 /// Cells are numbered linearly with phi_d fastest and theta_h slowest, as in MERL's files. A *coordinate* along an axis
-/// counts in cells such that node i has coordinate i, for either anchor.
+/// is a position in units of cells. The node of cell i, the point at which its value was taken, has coordinate i,
+/// whether it is the cell's centre or its lower corner.
 class grid {
  public:
   /// Throws gonio::error unless every extent is in [1, 4096].
@@ -132,9 +133,9 @@ inline void grid::refuse_extents(const grid_extents& extents) {
                      " cells: every extent must be from 1 to 4096"}));
 }
 
-/// Calls `visit(linear, cosine)` for every cell of a grid in linear order, with the smaller of the two cosines at its
-/// node: sum - |difference cos phi_d| in the terms of `cosines`. This takes a few operations a cell instead of five
-/// trigonometric functions.
+/// Calls `visit(linear, cosine)` for every cell of a grid in linear order. `cosine` is the smaller of cos theta_i and
+/// cos theta_o at the cell's node: sum - |difference cos phi_d| in the terms of `cosines`. This takes a few operations
+/// a cell instead of five trigonometric functions.
 template <class Visit>
 void for_each_smaller_cosine(const grid& cells, Visit&& visit) {
   const auto [heights, rows, columns] = cells.extents();

@@ -27,7 +27,7 @@ struct location {
   [[nodiscard]] bool above_horizon() const noexcept { return cosine.i > 0.0 && cosine.o > 0.0; }
 };
 
-/// Returns the location that reads a single cell. It has no angles, because a domain may have none.
+/// Returns the location that reads a single cell. The location has no angles, because a domain may have none.
 [[nodiscard]] inline location location_of(Eigen::Index place) noexcept {
   location at;
   at.cell[0] = static_cast<std::uint32_t>(place);
@@ -52,8 +52,8 @@ struct axis_interval {
   std::array<double, 2> weight;
 };
 
-/// Returns the node at or below a coordinate, and the distance from it. A coordinate within 1e-9 of a node is the node:
-/// otherwise a node computed from an angle would read a neighbour with a weight of 1e-15.
+/// Returns the node at or below a coordinate, and the distance from it. A coordinate within 1e-9 of a node counts as
+/// that node. Otherwise a node computed from an angle would read a neighbour with a weight of 1e-15.
 [[nodiscard]] inline std::pair<int, double> split_coordinate(double coordinate) noexcept {
   constexpr double snap = 1e-9;
   const double node = std::floor(coordinate + snap);
@@ -61,7 +61,8 @@ struct axis_interval {
   return {static_cast<int>(node), fraction < snap ? 0.0 : fraction};
 }
 
-/// Returns the interval on an axis that ends: values of the first and last node continue outside.
+/// Returns the interval on an axis that does not wrap. Outside of the axis, the first or the last node has all of the
+/// weight.
 [[nodiscard]] inline axis_interval clamped_interval(double coordinate, int extent) noexcept {
   const auto [node, fraction] = split_coordinate(std::clamp(coordinate, 0.0, static_cast<double>(extent - 1)));
   return {{node, std::min(node + 1, extent - 1)}, {1.0 - fraction, fraction}};
@@ -76,8 +77,8 @@ struct axis_interval {
 }  // namespace detail
 
 /// Interpolates trilinearly in the grid's own coordinates. theta_h and theta_d are clamped to the first and last node;
-/// phi_d wraps (reciprocity). A corner below the horizon is replaced by its representative, so that no invalid cell is
-/// read. Corners of weight zero are left out.
+/// phi_d wraps (reciprocity). A corner below the horizon is replaced by its representative: only valid cells are read.
+/// Corners of weight zero are left out.
 [[nodiscard]] inline location locate(const valid_cells& cells, const half_difference& angles) noexcept {
   const grid& over = cells.grid();
   const grid_extents extents = over.extents();

@@ -1,6 +1,6 @@
 #pragma once
-/// Tables of many materials that are read a block of cells at a time from any source: 10,000 of them on MERL's grid
-/// take 130 GB.
+/// Tables of many materials, read a block of cells at a time from any source. In memory, 10,000 materials on MERL's
+/// grid would take 130 GB.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/table/material_set.hpp>
@@ -13,7 +13,7 @@
 
 namespace gonio {
 
-/// The destination of a block of cells: contiguous rows at any distance.
+/// The destination of a block of cells: each row is contiguous; the rows may be any distance apart.
 using cell_rows = Eigen::Ref<cell_matrix, 0, Eigen::OuterStride<>>;
 
 /// Named materials over common cells. `read(range, out)` writes the values of a block of cells, in sr^-1, into `out`: a
@@ -24,7 +24,7 @@ struct material_rows {
   std::vector<std::string> names;
   std::function<void(block range, cell_rows out)> read;
   std::vector<double> wavelengths =
-      {};  ///< of the channels of each, nanometres, ascending; none for red, green and blue
+      {};  ///< wavelengths of each material's channels, nanometres, ascending; empty for red, green and blue
 
   /// Returns the number of channels of each material: its wavelengths, or three.
   [[nodiscard]] Eigen::Index channels() const noexcept { return channels_at<valid_cells>(wavelengths); }

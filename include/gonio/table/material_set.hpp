@@ -35,11 +35,11 @@ struct material_set {
   [[nodiscard]] material_set subset(const std::vector<Eigen::Index>& positions) const;
 };
 
-/// Returns the family of a material, which identifies its maker: its name before the first underscore.
+/// Returns a material's family: the part of its name before the first underscore, which identifies the maker.
 [[nodiscard]] inline std::string material_family(const std::string& name) { return name.substr(0, name.find('_')); }
 
-/// Data from which a basis is learned: named things over a common domain, `cells`. `values` has a row for each location
-/// and a column for each channel of each thing. Materials and shapes are such sets.
+/// Data from which a basis is learned: named items, such as materials or shapes, over a common domain, `cells`.
+/// `values` has a row for each location and a column for each channel of each item.
 template <class Set>
 concept observation_set = requires(Set& things) {
   requires domain<std::remove_cvref_t<decltype(things.cells)>>;
@@ -53,18 +53,18 @@ static_assert(observation_set<material_set>);
 template <observation_set Set>
 using domain_of_set = std::remove_cvref_t<decltype(std::declval<Set&>().cells)>;
 
-/// Throws gonio::error unless there is at least one thing, with all of its columns and a row for each location.
+/// Throws gonio::error unless there is at least one item, with all of its columns and a row for each location.
 template <observation_set Set>
 void require_complete(const Set& things) {
   constexpr Eigen::Index channels = channels_over<domain_of_set<Set>>;
   if (things.names.empty() || things.values.cols() != channels * std::ssize(things.names) ||
       things.values.rows() != things.cells.size())
     refuse(
-        {"a basis needs at least one material, of ", channels, " columns each over ", things.cells.size(), " cells"});
+        {"a basis needs at least one material, each with ", channels, " columns over ", things.cells.size(), " cells"});
 }
 
-/// Throws gonio::error naming the first material that is not finite at a cell. (Code for other observations checks them
-/// first, with its own messages.)
+/// Throws gonio::error naming the first material that is not finite at a cell. (Observations other than materials are
+/// checked before, with messages of their own.)
 template <observation_set Set>
 void require_finite(const Set& things, Eigen::Index cell) {
   const auto row = things.values.row(cell);
@@ -75,8 +75,8 @@ void require_finite(const Set& things, Eigen::Index cell) {
   refuse({"material '", things.names[thing], "' is not finite at cell ", cell});
 }
 
-/// Replaces each value at a cell by `map` of it. Throws gonio::error naming the first thing that is not finite there,
-/// before or after: a map may hide an infinity, or overflow.
+/// Replaces each value at a cell by `map` of it. Throws gonio::error naming the first item that is not finite there,
+/// before the map (which may hide an infinity) or after it (which may overflow).
 template <observation_set Set, class Map>
 void map_cell(Set& things, Eigen::Index cell, Map&& map) {
   require_finite(things, cell);

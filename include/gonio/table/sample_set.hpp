@@ -45,7 +45,7 @@ class channel_weights {
 };
 
 /// The directions of a measurement: a pair, which distinguishes light and viewer, or half and difference angles. Both
-/// can be read. The one that was given is stored bit by bit.
+/// forms can be read. The given form is stored exactly.
 class sample_directions {
  public:
   sample_directions() : sample_directions(half_difference{}) {}
@@ -123,9 +123,9 @@ concept sample_range = requires(Range& range) {
   std::ranges::end(range);
 };
 
-/// n measurements in the same channels, by default colours. With colours, or with one value, which then is red, green
-/// and blue, the set is a sequence of `sample`. With several wavelengths it is not: access as a sequence throws, and
-/// `colours` converts them.
+/// Measurements in the same channels, by default colours. With colours, or with one channel (stored as equal red, green
+/// and blue), the set is a sequence of `sample`. With several wavelengths, access as a sequence throws gonio::error,
+/// and `colours` converts the set.
 ///
 /// ```cpp
 /// gonio::sample_set paint(gonio::channels({450.0, 550.0, 650.0}));
@@ -164,21 +164,21 @@ class sample_set {
     add(directions, std::span(values.data(), static_cast<std::size_t>(values.size())), weight, aperture);
   }
   [[nodiscard]] const sample_directions& directions(Eigen::Index i) const noexcept { return rows_[i].directions; }
-  /// Returns a value for each channel, sr^-1.
+  /// Returns the values of measurement i: one for each channel, sr^-1.
   [[nodiscard]] std::span<const double> values(Eigen::Index i) const noexcept {
     const Eigen::Index count = channels_.size();
     const double* first = channels_.are_wavelengths() ? spectra_.data() + i * count : rows_[i].value.data();
     return {first, static_cast<std::size_t>(count)};
   }
-  /// Returns the weight of a measurement. With several wavelengths it is the same for all.
+  /// Returns the weight of a measurement. All wavelengths have the same weight.
   [[nodiscard]] const channel_weights& weight(Eigen::Index i) const noexcept { return rows_[i].weight; }
 
   [[nodiscard]] const gonio::aperture& aperture(Eigen::Index i) const noexcept { return rows_[i].aperture; }
-  /// Returns true if one of the measurements is a mean over cones.
+  /// Returns true if one of the measurements is a mean over cones of directions.
   [[nodiscard]] bool have_apertures() const noexcept {
     return std::ranges::any_of(rows_, [](const sample& each) { return !each.aperture.is_point(); });
   }
-  /// Returns the same measurements through one aperture.
+  /// Returns the same values, all with this aperture.
   [[nodiscard]] sample_set through(const gonio::aperture& aperture) const;
 
   /// Returns some of the measurements, by their positions.
@@ -193,7 +193,7 @@ class sample_set {
   /// Returns the measurements in three channels for computing, not for display: see `channels::three`.
   [[nodiscard]] sample_set in_three_channels() const;
 
-  // ---- a sequence; throws gonio::error for several wavelengths ----
+  // ---- access as a sequence; throws gonio::error for several wavelengths ----
 
   [[nodiscard]] iterator begin() { return samples().begin(); }
   [[nodiscard]] iterator end() { return rows_.end(); }
@@ -228,15 +228,16 @@ class sample_set {
 
   gonio::channels channels_;
   std::vector<sample> rows_;
-  std::vector<double> spectra_;  ///< of several wavelengths, n x channels; `rows_` then has no values
+  std::vector<double> spectra_;  ///< values at several wavelengths, samples x channels; `rows_` then has zeros
 };
 static_assert(sample_range<sample_set>);
 
-/// Throws gonio::error if there is no sample. Also throws, naming the first sample, if one is not finite or outside the
-/// range of float, has a negative weight, or has a direction at or below the horizon.
+/// Throws gonio::error if there is no sample. Also throws, naming the first such sample, if a number is not finite or
+/// outside the range of float, a weight is negative, a half angle is out of range, or a direction is at or below the
+/// horizon.
 void require_usable(const sample_set& samples);
 
-/// Returns the positions of the measurements of positive weight in any channel, which estimators keep.
+/// Returns the positions of the measurements that have a positive weight in any channel. Estimators use only these.
 [[nodiscard]] std::vector<Eigen::Index> counting_positions(const sample_set& samples);
 
 /// Returns true if the weight of any measurement differs between channels. Takes samples, or any type with a `weight`

@@ -24,7 +24,7 @@ class spectral_table {
   /// ascending.
   spectral_table(valid_cells cells, std::vector<double> wavelengths);
 
-  /// Takes values of shape (cells, w). Also throws gonio::error for another shape.
+  /// Takes values of shape (cells, w). Throws gonio::error for another shape or invalid wavelengths.
   spectral_table(valid_cells cells, std::vector<double> wavelengths, cell_matrix values);
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
@@ -50,7 +50,7 @@ class spectral_table {
   /// Interpolates the spectrum at a location on this table's cells.
   [[nodiscard]] Eigen::ArrayXf at(const location& place) const;
 
-  /// Returns one wavelength, the same in all three channels.
+  /// Returns the reflectance at one wavelength, as a table whose three channels are equal.
   [[nodiscard]] brdf_table at_wavelength(Eigen::Index band) const;
 
   /// Returns the table as linear Rec. 709 under an illuminant (`spectral_colour`); one wavelength is grey. Throws
@@ -63,8 +63,8 @@ class spectral_table {
   cell_matrix values_;
 };
 
-/// Makes a table from tables of colours, each of which has three wavelengths in place of red, green and blue. Calls
-/// `three` with the position of the first of each three wavelengths. Ignores channels after the last wavelength.
+/// Makes a table from tables that have three wavelengths each, in place of red, green and blue: `three(first)` returns
+/// the table of three wavelengths, from number `first` on. Ignores channels after the last wavelength.
 [[nodiscard]] spectral_table tabulate_by_threes(const valid_cells& cells, std::vector<double> wavelengths,
                                                 const std::function<brdf_table(Eigen::Index first)>& three);
 

@@ -27,23 +27,25 @@ struct table_convention {
 
 namespace detail {
 
-/// The value in all three planes of a cell without a value.
+/// The number in all three planes of a MERL file that marks a cell as empty.
 inline constexpr double merl_empty = -1.0;
 
-/// The range of the smaller cosines of marked and unmarked cells, for one anchor.
+/// For one anchor, the largest cosine of the marked (empty) cells and the smallest of the unmarked ones. A cell's
+/// cosine is the smaller of those of its two directions.
 struct mark_statistics {
   double largest_marked = -std::numeric_limits<double>::infinity();
   double smallest_unmarked = std::numeric_limits<double>::infinity();
 
-  /// Returns how well the anchor explains the marks. 0: not at all. 1: by a threshold, but cells below the horizon are
-  /// filled. 2: by a threshold above the horizon. 3: by the horizon itself.
+  /// Returns how well the anchor explains which cells are marked. 0: no threshold of the cosine separates marked from
+  /// unmarked cells. 1: a threshold does, but unmarked cells lie below the horizon. 2: a threshold above the horizon
+  /// does. 3: the horizon itself does.
   [[nodiscard]] int rank() const noexcept {
     if (!std::isfinite(smallest_unmarked) || !(largest_marked + horizon_cosine < smallest_unmarked)) return 0;
     if (smallest_unmarked <= 0.0) return 1;
     return largest_marked > 0.0 ? 2 : 3;
   }
 
-  /// Returns the corresponding threshold, never below the horizon.
+  /// Returns the threshold of the cosine if `rank` is 2, otherwise 0 (the horizon).
   [[nodiscard]] double minimum_cosine() const noexcept {
     return rank() == 2 ? 0.5 * (largest_marked + smallest_unmarked) : 0.0;
   }
@@ -66,11 +68,12 @@ template <std::predicate<std::size_t> Marked>
 
 /// Infers the convention of a table from the cells that are marked as empty.
 ///
-/// An anchor explains the marks if the smaller cosine of every marked cell, at the anchor's node, is below that of
-/// every unmarked one. Its minimum cosine is 0, or the middle of the gap if marked cells lie above the horizon. If both
-/// anchors explain the marks, an anchor with the horizon in its gap is preferred to one with a gap above it, and that
-/// to one with filled cells below the horizon; the centre wins ties. If neither does, as for the files of the MERL
-/// database itself, or if nothing is marked, the result is centre and 0. Cells within 1e-9 of the horizon are ignored.
+/// An anchor explains the marks if, at the anchor's nodes, the smaller cosine of every marked cell is below the smaller
+/// cosine of every unmarked cell. Its minimum cosine is 0 or, if marked cells lie above the horizon, the middle of the
+/// gap between the cosines of marked and unmarked cells. If both anchors explain the marks, the first of these cases
+/// decides: the horizon is in the gap; the gap is above the horizon; cells below the horizon are filled. The centre
+/// wins ties. If no anchor explains them, as in the files of the MERL database itself, or if nothing is marked, the
+/// result is centre and 0. Cells within 1e-9 of the horizon are ignored.
 template <std::predicate<std::size_t> Marked>
 [[nodiscard]] table_convention infer_convention(const grid_extents& extents, const Marked& marked) {
   const detail::mark_statistics centre = detail::sort_marks(grid(extents, cell_anchor::centre), marked);

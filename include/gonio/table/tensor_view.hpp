@@ -26,7 +26,7 @@ namespace gonio {
   return xt::adapt(table.values().data(), table.values().size(), xt::no_ownership(), shape);
 }
 
-/// Returns a copy of shape (theta_h, theta_d, phi_d, 3), with NaN if a direction is below the horizon.
+/// Returns a copy of shape (theta_h, theta_d, phi_d, 3), with NaN in cells that are not valid.
 [[nodiscard]] xt::xtensor<float, 4> dense_tensor(const brdf_table& table);
 
 }  // namespace gonio

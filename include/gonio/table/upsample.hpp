@@ -1,8 +1,9 @@
 #pragma once
-/// Interpolates fields over the cells of one grid at all cells of another, a row at a time. The result is that of
-/// `locate` and `interpolate` for each cell, up to float rounding, at a few operations a value. Trilinear interpolation
-/// is a product of three linear ones. Along an axis it is an arithmetic progression from node to node, and its
-/// exponential is a geometric progression: a multiplication a value instead of an exponential.
+/// Interpolates fields over the cells of one grid at all cells of another, a row at a time. The values are those of
+/// `locate` and `interpolate` for each cell, up to float rounding, but take only a few operations each. Trilinear
+/// interpolation is a product of three linear ones. Along an axis, the interpolated field is an arithmetic progression
+/// from node to node, and its exponential is a geometric progression: a multiplication a value instead of an
+/// exponential.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/parallel.hpp>
@@ -48,29 +49,30 @@ struct cell_row {
 
 namespace detail {
 
-/// Consecutive nodes of one grid's axis between the same two nodes of another's. They are equally spaced, so that the
-/// interpolated values are a progression.
+/// Consecutive, equally spaced nodes on an axis of one grid that lie between the same two nodes of another grid's axis.
+/// The values interpolated there form a progression.
 struct axis_run {
-  /// The largest number of nodes: rounding errors grow along a progression.
+  /// The largest number of nodes in a run: rounding errors grow along a progression.
   static constexpr Eigen::Index longest = 8;
-  /// The largest spacing. With a larger one there are too few nodes for a progression to be worthwhile.
+  /// The largest spacing of a run, in cells of the other grid. With a larger one, a run has too few nodes to be
+  /// worthwhile.
   static constexpr double largest_step = 0.5;
 
   Eigen::Index first = 0, count = 1;
-  std::array<Eigen::Index, 2> around{};  ///< the nodes of the other axis
-  float share = 0.0f;                    ///< weight of the second of them at the first node
-  float step = 0.0f;                     ///< increase of this weight from node to node
+  std::array<Eigen::Index, 2> around{};  ///< the two nodes of the other axis
+  float share = 0.0f;                    ///< weight of around[1] at the first node of the run
+  float step = 0.0f;                     ///< increase of `share` from node to node
 };
 
-/// Returns the runs, of at most `longest` nodes, of an axis. `intervals` has the position of each node on the other
-/// axis.
+/// Divides the nodes of an axis into runs of at most `longest` nodes. `intervals` has the position of each node on the
+/// other axis.
 [[nodiscard]] std::vector<axis_run> axis_runs(std::span<const axis_interval> intervals, Eigen::Index longest);
 
-/// The runs of one grid's axes on those of another.
+/// The axes of a target grid, divided into runs between the nodes of a source grid.
 struct grid_runs {
   grid_runs(const grid& source, const grid& target, Eigen::Index longest = axis_run::longest);
 
-  std::vector<axis_interval> theta_h;  ///< not equally spaced in angle, and few
+  std::vector<axis_interval> theta_h;  ///< without runs: few nodes, not equally spaced in angle
   std::vector<axis_run> theta_d, phi_d;
 };
 
@@ -101,11 +103,12 @@ class valid_rows {
   std::vector<double> cos_phi_d_;
 };
 
-/// The largest logarithm for a geometric progression. With steps of a half, the change of the ratio of successive
-/// values along both axes then also is within the range of floats.
+/// The largest absolute value of a field whose exponential is computed by geometric progressions. The ratio of
+/// successive values along one axis, and the change of this ratio along the other, are then within the range of floats,
+/// too.
 inline constexpr float largest_logarithm = 43.0f;
 
-/// Fields at all cells of a grid, so that blending does not need to treat the horizon separately.
+/// Fields at all cells of a grid, valid or not: blending needs no special case at the horizon.
 template <int Fields>
 struct extended_fields {
   cell_fields<Fields> values;
@@ -131,7 +134,8 @@ struct extended_fields {
 template <int Fields>
 using fields_of_cell = Eigen::Array<float, Fields, 1>;
 
-/// Blends the source's rows around a theta_h, at the first theta_d of a run, and computes their growth to the next.
+/// Blends the source's rows around a theta_h, at the first theta_d of a run, and computes their growth to the next
+/// theta_d.
 template <int Fields>
 void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis_interval& h, const axis_run& run,
                 cell_fields<Fields>& first, cell_fields<Fields>& step) {
@@ -146,7 +150,7 @@ void blend_rows(const grid& source, const cell_fields<Fields>& dense, const axis
   step *= run.step;
 }
 
-/// Interpolates a line over the source's phi_d at all of the target's.
+/// Interpolates a line over the source's phi_d at every phi_d of the target.
 template <int Fields, weighted_mean Mean>
 class phi_d_line {
  public:
@@ -189,8 +193,8 @@ class phi_d_line {
 
 /// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order. `values` is a Fields x
 /// count array of the mean of the fields there. `read(cell, out)` writes the fields of a cell of the source. The
-/// relative error of a geometric mean is below 4e-7 (5 + |field|); it is infinite for fields above 88. If a field
-/// exceeds 43, every value costs an exponential. O(target cells x Fields).
+/// relative error of a geometric mean is below 4e-7 (5 + |field|); the mean itself is infinite for fields above 88. If
+/// a field exceeds 43, every value costs an exponential. O(target cells x Fields).
 template <int Fields, weighted_mean Mean, class Read, class Use>
 void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&& use, thread_count threads = {}) {
   const grid& source = from.grid();

@@ -51,8 +51,9 @@ class valid_cells {
   }
 
   /// Returns the number of the valid cell that represents a cell of the grid: the cell itself if it is valid, otherwise
-  /// the valid one with the same theta_d and phi_d and the largest smaller theta_h. This continues a field below the
-  /// horizon, so that interpolation near it reads only valid cells.
+  /// the valid cell with the same theta_d and phi_d and the largest theta_h below its own (if there is none, the last
+  /// valid cell before it in linear order). This continues a field below the horizon: interpolation near the horizon
+  /// reads only valid cells.
   [[nodiscard]] Eigen::Index representative(Eigen::Index linear) const noexcept {
     return index_->representative[linear];
   }

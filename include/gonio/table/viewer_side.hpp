@@ -6,12 +6,14 @@
 
 namespace gonio {
 
-/// Returns the ratio of brightness on the light's side of the normal, at the angle of incidence, to that on the other
-/// side, in the mirror direction or, if that was not measured, anywhere. Uses samples in the plane of incidence, and
-/// takes the median over incidences of 10 degrees and more; 0 if none has both sides. O(n log n).
+/// Returns the brightness towards the light divided by the brightness in the mirror direction or, if the mirror
+/// direction was not measured, by the largest brightness on its side of the normal. Uses samples in the plane of
+/// incidence, and takes the median over angles of incidence of at least 10 degrees; 0 if no angle has both values. O(n
+/// log n).
 [[nodiscard]] double brightness_towards_light(const sample_set& samples);
 
-/// Materials that reflect more light back than this are rarer than scans read with the wrong convention.
+/// Above this ratio, a scan read with the wrong convention is more likely than a material that reflects so much light
+/// back.
 inline constexpr double implausible_brightness_towards_light = 2.0;
 
 /// Returns the same values, with each viewer rotated by half a turn about the normal.

@@ -1,6 +1,6 @@
 #pragma once
-/// The BRDFs of the texels of a flat sample, evaluated from their weights. Like `component_brdf` of a single material,
-/// for all texels of a map of a spatially varying BRDF (io/materials/svbrdf_map.hpp). Nielsen et al. 2015
+/// Evaluates the BRDFs of the texels of a flat sample from their weights. Does for all texels of a map
+/// (io/materials/svbrdf_map.hpp) what `component_brdf` does for a single material. Nielsen et al. 2015
 /// (doi:10.1145/2816795.2818085), Eq. 10.
 
 #include <gonio/core/half.hpp>
@@ -31,8 +31,8 @@ class texel_brdf {
   /// The largest number of components; larger priors are not in use.
   static constexpr Eigen::Index most_components = 512;
 
-  /// `weights` are half floats: of the first texel the weights of red, then of green, then of blue, followed by the
-  /// next texel. Throws gonio::error if their number does not fit, or if there are too many components.
+  /// `weights` are half floats: for each texel the weights of red, then of green, then of blue. Throws gonio::error if
+  /// their number does not fit, or if there are too many components.
   texel_brdf(const shared_components<Stored>& components, std::span<const std::uint16_t> weights)
       : components_(&components), weights_(weights) {
     if (components.size() > most_components)

@@ -1,6 +1,5 @@
 #pragma once
-/// Statistical surface recovery: includes all of `shape/` and its file formats. It needs gonio::shape (dlib,
-/// nanoflann); the rest of the library does not.
+/// Statistical surface recovery: includes all of `shape/` and its file formats. Needs gonio::shape, dlib and nanoflann.
 
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/assignment.hpp>

@@ -142,11 +142,11 @@ TEST_CASE("shape model: impossible counts are refused, with a right checksum too
     check_fan_refused(fan_file(header, fan), words);
   };
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
-  refused({.components = 0}, "0 components of 4 shapes are impossible");
-  refused({.components = 5}, "5 components of 4 shapes are impossible");
-  refused({.components = 0, .shapes = 0}, "impossible");
-  refused({.shapes = most}, "2 components of 4294967295 shapes are impossible");
-  refused({.components = most, .shapes = most}, "impossible");
+  refused({.components = 0}, "0 components of 4 shapes, expected 1 to 4");
+  refused({.components = 5}, "5 components of 4 shapes, expected 1 to 4");
+  refused({.components = 0, .shapes = 0}, "0 components of 0 shapes");
+  refused({.shapes = most}, "truncated or its counts are wrong");
+  refused({.components = most, .shapes = most}, "truncated or its counts are wrong");
   refused({.vertices = most}, "truncated or its counts are wrong");
   refused({.triangles = most}, "truncated or its counts are wrong");
   refused({.vertices = 0}, "");
@@ -177,7 +177,7 @@ TEST_CASE("shape model: triangles that are no surface are refused") {
   refused(0, {0, 1, 1}, "triangle 0 of a mesh has one vertex twice");
   refused(2, {0, 1, 4}, "not a surface");                             // two triangles use an edge in one direction
   refused(1, {0, 3, 2}, "not a surface");                             // turned over
-  check_fan_refused(fan_file({.triangles = 0}, {}), "no triangles");  // and the model has no surface at all
+  check_fan_refused(fan_file({.triangles = 0}, {}), "no triangles");  // no surface at all
 }
 
 TEST_CASE("shape model: files are written whole, read back, and refused where they are no file") {

@@ -11,17 +11,17 @@
 
 namespace gonio {
 
-/// Guesses which weights are free, solves for them, and exchanges all that came out with the wrong sign at once, a
-/// weight below zero or a gradient that points inside: few steps, each with a factorisation of its own, O(p^3 / 3 + k
-/// p). Where exchanging everything does not reduce the number of wrong signs for three steps only the last wrong one is
-/// exchanged (Murty's rule), which cannot cycle where the free columns are independent. Once no sign is wrong, or after
-/// 3 k + 20 steps of what cycles, `active_set` finishes from there.
+/// Guesses the free weights, solves for them, and then exchanges all with a wrong sign at once: weights below zero, and
+/// gradients that point inside. Takes few steps, each with its own factorisation, O(p^3 / 3 + k p). If the number of
+/// wrong signs does not fall for three steps, it exchanges only the last wrong one (Murty's rule), which cannot cycle
+/// if the free columns are independent. Once all signs are right, or after 3 k + 20 steps, `active_set` finishes from
+/// there.
 class block_pivoting {
  public:
   /// Keeps a reference to `normal`.
   block_pivoting(const normal_equations& normal, Eigen::Index right_hand_side);
 
-  /// Exchanges, or finishes.
+  /// Exchanges wrong signs, or finishes.
   void step();
 
   [[nodiscard]] bool converged() const noexcept { return finished_; }
@@ -48,8 +48,8 @@ class block_pivoting {
   bool finished_ = false;
 };
 
-/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does, in fewer and larger steps; docs/results/solvers.md has
-/// both measured. Throws gonio::error as `nnls` does.
+/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, like `nnls`, in fewer and larger steps; docs/results/solvers.md
+/// compares both. Throws gonio::error in the same cases as `nnls`.
 class nnls_block_pivoting {
  public:
   static constexpr bool non_negative = true;
@@ -126,7 +126,7 @@ inline void block_pivoting::solve_free() {
     if (!free_[j]) continue;
     const auto count = std::ssize(passive);
     for (Eigen::Index i = 0; i < count; ++i) cross[i] = normal_.gram()(passive[i], j);
-    // A column that depends on the free ones adds nothing: it stays at zero.
+    // A column that depends on the free ones adds nothing, so its weight stays zero.
     if (factor.append(cross.head(count), normal_.gram()(j, j)))
       passive.push_back(j);
     else

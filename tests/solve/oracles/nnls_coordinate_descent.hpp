@@ -6,8 +6,9 @@
 
 namespace gonio {
 
-/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does; docs/results/solvers.md has both measured. It is
-/// `non_negative_lasso` without a penalty under the name by which NNLS knows it. Throws gonio::error as `nnls` does.
+/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, like `nnls`; docs/results/solvers.md compares both. It is
+/// `non_negative_lasso` without a penalty, under its usual name for NNLS. Throws gonio::error in the same cases as
+/// `nnls`.
 class nnls_coordinate_descent {
  public:
   static constexpr bool non_negative = true;

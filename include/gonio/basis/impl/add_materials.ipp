@@ -18,12 +18,13 @@ namespace gonio {
 
 namespace detail {
 
-/// Columns for the update: the old components Q, the new observations minus their own mean nu, and the difference of
-/// the means. They are scaled so that their outer products sum to those of all observations minus the mean of all.
+/// Columns for the update: the old components Q, the new observations minus their own mean, and the difference of the
+/// means. They are scaled so that their outer products sum to those of all observations minus the mean of all
+/// observations.
 struct appended_columns {
   log_relative_pca prior;
   mapped_materials added;
-  double old_count, new_count;  ///< observations
+  double old_count, new_count;  ///< numbers of observations
 
   [[nodiscard]] Eigen::Index columns() const { return prior.size() + added.materials().columns() + 1; }
   [[nodiscard]] double scale() const { return std::sqrt(old_count * new_count / (old_count + new_count)); }
@@ -42,7 +43,8 @@ struct appended_columns {
             }};
   }
 
-  /// Returns the coefficients of all observations minus the mean of all: their combinations of the columns, times U.
+  /// Returns the coefficients of all observations minus their common mean. Each observation is a combination of the
+  /// columns; its coefficients are this combination's factors times `u`.
   [[nodiscard]] Eigen::MatrixXf coefficients(const Eigen::MatrixXd& u) const {
     const Eigen::Index k = prior.size(), old = prior.coefficients().rows(), added_columns = added.materials().columns();
     const double all = old_count + new_count;
@@ -62,7 +64,7 @@ struct appended_columns {
     return all;
   }
 
-  /// Return squared norms: of the old components over the cells, and of all observations minus the mean of all.
+  /// Return squared norms: of the old components over the cells, and of all observations minus their common mean.
   [[nodiscard]] double old_variation() const { return prior.components().cast<double>().squaredNorm(); }
   [[nodiscard]] double variation() const {
     double between = 0.0;

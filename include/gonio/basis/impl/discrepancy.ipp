@@ -33,12 +33,13 @@ GONIO_INLINE discrepancy_place place_of(const half_difference& angles, const cor
   return sum;
 }
 
-/// Returns k of two locations.
+/// Returns the covariance k of two locations.
 [[nodiscard]] inline double covariance(const discrepancy_place& one, const discrepancy_place& other) noexcept {
   return squared_exponential(squared_distance(one, other));
 }
 
-/// Returns the coordinates of angles. Throws gonio::error if one is not finite, or for impossible lengths.
+/// Returns the coordinates of angles. Throws gonio::error if an angle is not finite, or unless the correlation lengths
+/// are positive and finite.
 [[nodiscard]] GONIO_INLINE std::vector<discrepancy_place> places_of(std::span<const half_difference> angles,
                                                                     const correlation_lengths& lengths) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
@@ -54,7 +55,7 @@ GONIO_INLINE discrepancy_place place_of(const half_difference& angles, const cor
   return places;
 }
 
-/// Writes k of one location with others.
+/// Writes the covariance k of one location with each of the others.
 GONIO_INLINE void covariances_with(const discrepancy_place& place, std::span<const discrepancy_place> others,
                                    double* out) {
   for (std::size_t i = 0; i < others.size(); ++i) out[i] = -0.5 * squared_distance(others[i], place);
@@ -109,7 +110,7 @@ GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_d
   if (!(amplitude > 0.0 && std::isfinite(amplitude)))
     refuse({"the amplitude of a discrepancy must be positive and finite, not ", amplitude});
   Eigen::MatrixXd among = detail::covariance_of(shared_->places);
-  // A small number on the diagonal keeps it positive definite if locations coincide.
+  // A small number on the diagonal keeps the matrix positive definite if locations coincide.
   constexpr double least_eigenvalue = 1e-7;
   for (Eigen::Index i = 0; i < among.cols(); ++i) among(i, i) += least_eigenvalue;
   cholesky factors(among);
@@ -146,9 +147,9 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
   const grid& over = cells.grid();
   const auto [heights, rows, columns] = over.extents();
   const correlation_lengths& lengths = shared_->lengths;
-  // Compute the factors of each centre's covariance.
+  // Convert the weights to weights of the covariances with the centres.
   const Eigen::MatrixXd centre_weights = covariance_weights(weights);
-  // Multiply them by the part of theta_h: three columns for each theta_h of the grid.
+  // Multiply these weights by the covariance's factor of theta_h: three columns for each theta_h of the grid.
   Eigen::MatrixXd by_height(size(), 3 * heights);
   for (int i = 0; i < heights; ++i) {
     const double place = detail::place_of({over.theta_h(i), 0.0, 0.0}, lengths)[0];
@@ -158,7 +159,7 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
       for (int c = 0; c < 3; ++c) by_height(centre, 3 * i + c) = factor * centre_weights(centre, c);
     }
   }
-  // Multiply by the part of theta_d and phi_d, a slice of the grid at a time.
+  // Multiply by the covariance's factor of theta_d and phi_d, a slice of the grid at a time.
   cell_fields<3> field(3, cells.size());
   for_each_index(
       rows, 1,

@@ -20,7 +20,7 @@ GONIO_INLINE component_set principal_components(const cell_matrix& centred, Eige
   report(listener, "gram", 0.0);
   const Eigen::MatrixXd products = gram(centred, threads);
   report(listener, "components", 0.0);
-  // By rounding of the mean, centring may seem not to remove a component.
+  // Centred observations have one component fewer than columns. Rounding of the mean may seem to add the missing one.
   const auto most = std::min(count, products.cols() - 1);
   const auto [eigenvalues, vectors, residual] = decompose_leading(products, most, "the Gram matrix of the materials");
   if (eigenvalues.size() == 0) refuse("the materials do not differ: there is nothing to learn");

@@ -19,14 +19,14 @@
 
 namespace gonio::detail {
 
-/// Returns the number of threads that fit into a quarter of the memory.
+/// Returns how many threads to use: together, they need at most a quarter of the permitted memory.
 [[nodiscard]] GONIO_INLINE thread_count threads_within(const streaming_options& options, double bytes_each) {
   const double room = 0.25 * static_cast<double>(options.memory) / bytes_each;
   const unsigned threads = options.threads.resolve();
   return {room < threads ? std::max(1u, static_cast<unsigned>(room)) : threads};
 }
 
-/// Returns the same rows with progress reports of reading.
+/// Returns the same rows. Reading them also reports the progress.
 [[nodiscard]] GONIO_INLINE row_source counted(const row_source& rows, const std::string& stage,
                                               const progress& listener) {
   if (!listener) return rows;
@@ -52,7 +52,7 @@ namespace gonio::detail {
   const Eigen::MatrixXd products =
       options.share.sum_over_all([&](block groups) { return gram(counted(first, "gram", listener), groups, threads); });
   report(listener, "eigenvalues", 0.0);
-  // By rounding of the mean, centring may seem not to remove a component.
+  // Centred observations have one component fewer than columns. Rounding of the mean may seem to add the missing one.
   const Eigen::Index most = std::min(options.components, first.columns - 1);
   streamed_components found{decompose_leading(products, most, "the Gram matrix of the materials"), {}, true};
   if (found.pairs.values.size() == 0) return found;

@@ -41,7 +41,7 @@ struct mapped_materials::state {
       row[i] = static_cast<float>(log_relative::forward(double{row[i]}, reference_here, weight));
   }
 
-  /// Reads a block of cells.
+  /// Reads, maps and centres a block of cells.
   void read(block range, bool first, row_block out) {
     cell_matrix held(range.size(), materials.columns());
     materials.read(range, held);

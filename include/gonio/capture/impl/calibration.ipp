@@ -44,6 +44,32 @@ GONIO_INLINE exposure_counts mean_counts(std::span<const reading> readings, std:
   return counts;
 }
 
+GONIO_INLINE measured_radiance radiance_of(const reading& taken, Eigen::Index channel, const calibration& known) {
+  return merge_exposures(taken, channel, known.responses[static_cast<std::size_t>(channel)], known.noise,
+                         known.saturation);
+}
+
+/// Returns f of a material in each channel by the lamp's strength in that channel.
+GONIO_INLINE measured_reflectance reflectance_under(const std::array<std::optional<reference_light>, 3>& lights,
+                                                    const reading& material, const direction_pair& at,
+                                                    const illumination& material_at, const calibration& known) {
+  measured_reflectance result{at};
+  bool is_dark = true;
+  for (Eigen::Index channel = 0; channel < 3; ++channel) {
+    const measured_radiance seen = radiance_of(material, channel, known);
+    if (seen.saturated) {
+      result.doubt = "saturated in every exposure";
+      return result;
+    }
+    const uncertain f = lights[static_cast<std::size_t>(channel)]->brdf({seen.value, seen.deviation}, material_at);
+    result.value[channel] = f.value;
+    result.deviation[channel] = f.deviation;
+    is_dark = is_dark && seen.dark;
+  }
+  if (is_dark) result.doubt = "dark in every exposure";
+  return result;
+}
+
 }  // namespace gonio::capture::detail
 
 namespace gonio::capture {
@@ -68,7 +94,7 @@ GONIO_INLINE double measured_reflectance::relative_deviation() const noexcept {
 }
 
 GONIO_INLINE channel_weights measured_reflectance::weights() const {
-  // Metrics add this offset before they take a logarithm. It bounds the noise where the material is black.
+  // Metrics add this offset before they take a logarithm. It limits the effect of noise where the material is black.
   constexpr double offset = 0.001;
   rgb of_each;
   for (Eigen::Index channel = 0; channel < 3; ++channel)
@@ -80,27 +106,47 @@ GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, c
                                                       const direction_pair& at, const calibration& known,
                                                       const illumination& material_at, const illumination& reference_at,
                                                       const std::optional<direction_pair>& reference_pose) {
-  measured_reflectance result{at};
   const rgb factor = known.reflectance.at(reference_pose.value_or(at));
-  bool is_dark = true;
+  std::array<std::optional<reference_light>, 3> lights;
   for (Eigen::Index channel = 0; channel < 3; ++channel) {
-    const camera_response& response = known.responses[channel];
-    const auto radiance = [&](const reading& taken) {
-      return merge_exposures(taken, channel, response, known.noise, known.saturation);
-    };
-    const measured_radiance white = radiance(reference), seen = radiance(material);
-    if (!white.usable()) result.doubt = std::string("the reference is ") + (white.dark ? "dark" : "saturated");
-    if (seen.saturated) result.doubt = "saturated in every exposure";
-    if (!result.is_usable()) return result;
-    // Relative to a perfect diffuser, of which the reference reflects a fraction.
-    const reference_light light({white.value, white.deviation}, 1.0, reference_at);
-    const uncertain f = light.brdf({seen.value, seen.deviation}, material_at);
-    result.value[channel] = factor[channel] * f.value;
-    result.deviation[channel] = factor[channel] * f.deviation;
-    is_dark = is_dark && seen.dark;
+    const measured_radiance white = detail::radiance_of(reference, channel, known);
+    if (!white.usable()) {
+      measured_reflectance none{at};
+      none.doubt = std::string("the reference is ") + (white.dark ? "dark" : "saturated");
+      return none;
+    }
+    // Compute f as if the reference were a perfect diffuser, and correct it by `factor`.
+    lights[static_cast<std::size_t>(channel)] = reference_light({white.value, white.deviation}, 1.0, reference_at);
   }
-  if (is_dark) result.doubt = "dark in every exposure";
+  measured_reflectance result = detail::reflectance_under(lights, material, at, material_at, known);
+  result.value *= factor;
+  result.deviation *= factor;
   return result;
+}
+
+GONIO_INLINE std::array<uncertain, 3> mean_exposures(std::span<const reading> readings, const calibration& known) {
+  if (readings.empty()) refuse("a mean exposure needs at least one reading");
+  const auto count = static_cast<double>(readings.size());
+  std::array<uncertain, 3> means;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    double variances = 0.0;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+      const measured_radiance seen = detail::radiance_of(readings[i], static_cast<Eigen::Index>(channel), known);
+      if (!seen.usable()) refuse({"reading ", i + 1, " is ", seen.dark ? "dark" : "saturated", " in every exposure"});
+      means[channel].value += seen.value / count;
+      variances += seen.deviation * seen.deviation;
+    }
+    means[channel].deviation = std::sqrt(variances) / count;
+  }
+  return means;
+}
+
+GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, const measured_lamp& lamp,
+                                                      const direction_pair& at, const calibration& known) {
+  std::array<std::optional<reference_light>, 3> lights;
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    lights[channel] = reference_light::of_lamp(lamp.exposures[channel], lamp.solid_angle, lamp.transmittance);
+  return detail::reflectance_under(lights, material, at, {.cosine = at.wi.z()}, known);
 }
 
 GONIO_INLINE reference_readings::reference_readings(std::vector<direction_pair> poses, std::vector<reading> readings)

@@ -50,7 +50,7 @@ GONIO_INLINE double camera_response::count(double exposure) const noexcept {
   const auto above = std::lower_bound(values_.begin(), values_.end(), wanted) - values_.begin();
   const Eigen::Index left = std::max<Eigen::Index>(above - 1, 0);
   const double rise = values_[left + 1] - values_[left];
-  if (!(rise > 0.0)) return 0.0;  // the first line is flat: darker exposures have no count
+  if (!(rise > 0.0)) return 0.0;  // the first segment is flat: no count belongs to a lower exposure
   const double log_ratio = std::log1p(1.0 / static_cast<double>(left + 1));
   return spacing() * static_cast<double>(left + 1) * std::exp((wanted - values_[left]) / rise * log_ratio);
 }
@@ -72,9 +72,10 @@ namespace gonio::capture::detail {
   return std::max(0.0, 1.0 - std::abs(2.0 * count / saturation - 1.0));
 }
 
-/// Up to a constant, the response at the knots is G s, and its slopes by the logarithm of the count are S s. s is the
-/// first slope, followed by one bend for each inner knot. The sum of squared bends is the integral that the smoothness
-/// weights. In these unknowns the penalty is a multiple of the identity, so the problem is well-conditioned.
+/// The response as a linear function of unknowns s: the first slope, followed by one bend for each inner knot. Up to a
+/// constant, the response at the knots is G s; its slopes with respect to the logarithm of the count are S s. The bends
+/// are scaled so that the sum of their squares is the smoothness integral. The penalty is then a multiple of the
+/// identity, so the problem is well-conditioned.
 struct response_basis {
   Eigen::MatrixXd values, slopes;  ///< G: knots x (knots - 1), S: (knots - 1) x (knots - 1)
 
@@ -94,8 +95,8 @@ GONIO_INLINE response_basis::response_basis(Eigen::Index knots)
   for (Eigen::Index k = 1; k < knots; ++k) values.row(k) = values.row(k - 1) + width(k - 1) * slopes.row(k - 1);
 }
 
-/// The normal equations for the response at its knots. Each pixel's unknown ln E is eliminated: it is the weighted mean
-/// over the pixel's rows.
+/// The normal equations for the response at its knots. A row is an exposure of a pixel. Each pixel's unknown ln E is
+/// eliminated: it is the weighted mean of g - ln t over the pixel's rows.
 class response_equations {
  public:
   response_equations(Eigen::Index knots, double spacing, double saturation)
@@ -109,9 +110,10 @@ class response_equations {
 
   [[nodiscard]] const Eigen::MatrixXd& gram() const noexcept { return gram_; }
   [[nodiscard]] const Eigen::VectorXd& rhs() const noexcept { return rhs_; }
-  /// The total weight of the rows of pixels with at least two rows. A single row carries no information.
+  /// Returns the total weight of the rows. Only pixels with at least two rows count, because a single row carries no
+  /// information.
   [[nodiscard]] double weight() const noexcept { return weight_; }
-  /// The smallest count of the same rows.
+  /// Returns the smallest count of pixels with at least two rows.
   [[nodiscard]] double smallest_count() const noexcept { return smallest_count_; }
 
  private:
@@ -152,7 +154,7 @@ GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::
   smallest_count_ = darkest;
 }
 
-/// Removes decreases due to rounding.
+/// Removes decreases that are due to rounding.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd never_falling(Eigen::VectorXd values) {
   for (Eigen::Index k = 1; k < values.size(); ++k) values[k] = std::max(values[k], values[k - 1]);
   return values;
@@ -165,8 +167,8 @@ namespace gonio::capture {
 GONIO_INLINE camera_response estimate_response(const exposure_counts& counts, std::span<const double> times,
                                                std::uint16_t largest_count, const response_options& options) {
   if (counts.cols() != std::ssize(times) || times.size() < 2)
-    refuse("a camera's response needs at least two exposure times, and counts for each, not " +
-           std::to_string(times.size()) + " and " + std::to_string(counts.cols()));
+    refuse({"a camera's response needs at least two exposure times and a column of counts for each, not ", times.size(),
+            " times and ", counts.cols(), " columns"});
   for (const double time : times)
     if (!(time > 0.0 && std::isfinite(time))) refuse("an exposure time must be positive, not " + std::to_string(time));
   if (largest_count < 3)

@@ -32,7 +32,7 @@ namespace gonio::capture::detail {
 /// The number of pixels used to choose the number of clusters and their first centres.
 inline constexpr Eigen::Index clustered_sample = 2000;
 
-/// Returns the positions of `clustered_sample` random points of n, ascending; all positions if there are fewer points.
+/// Returns the indices of `clustered_sample` random points of n, ascending; all indices if there are fewer points.
 [[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> some_points(Eigen::Index n, std::uint64_t seed) {
   const std::vector<Eigen::Index> chosen = random_choice(n, clustered_sample, seed);
   return {chosen.begin(), chosen.end()};
@@ -46,7 +46,7 @@ GONIO_INLINE void require_colours(const point_matrix_view& colours) {
     if (!colours.row(i).allFinite()) refuse("the colour of pixel " + std::to_string(i + 1) + " is not finite");
 }
 
-/// Extends clusters of some of the points to all points.
+/// Assigns all points to the nearest of the clusters that were found for some of the points.
 [[nodiscard]] GONIO_INLINE colour_clusters clusters_of_all(const point_matrix_view& colours, const point_matrix& points,
                                                            const std::vector<Eigen::Index>& some,
                                                            point_matrix first_centres, thread_count threads) {
@@ -77,7 +77,7 @@ GONIO_INLINE colour_clusters cluster_colours(const point_matrix_view& colours, E
   const point_matrix points = clustering_coordinates(colours);
   const std::vector<Eigen::Index> some = detail::some_points(points.rows(), seed);
   const point_matrix looked_at = points(some, Eigen::all);
-  // A colour may be so rare that the sample does not contain it.
+  // If some colours are so rare that the sample has fewer than k, use all points.
   const bool enough = k < 1 || detail::different_points(looked_at, k) == k;
   point_clusters found = k_means(enough ? looked_at : points, k, seed, threads);
   return detail::clusters_of_all(colours, points, some, std::move(found.centres), threads);

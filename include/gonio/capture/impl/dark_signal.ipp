@@ -22,10 +22,10 @@ GONIO_INLINE void require_alike(std::span<const exposed_frame> frames, const cha
     if (!(seconds > 0.0 && std::isfinite(seconds)))
       refuse({"an exposure time must be positive and finite, not ", seconds});
     if (codes.rows != first.rows || codes.columns != first.columns)
-      refuse({what, " has ", codes.columns, " x ", codes.rows, " pixels, the first one ", first.columns, " x ",
+      refuse({what, " has ", codes.columns, " x ", codes.rows, " pixels, but the first has ", first.columns, " x ",
               first.rows});
     if (codes.largest != first.largest)
-      refuse({what, " counts up to ", int{codes.largest}, ", the first one up to ", int{first.largest}});
+      refuse({what, " counts up to ", int{codes.largest}, ", but the first counts up to ", int{first.largest}});
     if (codes.values.size() != 3 * codes.rows * codes.columns || codes.values.empty())
       refuse({what, " has ", codes.values.size(), " counts, expected ", 3 * codes.rows * codes.columns,
               ", and at least one pixel"});
@@ -46,13 +46,13 @@ GONIO_INLINE dark_signal::dark_signal(std::span<const exposed_frame> frames) {
   }
   for (const exposed_frame& each : frames) scatter_ += std::pow(each.seconds - mean_time_, 2);
   if (scatter_ < frames_ * std::pow(0.01 * mean_time_, 2))
-    scatter_ = 0.0;  // one exposure time, up to a camera's rounding
+    scatter_ = 0.0;  // the same exposure time, up to a camera's rounding
   fit(frames);
   level_ = upper_median(std::vector<float>(pedestals_));
   find_hot_pixels(longest);
 }
 
-/// Fits a line to the counts of each value; a constant if there is only one exposure time.
+/// Fits a line over the exposure time to the counts of each value, or a constant if there is only one exposure time.
 GONIO_INLINE void dark_signal::fit(std::span<const exposed_frame> frames) {
   const Eigen::Index values = std::ssize(frames.front().codes.values);
   pedestals_.resize(values);

@@ -42,7 +42,7 @@ GONIO_INLINE measured_radiance mean_radiance(std::vector<exposed> all, const cam
     double weights = 0.0, sum = 0.0;
     for (const exposed& each : all) {
       const double expected = expected_count(each);
-      if (expected >= saturation) continue;  // saturated in expectation; noise made this count darker
+      if (expected >= saturation) continue;  // expected to be saturated: noise made this count darker
       const double predicted = response.exposure(expected) / each.time;
       const double weight = 1.0 / (predicted * predicted * noise.relative_variance(response, expected, pixels));
       weights += weight;
@@ -64,7 +64,7 @@ GONIO_INLINE measured_radiance mean_radiance(std::vector<exposed> all, const cam
 
 GONIO_INLINE void require_times(Eigen::Index images, std::span<const double> times, const std::string& what) {
   if (images != std::ssize(times) || times.empty())
-    refuse(what + " has " + std::to_string(times.size()) + " exposure times, expected one for each and at least one");
+    refuse(what + " has " + std::to_string(times.size()) + " exposure times, expected as many, and at least one");
   for (const double time : times)
     if (!(time > 0.0 && std::isfinite(time))) refuse("an exposure time must be positive, not " + std::to_string(time));
 }

@@ -37,7 +37,8 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
 }
 
 /// Returns seeds for k-means. The first centre is a random point. Each further centre is chosen with a probability
-/// proportional to its squared distance to the nearest centre so far. There must be at least k distinct points.
+/// proportional to its squared distance from the nearest of the centres already chosen. There must be at least k
+/// distinct points.
 [[nodiscard]] GONIO_INLINE point_matrix seed_centres(const point_matrix_view& points, Eigen::Index k,
                                                      std::mt19937_64& generator) {
   point_matrix centres(k, points.cols());
@@ -46,7 +47,7 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
   for (Eigen::Index c = 1; c < k; ++c) {
     double rest = std::uniform_real_distribution<double>(0.0, squares.sum())(generator);
     Eigen::Index chosen = 0;
-    // If rounding leaves a remainder of the sum, use the farthest point.
+    // Use the farthest point if rounding leaves a remainder of the sum after all points.
     squares.maxCoeff(&chosen);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       rest -= squares[i];
@@ -60,8 +61,8 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
   return centres;
 }
 
-/// Assigns each point to the nearest centre, the first if several are equally near, and writes the squared distance.
-/// Returns whether a label changed. O(n k d).
+/// Assigns each point to the nearest centre (the first if several are equally near), and writes the squared distances.
+/// Returns true if a label changed. O(n k d).
 [[nodiscard]] GONIO_INLINE bool assign(const point_matrix_view& points, const point_matrix& centres,
                                        Eigen::VectorXi& labels, Eigen::VectorXd& squares, thread_count threads) {
   const Eigen::VectorXi before = labels;
@@ -89,7 +90,8 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
   return sizes;
 }
 
-/// Gives each empty cluster the point farthest from its centre, from a cluster that keeps at least one other point.
+/// Gives each empty cluster the point that is farthest from the centre of its own cluster, among clusters of at least
+/// two points.
 GONIO_INLINE void refill_empty_clusters(Eigen::VectorXi& labels, Eigen::VectorXd& squares, Eigen::Index k) {
   std::vector<Eigen::Index> sizes = cluster_sizes(labels, k);
   for (Eigen::Index c = 0; c < std::ssize(sizes); ++c) {
@@ -160,7 +162,7 @@ GONIO_INLINE point_clusters refine_clusters(const point_matrix_view& points, poi
     detail::refill_empty_clusters(labels, squares, k);
     centres = detail::cluster_means(points, labels, k, threads);
   }
-  // `squares` still holds the squared distances to the centres before the last update: compute them again.
+  // `squares` still has the squared distances from the centres before the last update: compute them again.
   for (Eigen::Index i = 0; i < n; ++i) squares[i] = (points.row(i) - centres.row(labels[i])).squaredNorm();
   return detail::ordered_by_size(labels, centres, squares.sum());
 }
@@ -168,7 +170,7 @@ GONIO_INLINE point_clusters refine_clusters(const point_matrix_view& points, poi
 GONIO_INLINE point_clusters k_means(const point_matrix_view& points, Eigen::Index k, std::uint64_t seed,
                                     thread_count threads) {
   constexpr int restarts = 10;
-  if (k < 1) refuse("points need at least one cluster, not " + std::to_string(k));
+  if (k < 1) refuse("k-means needs at least one cluster, not " + std::to_string(k));
   detail::require_finite_points(points);
   if (const Eigen::Index different = detail::different_points(points, k); different < k)
     refuse("only " + std::to_string(different) + " of " + std::to_string(points.rows()) +

@@ -16,7 +16,8 @@
 
 namespace gonio::capture::detail {
 
-/// Fills each pixel with the intersection of its ray. `meet(ray, position, normal)` returns whether there is one.
+/// Fills each pixel with the intersection of its ray. `meet(ray, position, normal)` returns true if there is an
+/// intersection.
 template <class Meet>
 [[nodiscard]] surface_image trace(const lens_camera& camera, const Meet& meet) {
   const camera_intrinsics& size = camera.intrinsics();
@@ -32,12 +33,14 @@ template <class Meet>
   return seen;
 }
 
-/// Copies a map of vectors. Refuses a map of another size, and one with a non-finite pixel, which it names.
+/// Copies a map of vectors. Throws gonio::error if the map has another size, or naming the first pixel that is not
+/// finite.
 GONIO_INLINE void copy_map(const vector_map& map, const std::string& name, Eigen::Matrix3Xd& onto, std::size_t rows,
                            std::size_t columns) {
   if (map.shape(2) != 3) gonio::refuse({name, ": has ", map.shape(2), " numbers for each pixel, expected 3"});
   if (map.shape(0) != rows || map.shape(1) != columns)
-    gonio::refuse({name, ": has ", map.shape(1), " x ", map.shape(0), " pixels, its camera ", columns, " x ", rows});
+    gonio::refuse(
+        {name, ": has ", map.shape(1), " x ", map.shape(0), " pixels, but its camera ", columns, " x ", rows});
   for (Eigen::Index pixel = 0; pixel < onto.cols(); ++pixel)
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double value = map.data()[3 * pixel + axis];
@@ -59,7 +62,7 @@ GONIO_INLINE surface_image surface_of(const placed_sphere& sphere, const lens_ca
   const double beyond = away.squaredNorm() - sphere.radius * sphere.radius;
   if (!(beyond > 0.0)) refuse("the camera is inside the sphere");
   return detail::trace(camera, [&](const ray& line, Eigen::Vector3d& position, Eigen::Vector3d& normal) {
-    // away + t d|^2 = R^2; the nearer root is visible.
+    // Solve |away + t d|^2 = R^2 for t. The camera sees the nearer intersection.
     const double half = away.dot(line.towards), discriminant = half * half - beyond;
     if (!(discriminant > 0.0 && half < 0.0)) return false;
     const double distance = -half - std::sqrt(discriminant);

@@ -21,7 +21,7 @@
 
 namespace gonio::capture::detail {
 
-/// A response as a table: the counts above the dark level of a linear camera with the same range.
+/// A response as a table. Converts counts above the dark level to the counts of a linear camera with the same range.
 class linear_counts {
  public:
   linear_counts(const camera_response& response, std::uint16_t largest, double level)
@@ -31,7 +31,7 @@ class linear_counts {
     const double unit = scale_ * response.exposure(1.0);
     for (Eigen::Index count = 0; count <= largest; ++count) {
       const double above = static_cast<double>(count) - level;
-      // Below one count, continue the line through 0: noise also gives counts below the dark level.
+      // Below one count, continue along a line through 0, because noise also gives counts below the dark level.
       linear_[count] = above > 1.0 ? scale_ * response.exposure(above) : unit * above;
       const double slope = above > 1.0 ? linear_[count] * response.slope(above) : unit;
       rounding_[count] = slope * slope / 12.0;
@@ -41,15 +41,15 @@ class linear_counts {
   }
 
   [[nodiscard]] double operator()(std::uint16_t count) const noexcept { return linear_[count]; }
-  /// Interpolates for a count that may be fractional.
+  /// Returns the linear count of a count that may be fractional, by interpolation.
   [[nodiscard]] double between(double count) const noexcept {
     const auto last = std::ssize(linear_) - 1;
     const auto left = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(count)), 0, last - 1);
     return linear_[left] + (count - static_cast<double>(left)) * (linear_[left + 1] - linear_[left]);
   }
-  /// Returns the variance due to rounding to whole counts.
+  /// Returns the variance of the linear count that is due to rounding to whole counts.
   [[nodiscard]] double rounding(std::uint16_t count) const noexcept { return rounding_[count]; }
-  /// Below this count the response is extrapolated.
+  /// Returns true if the response is extrapolated at this count.
   [[nodiscard]] bool is_guess(std::uint16_t count) const noexcept { return count < first_known_; }
   /// Returns the linear counts per unit of exposure.
   [[nodiscard]] double scale() const noexcept { return scale_; }
@@ -63,13 +63,13 @@ class linear_counts {
 /// One exposure of a value, in linear counts.
 struct said_by_exposure {
   double time = 0.0;
-  double signal = 0.0;    ///< without the dark signal
+  double signal = 0.0;    ///< linear counts minus the dark signal
   double dark = 0.0;      ///< dark signal above the dark level
-  double variance = 0.0;  ///< of the parts that do not depend on light
+  double variance = 0.0;  ///< variance of the parts that do not depend on light
   bool is_guess = false;
 };
 
-/// The weighted mean of exposures, in linear counts per second.
+/// The weighted mean of several exposures, in linear counts per second.
 struct mean_of_exposures {
   double value = 0.0, weights = 0.0, chi_square = 0.0;
   Eigen::Index used = 0;
@@ -87,7 +87,7 @@ class value_merger {
 
   [[nodiscard]] mean_of_exposures mean() const {
     const bool only_guesses = std::ranges::all_of(said_, &said_by_exposure::is_guess);
-    // Start with the variances of the measured counts. The next rounds use those of the predicted counts.
+    // Start with the variances at the measured counts. The next rounds use the variances at the predicted counts.
     mean_of_exposures found =
         pass([&](const said_by_exposure& each) { return each.signal; },
              [&](const said_by_exposure& each, double) { return only_guesses || !each.is_guess; });
@@ -105,7 +105,7 @@ class value_merger {
   }
 
  private:
-  /// Averages the exposures that are `wanted`, with the variances of the `expected` signals.
+  /// Averages the exposures for which `wanted` returns true, with the variances of the signals that `expected` returns.
   template <class Expected, class Wanted>
   [[nodiscard]] mean_of_exposures pass(const Expected& expected, const Wanted& wanted) const {
     double sum = 0.0, squares = 0.0;
@@ -131,7 +131,7 @@ class value_merger {
   std::vector<said_by_exposure> said_;
 };
 
-/// The inputs and the limits of merging.
+/// The inputs of merging, and limits that are the same for all values.
 class frame_merger {
  public:
   frame_merger(std::span<const exposed_frame> frames, const std::array<camera_response, 3>& responses,
@@ -140,7 +140,7 @@ class frame_merger {
     const double level = first_.largest - counts_above(first_.largest, dark);
     for (const camera_response& each : responses) tables_.emplace_back(each, first_.largest, level);
     limit_ = options.saturation > 0 ? options.saturation : first_.largest;
-    // Limits of chi-square that chance exceeds for one value in a million.
+    // Compute limits of chi-square that chance exceeds for one value in a million.
     for (Eigen::Index used = 2; used <= std::ssize(frames); ++used)
       most_chi_square_.push_back(chi_square_quantile(1.0 - 1e-6, static_cast<double>(used - 1)));
     shortest_ = std::ranges::min(frames, {}, &exposed_frame::seconds).seconds;
@@ -174,7 +174,7 @@ class frame_merger {
       const double of_dark = dark_.relative_variance(seconds) * (read * read + 1.0 / 12.0);
       merger.add({seconds, linear(count) - dark, dark, linear.rounding(count) + of_dark, linear.is_guess(count)});
     }
-    // Merge them, or determine why there are none.
+    // Merge these exposures or, if there are none, determine why.
     double value = 0.0, deviation = std::numeric_limits<double>::infinity();
     value_state state = value_state::usable;
     if (!merger.has_none()) {
@@ -203,7 +203,7 @@ class frame_merger {
   const merge_options& options_;
   const stored_codes& first_;
   std::vector<linear_counts> tables_;
-  std::vector<double> most_chi_square_;  ///< for two exposures, for three, and so on
+  std::vector<double> most_chi_square_;  ///< limits for two exposures, three, and so on
   std::uint16_t limit_ = 0;
   double shortest_ = 0.0, longest_ = 0.0;
 };
@@ -228,8 +228,8 @@ GONIO_INLINE void require_mergeable(std::span<const exposed_frame> frames,
             ", and at most the largest count, ", int{first.largest}});
 }
 
-/// Groups values of similar radiance, whose mean counts have little noise. A response fitted to noisy counts is biased:
-/// noise in a count moves its row along the response, and a logarithm is not linear in it.
+/// Groups values of similar radiance, because the mean count of a group has little noise. Noisy counts would bias the
+/// response: noise moves a count along the response, and the logarithm of exposure is not linear in the count.
 class alike_values {
  public:
   alike_values(std::span<const exposed_frame> frames, std::uint16_t level, std::uint16_t saturation)
@@ -267,7 +267,7 @@ class alike_values {
     return values;
   }
 
-  /// Returns the interquartile mean of a group's counts, which ignores hot pixels and pixels that moved.
+  /// Returns the mean of the middle half of a group's counts, which ignores hot pixels and pixels that moved.
   [[nodiscard]] double interquartile_mean(std::span<const Eigen::Index> group, const stored_codes& codes) const {
     std::vector<std::uint16_t> counts;
     counts.reserve(group.size());

@@ -68,10 +68,11 @@ GONIO_INLINE std::optional<seen_place> place_of_pixel(const near_field_setup& se
   return seen_place{*point, -line.towards};
 }
 
-/// Returns whether a value is saturated. Refuses other values that are not finite; `what` names the image.
+/// Returns true if a value is saturated. Throws gonio::error for other values that are not finite; `what` names the
+/// image.
 GONIO_INLINE bool is_saturated(const rgb& value, const near_field_setup& setup, const char* what, std::size_t row,
                                std::size_t column) {
-  // Compare in float, like the image. Merged exposures may hold infinity where all were saturated.
+  // Compare in float, like the image. Merged exposures may be infinite where all exposures were saturated.
   const bool saturated = setup.saturation && (value >= double{static_cast<float>(*setup.saturation)}).any();
   if (value.isNaN().any() || !(saturated || value.isFinite().all()))
     gonio::refuse({what, "pixel (row ", row, ", column ", column, ") is not finite, and it sees the sample"});
@@ -176,7 +177,7 @@ GONIO_INLINE sample_set near_field_samples(const image& picture, const near_fiel
       any_saturated = any_saturated || block.saturated;
       if (block.pixels == 0 || block.saturated) continue;
       const direction_pair seen{block.lights.normalized(), block.views.normalized()};
-      // A grazing view may round to one at the horizon.
+      // Skip a grazing view that rounding moves to the horizon.
       const cosine_pair cosine = cosines(to_half_difference(seen.wi, seen.wo));
       if (!(cosine.i > 0.0 && cosine.o > 0.0)) continue;
       const auto pixels = static_cast<double>(block.pixels);

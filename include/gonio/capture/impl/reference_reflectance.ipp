@@ -28,7 +28,8 @@ GONIO_INLINE void require_ascending(const std::vector<double>& angles, const cha
               ", expected ascending angles"});
 }
 
-/// The two angles around an angle, and the fraction of the way from the first to the second.
+/// The two neighbouring angles of a table between which an angle lies, and the fraction of the way from the first to
+/// the second.
 struct angle_interval {
   Eigen::Index first = 0, second = 0;
   double share = 0.0;

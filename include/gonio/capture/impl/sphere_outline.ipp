@@ -25,7 +25,7 @@
 
 namespace gonio::capture::detail {
 
-/// The difference of each pixel from the background, and a threshold above the background's noise.
+/// The brightness difference of each pixel from the background, and a threshold above the background's noise.
 struct contrast_image {
   Eigen::Index rows = 0, columns = 0;
   std::vector<double> values;
@@ -34,8 +34,9 @@ struct contrast_image {
   [[nodiscard]] double at(Eigen::Index row, Eigen::Index column) const { return values[row * columns + column]; }
 };
 
-/// Returns the threshold for a difference: above the background's noise, and a fraction of the surface's median.
-/// Ignores the few brightest pixels, which may be wrong. A highlight may be a hundred times brighter than the rest.
+/// Returns the threshold for a difference from the background: at least the background's noise and a fraction of the
+/// sphere's median difference. Ignores the few brightest pixels, because a highlight may be a hundred times brighter
+/// than the rest of the sphere.
 GONIO_INLINE double threshold_of(std::vector<double> values, double noise) {
   constexpr double share_of_highlight = 1e-3, share_of_median = 0.05;
   const std::ptrdiff_t wrong = std::max<std::ptrdiff_t>(20, std::ssize(values) / 1000);
@@ -50,7 +51,7 @@ GONIO_INLINE contrast_image contrast_of(const image& photograph) {
   contrast_image contrast{
       static_cast<Eigen::Index>(photograph.shape(0)), static_cast<Eigen::Index>(photograph.shape(1)), {}};
   if (contrast.rows < 8 || contrast.columns < 8) gonio::refuse("a photograph of a sphere needs at least 8 x 8 pixels");
-  // Compute each pixel's brightness. The border's brightness is that of the background.
+  // Compute each pixel's brightness. The border of the image shows the background.
   std::vector<double> border;
   for (Eigen::Index row = 0; row < contrast.rows; ++row)
     for (Eigen::Index column = 0; column < contrast.columns; ++column) {
@@ -68,21 +69,23 @@ GONIO_INLINE contrast_image contrast_of(const image& photograph) {
   return contrast;
 }
 
-/// Returns the first edge along a line of pixels, from pixel 0 inwards; nothing if it is at the border.
+/// Returns the position of the first edge along a line of pixels, from pixel 0 inwards. Returns nothing if the edge is
+/// at the border of the image.
 template <class Read>
 [[nodiscard]] std::optional<double> first_edge(Eigen::Index count, double threshold, const Read& read) {
   for (Eigen::Index i = 0; i + 4 < count; ++i) {
     if (!(read(i) > threshold && read(i + 1) > threshold && read(i + 2) > threshold)) continue;
     if (i == 0) return {};
-    // The edge covers parts of two pixels, and the pixels further inwards fully. Extrapolate the brightness of full
-    // pixels.
+    // The edge covers parts of two pixels. Pixels farther inwards are covered fully; extrapolate their brightness to
+    // the edge.
     const double inner = read(i + 2), level = std::clamp(2.0 * inner - read(i + 3), 0.3 * inner, 3.0 * inner);
     return static_cast<double>(i + 2) - std::clamp((read(i) + read(i + 1)) / level, 0.0, 2.0);
   }
   return {};
 }
 
-/// Keeps the edges of lines that cross the outline steeply. Others are too far from their neighbours' edges.
+/// Keeps the edges at which the line crosses the outline steeply. On other lines, the edges of neighbouring lines are
+/// too far apart.
 template <class Scan, class Keep>
 void add_steep_edges(Eigen::Index lines, const Scan& scan, const Keep& keep) {
   constexpr double farthest = 1.2;
@@ -96,7 +99,7 @@ void add_steep_edges(Eigen::Index lines, const Scan& scan, const Keep& keep) {
   }
 }
 
-/// Returns n of the plane n . d = 1 nearest to some rays.
+/// Returns the vector n of the plane n . d = 1 that is nearest to the chosen rays d.
 GONIO_INLINE Eigen::Vector3d plane_of(const Eigen::Matrix3Xd& rays, const std::vector<Eigen::Index>& chosen) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -111,7 +114,7 @@ GONIO_INLINE Eigen::Vector3d plane_of(const Eigen::Matrix3Xd& rays, const std::v
   return inverse * sum;
 }
 
-/// Returns how far rays are outside the cone of a plane, in radians; negative inside.
+/// Returns the angle in radians by which each ray is outside the cone of a plane; negative inside.
 GONIO_INLINE Eigen::VectorXd beyond_cone(const Eigen::Matrix3Xd& rays, const Eigen::Vector3d& plane) {
   const double length = plane.norm(), half_angle = std::acos(std::min(1.0 / length, 1.0));
   Eigen::VectorXd beyond(rays.cols());
@@ -130,13 +133,14 @@ GONIO_INLINE std::vector<Eigen::Index> within(const Eigen::VectorXd& beyond, dou
   return inliers;
 }
 
-/// Whether a plane gives a cone: its half angle is below a right angle and above three pixels.
+/// Returns true if a plane gives a cone with a half angle between three pixels and a right angle.
 GONIO_INLINE bool is_cone(const Eigen::Vector3d& plane, double pixel_angle) {
   const double length = plane.norm();
   return std::isfinite(length) && length > 1.0 && std::acos(1.0 / length) > 3.0 * pixel_angle;
 }
 
-/// Returns the best of the planes through three rays: most rays on the cone, and few outside.
+/// Returns the best of many planes, each through three random rays: the plane whose cone has the most rays on it and
+/// the fewest outside.
 GONIO_INLINE std::optional<Eigen::Vector3d> consensus(const Eigen::Matrix3Xd& rays, double tolerance,
                                                       double pixel_angle, const outline_options& options) {
   std::mt19937_64 generator(options.seed);
@@ -155,7 +159,7 @@ GONIO_INLINE std::optional<Eigen::Vector3d> consensus(const Eigen::Matrix3Xd& ra
     double score = 0.0;
     for (const double each : beyond) {
       if (std::abs(each) <= tolerance) score += 1.0 - std::pow(each / tolerance, 2);
-      if (each > tolerance) score -= 1.0;  // no part of the sphere is outside
+      if (each > tolerance) score -= 1.0;  // no ray of the sphere's edge is outside its cone
     }
     if (score <= best_score) continue;
     best_score = score;
@@ -164,7 +168,7 @@ GONIO_INLINE std::optional<Eigen::Vector3d> consensus(const Eigen::Matrix3Xd& ra
   return best;
 }
 
-/// Returns the fraction of the outline that some rays cover, counted in sectors of 10 degrees.
+/// Returns the fraction of the outline that the inliers cover, counted in sectors of 10 degrees.
 GONIO_INLINE double covered_share(const Eigen::Matrix3Xd& rays, const std::vector<Eigen::Index>& inliers,
                                   const Eigen::Vector3d& plane) {
   const Eigen::Vector3d axis = plane.normalized(), across = axis.unitOrthogonal(), beside = axis.cross(across);
@@ -182,7 +186,7 @@ GONIO_INLINE placed_sphere sphere_of(const Eigen::Vector3d& plane, const lens_ca
   return {camera.position() + plane * (cosine * radius / sine), radius};
 }
 
-/// Returns the outline points that a light reaches at a cosine above 0.2.
+/// Returns the outline points at which the cosine of the light's angle of incidence is above 0.2.
 GONIO_INLINE std::vector<Eigen::Index> well_lit(const Eigen::Matrix3Xd& rays, const std::vector<Eigen::Index>& places,
                                                 const placed_sphere& sphere, const Eigen::Vector3d& camera,
                                                 const surface_light& light) {
@@ -190,7 +194,7 @@ GONIO_INLINE std::vector<Eigen::Index> well_lit(const Eigen::Matrix3Xd& rays, co
   const Eigen::Vector3d from = camera - sphere.centre;
   std::vector<Eigen::Index> lit;
   for (const Eigen::Index i : places) {
-    // The ray's point nearest to the centre. On the outline it touches the sphere.
+    // Take the ray's point nearest to the centre: a ray of the outline touches the sphere there.
     const Eigen::Vector3d towards = rays.col(i), off = from - towards * from.dot(towards), normal = off.normalized();
     const Eigen::Vector3d point = sphere.centre + sphere.radius * normal;
     if (normal.dot(light_at(light, point).towards) > smallest_cosine) lit.push_back(i);
@@ -205,7 +209,7 @@ namespace gonio::capture {
 GONIO_INLINE std::vector<Eigen::Vector2d> edge_points(const image& photograph) {
   const detail::contrast_image contrast = detail::contrast_of(photograph);
   std::vector<Eigen::Vector2d> points;
-  // Scan from both ends of all rows, then of all columns.
+  // Scan all rows, and then all columns, from both ends.
   for (const bool is_row : {true, false})
     for (const bool is_backward : {false, true}) {
       const Eigen::Index lines = is_row ? contrast.rows : contrast.columns,
@@ -234,13 +238,16 @@ GONIO_INLINE fitted_outline fit_sphere(const std::vector<Eigen::Vector2d>& outli
   const double pixel_angle = camera.pixel_angle(), tolerance = options.inlier_distance * pixel_angle;
   std::optional<Eigen::Vector3d> plane = detail::consensus(rays, tolerance, pixel_angle, options);
   if (!plane) refuse("no sphere is found: no outline agrees with the edges of the image");
-  // Fit all inliers and select them again.
+  // Fit a plane to all inliers and select the inliers again, repeatedly.
   std::vector<Eigen::Index> inliers;
   for (int round = 0; round < 20; ++round) {
     inliers = detail::within(detail::beyond_cone(rays, *plane), tolerance);
-    if (3 * std::ssize(inliers) < count || detail::covered_share(rays, inliers, *plane) < 0.25)
+    if (3 * std::ssize(inliers) < count)
       refuse({"no sphere is found: ", inliers.size(), " of ", count,
-              " edge points lie on one outline, expected a third along at least a quarter of it"});
+              " edge points lie on one outline, expected at least ", (count + 2) / 3});
+    if (const double covered = detail::covered_share(rays, inliers, *plane); covered < 0.25)
+      refuse({"no sphere is found: the edge points of one outline cover ", std::lround(100.0 * covered),
+              " % of it, expected at least 25 %"});
     if (options.light) {
       auto lit =
           detail::well_lit(rays, inliers, detail::sphere_of(*plane, camera, radius), camera.position(), *options.light);

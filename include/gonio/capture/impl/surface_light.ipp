@@ -21,7 +21,7 @@ namespace gonio::capture::detail {
 
 GONIO_INLINE void require_size(std::size_t columns, std::size_t rows, const camera_intrinsics& size, const char* what) {
   if (columns == size.columns && rows == size.rows) return;
-  gonio::refuse({what, " has ", columns, " x ", rows, " pixels, its camera ", size.columns, " x ", size.rows});
+  gonio::refuse({what, " has ", columns, " x ", rows, " pixels, but its camera ", size.columns, " x ", size.rows});
 }
 
 GONIO_INLINE void require_size(const image& picture, const camera_intrinsics& size, const char* what) {
@@ -43,8 +43,9 @@ GONIO_INLINE lit_point light_at(const surface_light& light, const Eigen::Vector3
 }
 
 GONIO_INLINE aperture pixel_aperture(const lit_point& lit, const Eigen::Vector3d& across, const Eigen::Vector3d& down) {
-  // A disc of half vectors has half its squared radius as variance, a parallelogram a twelfth of the sum of its squared
-  // sides. Half vectors turn by half the receiver's angle.
+  // Give the receiver's cone the same scatter of half vectors as the pixel. The variance over a disc is half its
+  // squared radius; over a parallelogram it is a twelfth of the sum of its squared sides. If the viewer turns by an
+  // angle, the half vector turns by half that angle.
   const double of_half_vectors = std::sqrt((across.squaredNorm() + down.squaredNorm()) / 6.0);
   return {std::min(lit.half_angle, largest_half_angle), std::min(2.0 * of_half_vectors, largest_half_angle)};
 }

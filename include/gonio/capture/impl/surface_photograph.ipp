@@ -26,7 +26,7 @@
 
 namespace gonio::capture::detail {
 
-/// Refuses a surface without positions for a lamp at a finite distance.
+/// Throws gonio::error if the light is a lamp at a finite distance and the surface has no positions.
 GONIO_INLINE void require_positions(const surface_image& surface, const surface_light& light) {
   if (std::holds_alternative<directional_light>(light)) return;
   for (Eigen::Index pixel = 0; pixel < surface.normals.cols(); ++pixel)
@@ -34,7 +34,7 @@ GONIO_INLINE void require_positions(const surface_image& surface, const surface_
   gonio::refuse("a lamp at a finite distance needs the positions of the surface, not only its normals");
 }
 
-/// Returns whether the light reaches any visible point. A lamp inside a closed surface is behind all of them.
+/// Returns true if the light reaches any visible point. A lamp inside a closed surface is behind all of its points.
 GONIO_INLINE bool lights_any(const surface_image& surface, const surface_light& light) {
   for (Eigen::Index pixel = 0; pixel < surface.normals.cols(); ++pixel) {
     if (!surface.sees(pixel)) continue;
@@ -44,7 +44,7 @@ GONIO_INLINE bool lights_any(const surface_image& surface, const surface_light& 
   return false;
 }
 
-/// Whether a pixel and all its neighbours see the surface.
+/// Returns true if a pixel and all its neighbours see the surface.
 GONIO_INLINE bool is_interior(const surface_image& surface, std::size_t row, std::size_t column) {
   if (row == 0 || column == 0 || row + 1 >= surface.rows || column + 1 >= surface.columns) return false;
   for (std::size_t r = row - 1; r <= row + 1; ++r)
@@ -53,7 +53,8 @@ GONIO_INLINE bool is_interior(const surface_image& surface, std::size_t row, std
   return true;
 }
 
-/// Returns light and viewer relative to a normal. The choice of the x tangent is arbitrary for isotropic materials.
+/// Returns light and viewer in a local frame with the normal as its z axis. The choice of its x axis is arbitrary for
+/// isotropic materials.
 GONIO_INLINE direction_pair around_normal(const Eigen::Vector3d& normal, const direction& light,
                                           const direction& viewer) {
   const Eigen::Vector3d x = normal.unitOrthogonal(), y = normal.cross(x);
@@ -76,7 +77,7 @@ class pixel_reader {
                const photograph_options& options)
       : photograph_(photograph), surface_(surface), camera_(camera), light_(light), white_(white), options_(options) {}
 
-  /// Returns nothing if the pixel is not used.
+  /// Returns the reading of a pixel, or nothing if the pixel is not used.
   [[nodiscard]] std::optional<pixel_reading> read(std::size_t row, std::size_t column) {
     if (!is_interior(surface_, row, column)) return {};
     const Eigen::Index number = surface_.pixel(row, column);
@@ -105,7 +106,7 @@ class pixel_reader {
     return (lit.towards - line.towards).normalized() - surface_.normals.col(number);
   }
 
-  /// Returns nothing if the value is saturated. Refuses NaN.
+  /// Returns the value of a pixel, or nothing if it is saturated. Throws gonio::error for NaN.
   [[nodiscard]] std::optional<rgb> value_of(const image& picture, const char* what, std::size_t row,
                                             std::size_t column) {
     const rgb value = pixel(picture, row, column);
@@ -118,7 +119,7 @@ class pixel_reader {
     return {};
   }
 
-  /// Applies Eq. 20 to 22 if the reference is lit and visible.
+  /// Returns f by Eq. 20 to 22 if the reference is lit and visible.
   [[nodiscard]] std::optional<rgb> relative_value(const rgb& radiance, double cosine, double distance, std::size_t row,
                                                   std::size_t column) {
     const illumination here{cosine, distance};
@@ -138,7 +139,7 @@ class pixel_reader {
   Eigen::Index saturated_ = 0;
 };
 
-/// Sums over the pixels of a cell.
+/// Sums over the pixels whose angles are in one cell.
 struct cell_mean {
   Eigen::Index pixels = 0;
   direction_pair first;
@@ -164,7 +165,7 @@ struct cell_mean {
     return {cones.source / n, cones.receiver / n};
   }
   [[nodiscard]] rgb mean() const { return sum / static_cast<double>(pixels); }
-  /// Returns the relative standard deviation of one pixel.
+  /// Returns the relative standard deviation of a single pixel in this cell.
   [[nodiscard]] rgb scatter() const {
     const auto n = static_cast<double>(pixels);
     return ((squares - sum.square() / n).max(0.0) / (n - 1.0)).sqrt() / mean().abs().max(1e-300);
@@ -173,7 +174,8 @@ struct cell_mean {
 
 using cell_means = std::map<Eigen::Index, cell_mean>;
 
-/// Returns the median scatter of pixels over cells with enough of them; 0 if there is no such cell.
+/// Returns the median over the cells of the scatter of their pixels, for cells with at least four pixels; 0 if there is
+/// no such cell.
 GONIO_INLINE rgb median_scatter(const cell_means& cells) {
   constexpr Eigen::Index enough = 4;
   std::array<std::vector<double>, 3> all;
@@ -211,7 +213,7 @@ GONIO_INLINE photograph_samples samples_of(const image& photograph, const surfac
                                            const lens_camera& camera, const surface_light& light,
                                            const std::optional<white_reference>& white,
                                            const photograph_options& options) {
-  // Check sizes and light.
+  // Check the sizes, and that the light reaches the surface.
   const camera_intrinsics& size = camera.intrinsics();
   require_usable(light);
   detail::require_size(photograph, size, "the photograph");

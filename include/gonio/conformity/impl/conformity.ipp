@@ -65,8 +65,7 @@ GONIO_INLINE located_samples both_of(const located_samples& part, const located_
   if (n > most_of_part) refuse({"a part can have at most ", most_of_part, " directions, not ", n});
   if (all > most) refuse({"part and reference can have at most ", most, " samples together, not ", all});
   if (part.values.cols() != reference.values.cols())
-    refuse({"the part has ", part.values.cols(), " channels, expected as many as the reference, ",
-            reference.values.cols()});
+    refuse({"the part has ", part.values.cols(), " channels, but the reference has ", reference.values.cols()});
   located_samples both{part.locations, Eigen::MatrixXd(all, part.values.cols()), Eigen::MatrixXd::Ones(all, 1)};
   both.locations.insert(both.locations.end(), reference.locations.begin(), reference.locations.end());
   both.values.topRows(n) = part.values;
@@ -78,7 +77,8 @@ GONIO_INLINE located_samples both_of(const located_samples& part, const located_
   return both;
 }
 
-/// Compares directions on an isotropic material. The azimuth counts by how far it moves one of them.
+/// Returns true if two directions on an isotropic material differ by at most `limit`. A difference of phi_d counts as
+/// the angle by which it moves light and viewer.
 [[nodiscard]] inline bool is_same(const half_difference& a, const half_difference& b, double limit) {
   const double turn = std::remainder(a.phi_d - b.phi_d, std::numbers::pi);
   return std::abs(a.theta_h - b.theta_h) <= limit && std::abs(a.theta_d - b.theta_d) <= limit &&
@@ -93,17 +93,18 @@ GONIO_INLINE std::vector<Eigen::Index> same_directions(const std::vector<locatio
   return same;
 }
 
-/// The differences of part and reference as a matrix times the samples: n x N. `shared` is the number of the
-/// reference's samples in each direction.
+/// The differences between part and reference are the product of `rows`, n x N, with the mapped values of all N
+/// samples. `shared` has the number of the reference's samples in each of the part's n directions.
 struct difference_operator {
   Eigen::MatrixXd rows;
   std::vector<Eigen::Index> shared;
-  Eigen::MatrixXd channels;  ///< covariance of the model's channels
+  Eigen::MatrixXd channels;  ///< covariance of the channels, relative to the model's variance of one channel
   bool predicts = false;
 };
 
 /// Returns the covariance of the reference's channels, relative to the model's variance of one channel. The prior
-/// counts as ten measurements, as in `sample_process`, with a correlation of channels typical of most materials.
+/// assumption, a correlation of 0.9, is typical of most materials and counts as ten measurements, as in
+/// `sample_process`.
 [[nodiscard]] inline Eigen::MatrixXd channel_covariance(const Eigen::MatrixXd& whitened) {
   constexpr double before = sample_process::known_before, correlation = 0.9;
   Eigen::MatrixXd known = Eigen::MatrixXd::Constant(whitened.cols(), whitened.cols(), correlation);
@@ -111,7 +112,8 @@ struct difference_operator {
   return (before * known + product(whitened.transpose(), whitened)) / (before + static_cast<double>(whitened.rows()));
 }
 
-/// Returns differences from the mean of the reference's measurements in the same direction, or from its prediction.
+/// Returns the differences of the part from the reference. In each direction, the reference is the mean of its
+/// measurements in this direction or, if there are none, its prediction.
 [[nodiscard]] inline difference_operator differences(const conformity_samples& samples, double limit) {
   const Eigen::Index n = samples.parts, all = samples.mapped.rows(), r = all - n;
   const Eigen::Index channels = samples.mapped.cols();
@@ -131,7 +133,8 @@ struct difference_operator {
   }
   if (!found.predicts) return found;
 
-  // Predict from the whole reference. Its noise is at least 0.1 %, so that it may have repeated directions.
+  // Predict from the whole reference. Assume at least 0.1 % noise, so that the covariance stays invertible if
+  // directions are repeated.
   Eigen::MatrixXd among = samples.covariance.bottomRightCorner(r, r);
   among.diagonal() += samples.noise.bottomRows(r).rowwise().mean().cwiseMax(1e-6);
   const cholesky factors(among);
@@ -194,7 +197,7 @@ GONIO_INLINE double least_within(const Eigen::MatrixXd& matrix, const Eigen::Vec
 
 GONIO_INLINE double least_within(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& residuals,
                                  const Eigen::Matrix3d& jacobian, double length) {
-  // In u = J x: (s - u)' A (s - u) with |u| <= length, so that (A + m I) u = A s.
+  // With u = J x, minimise (s - u)' A (s - u) for |u| <= length: the minimum satisfies (A + m I) u = A s.
   const Eigen::Matrix3d inverse = inverse_of(jacobian);
   const Eigen::Matrix3d a = inverse.transpose() * matrix * inverse;
   const Eigen::Vector3d s = jacobian * residuals, as = a * s;
@@ -225,14 +228,14 @@ inline void adjust(std::vector<compared_direction>& directions) {
   }
 }
 
-/// Returns the inverse of a covariance.
 [[nodiscard]] inline Eigen::MatrixXd precision_of(const Eigen::MatrixXd& covariance) {
   const cholesky factors(covariance);
   if (!factors.positive_definite()) refuse("the covariance of part and reference is not positive definite");
   return factors.inverse();
 }
 
-/// Differences, with the channels of a direction adjacent (n c), their covariance and their tolerance.
+/// The differences of all directions with their covariance and tolerance. The c channels of a direction are adjacent: n
+/// c rows.
 struct stacked_differences {
   Eigen::Index channels;  ///< c
   Eigen::VectorXd residuals;
@@ -247,9 +250,9 @@ struct stacked_differences {
   }
 };
 
-/// The degrees of freedom of the covariance of differences. For predictions they come from measured materials whose
-/// families the prior has not seen: their errors have heavier tails than normal ones, and the fewer samples r the
-/// reference has, the heavier. See docs/results/conformity.md.
+/// The degrees of freedom of the covariance of differences. Those for predictions were chosen on measured materials
+/// whose families are not in the prior. The errors of predictions have heavier tails than a normal distribution, and
+/// heavier still if the reference has few samples r. See docs/results/conformity.md.
 struct freedoms {
   double measured, shift, total, direction;
 
@@ -268,7 +271,8 @@ struct freedoms {
   return f_tail(squares / count, count, freedom);
 }
 
-/// Tests all differences together, and one shift of each channel in all directions by generalised least squares.
+/// Tests all differences together, and then, by generalised least squares, a shift of each channel that is the same in
+/// all directions.
 inline void test_together(const stacked_differences& all, const freedoms& known, conformity& found) {
   const Eigen::MatrixXd precision = precision_of(all.covariance);
   found.total_p_value = tail_of(least_within(precision, all.residuals, all.tolerance),
@@ -283,7 +287,7 @@ inline void test_together(const stacked_differences& all, const freedoms& known,
                                 static_cast<double>(all.channels), known.shift);
 }
 
-/// Tests each direction alone, and finds the worst. `lab_by_mapped` has a matrix for each direction, or none.
+/// Tests each direction alone, and sets `worst_p_value`. `lab_by_mapped` has a matrix for each direction, or is empty.
 inline void test_apart(const stacked_differences& all, const std::vector<Eigen::Index>& shared, const freedoms& known,
                        const std::vector<Eigen::Matrix3d>& lab_by_mapped, double delta_e, conformity& found) {
   for (Eigen::Index i = 0; i < std::ssize(shared); ++i) {
@@ -306,14 +310,13 @@ inline void test_apart(const stacked_differences& all, const std::vector<Eigen::
 }
 
 GONIO_INLINE conformity compare_samples(conformity_samples samples, const conformity_options& options) {
-  // The independent part is the same in all measurements of one direction.
+  // The model's independent error is the same in all measurements of one direction.
   const Eigen::Index n = samples.parts, all = samples.mapped.rows(), channels = samples.mapped.cols();
   for (Eigen::Index i = 0; i < all; ++i)
     for (Eigen::Index j = 0; j < all; ++j)
       if (i != j && is_same(samples.angles[i], samples.angles[j], options.same_direction))
         samples.covariance(i, j) += samples.independent;
 
-  // Take the differences.
   const difference_operator by = differences(samples, options.same_direction);
   const Eigen::MatrixXd residuals = product(by.rows, samples.mapped);
   stacked_differences stacked{channels, Eigen::VectorXd(channels * n), covariance_of(by, samples),
@@ -323,7 +326,8 @@ GONIO_INLINE conformity compare_samples(conformity_samples samples, const confor
     stacked.tolerance.segment(channels * i, channels) = samples.tolerance.row(i).transpose();
   }
 
-  // Test the shared directions together, whose differences are noise alone, or all directions if none is shared.
+  // Test the directions in which both were measured together, because their differences are noise alone. If there are
+  // none, test all directions.
   std::vector<Eigen::Index> together;
   for (Eigen::Index i = 0; i < n; ++i)
     if (by.shared[i] > 0) together.push_back(i);

@@ -65,7 +65,8 @@ GONIO_INLINE double lens_camera::farthest_corner() const noexcept {
   return farthest;
 }
 
-/// Moves outwards until the lens reaches the farthest corner. Refuses a fold on the way.
+/// Finds `largest_radius_`: increases the undistorted radius until its image reaches the farthest corner. Refuses the
+/// distortion if the image's radius stops growing before.
 GONIO_INLINE void lens_camera::require_monotone_radius() {
   const double corner = farthest_corner();
   const double tangential = 3.0 * (std::abs(distortion_.p1) + std::abs(distortion_.p2));
@@ -75,13 +76,13 @@ GONIO_INLINE void lens_camera::require_monotone_radius() {
     r += step;
     if (distortion_.radius_derivative(r) > 0.0 && r < 1000.0 * corner) continue;
     refuse({"the lens distortion folds within the image: at a radius of ", r,
-            " focal lengths the distorted radius turns back at ", distortion_.distorted_radius(r),
+            " focal lengths the distorted radius stops growing, at ", distortion_.distorted_radius(r),
             ", but the farthest corner is at ", corner});
   }
   largest_radius_ = r;
 }
 
-/// Checks for folds by the tangential coefficients.
+/// Refuses folds that the tangential coefficients cause.
 GONIO_INLINE void lens_camera::require_one_ray_each() const {
   constexpr int steps = 24;
   for (int i = 0; i <= steps; ++i)

@@ -23,7 +23,8 @@ GONIO_INLINE unsigned thread_count::resolve() const noexcept {
 
 namespace detail {
 
-/// Joins its threads even if the last of them could not be started. (std::jthread costs more to compile.)
+/// Joins the started threads on destruction, also if starting another one has thrown. (std::jthread costs more to
+/// compile.)
 struct thread_team {
   std::vector<std::thread> members;
 
@@ -65,7 +66,7 @@ GONIO_INLINE void detail::run_blocks(Eigen::Index count, Eigen::Index block_size
       }
     }
   };
-  // Start the other workers, take part, and wait for them.
+  // Start the other workers, work in this thread too, and wait for all workers.
   {
     detail::thread_team team;
     for (Eigen::Index w = 1; w < workers; ++w) team.members.emplace_back(work);

@@ -14,7 +14,7 @@
 namespace gonio {
 
 [[gnu::cold]] GONIO_INLINE std::size_t spelling_distance(std::string_view one, std::string_view other) {
-  // Row i of the table belongs to the first i letters of `one`; three rows are kept.
+  // In a table of distances, row i belongs to the first i letters of `one`. Only three rows are kept.
   std::vector<std::size_t> before_last, last(other.size() + 1), now(other.size() + 1);
   for (std::size_t j = 0; j <= other.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= one.size(); ++i) {

@@ -62,7 +62,7 @@ GONIO_INLINE std::optional<direction_pair> capture_constraint::pose_of(const hal
 
 GONIO_INLINE std::optional<std::size_t> capture_constraint::fixed_pair(const direction_pair& pair) const {
   constexpr double tolerance = radians(0.5);
-  // An isotropic material does not depend on a common azimuth or on a reflection of the pair.
+  // The reflectance of an isotropic material does not change if a pair is turned about the normal or mirrored.
   const auto across = [](const direction_pair& of) {
     return std::abs(std::remainder(azimuth(of.wo) - azimuth(of.wi), 2.0 * std::numbers::pi));
   };

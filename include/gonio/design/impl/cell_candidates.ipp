@@ -123,7 +123,8 @@ GONIO_INLINE void cell_candidates::add_penalties(std::span<const double> sample_
     refuse({"expected ", size(), " per-cell penalties, got ", sample_noise_penalties.size()});
   for (Eigen::Index cell = 0; cell < size(); ++cell) {
     const double eta = sample_noise_penalties[cell];
-    if (!(eta >= 0.0 && std::isfinite(eta))) refuse({"the eta of a cell must be finite and not negative, not ", eta});
+    if (!(eta >= 0.0 && std::isfinite(eta)))
+      refuse({"the penalty of a cell must be finite and not negative, not ", eta});
     sample_noise_penalties_[cell / error_sweep::width][cell % error_sweep::width] += static_cast<float>(eta);
   }
 }

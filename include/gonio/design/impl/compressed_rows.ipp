@@ -33,14 +33,15 @@ GONIO_INLINE std::vector<std::pair<Eigen::Index, double>> cells_next_to(std::spa
   return counts;
 }
 
-/// Returns V' R and V' O for orthonormal columns V.
+/// Returns V' R and V' O, where `vectors` are the orthonormal columns V and `rows` are (R, O).
 [[nodiscard]] GONIO_INLINE component_rows turned(const Eigen::MatrixXd& vectors, const component_rows& rows) {
   component_rows turned{product(vectors.transpose(), rows.components), Eigen::VectorXd(vectors.cols())};
   for (Eigen::Index j = 0; j < vectors.cols(); ++j) turned.noise[j] = vectors.col(j).dot(rows.noise);
   return turned;
 }
 
-/// Returns L^1/2 V' and L^-1/2 V'R'O for the eigenvalues L of R'R.
+/// Returns L^1/2 V' and L^-1/2 V'R'O, where `values` are the eigenvalues L of R'R, `vectors` its eigenvectors V, and
+/// `rows` are (R, O).
 [[nodiscard]] GONIO_INLINE component_rows scaled(const Eigen::MatrixXd& vectors, std::span<const double> values,
                                                  const component_rows& rows) {
   const Eigen::Index k = vectors.rows(), kept = vectors.cols();

@@ -29,7 +29,7 @@ GONIO_INLINE double condition_number::operator()(const Eigen::MatrixXd& componen
 
 namespace gonio::design::detail {
 
-/// Returns the Cholesky factor of I + R R' / eta.
+/// Returns the Cholesky factor of I + R R' / eta, where R are the components' values at the measurements.
 [[nodiscard]] GONIO_INLINE cholesky certainty(const Eigen::MatrixXd& components, double eta) {
   Eigen::MatrixXd gram = product_with_transpose(components);
   gram /= eta;

@@ -27,8 +27,8 @@ using sweep_lanes = error_sweep::lanes;
   return Eigen::Map<const sweep_lanes>(numbers);
 }
 
-/// Computes Y y and Y w of some measurements, whose rows of Y are side by side. As in `product_sum`, a parameter pack
-/// keeps the sums in registers. Loops over arrays would keep them in memory.
+/// Computes Y y and Y w for some measurements, whose rows of Y are interleaved in `rows`. As in `product_sum`, a
+/// parameter pack keeps the sums in registers, where loops over arrays would keep them in memory.
 template <std::size_t... J>
 inline void project_lanes(const float* candidates, const float* rows, Eigen::Index observations, sweep_lanes* on_y,
                           sweep_lanes* on_w, std::index_sequence<J...> /*measurements*/) {
@@ -43,8 +43,8 @@ inline void project_lanes(const float* candidates, const float* rows, Eigen::Ind
   ((on_w[J] = w_sums[J]), ...);
 }
 
-/// Computes t = y - Y'a and u = w - W'a - Y'b of some observations, whose columns of Y and W are `rows`. Adds y t to d
-/// and y u to r.
+/// Computes t = y - Y'a and u = w - W'a - Y'b for some observations, whose columns of Y and W are in `rows`. Adds y t
+/// to d and y u to r.
 template <std::size_t... I>
 inline void take_away_lanes(const float* candidates, const float* rows, const sweep_lanes* a, const sweep_lanes* b,
                             Eigen::Index measurements, float* left, sweep_lanes& d, sweep_lanes& r,
@@ -69,7 +69,7 @@ inline void take_away_lanes(const float* candidates, const float* rows, const sw
   (store(I), ...);
 }
 
-/// Computes factors x, given the transpose of the factors.
+/// Computes F x, where `transposed` is the transpose of F.
 inline void multiply_lanes(const Eigen::MatrixXf& transposed, const sweep_lanes* x, sweep_lanes* out) {
   for (Eigen::Index i = 0; i < transposed.cols(); ++i) {
     sweep_lanes sum = sweep_lanes::Zero();
@@ -176,7 +176,7 @@ GONIO_INLINE error_sweep::lanes error_sweep::mean(const found& of, const lanes& 
   return sum / static_cast<float>(observations_);
 }
 
-/// Returns the mean for left-out materials.
+/// Returns the mean error over all observations if materials are left out.
 template <class Channels>
 error_sweep::lanes error_sweep::mean_left_out(Channels channels, const found& of, const lanes& own) const {
   std::vector<lanes> room(static_cast<std::size_t>(2 * channels));
@@ -192,7 +192,8 @@ error_sweep::lanes error_sweep::mean_left_out(Channels channels, const found& of
   return sum / static_cast<float>(observations_);
 }
 
-/// Returns the contribution of a shift common to all samples: (SQ)+_eta 1 grows by A q (1 - q . (SQ)+_eta 1) / d.
+/// Returns the contribution of a shift that is common to all samples. The candidate q changes the response (SQ)+_eta 1
+/// by A q (1 - q . (SQ)+_eta 1) / d.
 GONIO_INLINE error_sweep::lanes error_sweep::shift(const float* tile, const found& of) const {
   lanes growth = lanes::Ones(), along = lanes::Zero();
   for (Eigen::Index i = 0; i < observations_; ++i, tile += 2 * width) {

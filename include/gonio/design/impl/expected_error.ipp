@@ -30,7 +30,8 @@ GONIO_INLINE expected_error::expected_error(const Eigen::MatrixXf& coefficients,
     refuse("leaving out a material needs at least two materials");
   const Eigen::Index k = coefficients.cols();
   if (norm.rows() != k || norm.cols() != k)
-    refuse("a norm of " + std::to_string(k) + " weights must be a square matrix with one row for each");
+    refuse("a norm of " + std::to_string(k) + " weights must be a matrix with " + std::to_string(k) +
+           " rows and columns");
   weighted_ = product(coefficients_, norm);
   energies_ = Eigen::VectorXd::Zero(coefficients_.rows());
   for (Eigen::Index j = 0; j < k; ++j) energies_ += coefficients_.col(j).cwiseProduct(weighted_.col(j));
@@ -38,7 +39,7 @@ GONIO_INLINE expected_error::expected_error(const Eigen::MatrixXf& coefficients,
 
 GONIO_INLINE expected_error::rows expected_error::prepare(const Eigen::MatrixXd& components,
                                                           Eigen::VectorXd noise) const {
-  // A row of Y or W is a column of its transpose, so the product copies only the few rows of the components.
+  // A row of Y or W is a column of its transpose. Computing the transposes copies only the few rows of the components.
   rows measured(components.rows(), coefficients_.rows());
   const Eigen::MatrixXd transposed = components.transpose();
   measured.materials().transpose() = product(coefficients_, transposed);
@@ -60,7 +61,7 @@ GONIO_INLINE double expected_error::remainder::error(double common_shift) const 
 
 GONIO_INLINE expected_error::remainder expected_error::state(const rows& measured) const {
   const Eigen::Index n = measured.size(), m = coefficients_.rows();
-  // Without a measurement, the error of each material is its whole energy.
+  // Without measurements, nothing of an observation is known, and its squared error is its energy c_i'M c_i.
   remainder left;
   left.squared_errors = energies_;
   left.noise_response = Eigen::VectorXd::Zero(m);
@@ -69,13 +70,13 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
     return left;
   }
   const matrix_view both = measured.both.transpose();  // Y' beside W': m x 2n
-  // Invert K = Y Y' + eta I, with the penalty of each sample's own noise.
+  // Invert K = Y Y' + eta I + the penalty of each measurement's own error.
   const Eigen::MatrixXd products = product(measured.materials(), both);
   Eigen::MatrixXd k = products.leftCols(n);
   for (Eigen::Index i = 0; i < n; ++i) k(i, i) += options_.eta + measured.sample_noise_penalty[i];
   left.inverse = cholesky(k).inverse();
-  // Subtract the part of each energy that the measurements explain: b'W Y'b - 2 w . b = y . (K^-1 W Y' K^-1 y - 2 K^-1
-  // w), for all observations by one product with Y and W.
+  // Add the (negative) change of each observation's squared error by the measurements: b'W Y'b - 2 w . b = y . (K^-1 W
+  // Y' K^-1 y - 2 K^-1 w), for all observations by one product with Y and W.
   const Eigen::MatrixXd spread = product(left.inverse, product(products.rightCols(n), left.inverse));
   Eigen::MatrixXd factors(2 * n, n);
   factors.topRows(n) = spread;
@@ -89,11 +90,11 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
     const matrix_view y = both.leftCols(n);
     leave_each_out(measured, product(y, left.inverse), product(y, spread), left);
   }
-  // Add the contribution of the samples' own noise.
+  // Add the contribution of the measurements' own errors.
   left.own_variances = measured.sample_noise_penalty / static_cast<double>(m);
   for (Eigen::Index i = 0; i < n; ++i) left.own_energy += left.own_variances[i] * spread(i, i);
   for (double& squared : left.squared_errors) squared += left.own_energy;
-  // Add the response to the common shift.
+  // Compute the response to a common shift.
   for (Eigen::Index i = 0; i < n; ++i) {
     left.noise_response += left.inverse.col(i).dot(measured.noise) * both.col(i);
     left.noise_energy += measured.noise[i] * spread.col(i).dot(measured.noise);
@@ -188,7 +189,7 @@ auto extended_error<Scalar>::operator()(const Eigen::Ref<const matrix>& y, const
       found[i] = (squared_errors_ + (grown + change)).max(Scalar(0)).sqrt().mean();
     }
     if (!(common_shift_ > Scalar(0))) continue;
-    // (SQ)+_eta 1 grows by A q (1 - q . (SQ)+_eta 1) / d.
+    // The candidate q changes the response (SQ)+_eta 1 by A q (1 - q . (SQ)+_eta 1) / d.
     const Scalar growth = (Scalar(1) - y.row(i).dot(noise_response_)) / d, along = once.dot(noise_response_);
     found[i] +=
         common_shift_ * std::sqrt(std::max(noise_energy_ + growth * (Scalar(2) * along + growth * r), Scalar(0)));

@@ -40,7 +40,10 @@ GONIO_INLINE near_field_geometry::near_field_geometry(const near_field_options& 
               options.fixed_camera ? 1 : steps(options.largest_polar_angle), steps(std::numbers::pi)};
   bool any = false;
   for (Eigen::Index candidate = 0; candidate < size() && !any; ++candidate) any = allows(candidate);
-  if (!any) refuse("the constraint leaves no candidate");
+  if (!any)
+    refuse(
+        "no directions of light and camera satisfy the limits of the apparatus (--apparatus, --constraint, "
+        "--separation)");
 }
 
 GONIO_INLINE bool near_field_geometry::allows(Eigen::Index candidate) const {

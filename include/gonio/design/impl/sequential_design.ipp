@@ -14,7 +14,7 @@
 
 namespace gonio::design::detail {
 
-/// Returns S P for the slopes S. The blocks of columns do not depend on the number of threads.
+/// Returns S P for the slopes S and the covariance P. The bytes do not depend on the number of threads.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd seen_covariance(const Eigen::MatrixXd& covariance, const sensitivity& seen,
                                                            thread_count threads) {
   Eigen::MatrixXd with(seen.slopes.rows(), covariance.cols());
@@ -28,7 +28,7 @@ namespace gonio::design::detail {
   return with;
 }
 
-/// Returns the variance of each point, summed over the channels.
+/// Returns the variance of each observed point, summed over the channels.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd seen_variances(const Eigen::MatrixXd& with, const sensitivity& seen) {
   Eigen::VectorXd variances(seen.weights.size());
   for (Eigen::Index point = 0; point < variances.size(); ++point)

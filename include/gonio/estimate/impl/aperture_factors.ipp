@@ -13,7 +13,7 @@ namespace gonio::detail {
 GONIO_INLINE Eigen::MatrixXd aperture_factors(
     const sample_set& samples, const std::vector<Eigen::Index>& numbers,
     const std::function<Eigen::ArrayXd(const direction& wi, const direction& wo)>& values, thread_count threads) {
-  constexpr int pairs_a_sample = 64;  // with 16, neighbours hit or miss a narrow lobe by chance
+  constexpr int pairs_a_sample = 64;  // with 16, similar samples hit or miss a narrow lobe by chance
   constexpr double most = 100.0;
   Eigen::MatrixXd factors = Eigen::MatrixXd::Ones(numbers.size(), samples.channels().size());
   for_each_index(

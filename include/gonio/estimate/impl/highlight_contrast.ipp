@@ -72,8 +72,9 @@ GONIO_INLINE parted_by_contrast part_by_contrast(const std::vector<std::string>&
   for (Eigen::Index m = 0; m < contrasts.size(); ++m)
     (contrasts[m] < parted.threshold ? parted.soft : parted.specular).push_back(m);
   if (parted.soft.empty() || parted.specular.empty())
-    refuse({"all ", names.size(), " materials are ", (parted.soft.empty() ? "specular" : "soft"), " at a threshold of ",
-            parted.threshold, ": a prior needs some of both kinds"});
+    refuse({"all ", names.size(), " materials are ",
+            parted.soft.empty() ? "specular (contrast of at least " : "soft (contrast below ", parted.threshold,
+            "): a split prior needs soft and specular materials"});
   return parted;
 }
 

@@ -57,24 +57,24 @@ GONIO_INLINE located_samples weighted(const located_samples& samples, const inli
 
 namespace detail {
 
-/// Makes inliers of the probabilities that samples are wrong. Rejected samples: `first`, then the others, the worst
-/// first.
+/// Returns inliers, given the probability that each sample is wrong. Among the rejected samples, lists those in `first`
+/// first, then the others, the worst first.
 [[nodiscard]] GONIO_INLINE inliers inliers_of(const Eigen::VectorXd& probabilities,
                                               const std::vector<Eigen::Index>& first) {
   const Eigen::Index n = probabilities.size();
   inliers found{Eigen::VectorXd(n), first};
-  for (Eigen::Index i = 0; i < n; ++i) found.weights[i] = 1.0 - probabilities[i];
+  for (Eigen::Index i = 0; i < n; ++i) found.weights[i] = inlier_weight(probabilities[i]);
   std::vector<bool> is_named(n, false);
   for (const Eigen::Index i : first) is_named[i] = true;
   std::vector<std::pair<double, Eigen::Index>> by_weight;
   for (Eigen::Index i = 0; i < n; ++i)
-    if (!is_named[i] && found.weights[i] < 0.5) by_weight.emplace_back(found.weights[i], i);
+    if (!is_named[i] && probabilities[i] > 0.5) by_weight.emplace_back(found.weights[i], i);
   for (const Eigen::Index i : in_order(std::move(by_weight))) found.rejected.push_back(i);
   if (n > 0) found.outlier_share = probabilities.sum() / static_cast<double>(n);
   return found;
 }
 
-/// Returns the number of a neighbourhood, computed from four whole numbers below 500.
+/// Returns a number that identifies a neighbourhood of directions. Combines four integers between -500 and 500.
 [[nodiscard]] GONIO_INLINE double neighbourhood_of(const half_difference& angles, const correlation_lengths& lengths) {
   double number = 0.0;
   for (const double coordinate : place_of(angles, lengths)) number = 1000.0 * number + std::floor(coordinate);
@@ -84,7 +84,7 @@ namespace detail {
 GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& samples) {
   const Eigen::Index n = samples.size();
   if (n <= most_judged) return random_choice(n, n, 0);
-  // Sort by neighbourhood, at random within each.
+  // Sort by neighbourhood, and at random within each neighbourhood.
   std::mt19937_64 generator(0);
   std::vector<std::array<double, 2>> keys;
   for (const location& at : samples.locations)
@@ -93,14 +93,14 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   std::vector<Eigen::Index> spread(n);
   std::iota(spread.begin(), spread.end(), 0);
   std::ranges::sort(spread, {}, key);
-  // Order them so that the first of each neighbourhood comes before the second of each, and so on.
+  // Order the samples: first one sample of each neighbourhood, then a second sample of each, and so on.
   double rank = 0.0, last = -1.0;
   for (const Eigen::Index i : spread) {
     rank = keys[i][0] == last ? rank + 1.0 : 0.0;
     last = std::exchange(keys[i][0], rank);
   }
   std::ranges::partial_sort(spread, spread.begin() + most_judged, {}, key);
-  // Take two thirds at random, and the rest in this order.
+  // Choose two thirds at random, and the rest in this order.
   std::vector<Eigen::Index> chosen = random_choice(n, 2 * most_judged / 3, 0);
   std::vector<bool> is_chosen(n, false);
   for (const Eigen::Index i : chosen) is_chosen[i] = true;
@@ -110,8 +110,8 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return chosen;
 }
 
-/// Returns the reflectance of materials at locations, locations x columns. Each column of `weights` is a material;
-/// `rows` are those of the prior's functions at the locations.
+/// Returns the reflectance of materials at locations: locations x materials. A column of `weights` has the weights of a
+/// material; `rows` has the prior's functions at the locations.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd materials_at(const prior_functions& prior, const Eigen::MatrixXd& rows,
                                                         const std::vector<location>& locations,
                                                         const Eigen::MatrixXd& weights, thread_count threads) {
@@ -127,20 +127,20 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return values;
 }
 
-/// Converts values to the layout of estimators.
+/// Converts n x 3 values to `channel_values`.
 [[nodiscard]] GONIO_INLINE channel_values by_channel(const Eigen::MatrixXd& values) {
   return located_samples{{}, values, {}}.channels();
 }
 
-/// Returns for each channel the reflectance, at the samples, of one material of the prior, brightened or darkened: the
-/// one under which the samples are most likely a mixture of inliers and outliers. `materials` has the reflectance of
-/// all materials, samples x materials. Works like `nearest_material`, but expands no table. O(n m) for m materials.
+/// For each channel, finds the material of the prior, and the factor on it, for which the measurements are most likely
+/// a mixture of inliers and outliers. Returns the reflectance of this material at the samples. `materials` has the
+/// reflectance of all observations of the prior: samples x observations. Works like `nearest_material`, but expands no
+/// table. O(n m) for n samples and m observations.
 [[nodiscard]] GONIO_INLINE channel_values nearest_at_samples(const Eigen::MatrixXd& materials,
                                                              const Eigen::MatrixXd& measured, thread_count threads) {
   const Eigen::Index n = measured.rows();
   Eigen::MatrixXd estimates(n, 3);
   for (Eigen::Index c = 0; c < 3; ++c) {
-    // Find the likelihood of each material at its best factor.
     std::vector<double> logarithms(&measured(0, c), &measured(0, c) + n), outliers;
     const double offset = logarithm_offset(logarithms);
     for (double& value : logarithms) value = std::max(value, 0.0) + offset;
@@ -158,7 +158,6 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
           found[one.begin] = best_factor(differences, outliers);
         },
         threads);
-    // Take the best one.
     Eigen::Index best = 0;
     for (Eigen::Index j = 1; j < materials.cols(); ++j)
       if (found[j].log_likelihood > found[best].log_likelihood) best = j;
@@ -168,7 +167,7 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return by_channel(estimates);
 }
 
-/// Fits the weights of a prior's functions, k x 3, to the samples that count. `rows` are the functions at all samples.
+/// Fits the weights of a prior's functions, k x 3, to the kept samples. `rows` has the k functions at all samples.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd fit_components(const Eigen::MatrixXd& rows, const located_samples& mapped,
                                                           const inliers& found, const tikhonov& solver,
                                                           thread_count threads) {
@@ -180,10 +179,11 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return solve_rows(solver, rows_of(std::move(equations)), some, threads).weights;
 }
 
-/// Returns true for each sample that looks like an outlier if only the prior's components are fitted: a start that many
-/// outliers cannot drag along. Starts from the nearest material. Alternates between fitting the components and
-/// computing the probabilities that samples are inliers (Holland and Welsch 1977, doi:10.1080/03610927708827533, with
-/// outlier_mixture.hpp). `rows` are those of the prior's functions at the samples. O(n k^2 + n m k).
+/// Returns true for each sample that is probably an outlier of a fit by the prior's components alone: a start for the
+/// search that resists many outliers. Begins with the nearest material, then alternates between fitting the components
+/// and computing the probability that each sample is an inlier (Holland and Welsch 1977, doi:10.1080/03610927708827533,
+/// with outlier_mixture.hpp). `rows` has the prior's functions at the samples. O(n k^2 + n m k) for n samples, k
+/// components and m observations.
 [[nodiscard]] GONIO_INLINE std::vector<bool> outliers_by_components(const prior_functions& prior,
                                                                     const Eigen::MatrixXd& rows,
                                                                     const located_samples& samples,
@@ -209,7 +209,7 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return wrong;
 }
 
-/// Returns the first of the contradicted samples, with the prediction from the samples that are not contradicted.
+/// Returns the first `most_contradicted` of the wrong samples, with predictions from the samples that are not wrong.
 [[nodiscard]] GONIO_INLINE std::vector<outlying_sample> told_by_others(const prior_functions& prior,
                                                                        const located_samples& samples,
                                                                        const sample_process& process,
@@ -226,7 +226,7 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   return told;
 }
 
-/// Judges groups of a material's samples. `mapped` has all samples in the prior's domain.
+/// Finds the wrong samples in groups of a material's samples. `mapped` has all samples in the prior's domain.
 class sample_judge {
  public:
   sample_judge(const prior_functions& prior, const expected_covariance& expected, const located_samples& mapped,
@@ -240,8 +240,8 @@ class sample_judge {
     return {expected_, prior_.rows(some.locations), some, errors};
   }
 
-  /// Returns the probabilities that samples are wrong: for the judged ones at `positions`, and, by these, for all
-  /// others.
+  /// Returns the probability that each sample is wrong. `judged` has this probability for the samples at `positions`;
+  /// all other samples are compared with these.
   [[nodiscard]] Eigen::VectorXd probabilities(const judged_samples& judged,
                                               const std::vector<Eigen::Index>& positions) const {
     Eigen::VectorXd found(mapped_.size());
@@ -285,12 +285,12 @@ GONIO_INLINE inliers detail::find_inliers(const prior_functions& prior, const ex
                                           const located_samples& samples, const located_samples& mapped,
                                           const Eigen::VectorXd& error_variances,
                                           const std::optional<sample_process>& all, thread_count threads) {
-  // A logarithm does not distinguish negative values.
+  // Convert negative values, which a logarithm does not distinguish.
   const std::optional<located_samples> in_gamut = out_of_gamut_as_xyz(samples);
   const located_samples& judged = in_gamut ? *in_gamut : samples;
   const located_samples judged_mapped = in_gamut ? prior.map(judged) : mapped;
 
-  // Judge some samples together, and all others by these.
+  // Judge some samples together, and compare all other samples with these.
   const sample_judge judge(prior, expected, judged_mapped, error_variances, threads);
   const std::vector<Eigen::Index> positions = judged_together(samples);
   const located_samples some = judged.subset(positions), some_mapped = judged_mapped.subset(positions);
@@ -300,15 +300,12 @@ GONIO_INLINE inliers detail::find_inliers(const prior_functions& prior, const ex
       outliers_by_components(prior, process.at().rows, some, some_mapped, expected.model.error_variance, threads)};
   const judged_samples found = judge_samples(process, {}, starts);
   const Eigen::VectorXd wrong = judge.probabilities(found, positions);
-  // List the wrong ones with the prediction by the others, in the colours that were measured.
-  std::vector<wrong_sample> worst;
+  // List the wrong samples with their predictions, in the colours that were measured.
   std::vector<Eigen::Index> numbers;
-  for (const wrong_sample& each : found.wrong())
-    if (wrong[positions[each.number]] > 0.5) worst.push_back(each);
-  for (const wrong_sample& each : worst) numbers.push_back(positions[each.number]);
+  for (const wrong_sample& each : found.wrong()) numbers.push_back(positions[each.number]);
   inliers told = inliers_of(wrong, numbers);
-  told.contradicted =
-      told_by_others(prior, samples.subset(positions), process.with_values(mapped.subset(positions).values), worst);
+  told.contradicted = told_by_others(prior, samples.subset(positions),
+                                     process.with_values(mapped.subset(positions).values), found.wrong());
   for (outlying_sample& each : told.contradicted) each.number = positions[each.number];
   return told;
 }

@@ -19,20 +19,20 @@
 
 namespace gonio::detail {
 
-/// The median of all columns of each cell, and the materials' contrasts relative to it.
+/// The median over all materials' columns at each cell, and the materials' contrasts relative to this median.
 struct streamed_contrasts {
   std::vector<float> reference;
   Eigen::ArrayXd contrasts;
 };
 
-/// Computes them in one pass, with the sums of `cell_contrasts`.
+/// Computes medians and contrasts in one pass, with the sums of `cell_contrasts`.
 [[nodiscard]] GONIO_INLINE streamed_contrasts contrasts_of(const material_rows& materials,
                                                            const streaming_options& options, const progress& listener) {
   report(listener, "contrasts", 0.0);
   const valid_cells& cells = materials.cells;
   std::vector<float> reference(cells.size());
   const log_relative weights(cells, reference, options.weighting);  // only its cosine weights are used
-  const auto add = [&](contrast_sums& sums, block range) {          // adds to the sums and sets the references
+  const auto add = [&](contrast_sums& sums, block range) {          // also sets the references
     cell_matrix held(range.size(), materials.columns());
     materials.read(range, held);
     std::vector<float> values(held.cols());

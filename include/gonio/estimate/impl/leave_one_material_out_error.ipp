@@ -39,7 +39,7 @@ namespace detail {
   return found;
 }
 
-/// Returns the row and column of the pivot for a step of Gaussian elimination.
+/// Returns row and column of the largest remaining entry: the pivot of a step of Gaussian elimination.
 [[nodiscard]] GONIO_INLINE std::array<Eigen::Index, 2> largest_beyond(Eigen::Index step, const Eigen::MatrixXd& a) {
   std::array<Eigen::Index, 2> found{step, step};
   for (Eigen::Index i = step; i < a.rows(); ++i)
@@ -48,8 +48,9 @@ namespace detail {
   return found;
 }
 
-/// Solves A X = B by Gaussian elimination with complete pivoting; zero where A is singular to rounding. Golub and Van
-/// Loan, Matrix Computations, 4th ed. 2013, 3.4.8. Eigen's solver would take a second to compile.
+/// Solves A X = B by Gaussian elimination with complete pivoting. X is zero in directions in which A is singular up to
+/// rounding. Golub and Van Loan, Matrix Computations, 4th ed. 2013, 3.4.8. Eigen's solver would take a second to
+/// compile.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd solve_by_elimination(Eigen::MatrixXd a, Eigen::MatrixXd b) {
   const Eigen::Index size = a.rows();
   std::vector<Eigen::Index> unknown(static_cast<std::size_t>(size));
@@ -119,7 +120,7 @@ GONIO_INLINE void leave_one_material_out_error::sums::add(Eigen::MatrixXd column
     columns.col(i) *= std::sqrt(weights[i]);
   }
   gram += product_with_transpose(columns);
-  // For a basis that explains everything, rounding can make a variance negative.
+  // Clamp variances: if a basis explains all materials, rounding can make them negative.
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
     columns.col(i) *= std::sqrt(weights[i] * std::max(variances[i], 0.0));
   noise += product_with_transpose(columns);
@@ -129,8 +130,8 @@ GONIO_INLINE void leave_one_material_out_error::require_sensible(Eigen::Index lo
                                                                  Eigen::Index materials) {
   if (weights.size() != locations || locations == 0)
     refuse(std::to_string(locations) + " locations have " + std::to_string(weights.size()) +
-           " weights, expected one for each and at least one");
-  if (materials < 2) refuse("leaving out a material needs at least two materials: eta must be stated");
+           " weights, expected a weight for each location, and at least one location");
+  if (materials < 2) refuse("choosing eta needs a prior of at least two materials: give a number (--eta)");
 }
 
 GONIO_INLINE void leave_one_material_out_error::initialise(const sums& all, const Eigen::VectorXd& singular_values,
@@ -147,7 +148,8 @@ GONIO_INLINE void leave_one_material_out_error::decompose(const Eigen::VectorXd&
   const double largest = eigen.values[eigen.values.size() - 1];
   const Eigen::Index rank = std::count_if(eigen.values.data(), eigen.values.data() + eigen.values.size(),
                                           [&](double value) { return value > 1e-12 * largest; });
-  if (rank == 0 || !(largest > 0.0)) refuse("eta cannot be chosen: the basis does not vary at the measured locations");
+  if (rank == 0 || !(largest > 0.0))
+    refuse("eta cannot be chosen, because all components are 0 at the measured directions: give a number (--eta)");
   values_ = eigen.values.tail(rank);
   vectors_ = eigen.vectors.rightCols(rank);
   const Eigen::MatrixXd transposed = vectors_.transpose();
@@ -206,10 +208,11 @@ GONIO_INLINE Eigen::VectorXd leave_one_material_out_error::squared_bias(const le
   // Reconstruct with the material in the basis: u = D q.
   const Eigen::VectorXd f = values_.cwiseProduct(d), shift = d.cwiseProduct(shift_);
   const Eigen::MatrixXd fn = detail::scaled_rows(f, material.n);
-  Eigen::MatrixXd u = detail::scaled_rows(f, material.t);  // D q first
+  Eigen::MatrixXd u = detail::scaled_rows(f, material.t);  // D q, the reconstruction with the material in the basis
   const Eigen::Index channels = u.cols();
   for (Eigen::Index c = 0; c < channels; ++c) u.col(c) += shift;
-  // Leave it out by Woodbury's identity: (D^-1 - N N')^-1 changes D by a system of as many unknowns as channels.
+  // Leave the material out by Woodbury's identity: (D^-1 - N N')^-1 differs from D by a system with one unknown for
+  // each channel.
   const Eigen::MatrixXd within = Eigen::MatrixXd::Identity(channels, channels) - detail::dots(material.n, fn);
   const Eigen::MatrixXd known = detail::dots(material.n, u);
   detail::add_combined(fn, detail::solve_by_elimination(within, known), u);

@@ -90,7 +90,7 @@ GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const samp
   const gonio::channels& kinds = samples.channels();
   const bool apart = kinds.are_colours() && weigh_channels_apart(samples);
   const Eigen::Index count = std::ssize(counting);
-  if (count == 0) refuse("all samples have weight zero: nothing is known");
+  if (count == 0) refuse("all samples have weight zero");
   located_samples found{std::vector<location>(counting.size()), Eigen::MatrixXd(count, kinds.size()),
                         Eigen::MatrixXd(count, apart ? 3 : 1), kinds};
   for (Eigen::Index i = 0; i < found.size(); ++i) {

@@ -16,7 +16,7 @@ GONIO_INLINE double brightness(const channels& kinds, const Eigen::ArrayXd& valu
 
 namespace detail {
 
-/// In `values`, the channels of a cell are adjacent.
+/// Fills the dips of a table. In `values`, the channels of a cell are adjacent.
 GONIO_INLINE void fill_mirror_dips(const valid_cells& cells, float* values, const channels& kinds,
                                    thread_count threads) {
   const grid& all = cells.grid();

@@ -11,7 +11,7 @@
 namespace gonio {
 
 GONIO_INLINE std::optional<located_samples> out_of_gamut_as_xyz(const located_samples& samples) {
-  constexpr double usual_share = 0.1;  // of samples that noise alone makes negative
+  constexpr double usual_share = 0.1;  // fraction of samples that noise alone may make negative
   if (samples.values.cols() != 3 || samples.weighs_channels_apart()) return {};
   const auto colour_of = [&](Eigen::Index i) {
     return rgb(samples.values(i, 0), samples.values(i, 1), samples.values(i, 2));

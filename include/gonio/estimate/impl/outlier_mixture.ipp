@@ -20,7 +20,7 @@
 namespace gonio {
 
 GONIO_INLINE outlier_density::outlier_density(const std::vector<double>& logarithms) : density_(bins, 0.0) {
-  // Count in bins over the range, extended by half a unit on each side.
+  // Count the logarithms in bins over their range, extended by half a unit on each side.
   const auto [least, most] = std::ranges::minmax_element(logarithms);
   const auto n = static_cast<double>(logarithms.size());
   lowest_ = *least - 0.5;
@@ -42,7 +42,7 @@ GONIO_INLINE outlier_density::outlier_density(const std::vector<double>& logarit
       const double z = static_cast<double>(i - j) * step_ / width;
       density_[j] += counts[i] * std::exp(-0.5 * z * z);
     }
-  // Flatten. Where nothing was measured, assume a tenth of a measurement.
+  // Flatten by a square root. In bins without measurements, assume a tenth of a measurement.
   double total = 0.0;
   for (double& value : density_) {
     value = std::sqrt(std::max(value / (n * width * std::sqrt(2.0 * std::numbers::pi)), 0.1 / n));
@@ -53,7 +53,7 @@ GONIO_INLINE outlier_density::outlier_density(const std::vector<double>& logarit
 
 namespace detail {
 
-/// The number of samples whose weights are computed together, so that their logarithms stay in the cache.
+/// The number of samples whose weights are computed at a time, so that their logarithms stay in the cache.
 inline constexpr Eigen::Index samples_at_once = 4096;
 
 /// Returns the share p that maximises the sum of ln(p g + (1 - p) o) + ln p, where g and o are the densities of inliers
@@ -103,7 +103,7 @@ GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measu
                                                      const channel_values& estimated) const {
   deviations found = deviate(measured, estimated);
   const outlier_mixture mixture = estimate_from(found);
-  // Distances are larger than residuals; the less the channels have in common, the larger.
+  // Scale the distances, which are larger than residuals, especially if the channels differ.
   const auto scale = static_cast<float>(mixture.scale / scale_of_distances(found, mixture));
   for (float& distance : found.distance) distance *= scale;
   std::vector<float> weights(measured.cols());
@@ -186,7 +186,7 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
                                                           const outlier_mixture& mixture) const {
   constexpr double nu = outlier_mixture::degrees_of_freedom;
   const Eigen::Index count = std::ssize(found.residual);
-  // Squared distances, and the weight of each: its probability to be an inlier.
+  // Compute squared distances, and the probability that each sample is an inlier.
   std::vector<double> squares(count), good(count);
   for_each_index(
       count, detail::samples_at_once,
@@ -196,7 +196,8 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
         good[i] = mixture.probability(double{found.residual[i]}, found.outliers[i]);
       },
       threads);
-  // The sum of good / (1 + inverse squares), with each term times its square if `of_squares`.
+  // Returns the sum of good / (1 + inverse * square) over the samples. If `of_squares`, each term is multiplied by its
+  // square.
   const auto sum = [&](double inverse, bool of_squares) {
     return sum_over_blocks(
         count, detail::samples_at_once, 0.0,
@@ -221,7 +222,8 @@ GONIO_INLINE double automatic_weights::half_of_the_good(const std::vector<float>
   std::vector<double> sorted;
   sorted.reserve(samples.size());
   for (const Eigen::Index sample : samples) sorted.push_back(double{residuals[sample]});
-  // Use n values, not the n - 1 steps between them as in `quantile`: a region may have only eight samples.
+  // Take the median of the n * inlier_fraction smallest values. Count values, not the n - 1 steps between them as
+  // `quantile` does, because a region may have only eight samples.
   const auto middle = static_cast<std::ptrdiff_t>(0.5 * inlier_fraction * static_cast<double>(sorted.size()));
   return std::max(nth_smallest(sorted, middle), 1e-6);
 }

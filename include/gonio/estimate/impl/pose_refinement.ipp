@@ -18,7 +18,7 @@
 
 namespace gonio::detail {
 
-/// Rotates a direction by Rodrigues' formula.
+/// Rotates a direction by a rotation vector (Rodrigues' formula).
 [[nodiscard]] GONIO_INLINE direction turned_by(const direction& w, const Eigen::Vector3d& turn) {
   const double angle = turn.norm();
   if (!(angle > 0.0)) return w;
@@ -27,9 +27,9 @@ namespace gonio::detail {
   return cosine * w + along * axis + std::sin(angle) * cross_product(axis, w);
 }
 
-/// Returns a sample of an image after the rotations, or unchanged if it would then be below the horizon. Its measured
-/// radiance stays the same. Reflectance is radiance divided by irradiance and the light's cosine, which rotates with
-/// the light.
+/// Returns a sample of an image after the rotations of light and camera. Returns it unchanged if light or camera would
+/// then be below the horizon. If the values were divided by the cosine of the stated light (`by_irradiance`), divides
+/// by the cosine of the rotated light instead.
 [[nodiscard]] GONIO_INLINE sample turned_sample(const sample& s, const pose_correction& turns, bool by_irradiance) {
   const auto& [nominal_wi, nominal_wo] = s.directions.pair();
   const direction wi = turned_by(nominal_wi, turns.light), wo = turned_by(nominal_wo, turns.camera);
@@ -57,7 +57,7 @@ GONIO_INLINE void pose_iteration::require_sensible() const {
   const Eigen::Index count = materials_.front().size();
   for (Eigen::Index m = 0; m < std::ssize(materials_); ++m)
     if (std::ssize(materials_[m]) != count)
-      refuse({"material ", m + 1, " is in ", materials_[m].size(), " images, the first in ", count});
+      refuse({"material ", m + 1, " is in ", materials_[m].size(), " images, but material 1 in ", count});
   for (Eigen::Index p = 0; p < count; ++p) {
     sample_set all;
     for (const std::vector<sample_set>& images : materials_) all.insert(all.end(), images[p].begin(), images[p].end());
@@ -170,8 +170,8 @@ GONIO_INLINE std::vector<pose_correction> pose_iteration::moved(const Eigen::Vec
   return turns;
 }
 
-/// Returns the derivative of an image's misfit y - Q c by one of its unknowns, by central differences. The step is as
-/// large as the expected rotations: on the grid of the prior, a smaller step would see single cells.
+/// Returns the derivative of an image's misfit y - Q c by one of its unknowns, by central differences. The step is the
+/// expected rotation, because a smaller step would stay within a cell of the prior's grid.
 GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(Eigen::Index material, Eigen::Index image_number,
                                                         Eigen::Index unknown, const reader& read) const {
   const sample_set& samples = materials_[material][image_number];

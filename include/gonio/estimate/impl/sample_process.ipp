@@ -18,7 +18,6 @@ namespace gonio {
 
 namespace detail {
 
-/// Returns some rows and columns of a matrix.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd part_of(const Eigen::MatrixXd& whole, std::span<const Eigen::Index> rows,
                                                    std::span<const Eigen::Index> columns) {
   Eigen::MatrixXd part(std::ssize(rows), std::ssize(columns));
@@ -27,7 +26,6 @@ namespace detail {
   return part;
 }
 
-/// Returns some rows of a matrix.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd rows_of_matrix(const Eigen::MatrixXd& whole,
                                                           std::span<const Eigen::Index> rows) {
   Eigen::MatrixXd part(std::ssize(rows), whole.cols());
@@ -185,7 +183,7 @@ GONIO_INLINE solution sample_process::fit() const {
                  {Eigen::VectorXd(channels()), Eigen::VectorXd(channels()), Eigen::VectorXd(channels())}};
   const Eigen::VectorXd mean_errors = errors_of(*shared_);
   for (Eigen::Index first = 0; first < channels(); first += together) {
-    // Solve K a = y for the dual a of these channels, with one step of iterative refinement.
+    // Solve K a = y for the dual a of these channels, and refine it once.
     const Eigen::VectorXd errors = apart ? errors_of(*shared_, first) : mean_errors;
     Eigen::MatrixXd own_covariance;
     std::optional<cholesky> own_factors;
@@ -212,7 +210,7 @@ GONIO_INLINE solution sample_process::fit() const {
         squares += errors[i] * dual(i, c) * dual(i, c);
         gain += y(i, c) * (dual(i, c) - y(i, c) / errors[i]);
         largest = std::max(largest, std::abs(y(i, c)));
-        // std::max would ignore NaN.
+        // Treat NaN as infinite: std::max would ignore it.
         const double misfit = std::abs(off(i, c));
         worst = std::isfinite(misfit) ? std::max(worst, misfit) : std::numeric_limits<double>::infinity();
       }
@@ -288,7 +286,7 @@ GONIO_INLINE process_prediction sample_process::predict(const located_rows& plac
 GONIO_INLINE gonio::familiarity sample_process::familiarity() const {
   const Eigen::MatrixXd dual = factors().solve(values_);
   const double all = dot(values_.data(), dual.data(), dual.size());
-  // Divide it among the terms of K.
+  // Divide y' K^-1 y into the contributions of the terms of K.
   const double components = detail::squared_norm(product(at().rows.transpose(), dual)) / expected().observations;
   const Eigen::VectorXd errors = errors_of(*shared_);
   double by_errors = 0.0;

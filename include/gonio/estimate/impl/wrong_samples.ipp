@@ -19,26 +19,30 @@ namespace gonio {
 
 namespace detail {
 
-/// Returns the mean of three channels times sqrt(3), and their two contrasts: an orthonormal rotation of the channels.
-[[nodiscard]] GONIO_INLINE Eigen::MatrixXd mean_and_contrasts(const Eigen::MatrixXd& values) {
-  Eigen::MatrixXd turned(values.rows(), 3);
-  for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    turned(i, 0) = (values(i, 0) + values(i, 1) + values(i, 2)) / std::sqrt(3.0);
-    turned(i, 1) = (values(i, 0) - values(i, 1)) / std::sqrt(2.0);
-    turned(i, 2) = (values(i, 0) + values(i, 1) - 2.0 * values(i, 2)) / std::sqrt(6.0);
-  }
-  return turned;
+/// Returns the mean of the three channels: n x 1.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd brightness_of(const Eigen::MatrixXd& values) {
+  Eigen::MatrixXd means(values.rows(), 1);
+  for (Eigen::Index i = 0; i < values.rows(); ++i) means(i, 0) = (values(i, 0) + values(i, 1) + values(i, 2)) / 3.0;
+  return means;
 }
 
-/// Factors from the variance of the channels' common part to that of their mean times sqrt(3), and of each contrast.
-inline constexpr double shared_by_mean = 3.0, shared_by_contrast = 0.1;
+/// Returns two orthonormal contrasts between the three channels: n x 2.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd contrasts_of(const Eigen::MatrixXd& values) {
+  Eigen::MatrixXd contrasts(values.rows(), 2);
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    contrasts(i, 0) = (values(i, 0) - values(i, 1)) / std::sqrt(2.0);
+    contrasts(i, 1) = (values(i, 0) + values(i, 1) - 2.0 * values(i, 2)) / std::sqrt(6.0);
+  }
+  return contrasts;
+}
 
-/// Returns the factor by which the deviation in a highlight is smaller at some theta_h.
+/// Returns the standard deviation of a shared deviation in the highlight at some angles, relative to the one at theta_h
+/// = 0.
 [[nodiscard]] inline double highlight_share(const half_difference& angles, double reach) noexcept {
   return 1.0 / (1.0 + std::pow(angles.theta_h / reach, 2));
 }
 
-/// Returns the covariance of a shared deviation at some angles with that at others.
+/// Returns the covariance between the shared deviation at some angles and at other angles.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd shared_covariance(const shared_deviation& shared, const rejection_rule& rule,
                                                              std::span<const half_difference> angles,
                                                              std::span<const half_difference> others) {
@@ -55,44 +59,35 @@ inline constexpr double shared_by_mean = 3.0, shared_by_contrast = 0.1;
   return sum;
 }
 
-/// The covariances of right samples by which wrong ones are found: of the channels' mean, and of each contrast.
-struct judged_covariances {
-  Eigen::MatrixXd mean, contrasts;
-};
-
-[[nodiscard]] GONIO_INLINE judged_covariances covariances_of(const sample_process& samples,
-                                                             const shared_deviation& shared,
-                                                             const rejection_rule& rule) {
-  judged_covariances found{samples.covariance(), samples.covariance()};
+/// Returns the covariance of right samples, for a scale of 1.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd covariance_of(const sample_process& samples, const shared_deviation& shared,
+                                                         const rejection_rule& rule) {
+  Eigen::MatrixXd found = samples.covariance();
   const std::vector<half_difference>& angles = samples.at().angles;
-  const Eigen::MatrixXd deviation = shared_covariance(shared, rule, angles, angles);
-  add_scaled(shared_by_mean, deviation, found.mean);
-  add_scaled(shared_by_contrast, deviation, found.contrasts);
-  for (Eigen::Index i = 0; i < samples.size(); ++i) {
-    const double grazing = rule.grazing_variance * grazing_share(angles[i], rule.grazing_reach);
-    found.mean(i, i) += shared_by_mean * grazing;
-    found.contrasts(i, i) += shared_by_contrast * grazing;
-  }
+  add_scaled(1.0, shared_covariance(shared, rule, angles, angles), found);
+  for (Eigen::Index i = 0; i < samples.size(); ++i)
+    found(i, i) += rule.grazing_variance * grazing_share(angles[i], rule.grazing_reach);
   return found;
 }
 
-/// A set of wrong samples, and the logarithm of its probability up to a constant. The mean of the three channels and
-/// their two contrasts are treated separately, because the errors of wrong samples have other variances in these. The
-/// scale of all variances has an inverse gamma distribution of n + 10 degrees of freedom, so that the likelihood is
-/// Student's: if the model is poor, all samples disagree a little, and none is an outlier. The channels of a material
-/// are alike, so the mean of their log-likelihoods counts, not the sum.
+/// A set of samples of which one property is wrong, and the logarithm of its probability up to a constant. The unknown
+/// scale of all variances makes the likelihood Student's t: if the model is poor, all samples disagree a little, and
+/// none is an outlier.
 class wrong_sample_set {
  public:
-  wrong_sample_set(std::shared_ptr<const judged_covariances> covariances, const Eigen::MatrixXd& values,
-                   const rejection_rule& rule, std::vector<bool> wrong)
-      : covariances_(std::move(covariances)),
-        mean_{rule.mean_variance()},
-        contrasts_{rule.contrast_variance()},
+  wrong_sample_set(std::shared_ptr<const Eigen::MatrixXd> covariance, const Eigen::MatrixXd& values,
+                   const rejection_rule& rule, const property_rule& property, std::vector<bool> wrong)
+      : covariance_(std::move(covariance)),
+        property_(property),
+        expected_number_(rule.expected_number),
+        penalty_(rule.penalty),
         is_wrong_(std::move(wrong)),
-        size_(std::ranges::count(is_wrong_, true)),
-        expected_number_(rule.expected_number) {
-    squares_ = mean_.factorise(covariances_->mean, values.leftCols(1), is_wrong_) +
-               contrasts_.factorise(covariances_->contrasts, values.rightCols(2), is_wrong_);
+        size_(std::ranges::count(is_wrong_, true)) {
+    const cholesky known = factors();
+    inverse_ = known.inverse();
+    log_determinant_ = known.log_determinant();
+    dual_ = product(inverse_, values);
+    squares_ = dot(dual_.data(), values.data(), values.size()) / columns();
   }
 
   [[nodiscard]] Eigen::Index samples() const noexcept { return std::ssize(is_wrong_); }
@@ -100,51 +95,54 @@ class wrong_sample_set {
   [[nodiscard]] bool contains(Eigen::Index i) const { return is_wrong_[i]; }
   [[nodiscard]] const std::vector<bool>& members() const noexcept { return is_wrong_; }
 
-  /// Return the factors of the covariances, with the errors of wrong samples added. O(n^3).
-  [[nodiscard]] cholesky mean_factors() const { return mean_.factors(covariances_->mean, is_wrong_); }
-  [[nodiscard]] cholesky contrast_factors() const { return contrasts_.factors(covariances_->contrasts, is_wrong_); }
+  /// Returns the Cholesky factors of the covariance plus the error variances of wrong samples. O(n^3) for n samples.
+  [[nodiscard]] cholesky factors() const {
+    Eigen::MatrixXd covariance = *covariance_;
+    for (Eigen::Index i = 0; i < covariance.rows(); ++i)
+      if (is_wrong_[i]) covariance(i, i) += property_.error_variance;
+    return factors_of(covariance);
+  }
 
-  /// Returns the scale of all variances.
-  [[nodiscard]] double scale() const { return (degrees() + squares_ / channels) / (degrees() + count()); }
+  [[nodiscard]] double scale() const { return with_expected(squares_) / (degrees() + count()); }
 
   [[nodiscard]] double log_probability() const {
     const auto k = static_cast<double>(size_);
-    return -0.5 * (degrees() + count()) * std::log(degrees() + squares_ / channels) -
-           0.5 * (mean_.log_determinant + contrasts_.log_determinant) / channels + std::lgamma(expected_number_ + k) +
-           std::lgamma(1.0 + count() - k);
+    return log_likelihood(with_expected(squares_), log_determinant_) + std::lgamma(expected_number_ + k) +
+           std::lgamma(1.0 + count() - k) - penalty_ * k;
   }
 
-  /// Returns the log odds that one more sample is wrong, given the number of wrong ones.
-  [[nodiscard]] double log_odds() const { return log_odds(size_); }
+  /// Returns the logarithm of the odds that one more sample is wrong, given the number of samples in the set.
+  [[nodiscard]] double prior_log_odds() const { return prior_log_odds(size_); }
 
-  /// Returns the gain of the log-probability if a sample changes sides. O(1).
+  /// Returns the increase of the log-probability if a sample outside of the set joins it, or a member leaves it. O(1).
   [[nodiscard]] double gain(Eigen::Index i) const {
-    const double sign = is_wrong_[i] ? -1.0 : 1.0;
-    const change mean = mean_.change_by(i, sign), contrasts = contrasts_.change_by(i, sign);
-    const double before = degrees() + squares_ / channels;
-    const double after = before - (mean.squares + contrasts.squares) / channels;
-    return -0.5 * (degrees() + count()) * std::log(after / before) -
-           0.5 * (mean.log_determinant + contrasts.log_determinant) / channels +
-           (is_wrong_[i] ? -log_odds(size_ - 1) : log_odds(size_));
+    const change by = change_by(i, is_wrong_[i] ? -1.0 : 1.0);
+    const double before = with_expected(squares_);
+    return log_likelihood((before - by.squares) / before, by.log_determinant) +
+           (is_wrong_[i] ? -prior_log_odds(size_ - 1) : prior_log_odds(size_));
   }
 
-  /// Returns the probability that a sample is wrong, if all others are as in the set.
-  [[nodiscard]] double probability(Eigen::Index i) const {
-    return 1.0 / (1.0 + std::exp(is_wrong_[i] ? gain(i) : -gain(i)));
-  }
+  /// Returns the logarithm of the odds that a sample is wrong, assuming that the set is right about all other samples.
+  [[nodiscard]] double log_odds(Eigen::Index i) const { return is_wrong_[i] ? -gain(i) : gain(i); }
 
-  /// Moves a sample to the other side. O(n^2).
+  /// Adds a sample to the set or, if it is a member, removes it, by the Sherman-Morrison formula. O(n^2) for n samples.
   void change_side(Eigen::Index i) {
-    const double sign = is_wrong_[i] ? -1.0 : 1.0;
-    squares_ -= mean_.change_by(i, sign).squares + contrasts_.change_by(i, sign).squares;
-    mean_.update(i, sign);
-    contrasts_.update(i, sign);
+    const double sign = is_wrong_[i] ? -1.0 : 1.0, error = sign * property_.error_variance;
+    const change by = change_by(i, sign);
+    squares_ -= by.squares;
+    log_determinant_ += by.log_determinant;
+    const Eigen::Index n = samples();
+    const std::vector<double> column(&inverse_(0, i), &inverse_(0, i) + n);
+    std::vector<double> scaled_column(column);
+    for (double& value : scaled_column) value *= error / (1.0 + error * column[i]);
+    for (Eigen::Index c = 0; c < dual_.cols(); ++c) add_scaled(-dual_(i, c), scaled_column.data(), &dual_(0, c), n);
+    for (Eigen::Index j = 0; j < n; ++j) add_scaled(-column[j], scaled_column.data(), &inverse_(0, j), n);
     size_ += is_wrong_[i] ? -1 : 1;
     is_wrong_[i] = !is_wrong_[i];
   }
 
-  /// Returns the sample whose change of sides has the largest gain. If the set may not grow, only wrong samples may
-  /// change.
+  /// Returns the sample whose change has the largest gain. If the set may not grow, considers only its members; returns
+  /// -1 if it has none.
   [[nodiscard]] Eigen::Index best_change(bool may_grow) const {
     Eigen::Index best = -1;
     double most = 0.0;
@@ -160,75 +158,48 @@ class wrong_sample_set {
   }
 
  private:
-  static constexpr double channels = 3.0;
-
-  [[nodiscard]] double count() const noexcept { return static_cast<double>(samples()); }
-  [[nodiscard]] double degrees() const noexcept { return sample_process::known_before + count(); }
-  [[nodiscard]] double log_odds(Eigen::Index wrong) const {
-    const auto k = static_cast<double>(wrong);
-    return std::log((expected_number_ + k) / (count() - k));
-  }
-
   struct change {
     double squares, log_determinant;
   };
 
-  /// A group of channels that are treated alike: the inverse K^-1 of their covariance, and the dual K^-1 y.
-  struct channel_group {
-    double error_variance;
-    Eigen::MatrixXd inverse = {}, dual = {};
-    double log_determinant = 0.0;
+  [[nodiscard]] double count() const noexcept { return static_cast<double>(samples()); }
+  [[nodiscard]] double columns() const noexcept { return static_cast<double>(dual_.cols()); }
+  [[nodiscard]] double degrees() const noexcept { return property_.degrees + property_.degrees_per_sample * count(); }
+  /// Returns a sum of squares plus the one expected before any sample.
+  [[nodiscard]] double with_expected(double squares) const noexcept { return degrees() * property_.scale + squares; }
+  [[nodiscard]] double prior_log_odds(Eigen::Index wrong) const {
+    const auto k = static_cast<double>(wrong);
+    return std::log((expected_number_ + k) / (count() - k)) - penalty_;
+  }
+  [[nodiscard]] double log_likelihood(double squares, double log_determinant) const {
+    return -0.5 * ((degrees() + count()) * std::log(squares) + log_determinant);
+  }
 
-    /// Returns the factors of K: the covariance plus the errors of wrong samples.
-    [[nodiscard]] cholesky factors(Eigen::MatrixXd covariance, const std::vector<bool>& wrong) const {
-      for (Eigen::Index i = 0; i < covariance.rows(); ++i)
-        if (wrong[i]) covariance(i, i) += error_variance;
-      return factors_of(covariance);
-    }
+  /// Returns the changes of y' K^-1 y and of log |K| if a sample's error variance is added or removed, by the matrix
+  /// determinant lemma.
+  [[nodiscard]] change change_by(Eigen::Index i, double sign) const {
+    const double error = sign * property_.error_variance, growth = 1.0 + error * inverse_(i, i);
+    double squares = 0.0;
+    for (Eigen::Index c = 0; c < dual_.cols(); ++c) squares += dual_(i, c) * dual_(i, c);
+    return {error * squares / growth / columns(), std::log(growth)};
+  }
 
-    /// Returns y' K^-1 y.
-    double factorise(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values, const std::vector<bool>& wrong) {
-      const cholesky known = factors(covariance, wrong);
-      inverse = known.inverse();
-      dual = product(inverse, values);
-      log_determinant = static_cast<double>(values.cols()) * known.log_determinant();
-      return dot(dual.data(), values.data(), values.size());
-    }
-
-    /// Returns the changes if a sample's error variance is added or removed, by the matrix determinant lemma.
-    [[nodiscard]] change change_by(Eigen::Index i, double sign) const {
-      const double error = sign * error_variance, growth = 1.0 + error * inverse(i, i);
-      double squares = 0.0;
-      for (Eigen::Index c = 0; c < dual.cols(); ++c) squares += dual(i, c) * dual(i, c);
-      return {error * squares / growth, static_cast<double>(dual.cols()) * std::log(growth)};
-    }
-
-    /// Adds or removes a sample's error variance, by the Sherman-Morrison formula.
-    void update(Eigen::Index i, double sign) {
-      const double error = sign * error_variance;
-      const Eigen::Index n = inverse.rows();
-      log_determinant += change_by(i, sign).log_determinant;
-      const std::vector<double> column(&inverse(0, i), &inverse(0, i) + n);
-      std::vector<double> scaled(column);
-      for (double& value : scaled) value *= error / (1.0 + error * column[i]);
-      for (Eigen::Index c = 0; c < dual.cols(); ++c) add_scaled(-dual(i, c), scaled.data(), &dual(0, c), n);
-      for (Eigen::Index j = 0; j < n; ++j) add_scaled(-column[j], scaled.data(), &inverse(0, j), n);
-    }
-  };
-
-  std::shared_ptr<const judged_covariances> covariances_;
-  channel_group mean_, contrasts_;
+  std::shared_ptr<const Eigen::MatrixXd> covariance_;
+  property_rule property_;
+  double expected_number_, penalty_;
   std::vector<bool> is_wrong_;
   Eigen::Index size_;
-  double expected_number_, squares_ = 0.0;
+  Eigen::MatrixXd inverse_, dual_;                ///< K^-1, and K^-1 y
+  double log_determinant_ = 0.0, squares_ = 0.0;  ///< of K, and y' K^-1 y, averaged over the columns of y
 };
 
-/// Smaller gains are rounding errors.
+/// The smallest gain that counts; smaller gains are rounding errors.
 inline constexpr double least_gain = 1e-9;
 
-/// Adds the pair of samples with the largest gain, if it is positive: two wrong samples may hide each other.
+/// Tries pairs of samples, and adds the best pair if its gain is positive: two wrong samples may hide each other.
+/// Returns true if a pair was added.
 [[nodiscard]] GONIO_INLINE bool add_pair(wrong_sample_set& wrong) {
-  // Among many samples two wrong ones are rarely alone, and their neighbours reveal them: try fewer candidates.
+  // Try fewer candidates if there are many samples: then right neighbours usually reveal each wrong sample.
   const Eigen::Index candidates = std::clamp<Eigen::Index>(2400 / wrong.samples(), 2, 12);
   std::vector<std::pair<double, Eigen::Index>> by_gain;
   for (Eigen::Index i = 0; i < wrong.samples(); ++i)
@@ -250,7 +221,8 @@ inline constexpr double least_gain = 1e-9;
   return true;
 }
 
-/// Changes sides while that makes the set more probable. If no single change does, adds a pair.
+/// Changes the set, one sample at a time, while that makes the set more probable. If no single change does, adds a
+/// pair.
 GONIO_INLINE void improve(wrong_sample_set& wrong, Eigen::Index most) {
   Eigen::Index changes = 0;
   for (bool improves = true; improves && changes < 3 * wrong.samples(); ++changes) {
@@ -268,25 +240,29 @@ GONIO_INLINE void require_possible(const rejection_rule& rule) {
     refuse({"the share of rejected samples must be at least 0 and less than 1, not ", rule.largest_share});
   if (!(rule.expected_number > 0.0 && std::isfinite(rule.expected_number)))
     refuse({"the expected number of wrong samples must be positive and finite, not ", rule.expected_number});
-  if (!(rule.common_error > 0.0 && std::isfinite(rule.common_error)) ||
-      !(rule.channel_error > 0.0 && std::isfinite(rule.channel_error)))
-    refuse({"the deviations of wrong samples must be positive and finite, not ", rule.common_error, " and ",
-            rule.channel_error});
+  const double brightness = rule.brightness.error_variance, colour = rule.colour.error_variance;
+  if (!(brightness > 0.0 && std::isfinite(brightness)) || !(colour > 0.0 && std::isfinite(colour)))
+    refuse({"the error variances of wrong samples must be positive and finite, not ", brightness, " and ", colour});
 }
 
-/// Searches the most probable set of wrong samples, and the shared deviation.
+/// Returns the largest number of wrong samples among n.
+[[nodiscard]] inline Eigen::Index most_wrong(const rejection_rule& rule, Eigen::Index n) {
+  return std::max<Eigen::Index>(static_cast<Eigen::Index>(rule.largest_share * static_cast<double>(n)), 1);
+}
+
+/// Searches for the most probable combination of a set of wrong samples and a shared deviation.
 class set_search {
  public:
   set_search(const sample_process& samples, const Eigen::MatrixXd& values, const rejection_rule& rule,
-             std::span<const std::vector<bool>> starts)
+             const property_rule& property, std::span<const std::vector<bool>> starts)
       : samples_(samples),
         values_(values),
         rule_(rule),
+        property_(property),
         starts_(starts.begin(), starts.end()),
-        most_(std::max<Eigen::Index>(
-            static_cast<Eigen::Index>(rule.largest_share * static_cast<double>(samples.size())), 1)) {
+        most_(most_wrong(rule, samples.size())) {
     starts_.insert(starts_.begin(), std::vector<bool>(samples.size(), false));
-    // Choose the variance everywhere, then in addition the variance in the highlight.
+    // Choose the variance everywhere first, and then the additional variance in the highlight.
     consider({}, 0.0);
     for (std::size_t i = 0; i < rule.everywhere.size(); ++i)
       consider({rule.everywhere[i], 0.0}, rule.everywhere_penalty * static_cast<double>(i + 1));
@@ -300,9 +276,9 @@ class set_search {
 
  private:
   void consider(const shared_deviation& with, double penalty) {
-    const auto covariances = std::make_shared<const judged_covariances>(covariances_of(samples_, with, rule_));
+    const auto covariance = std::make_shared<const Eigen::MatrixXd>(covariance_of(samples_, with, rule_));
     for (const std::vector<bool>& start : starts_) {
-      wrong_sample_set found(covariances, values_, rule_, start);
+      wrong_sample_set found(covariance, values_, rule_, property_, start);
       improve(found, most_);
       if (best && !(found.log_probability() - penalty > best->log_probability() - penalty_ + least_gain)) continue;
       best.emplace(std::move(found));
@@ -314,10 +290,23 @@ class set_search {
   const sample_process& samples_;
   const Eigen::MatrixXd& values_;
   const rejection_rule& rule_;
+  const property_rule& property_;
   std::vector<std::vector<bool>> starts_;
   Eigen::Index most_;
   double penalty_ = 0.0;
 };
+
+/// Returns the probability that brightness or colour of each sample is wrong. `colour` is empty for grey samples.
+[[nodiscard]] GONIO_INLINE Eigen::VectorXd probability_of_either(const Eigen::VectorXd& brightness,
+                                                                 const Eigen::VectorXd& colour) {
+  Eigen::VectorXd found(brightness.size());
+  for (Eigen::Index i = 0; i < found.size(); ++i) {
+    double right = 1.0 / (1.0 + std::exp(brightness[i]));
+    if (colour.size() > 0) right *= 1.0 / (1.0 + std::exp(colour[i]));
+    found[i] = 1.0 - right;
+  }
+  return found;
+}
 
 }  // namespace detail
 
@@ -329,65 +318,75 @@ GONIO_INLINE judged_samples judge_samples(const sample_process& samples, const r
   found.probabilities_ = Eigen::VectorXd::Zero(n);
   found.rule_ = rule;
   if (n < 3) return found;
-  found.values_ = detail::mean_and_contrasts(samples.values());
-  const detail::set_search search(samples, found.values_, rule, starts);
-  const detail::wrong_sample_set& set = *search.best;
-  // List them, the least likely to be right first.
-  std::vector<std::pair<double, Eigen::Index>> by_gain;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    found.probabilities_[i] = set.probability(i);
-    if (set.contains(i)) by_gain.emplace_back(set.gain(i), i);
-  }
-  for (const Eigen::Index i : in_order(std::move(by_gain))) found.wrong_.push_back({i, found.probabilities_[i]});
-  // Keep everything needed to judge other samples.
-  found.shared_ = search.shared;
   found.expected_ = samples.expected();
   found.at_ = samples.at();
-  found.scale_ = set.scale();
-  found.log_odds_ = set.log_odds();
-  found.mean_ = set.mean_factors();
-  found.contrasts_ = set.contrast_factors();
+  const auto judged = [&](const property_rule& property, Eigen::MatrixXd values) {
+    const detail::set_search search(samples, values, rule, property, starts);
+    const detail::wrong_sample_set& set = *search.best;
+    Eigen::VectorXd log_odds(n);
+    for (Eigen::Index i = 0; i < n; ++i) log_odds[i] = set.log_odds(i);
+    return judged_samples::judged_property{property,      std::move(values), std::move(log_odds), set.factors(),
+                                           search.shared, set.scale(),       set.prior_log_odds()};
+  };
+  found.brightness_ = judged(rule.brightness, detail::brightness_of(samples.values()));
+  Eigen::MatrixXd contrasts = detail::contrasts_of(samples.values());
+  if (detail::squared_norm(contrasts) > 0.0) found.colour_ = judged(rule.colour, std::move(contrasts));
+  const Eigen::VectorXd &brightness = found.brightness_->log_odds,
+                        colour = found.colour_ ? found.colour_->log_odds : Eigen::VectorXd{};
+  found.probabilities_ = detail::probability_of_either(brightness, colour);
+  // List the wrong samples, the most certain first. If there are too many, one half is the probability of the rest.
+  std::vector<std::pair<double, Eigen::Index>> wrong;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (found.probabilities_[i] > 0.5)
+      wrong.emplace_back(-(colour.size() > 0 ? std::max(brightness[i], colour[i]) : brightness[i]), i);
+  const Eigen::Index most = detail::most_wrong(rule, n);
+  for (const Eigen::Index i : in_order(std::move(wrong)))
+    if (std::ssize(found.wrong_) < most)
+      found.wrong_.push_back({i, found.probabilities_[i]});
+    else
+      found.probabilities_[i] = 0.5;
+  return found;
+}
+
+GONIO_INLINE Eigen::VectorXd judged_samples::log_odds(const judged_property& known, const located_rows& others,
+                                                      const Eigen::MatrixXd& values,
+                                                      const Eigen::VectorXd& error_variances,
+                                                      const Eigen::MatrixXd& covariance) const {
+  Eigen::MatrixXd with = covariance;
+  add_scaled(1.0, detail::shared_covariance(known.shared, rule_, at_.angles, others.angles), with);
+  const Eigen::MatrixXd half = known.factors.solve_lower(with),
+                        predicted = product(half.transpose(), known.factors.solve_lower(known.values));
+  Eigen::VectorXd found = Eigen::VectorXd::Constant(others.size(), known.prior_log_odds);
+  for (Eigen::Index i = 0; i < others.size(); ++i) {
+    const half_difference& angles = others.angles[i];
+    const double highlight = detail::highlight_share(angles, rule_.highlight_reach);
+    double before = expected_.model.variance + known.shared.everywhere +
+                    known.shared.in_highlight * highlight * highlight +
+                    rule_.grazing_variance * grazing_share(angles, rule_.grazing_reach);
+    for (Eigen::Index k = 0; k < others.rows.cols(); ++k)
+      before += others.rows(i, k) * others.rows(i, k) / expected_.observations;
+    const double variance = std::max(before - detail::squared_norm(half.col(i)), 0.0) + error_variances[i],
+                 wrong_variance = variance + known.rule.error_variance;
+    // Compare two densities of the value: that of a wrong sample and that of a right sample.
+    for (Eigen::Index c = 0; c < values.cols(); ++c) {
+      const double off = values(i, c) - predicted(i, c);
+      found[i] +=
+          0.5 / static_cast<double>(values.cols()) *
+          (off * off / known.scale * (1.0 / variance - 1.0 / wrong_variance) - std::log(wrong_variance / variance));
+    }
+  }
   return found;
 }
 
 GONIO_INLINE Eigen::VectorXd judged_samples::probabilities(const located_rows& others, const Eigen::MatrixXd& mapped,
                                                            const Eigen::VectorXd& error_variances) const {
-  const Eigen::Index p = others.size();
-  if (!mean_) return Eigen::VectorXd::Zero(p);
-  const Eigen::MatrixXd values = detail::mean_and_contrasts(mapped), with = expected_.between(at_, others),
-                        deviation = detail::shared_covariance(shared_, rule_, at_.angles, others.angles);
-  std::vector<double> log_ratio(p, log_odds_), squares_of_rows(p, 0.0);
-  for (Eigen::Index k = 0; k < others.rows.cols(); ++k)
-    for (Eigen::Index i = 0; i < p; ++i) squares_of_rows[i] += others.rows(i, k) * others.rows(i, k);
-  // Add the log ratios of the densities of the value if the sample is wrong and if it is right: first for the mean of
-  // the channels, then for their contrasts.
-  const auto add = [&](const cholesky& factors, double share, double wrong_variance, Eigen::Index first,
-                       Eigen::Index count) {
-    Eigen::MatrixXd sum = with;
-    add_scaled(share, deviation, sum);
-    const Eigen::MatrixXd half = factors.solve_lower(sum),
-                          known = factors.solve_lower(values_.middleCols(first, count)),
-                          predicted = product(half.transpose(), known);
-    for (Eigen::Index i = 0; i < p; ++i) {
-      const half_difference& angles = others.angles[i];
-      const double highlight = detail::highlight_share(angles, rule_.highlight_reach);
-      const double before = squares_of_rows[i] / expected_.observations + expected_.model.variance +
-                            share * (shared_.everywhere + shared_.in_highlight * highlight * highlight +
-                                     rule_.grazing_variance * grazing_share(angles, rule_.grazing_reach));
-      const double variance = std::max(before - detail::squared_norm(half.col(i)), 0.0) + error_variances[i];
-      for (Eigen::Index c = first; c < first + count; ++c) {
-        const double off = values(i, c) - predicted(i, c - first);
-        log_ratio[i] += 0.5 / 3.0 *
-                        (off * off / scale_ * (1.0 / variance - 1.0 / (variance + wrong_variance)) -
-                         std::log1p(wrong_variance / variance));
-      }
-    }
+  if (!brightness_) return Eigen::VectorXd::Zero(others.size());
+  const Eigen::MatrixXd covariance = expected_.between(at_, others);
+  const auto judged = [&](const judged_property& known, const Eigen::MatrixXd& values) {
+    return log_odds(known, others, values, error_variances, covariance);
   };
-  add(*mean_, detail::shared_by_mean, rule_.mean_variance(), 0, 1);
-  add(*contrasts_, detail::shared_by_contrast, rule_.contrast_variance(), 1, 2);
-  Eigen::VectorXd found(p);
-  for (Eigen::Index i = 0; i < p; ++i) found[i] = 1.0 / (1.0 + std::exp(-log_ratio[i]));
-  return found;
+  return detail::probability_of_either(judged(*brightness_, detail::brightness_of(mapped)),
+                                       colour_ ? judged(*colour_, detail::contrasts_of(mapped)) : Eigen::VectorXd{});
 }
 
 }  // namespace gonio

@@ -17,7 +17,7 @@ namespace gonio {
 
 GONIO_INLINE rgb highlight_peak(const brdf_table& table, double largest_theta_d) {
   const valid_cells& cells = table.cells();
-  // Cells are ordered by theta_h, so those of the highlight come first.
+  // Cells are ordered by theta_h, so the cells of the highlight come first.
   const double limit = std::max(radians(5.0), std::nextafter(cells.angles(0).theta_h, 2.0));
   std::vector<Eigen::Index> near;
   for (Eigen::Index cell = 0; cell < cells.size() && cells.angles(cell).theta_h < limit; ++cell)

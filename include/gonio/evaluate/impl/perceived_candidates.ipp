@@ -36,7 +36,7 @@ GONIO_INLINE perceived_candidates::perceived_candidates(design::point_geometry g
   if (!(options.variance_share >= 0.0 && options.variance_share <= 1.0))
     refuse({"the share of the variance must be from 0 to 1, not ", options.variance_share});
   if (options.most_materials < 1 || options.sphere_size < 2)
-    refuse("the perceived error of a design needs at least one material and spheres of two points across");
+    refuse("the perceived error of a design needs at least one material, and spheres at least two points wide");
   if (!(options.power >= 1.0)) refuse({"the power of the mean over materials must be at least 1, not ", options.power});
   for (Eigen::Index i = 0; i < geometry_.size(); ++i) allowed_.push_back(geometry_.allows(i));
 }
@@ -50,7 +50,10 @@ GONIO_INLINE std::vector<perceived_candidates::family> perceived_candidates::fam
     of.members.push_back(i);
     if (i * taken / count != (i + 1) * taken / count) of.judged.push_back(i);
   }
-  if (by_name.size() < 2) refuse("leaving out a family needs a prior of at least two families");
+  if (by_name.size() < 2)
+    refuse(
+        "the perceived error of a design (--criterion perceived) needs a prior of at least two families of materials; "
+        "a family shares the name up to the first '_'");
   std::vector<family> judged;
   for (auto& [name, of] : by_name)
     if (!of.judged.empty()) judged.push_back(std::move(of));
@@ -82,7 +85,7 @@ GONIO_INLINE void perceived_candidates::leave_out(const Eigen::MatrixXd& members
                                                   const std::vector<seen_material>& seen,
                                                   const Eigen::MatrixXf& discrepancy) {
   const Eigen::Index k = rows_.rows.cols(), n = rows_.rows.rows(), points = weights_.size();
-  // Without the family, the others' coefficients have another mean and covariance.
+  // Compute the mean and the covariance of the coefficients of all materials outside of the family.
   const double others = expected_.observations - static_cast<double>(members.cols());
   const Eigen::VectorXd mean = members.rowwise().sum() / -others;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(k, k) - product_with_transpose(members);
@@ -121,7 +124,7 @@ GONIO_INLINE void perceived_candidates::leave_out(const Eigen::MatrixXd& members
   families_.push_back(std::move(found));
 }
 
-/// The state of a family after some samples.
+/// The state of a left-out family after some samples.
 struct perceived_candidates::remainder {
   Eigen::MatrixXd covariances;        ///< P_X: samples x n
   Eigen::MatrixXd explained;          ///< K^-1 P_X
@@ -213,7 +216,7 @@ GONIO_INLINE void perceived_candidates::add_with_each(const left_out& some, std:
         const Eigen::Index begin = range.begin + part.begin, end = range.begin + part.end;
         if (std::none_of(allowed_.begin() + begin, allowed_.begin() + end, [](bool allowed) { return allowed; }))
           return;
-        // s P of the process given the samples.
+        // Compute s P for the process given the samples.
         Eigen::MatrixXf seen = some.seen.middleCols(begin, part.size());
         if (!cells.empty()) seen.noalias() -= left.seen * explained.middleCols(begin, part.size());
         Eigen::ArrayXf errors(of_each);

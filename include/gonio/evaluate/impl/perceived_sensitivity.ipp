@@ -15,7 +15,7 @@
 
 namespace gonio::detail {
 
-/// Returns the magnitude of a displayed colour's CIELAB derivative by one channel.
+/// Returns by how much CIELAB changes, as a distance, for each unit of one channel of a displayed colour.
 [[nodiscard]] GONIO_INLINE double colour_slope(const rgb& colour, Eigen::Index channel) {
   const double step = 0.02 * std::max(colour[channel], 0.02);
   rgb below = colour, above = colour;
@@ -31,7 +31,7 @@ namespace gonio {
 
 GONIO_INLINE perceived_sensitivity::perceived_sensitivity(valid_cells cells, int size, thread_count threads)
     : cells_(std::move(cells)) {
-  // The environment has enough half-vector bins for a highlight of coarse cells.
+  // 60 x 48 half-vector bins of the environment suffice for a highlight of coarse cells.
   const std::array<render::sphere_operator, 2> spheres{
       render::sphere_operator(cells_, render::environment_lighting(60, 48), size, threads),
       render::sphere_operator(cells_, render::two_lights(), size, threads)};

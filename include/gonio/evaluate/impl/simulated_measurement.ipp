@@ -63,6 +63,19 @@ GONIO_INLINE sample_set sample_table(const brdf_table& table, std::span<const Ei
                  [&](std::mt19937_64& generator) { return rgb(table.at(any_cell(generator))); });
 }
 
+GONIO_INLINE std::vector<direction_pair> random_pairs(const valid_cells& cells, Eigen::Index count,
+                                                      std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> any_azimuth(0.0, 2.0 * std::numbers::pi);
+  std::vector<direction_pair> pairs;
+  for (const Eigen::Index cell : random_cells(cells, count, seed)) {
+    const direction_pair pair = to_directions(cells.angles(cell));
+    const double turn = any_azimuth(generator);
+    pairs.push_back({turned_about_normal(pair.wi, turn), turned_about_normal(pair.wo, turn)});
+  }
+  return pairs;
+}
+
 GONIO_INLINE sample_split split_samples(const sample_set& samples, Eigen::Index count, std::uint64_t seed) {
   if (count < 0 || count > std::ssize(samples))
     refuse("cannot choose " + std::to_string(count) + " of " + std::to_string(samples.size()) + " samples");

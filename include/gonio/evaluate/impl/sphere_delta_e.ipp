@@ -37,12 +37,11 @@ GONIO_INLINE double sphere_delta_e::difference(const sphere_appearance& a, const
 }
 
 GONIO_INLINE image sphere_delta_e::difference_image(const sphere_appearance& a, const sphere_appearance& b,
-                                                    const render::false_colour_range& range,
-                                                    const rgb& background) const {
+                                                    double largest, const rgb& background) const {
   const Eigen::ArrayXd values = differences(a, b);
   render::sphere_colours colours(values.size(), 3);
   for (Eigen::Index point = 0; point < values.size(); ++point)
-    colours.row(point) = render::false_colour(values[point], range).transpose();
+    colours.row(point) = render::difference_colour(values[point], largest).transpose();
   return sphere_.to_image(colours, background);
 }
 

@@ -104,7 +104,7 @@ GONIO_INLINE completed_table pull_push::fit(const brdf_table& table) const {
 
 GONIO_INLINE void pull_push::splats::add(const sample& s) {
   auto sum = sums_.col(over_.linear(over_.nearest(s.angles())));
-  // A cell is known in all channels or in none, so that a sample has a single weight.
+  // Use one weight for all channels, because a cell is known in all channels or in none.
   sum.head<3>() += s.weight.mean() * s.value;
   sum[3] += s.weight.mean();
 }
@@ -119,7 +119,7 @@ GONIO_INLINE detail::pyramid_level pull_push::splats::finest() const {
 GONIO_INLINE completed_table pull_push::complete(const splats& sums) const {
   std::vector<detail::pyramid_level> pyramid{sums.finest()};
   while (pyramid.back().cells.cols() > 1) pyramid.push_back(detail::pull(pyramid.back(), threads_));
-  if (!(pyramid.back().cells(3, 0) > 0.0f)) refuse("all samples have weight zero: nothing is known");
+  if (!(pyramid.back().cells(3, 0) > 0.0f)) refuse("all samples have weight zero");
   for (Eigen::Index level = pyramid.size() - 1; level > 0; --level)
     detail::push(pyramid[level], pyramid[level - 1], threads_);
 

@@ -20,7 +20,7 @@
 
 namespace gonio::detail {
 
-/// Maps like `log_relative` with a reference of zero and no cosines.
+/// Maps reflectance to the domain. The logarithm is `log_relative` with a reference of zero and no cosines.
 [[nodiscard]] GONIO_INLINE double to_domain(interpolation_domain domain, double rho) noexcept {
   return domain == interpolation_domain::reflectance ? rho : log_relative::forward(rho, 0.0, 1.0);
 }
@@ -29,12 +29,12 @@ namespace gonio::detail {
   return domain == interpolation_domain::reflectance ? y : log_relative::inverse(y, 0.0, 1.0);
 }
 
-/// Returns true if the pair is in an order that does not depend on which direction is the light.
+/// Orders the two directions: true for exactly one of (wi, wo) and (wo, wi), unless they are equal.
 [[nodiscard]] GONIO_INLINE bool is_ordered(const direction& wi, const direction& wo) noexcept {
   return std::tuple(wi.z(), wi.x(), wi.y()) <= std::tuple(wo.z(), wo.x(), wo.y());
 }
 
-/// The embedded location of a sample, and its number in the set.
+/// The location of a sample in the embedding space, and the sample's number in the set.
 using sample_place = std::pair<std::array<double, 4>, Eigen::Index>;
 
 /// Returns the samples of positive weight in a channel, sorted by location, so that repeats are adjacent.
@@ -51,9 +51,10 @@ using sample_place = std::pair<std::array<double, 4>, Eigen::Index>;
 
 namespace gonio {
 
-/// The tree reads the points in place, so this cannot be moved.
+/// The samples of positive weight, as points of a search tree. The tree reads the points in place, so this cannot be
+/// moved.
 struct scattered_brdf::embedded_samples {
-  /// There must be at least one location.
+  /// `places` must not be empty.
   embedded_samples(const sample_set& samples, const std::vector<detail::sample_place>& places, Eigen::Index channel,
                    interpolation_domain domain)
       : points(4, std::ssize(places)),
@@ -67,7 +68,8 @@ struct scattered_brdf::embedded_samples {
   k_d_tree<4> tree;
 
  private:
-  /// Merges repeats into one point with the weighted mean of their unmapped values, so that noise cancels.
+  /// Merges measurements of the same location into one point. It has the weighted mean of their reflectances, so that
+  /// noise cancels.
   const Eigen::Matrix4Xd& merge(const sample_set& samples, const std::vector<detail::sample_place>& places,
                                 Eigen::Index channel, interpolation_domain domain) {
     Eigen::Index merged = 0;
@@ -90,20 +92,20 @@ struct scattered_brdf::embedded_samples {
 
 GONIO_INLINE rgb scattered_brdf::mean_of_neighbours(const embedded_samples& of,
                                                     const std::array<double, 4>& place) const noexcept {
-  // Find one more than are averaged: weights vanish at its distance.
+  // Find one neighbour more than the mean uses: weights vanish at its distance.
   std::array<std::uint32_t, scattered_options::most_neighbours + 1> numbers;
   std::array<double, scattered_options::most_neighbours + 1> distances;
   const Eigen::Index found = of.tree.nearest(place.data(), options_.neighbours + 1, numbers.data(), distances.data()),
                      count = std::min(found, options_.neighbours);
-  // Replace distances of rounding errors by a small one. Weights vanish slightly farther out than the next neighbour:
-  // otherwise the weights of equally near neighbours would be rounding errors, too.
+  // Replace distances that are rounding errors by a small distance. Let weights vanish slightly farther out than the
+  // next neighbour; otherwise, if all neighbours are equally near, their weights would be rounding errors.
   constexpr double least = 1e-12, beyond = 1.0 + 1e-6;
   for (Eigen::Index i = 0; i < found; ++i) distances[i] = std::max(std::sqrt(distances[i]), least);
   const double end = beyond * distances[found - 1];
   const auto closeness = [&](double distance) {
     return found > count ? (end - distance) / (end * distance) : 1.0 / distance;
   };
-  // Use weights relative to the nearest, so that nothing overflows.
+  // Divide all weights by that of the nearest sample, so that nothing overflows.
   const double closest = closeness(distances[0]);
   rgb sum = rgb::Zero();
   double weights = 0.0;
@@ -135,8 +137,7 @@ GONIO_INLINE scattered_brdf scattered_interpolation::fit(const sample_set& sampl
   for (Eigen::Index channel = 0; channel < channels; ++channel) {
     const std::vector<detail::sample_place> places = detail::sorted_places(samples, channel, options_.embedding);
     if (places.empty())
-      refuse(channels == 1 ? "all samples have weight zero: nothing is known"
-                           : "all samples have weight zero in one of the channels: nothing is known about it");
+      refuse(channels == 1 ? "all samples have weight zero" : "all samples have weight zero in one of the channels");
     fitted.channels_.push_back(
         std::make_shared<const scattered_brdf::embedded_samples>(samples, places, channel, options_.domain));
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// Limits on the sizes that a file claims, checked before memory is allocated. A few bytes of deflated zeros can claim
-/// gigabytes; files of instruments and of this library shrink far less. docs/reference/formats.md, "Limits".
+/// Limits on the expanded size that a file claims, checked before memory is allocated: a short deflated file can claim
+/// gigabytes. Files of instruments and of this library shrink far less. docs/reference/formats.md, "Limits".
 
 #include <gonio/core/error.hpp>
 
@@ -10,13 +10,15 @@
 
 namespace gonio::io::detail {
 
-/// Bytes that a table may claim whatever its file's size. A MERL table has 35 MB; a plain one shrinks 1000-fold.
+/// Bytes that a table may claim however small its file is. A MERL table has 35 MB; one with equal values shrinks
+/// 1000-fold.
 inline constexpr std::uint64_t freely_claimed_table = std::uint64_t{36} << 20;
 
-/// The same for a payload. A prior of one component over MERL's grid has 5.5 MB.
+/// Bytes that a payload may claim however small its file is. A prior of one component over MERL's grid has 5.5 MB.
 inline constexpr std::uint64_t freely_claimed_payload = std::uint64_t{8} << 20;
 
-/// Above these, how many bytes one deflated byte may stand for. The prior that ships has 33; deflate's maximum is 1032.
+/// Bytes that a file may claim for each deflated byte, in addition to `freely_claimed_table` or
+/// `freely_claimed_payload`. The shipped prior has 33; deflate's maximum is 1032.
 inline constexpr std::uint64_t believable_expansion = 64;
 
 [[nodiscard]] constexpr bool is_believable(std::uint64_t claimed, std::uint64_t freely,
@@ -24,8 +26,8 @@ inline constexpr std::uint64_t believable_expansion = 64;
   return claimed <= freely || (claimed - freely) / believable_expansion <= compressed;
 }
 
-/// How many pixels an image of one format may have whatever its file's size, and above that, how many pixels one byte
-/// of the file may stand for.
+/// Limits for an image format: `freely` pixels for a file of any size, and `per_byte` more pixels for each byte of the
+/// file.
 struct pixel_claims {
   std::size_t freely, per_byte;
 
@@ -34,10 +36,10 @@ struct pixel_claims {
   }
 };
 
-/// The decoder takes at most 16 bytes per pixel. Photographs have at least a byte per pixel.
+/// The decoder takes at most 16 bytes of memory per pixel. The file of a photograph has at least one byte per pixel.
 inline constexpr pixel_claims png_claims{4'000'000, 16};
 
-/// The decoder takes 24 bytes per pixel.
+/// The decoder takes 24 bytes of memory per pixel.
 inline constexpr pixel_claims hdr_claims{2'700'000, 4};
 
 /// The largest number of rows or columns of an image.
@@ -49,7 +51,7 @@ inline void check_image_size(std::size_t rows, std::size_t columns, const std::s
         {name, ": an image of ", columns, " x ", rows, " pixels, expected from 1 to ", image_limit, " each way"});
 }
 
-/// Refuses an image whose pixels its file's bytes cannot plausibly hold: to decode it could take gigabytes.
+/// Refuses an image with more pixels than a file of `bytes` bytes plausibly holds: decoding it could take gigabytes.
 inline void check_believable_pixels(const pixel_claims& claims, std::size_t rows, std::size_t columns,
                                     std::size_t bytes, const std::string& name) {
   if (!claims.are_believable(rows * columns, bytes))

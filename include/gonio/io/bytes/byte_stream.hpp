@@ -30,7 +30,7 @@ class byte_writer {
 
   void write_bytes(const void* bytes, std::size_t count);
 
-  /// Appends the length (32 bits) and the characters.
+  /// Appends a text: its length (32 bits) and its characters.
   void write_text(const std::string& text);
 
   [[nodiscard]] std::span<const std::byte> bytes() const& noexcept { return bytes_; }

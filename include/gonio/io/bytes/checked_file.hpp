@@ -1,6 +1,6 @@
 #pragma once
-/// The common frame of this library's binary files: a magic word, a version, and a payload that is deflated and
-/// checksummed. See docs/reference/formats.md.
+/// The common layout of this library's binary files: a magic word, a version, and a deflated payload with its checksum.
+/// See docs/reference/formats.md.
 
 #include <gonio/io/bytes/byte_stream.hpp>
 #include <gonio/io/bytes/file.hpp>
@@ -19,7 +19,7 @@ namespace gonio::io {
 struct checked_file_kind {
   std::string_view magic;
   std::uint32_t version;     ///< the version that is written
-  std::string_view noun;     ///< its name in errors
+  std::string_view noun;     ///< the kind's name in error messages
   std::uint32_t oldest = 0;  ///< the oldest version that is read; 0: only `version`
 };
 
@@ -29,7 +29,7 @@ struct checked_file_kind {
 
 namespace detail {
 
-/// More than any plausible payload: a larger, corrupt size is refused before memory is allocated.
+/// The largest plausible payload, in bytes. A file that claims more is refused before memory is allocated.
 inline constexpr std::uint64_t payload_size_limit = std::uint64_t{4} << 30;
 
 /// Reads the magic word and the version. Throws gonio::error starting with `name` if they are not `kind`'s.
@@ -37,11 +37,11 @@ void read_kind(const checked_file_kind& kind, byte_reader& file, const std::stri
 
 }  // namespace detail
 
-/// Returns the bytes of a file that holds a payload.
+/// Returns the bytes of a file of this kind with this payload.
 [[nodiscard]] std::vector<std::byte> write_checked(const checked_file_kind& kind, std::span<const std::byte> payload);
 
-/// Returns the payload from the bytes of a file. Throws gonio::error starting with `name` if they are of another kind
-/// or version, damaged (checksum), truncated or too long.
+/// Returns the payload of a file. Throws gonio::error starting with `name` if the file is of another kind or version,
+/// damaged (checksum), truncated or too long.
 [[nodiscard]] std::vector<std::byte> read_checked(const checked_file_kind& kind, std::span<const std::byte> bytes,
                                                   const std::string& name);
 

@@ -1,7 +1,8 @@
 #pragma once
 /// Files as bytes: reads a whole file, and replaces a file so that a concurrent reader sees either the old content or
 /// the new, never a part. Every failure is a gonio::error that names the path and the system's reason. If the system
-/// has files without a name, a killed process leaves nothing behind (docs/decisions/0017-unfinished-files.md). POSIX.
+/// has unnamed files, a killed process leaves nothing behind (docs/decisions/0017-unfinished-files.md). For POSIX, and
+/// for Windows with MinGW, which has no unnamed files.
 
 #include <gonio/core/error.hpp>
 
@@ -50,7 +51,8 @@ class descriptor {
 
   [[nodiscard]] bool is_open() const noexcept { return number_ >= 0; }
   [[nodiscard]] int get() const noexcept { return number_; }
-  /// Call it on written files: some file systems report a failed write only here.
+  /// Closes the file; returns false if that fails. Call it after writing: some file systems report a failed write only
+  /// here.
   [[nodiscard]] bool close() noexcept { return ::close(release()) == 0; }
 
  private:
@@ -69,19 +71,20 @@ class descriptor {
 /// Returns the file's size in bytes. Throws gonio::error unless it is a regular file.
 [[nodiscard]] std::uint64_t size_of_regular(const descriptor& file, const std::filesystem::path& path);
 
-/// Fills `bytes` from an offset until the file ends; returns how many were read. Throws gonio::error if reading fails.
+/// Reads from an offset until `bytes` is full or the file ends; returns the number of bytes read. Throws gonio::error
+/// if reading fails.
 [[nodiscard]] std::size_t read_at(const descriptor& file, std::uint64_t offset, std::span<std::byte> bytes,
                                   const std::filesystem::path& path);
 
 /// Writes all bytes at the file's position. Returns false and sets errno if they cannot be stored.
 [[nodiscard]] bool write_all(const descriptor& file, std::span<const std::byte> bytes) noexcept;
 
-/// Returns the target of a path's symbolic links, which need not exist. Writing to it keeps the links.
+/// Returns the file that a path's symbolic links lead to; it need not exist. Replacing that file keeps the links.
 [[nodiscard]] std::filesystem::path follow_links(const std::filesystem::path& path);
 
 namespace detail {
 
-/// The name of a temporary file: machine, process and a number. Made without memory or locks.
+/// The name of a temporary file: machine, process and a number. Made without allocation or locks.
 struct temporary_name {
   explicit temporary_name(std::uint32_t number) noexcept;
   [[nodiscard]] const char* c_str() const noexcept { return text.data(); }
@@ -90,14 +93,16 @@ struct temporary_name {
   std::array<char, 128> text{};
 };
 
-/// This process's named temporary files: high half the descriptor of the folder plus 1, low half the number; 0 is a
-/// free entry. If there are more at once, they are written, but remove_unfinished_files does not know them.
+/// This process's named temporary files. An entry's high half is the folder's descriptor plus 1, its low half the
+/// file's number; 0 is a free entry. If there are more than 64 files, remove_unfinished_files does not remove those
+/// without an entry.
 inline std::array<std::atomic<std::uint64_t>, 64> named_temporaries{};
 
-/// Is this the name of a temporary file of this machine whose process has ended, or an unused one of this process?
+/// Is this the name of a temporary file of an ended process of this machine, or of this process but not among
+/// `named_temporaries`?
 [[nodiscard]] bool may_be_abandoned(std::string_view name);
 
-/// Removes temporary files that no process holds. Files that cannot be removed stay.
+/// Removes the temporary files of a folder (open as `opened`) that no process holds. Files that cannot be removed stay.
 void remove_abandoned(const std::filesystem::path& folder, const descriptor& opened);
 
 }  // namespace detail
@@ -107,15 +112,15 @@ void remove_abandoned(const std::filesystem::path& folder, const descriptor& ope
 
 /// Where the bytes of a file are kept until it is committed.
 enum class staging {
-  unnamed,  ///< a file without a name, which vanishes with its process; `named` if the system has none
+  unnamed,  ///< a file without a name, which vanishes with its process; `named` if the system has no such files
   named     ///< a file `.gonio-HOST-PROCESS-NUMBER.tmp` beside the target, locked while its process lives
 };
 
 /// The file that the callback of `write_atomically` fills.
 class file_writer {
  public:
-  /// Opens a temporary file in the target's folder, and removes those that killed processes left there. Prefer
-  /// `write_atomically`, which cannot be left halfway.
+  /// Opens a temporary file in the target's folder. Removes the temporary files that killed processes left there,
+  /// except on Windows. Prefer `write_atomically`, which does not forget to commit.
   explicit file_writer(const std::filesystem::path& path, staging held = staging::unnamed);
   file_writer(const file_writer&) = delete;
   file_writer& operator=(const file_writer&) = delete;
@@ -124,7 +129,7 @@ class file_writer {
   /// Appends bytes; throws gonio::error naming the target and the reason if they cannot be stored.
   void write(std::span<const std::byte> bytes);
 
-  /// Replaces the target by what was written. Nothing may be written afterwards.
+  /// Replaces the target with the bytes written. Write nothing afterwards.
   void commit();
 
  private:
@@ -137,7 +142,7 @@ class file_writer {
   void copy_to_named();
   void settle();
 
-  /// Tries one name after the other until `claim(name)` succeeds. Returns false and sets errno if none does.
+  /// Tries up to 1000 temporary names until `claim(name)` succeeds. Returns false and sets errno if none does.
   template <class Claim>
   [[nodiscard]] bool claim_name(Claim&& claim);
   void forget_name(bool unlink) noexcept;
@@ -155,8 +160,8 @@ class file_writer {
   mode_t old_mode_ = 0;
 };
 
-/// Removes this process's temporary files. For the handler of a signal that ends the process: takes no lock and
-/// allocates no memory. Later writes fail.
+/// Removes this process's named temporary files (not on Windows); committing them then fails. For the handler of a
+/// signal that ends the process: takes no lock and allocates no memory.
 void remove_unfinished_files() noexcept;
 
 /// Calls `fill(file_writer&)` and then replaces the file. If anything fails, the callback included, the old file stays
@@ -168,7 +173,7 @@ void write_atomically(const std::filesystem::path& path, Fill&& fill) {
   file.commit();
 }
 
-/// Replaces the file's content by these bytes.
+/// Replaces the file's content with these bytes.
 void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace gonio::io

@@ -1,7 +1,7 @@
 #pragma once
 /// Deflated data by zlib: gzip files (RFC 1952; several members are joined, as gzip does) and zlib streams (RFC 1950)
-/// of a known size. Truncated, corrupt or over-long data and anything after the end is a gonio::error. Memory grows
-/// with the actual data, not with a size that a file claims.
+/// of a known size. Throws gonio::error if the data is truncated, corrupt or too long, or if anything follows it.
+/// Memory grows with the actual data, not with the size that a file claims.
 
 #include <gonio/core/error.hpp>
 
@@ -37,7 +37,7 @@ class inflater {
   [[nodiscard]] bool ended() const noexcept { return ended_; }
   [[nodiscard]] std::span<const std::byte> left() const noexcept { return left_; }
 
-  /// Starts on the stream that follows.
+  /// Prepares to read the stream that follows the ended one.
   void restart();
 
   /// Throws gonio::error with the joined parts of the message.
@@ -52,11 +52,11 @@ class inflater {
   bool ended_ = false;
 };
 
-/// Expands the current stream into `result` from `size` on, until it ends or `limit` bytes are full. Returns the number
-/// of bytes in `result`. The buffer grows with the actual data.
+/// Expands the current stream into `result` from byte `size` on, until the stream ends or `result` holds `limit` bytes.
+/// Returns the number of bytes filled, at most the size of `result`, which grows with the actual data.
 [[nodiscard]] std::size_t expand(inflater& stream, std::vector<std::byte>& result, std::size_t size, std::size_t limit);
 
-/// Returns the buffer to start with: `claimed` bytes, but at most 64 per compressed byte.
+/// Returns the initial buffer for expanded data: of `claimed` bytes, but at most 64 per compressed byte.
 [[nodiscard]] std::vector<std::byte> first_buffer(std::size_t claimed, std::size_t compressed);
 
 }  // namespace detail
@@ -66,11 +66,11 @@ class inflater {
   return bytes.size() >= 2 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b};
 }
 
-/// Expands a gzip file of any number of members to at most `maximum_size` bytes.
+/// Expands a gzip file of any number of members. Throws gonio::error if it expands to more than `maximum_size` bytes.
 [[nodiscard]] std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t maximum_size,
                                             const std::string& name);
 
-/// Returns the first `count` bytes, or fewer if there are fewer, of the expanded first member of a gzip file.
+/// Expands the first member of a gzip file; returns its first `count` bytes, or all if it has fewer.
 [[nodiscard]] std::vector<std::byte> gunzip_prefix(std::span<const std::byte> bytes, std::size_t count,
                                                    const std::string& name);
 

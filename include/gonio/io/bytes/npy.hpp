@@ -29,7 +29,7 @@
 namespace gonio::io {
 
 static_assert(std::endian::native == std::endian::little,
-              "we write little-endian arrays, as is every supported machine");
+              "arrays are written as little-endian, which every supported machine is");
 
 /// The checked content of a file's header.
 struct npy_layout {
@@ -118,8 +118,8 @@ void copy_halves(std::span<const std::byte> bytes, std::span<T> out) {
 template <class T>
 concept npy_element = std::same_as<T, float> || std::same_as<T, double>;
 
-/// Reads an array from the bytes of an .npy file, converted to T if it holds another type. Errors call it `name`. NaN
-/// and infinity are kept; the caller checks for them.
+/// Reads an array from the bytes of an .npy file and converts its elements to T. Errors call the file `name`. NaN and
+/// infinity are kept; the caller checks for them.
 template <npy_element T, std::size_t Rank>
 [[nodiscard]] xt::xtensor<T, Rank> read_npy(std::span<const std::byte> bytes, const std::string& name) {
   const npy_layout layout = read_npy_header(bytes, name);
@@ -158,8 +158,8 @@ void write_npy(const std::filesystem::path& path, const xt::xtensor<T, Rank>& ar
   });
 }
 
-/// Writes an array as half floats, in half the size of float32; each number is rounded to 11 bits. Throws gonio::error
-/// naming the first number outside their range.
+/// Writes an array as half floats, which have 11 significant bits and half the size of float32. Throws gonio::error
+/// naming the first number outside the range of half floats.
 template <std::size_t Rank>
 void write_npy_halves(const std::filesystem::path& path, const xt::xtensor<float, Rank>& array) {
   std::vector<std::uint16_t> halves(array.size());
@@ -168,7 +168,7 @@ void write_npy_halves(const std::filesystem::path& path, const xt::xtensor<float
     halves[i] = to_half(value);
     if (std::isfinite(value) && !std::isfinite(from_half(halves[i])))
       gonio::refuse({path.string(), ": element ", i, " is ", double{value},
-                     ", outside the range of half floats, 65504: write float32"});
+                     ", outside the range of half floats, -65504 to 65504: write float32"});
   }
   const std::string header = npy_header("<f2", npy_shape_text(array.shape()));
   write_atomically(path, [&](file_writer& file) {

@@ -48,8 +48,8 @@ template <std::unsigned_integral Code>
   return static_cast<float>(double{column.low} + static_cast<double>(column.codes[i]) * double{column.step});
 }
 
-/// Writes low, step, and the differences of successive codes (modulo the code's range): the most significant bytes of
-/// all codes first.
+/// Writes low, step, and the differences of successive codes modulo the code's range: first the most significant byte
+/// of each difference, last the least significant.
 template <std::unsigned_integral Code>
 void write_quantised(byte_writer& out, const quantised<Code>& column) {
   out.write(column.low);

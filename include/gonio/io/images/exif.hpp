@@ -1,5 +1,5 @@
 #pragma once
-/// The exposure time in the EXIF data of a JPEG file, such as cameras write beside a raw file. Needs libexif
+/// Reads the exposure time from the EXIF data of a JPEG file, as cameras write beside a raw file. Needs libexif
 /// (gonio::exif); its headers are not included. Format: EXIF 2.32 (CIPA DC-008).
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace gonio::io {
 /// the bytes are not a JPEG file with EXIF data, or if the time is not from 1e-7 s to a day.
 [[nodiscard]] std::optional<double> read_exif_exposure_time(std::span<const std::byte> bytes, const std::string& name);
 
-/// Reads it from a file.
+/// Returns the exposure time of a JPEG file.
 [[nodiscard]] std::optional<double> read_exif_exposure_time(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -11,8 +11,8 @@ namespace gonio::io {
 
 /// Returns the exposure time in seconds at the end of a file's name (without extension): `0.004s`, `4e-3s` and
 /// `frame_2_0.5s` are decimal, `frame_1_250s` and `1-250s` are 1/250 s. Returns nothing if the name does not end in
-/// such a number. Throws gonio::error for two whole numbers of which the first is not 1: `frame_2_250s` may be frame 2,
-/// or 2/250 s.
+/// such a number. Throws gonio::error if two whole numbers end the name and the first is not 1: `frame_2_250s` may be
+/// frame 2 or 2/250 s.
 [[nodiscard]] std::optional<double> exposure_time_of_name(std::string_view name);
 
 /// Throws gonio::error starting with `name` unless the exposure time is from 1e-7 s to a day.

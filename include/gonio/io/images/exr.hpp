@@ -17,8 +17,8 @@
 namespace gonio::io {
 
 /// Reads the image in the data window of an OpenEXR file of scan lines or tiles; ignores other channels. Throws
-/// gonio::error starting with `name` if the bytes are not such a file or are truncated, if the image has more than
-/// 16384 rows or columns or more pixels than so many bytes plausibly hold, if it has neither R, G and B nor Y, or if a
+/// gonio::error starting with `name` if the bytes are of any other kind of file or are truncated, if the image has more
+/// than 16384 rows or columns or more pixels than the file's size allows, if it has neither R, G and B nor Y, or if a
 /// value is NaN.
 [[nodiscard]] image read_exr(std::span<const std::byte> bytes, const std::string& name);
 
@@ -29,12 +29,12 @@ namespace detail {
 class exr_decoder;
 }
 
-/// An open OpenEXR file, read some rows at a time. Keeps one block of lines in memory (1 to 256, depending on the
-/// compression), or one row of tiles.
+/// An open OpenEXR file, read some rows at a time. Keeps in memory one row of tiles or one block of lines: 1 to 256
+/// lines, depending on the compression.
 class exr_rows {
  public:
-  /// Reads the header and the position of each block of lines or tile. Throws gonio::error as `read_exr` does, if a
-  /// block is missing or reaches past the end of the file, or if tiles have more than 512 rows.
+  /// Reads the header and the position of each tile or block of lines. Throws gonio::error if `read_exr` would refuse
+  /// the header, if a block is missing or reaches past the file's end, or if tiles have more than 512 rows.
   explicit exr_rows(const std::filesystem::path& path);
   exr_rows(exr_rows&&) noexcept;
   exr_rows& operator=(exr_rows&&) noexcept;

@@ -26,7 +26,7 @@ class hdr_rows {
   [[nodiscard]] Eigen::Index columns() const noexcept { return columns_; }
 
   /// Reads the RGB pixels of some rows, from the top, in linear Rec. 709: the stored numbers, divided by EXPOSURE and
-  /// COLORCORR, and converted from PRIMARIES or XYZ if the header names them. Negative values are outside the gamut.
+  /// COLORCORR, and converted from PRIMARIES or XYZ if the header names them. Colours outside the gamut are negative.
   /// `out` has 3 x columns x rows numbers. Throws gonio::error if the file was changed meanwhile.
   void read(block rows, std::span<float> out) const;
 

@@ -61,7 +61,7 @@ struct png_header {
   std::size_t channels = 0;
   bool interlaced = false;
 
-  /// Returns the bytes of the filtered rows before compression.
+  /// Returns the number of bytes of the filtered rows before compression.
   [[nodiscard]] std::size_t raw_size() const noexcept;
 };
 
@@ -75,7 +75,7 @@ void check_png(std::span<const std::byte> bytes, const std::string& name);
 
 // ---- Radiance HDR is read by io/images/hdr_rows.hpp ----------------------------------------------
 
-/// Returns the colour as RGBE stores it: three 8-bit mantissas with a common exponent, rounded; stb truncates.
+/// Rounds a colour to 8-bit mantissas with a common exponent, as RGBE stores it; stb would truncate.
 [[nodiscard]] std::array<float, 3> round_to_rgbe(const float* pixel) noexcept;
 
 // ---- writing --------------------------------------------------------------------------------
@@ -93,7 +93,7 @@ struct stb_extents {
   int rows = 0;
 };
 
-/// Checks an image before it is written; `brightest` is the largest value that the format can hold.
+/// Checks an image before it is written and returns its size; the format can hold values up to `brightest`.
 [[nodiscard]] stb_extents check_pixels(const image& picture, float brightest, const std::string& name);
 
 }  // namespace detail
@@ -104,10 +104,10 @@ struct stb_extents {
 /// Reads the stored codes of a PNG of 8 or 16 bits: grey becomes three equal channels, alpha is dropped.
 [[nodiscard]] stored_codes read_png_codes(const std::filesystem::path& path);
 
-/// Returns the bytes of a PNG file as `write_png` writes it. Errors call it `name`.
+/// Returns the bytes of a PNG file as `write_png` writes it. Errors call the file `name`.
 [[nodiscard]] std::vector<std::byte> write_png(const image& picture, const std::string& name);
 
-/// Writes a PNG: clipped to [0, 1], sRGB-encoded, rounded to 8 bits. Refuses NaN.
+/// Writes a PNG: values are clipped to [0, 1], sRGB-encoded and rounded to 8 bits. Refuses NaN.
 void write_png(const std::filesystem::path& path, const image& picture);
 
 /// Reads a Radiance HDR image as linear Rec. 709; see `hdr_rows::read`.

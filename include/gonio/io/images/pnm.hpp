@@ -1,6 +1,6 @@
 #pragma once
 /// Netpbm images of counts, PPM (P6) and PGM (P5), of up to 16 bits: the linear output of raw converters. The file
-/// gives its largest possible count, which need not fill the bits. Format: netpbm.sourceforge.net/doc/ppm.html.
+/// gives its largest possible count, often less than the bits allow. Format: netpbm.sourceforge.net/doc/ppm.html.
 
 #include <gonio/table/stored_codes.hpp>
 

@@ -17,7 +17,7 @@ namespace gonio::io {
 ///
 /// Throws gonio::error starting with `name` if the bytes are not a TIFF file or are truncated, if the image is tiled,
 /// has separate planes, a palette, another colour space or other samples, or if it has more than 16384 rows or columns
-/// or more pixels than so many bytes plausibly hold.
+/// or more pixels than the file's size allows.
 [[nodiscard]] stored_codes read_tiff(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads a TIFF file.
@@ -27,7 +27,7 @@ namespace gonio::io {
 /// starting with `name` if the bytes are not a TIFF file, or if the time is not from 1e-7 s to a day.
 [[nodiscard]] std::optional<double> read_tiff_exposure_time(std::span<const std::byte> bytes, const std::string& name);
 
-/// Reads it from a file.
+/// Returns the exposure time of a TIFF file.
 [[nodiscard]] std::optional<double> read_tiff_exposure_time(const std::filesystem::path& path);
 
 }  // namespace gonio::io

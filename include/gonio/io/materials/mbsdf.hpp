@@ -1,11 +1,11 @@
 #pragma once
 /// Measured materials of NVIDIA's Material Definition Language (`.mbsdf`): MDL specification 1.10.2, appendix B. A text
-/// header, then binary blocks: reflection, transmission, or both. A block: uint32 type (0: one channel, 1: red, green
-/// and blue), uint32 cells of theta from 0 to pi/2, uint32 cells of phi from 0 to pi, and float32 values, theta_in
-/// slowest, then theta_out, then phi; all little-endian.
+/// header, then binary blocks: reflection, transmission, or both. A block has a uint32 type (0: one channel, 1: red,
+/// green and blue), a uint32 number of cells of theta from 0 to pi/2, another of phi from 0 to pi, and float32 values,
+/// theta_in slowest, then theta_out, then phi; all little-endian.
 ///
-/// A value is the BRDF, in sr^-1 and linear Rec. 709: renderers multiply it by the cosine of the light's angle. They
-/// average over both orders of the directions.
+/// A value is the BRDF, in sr^-1 and linear Rec. 709. Renderers average the values of both orders of the directions and
+/// multiply by the cosine of the light's angle.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/io/bytes/file.hpp>
@@ -30,9 +30,9 @@ struct mbsdf_material {
   bool has_transmission = false;  ///< the file's transmission is skipped, and is not written
 };
 
-/// Reads a material from the bytes of a file. Errors call it `name`. Header lines that are not a key and a value are
-/// skipped, as in MDL's own reader. Throws gonio::error for a file without reflection and for values that are not
-/// finite.
+/// Reads a material from the bytes of a file. Skips header lines that are not a key and a value, as MDL's own reader
+/// does. Throws gonio::error for a file without reflection and for values that are not finite. Errors call the file
+/// `name`.
 [[nodiscard]] mbsdf_material read_mbsdf(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads a file.
@@ -40,8 +40,8 @@ struct mbsdf_material {
   return read_mbsdf(read_bytes(path), path.string());
 }
 
-/// Returns the bytes of a file. Characters of values that are not printable ASCII become '?'. Throws gonio::error for a
-/// key that is not letters, digits and underscores.
+/// Returns the bytes of a file. Characters of metadata that are not printable ASCII become '?', except line feeds.
+/// Throws gonio::error for a key that is not letters, digits and underscores.
 [[nodiscard]] std::vector<std::byte> write_mbsdf(const mbsdf_material& material);
 
 /// Writes a file beside its target and renames it.

@@ -3,8 +3,8 @@
 /// phi_d), then a plane of float64 for red, green and blue; a value times 1/1500, 1.15/1500 or 1.66/1500 is in sr^-1.
 /// Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 ///
-/// A file does not tell at which point of a cell its values were taken. It can only be inferred from the cells without
-/// a value, -1 in all three channels: see `infer_convention`.
+/// A file does not tell at which point of a cell its value was taken. `infer_convention` infers the point from the
+/// cells without a value, which are -1 in all three channels.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/io/bytes/file.hpp>
@@ -30,7 +30,7 @@ static_assert(std::endian::native == std::endian::little,
 struct merl_options {
   /// Overrides the convention inferred from the cells marked -1.
   std::optional<table_convention> convention;
-  /// If a file has these cells, its table shares them: a folder of tables then builds their index only once.
+  /// Cells of another table. A file with the same cells shares them, which saves building their index again.
   std::optional<valid_cells> shared;
 };
 
@@ -46,7 +46,7 @@ inline constexpr std::size_t merl_header_size = 3 * sizeof(std::int32_t);
 /// Returns the size in bytes of a file with these extents, which `merl_extents` has checked.
 [[nodiscard]] std::uint64_t merl_file_size(const grid_extents& extents);
 
-/// The three planes of a file; after its header they are misaligned.
+/// The three planes of a file, which the header's 12 bytes misalign.
 class merl_planes {
  public:
   merl_planes(std::span<const std::byte> bytes, std::size_t cells) : data_(bytes.data()), cells_(cells) {}
@@ -67,8 +67,8 @@ class merl_planes {
 
 }  // namespace detail
 
-/// Reads a table from the bytes of a MERL file. Errors call it `name`. Values of cells below the horizon are ignored.
-/// Negative values of other cells are measurements and are kept. Refuses NaN and infinity.
+/// Reads a table from the bytes of a MERL file. Ignores values of cells below the horizon. Negative values of other
+/// cells are measurements and are kept. Refuses NaN and infinity. Errors call the file `name`.
 [[nodiscard]] brdf_table read_merl(std::span<const std::byte> bytes, const std::string& name,
                                    const merl_options& options = {});
 
@@ -78,8 +78,8 @@ class merl_planes {
 }
 
 /// Writes a table; reading it back gives an equal table. The format has no field for the table's anchor and minimum
-/// cosine: only the cells marked -1 carry them. If a grid is so coarse that two conventions mark the same cells, it is
-/// read back with the first of them (see `infer_convention`).
+/// cosine: only the cells marked -1 carry them. If a grid is so coarse that two conventions mark the same cells, the
+/// file is read with the convention that `infer_convention` prefers.
 void write_merl(const std::filesystem::path& path, const brdf_table& table);
 
 /// Tabulates a BRDF, by its own `tabulate` if it has one, and writes the table.

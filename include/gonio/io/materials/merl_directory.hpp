@@ -25,7 +25,7 @@ void for_each_table(const std::filesystem::path& folder, const std::vector<std::
                     const progress& listener = {});
 
 /// Reads all tables of a folder except the excluded ones. Takes 4 bytes per value; negative values are kept. Throws
-/// gonio::error naming the file if an excluded table does not exist or if tables are over different cells.
+/// gonio::error as `for_each_table` does.
 [[nodiscard]] material_set read_merl_directory(const std::filesystem::path& folder,
                                                const std::vector<std::string>& excluded = {},
                                                const progress& listener = {});

@@ -9,11 +9,12 @@
 
 namespace gonio::io {
 
-/// Appends a prior: components as 8-bit codes, mean and logarithm of the reference as 16-bit ones. O(cells x k).
+/// Appends a prior: components as 8-bit codes, mean and logarithm of the reference as 16-bit codes.
+/// O(cells x components).
 void write_prior(byte_writer& out, const log_relative_pca& prior);
 
-/// Reads a prior, which must be all that is left. Throws gonio::error starting with `name` if the bytes are not a
-/// prior; refuses counts that they cannot hold before memory is allocated. O(cells x k).
+/// Reads a prior. Throws gonio::error starting with `name` if the bytes left are not exactly one prior. Counts that the
+/// bytes cannot hold are refused before memory is allocated. O(cells x components).
 [[nodiscard]] log_relative_pca read_prior(byte_reader& in, const std::string& name);
 
 }  // namespace gonio::io

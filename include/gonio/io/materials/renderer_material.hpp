@@ -22,19 +22,19 @@ struct rough_surface {
   double alpha = 0.0, f0 = 0.0;
   bool beckmann = false;
 
-  /// The refractive index whose reflectance at normal incidence is f0.
+  /// Returns the refractive index whose reflectance at normal incidence is f0.
   [[nodiscard]] double refractive_index() const;
   /// Returns the reflectance of the highlight at normal incidence.
   [[nodiscard]] rgb highlight() const { return specular * f0; }
-  /// Returns the highlight's fraction of the reflected light if it is a metal's (above 0.3): 1 if the base is
-  /// negligible. Returns 0 for a dielectric.
+  /// Returns 1 if the base is negligible, 0 for a highlight of at most 0.3 (a dielectric), otherwise the highlight's
+  /// fraction of the reflected light.
   [[nodiscard]] double metalness() const;
-  /// Returns the colour that a metal and its base share; the fraction `metalness` of it is the highlight at normal
-  /// incidence.
+  /// Returns the common colour of a metal and its base. The highlight at normal incidence is `metalness` times this
+  /// colour.
   [[nodiscard]] rgb metal_colour() const;
 };
 
-/// Returns the same highlight at normal incidence with no colour above 1, for renderers that refuse colours above 1.
+/// Returns a surface with the same highlight at normal incidence and no specular colour above 1, as renderers need.
 [[nodiscard]] rough_surface bounded(rough_surface surface);
 
 struct conductor {
@@ -42,18 +42,21 @@ struct conductor {
 };
 
 /// Returns the conductor (dielectric if the extinction is 0) that reflects f0 at normal incidence and is nearest to
-/// Schlick's approximation up to 85 degrees: within 0.5 % for f0 from 0.6 on, within 31 % for a dielectric's 0.03.
+/// Schlick's approximation up to 85 degrees. Conductor and approximation differ by at most 0.5 % if f0 is 0.6 or more,
+/// by 31 % if f0 is 0.03.
 [[nodiscard]] conductor conductor_like_schlick(double f0);
 
-/// Returns the albedo, at most 1, of a Lambertian base whose albedo in diffuse light through a smooth dielectric is
-/// `seen`. Includes the light that the dielectric reflects back inside. J. L. Saunderson, "Calculation of the Color of
+/// Returns the albedo, at most 1, of a Lambertian base that has the albedo `seen` through a smooth dielectric coat in
+/// diffuse light. Includes the light that the coat reflects back inside. J. L. Saunderson, "Calculation of the Color of
 /// Pigmented Plastics", JOSA 32(12), 1942 (doi:10.1364/JOSA.32.000727), with Fresnel's equations for diffuse light.
 [[nodiscard]] rgb base_below_coat(const rgb& seen, double index);
 
-/// Throws gonio::error unless the model is one lobe of GGX or Torrance-Sparrow, with or without a Lambertian lobe.
+/// Returns the model's surface. Throws gonio::error unless the model is one lobe of GGX or Torrance-Sparrow, with or
+/// without a Lambertian lobe.
 [[nodiscard]] rough_surface as_rough_surface(const model::analytic_brdf& model);
 
-/// The same, but also throws for Beckmann's distribution, naming the renderer that has none.
+/// Returns the same surface as `as_rough_surface`, but also throws gonio::error for Torrance-Sparrow, whose Beckmann
+/// distribution `renderer` lacks.
 [[nodiscard]] rough_surface as_ggx_surface(const model::analytic_brdf& model, const char* renderer);
 
 [[nodiscard]] inline std::string three_numbers(const rgb& colour, const std::string& between) {
@@ -63,15 +66,15 @@ struct conductor {
 }  // namespace detail
 
 /// Returns a `Material` of pbrt-v4, linear sRGB. GGX with Lambert becomes `coateddiffuse` with the same roughness (not
-/// remapped) and refractive index; the base has the model's albedo in diffuse light below a coat without absorption.
-/// The colour of the highlight is lost, because the coat has none. GGX alone becomes `conductor` with the reflectance
-/// at normal incidence, colour times f0. A highlight above 0.3, which no dielectric has, also becomes a `conductor`;
-/// with a base, a `mix` of both. Throws gonio::error for other models: pbrt has no Beckmann distribution.
+/// remapped) and refractive index. Seen in diffuse light through the coat, which does not absorb, its base has the
+/// model's albedo. The highlight's colour is lost, because the coat has none. GGX alone becomes `conductor` with the
+/// reflectance at normal incidence, colour times f0. A highlight above 0.3 (no dielectric has one) with a base becomes
+/// a `mix` of `conductor` and `diffuse`. Throws gonio::error for other models: pbrt has no Beckmann distribution.
 [[nodiscard]] std::string pbrt_material(const model::analytic_brdf& model);
 
 /// Returns a `bsdf` of Mitsuba 3, linear sRGB: the sum of the lobes, as a `blendbsdf` in equal parts of a `diffuse` and
 /// a `roughconductor` with doubled colours. All parameters are kept; the rise towards grazing angles is Fresnel's for
-/// `conductor_like_schlick` instead of Schlick's. `roughplastic` is not used: it takes a sixth of the base's light.
+/// `conductor_like_schlick` instead of Schlick's. `roughplastic` is not used: it loses a sixth of the base's light.
 [[nodiscard]] std::string mitsuba_material(const model::analytic_brdf& model);
 
 /// Returns a MaterialX 1.39 document (.mtlx) with an `open_pbr_surface`, linear Rec. 709: OpenPBR 1.1, whose roughness
@@ -82,18 +85,19 @@ struct conductor {
 /// is not letters, digits and underscores.
 [[nodiscard]] std::string materialx_material(const model::analytic_brdf& model, const std::string& name = "material");
 
-/// Returns a glTF 2.0 document with a unit sphere of one material, which importers show. The material is
-/// metallic-roughness, whose roughness is the square root of GGX's; with a base also KHR_materials_ior and
-/// KHR_materials_specular. The highlight then has its colour at normal incidence and its largest channel, at most 1, at
-/// grazing angles. Metals are as in OpenPBR. Throws gonio::error for models other than GGX, with or without Lambert.
+/// Returns a glTF 2.0 document with the material on a unit sphere, which importers show. The material is
+/// metallic-roughness, whose roughness is the square root of GGX's; a dielectric with a base also has KHR_materials_ior
+/// and KHR_materials_specular. The highlight then keeps its colour at normal incidence; at grazing angles it is grey,
+/// the colour's largest channel, at most 1. Metals are as in OpenPBR. Throws gonio::error unless the model is GGX or
+/// GGX plus Lambert.
 [[nodiscard]] std::string gltf_material(const model::analytic_brdf& model);
 
 /// Returns a shader `gonio_material` in the Open Shading Language for Blender's Cycles, linear Rec. 709: the sum of a
-/// diffuse closure and `generalized_schlick_bsdf` with the model's parameters. Only masking differs: that of Cycles is
-/// height-correlated. Throws gonio::error for models other than GGX, with or without Lambert.
+/// diffuse closure and `generalized_schlick_bsdf` with the model's parameters. The shader differs from the model only
+/// in the masking: Cycles' is height-correlated. Throws gonio::error unless the model is GGX or GGX plus Lambert.
 [[nodiscard]] std::string osl_shader(const model::analytic_brdf& model);
 
-/// Writes such a text, completely or not at all.
+/// Writes a material's text to a file, completely or not at all.
 inline void write_renderer_material(const std::filesystem::path& path, const std::string& material) {
   write_atomically(path, std::as_bytes(std::span(material)));
 }

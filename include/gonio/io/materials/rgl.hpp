@@ -1,7 +1,7 @@
 #pragma once
-/// Files of the RGL material database (`.bsdf`), which Mitsuba 3 and pbrt-v4 read as material "measured": isotropic
-/// materials in RGB or spectra, in a container of named arrays ("tensor file", version 1.0). Dupuy and Jakob 2018
-/// (doi:10.1145/3272127.3275059); model/adaptive_brdf.hpp explains the arrays.
+/// Files of the RGL material database (`.bsdf`), which Mitsuba 3 and pbrt-v4 read as material "measured": isotropic and
+/// anisotropic materials in RGB or spectra, in a container of named arrays ("tensor file", version 1.0). Dupuy and
+/// Jakob 2018 (doi:10.1145/3272127.3275059); model/adaptive_brdf.hpp explains the arrays.
 ///
 /// A container is the text "tensor_file" and a zero, two bytes of version, a uint32 number of arrays, and for each
 /// array: a uint16 length and the name, a uint16 number of dimensions, a uint8 type, a uint64 position of its elements
@@ -43,8 +43,8 @@ struct tensor_field {
 
 /// The values of a material at several wavelengths, instead of its red, green and blue.
 struct rgl_spectra {
-  std::vector<double> wavelengths;   ///< nanometres, ascending; w wavelengths
-  model::unit_square_tables values;  ///< w n tables for n theta_i, all wavelengths of the first theta_i first
+  std::vector<double> wavelengths;   ///< nanometres, ascending
+  model::unit_square_tables values;  ///< a table per wavelength for the first direction of the light, then the next
 };
 
 /// A material and the description in its file.
@@ -54,8 +54,8 @@ struct rgl_material {
   std::optional<rgl_spectra> spectra;  ///< if the file has spectra instead of RGB
 };
 
-/// Reads a material from the bytes of a file. Errors call it `name`. Throws gonio::error if an array is missing or
-/// malformed, and for an anisotropic material (more than two azimuths of the light).
+/// Reads a material from the bytes of a file. It is anisotropic if the file has more than two azimuths of the light.
+/// Throws gonio::error if an array is missing or malformed. Errors call the file `name`.
 [[nodiscard]] rgl_material read_rgl(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads a file.
@@ -70,15 +70,16 @@ struct rgl_material {
 [[nodiscard]] rgl_spectra upsampled_spectra(const model::adaptive_brdf& material,
                                             const model::smooth_spectra& spectra = {});
 
-/// Returns the bytes of a file. If the material has spectra, this is the spectral variant, for pbrt-v4 and Mitsuba's
-/// spectral variants; otherwise that for Mitsuba's RGB variants. Throws gonio::error for spectra that do not fit the
-/// material, and for tables of values that are not square, which renderers refuse.
+/// Returns the bytes of a file. A material with spectra becomes a spectral file, for pbrt-v4 and Mitsuba's spectral
+/// variants; any other becomes an RGB file, for Mitsuba's RGB variants. Throws gonio::error for spectra that do not fit
+/// the material, and for tables of values that are not square, which renderers refuse.
 [[nodiscard]] std::vector<std::byte> write_rgl(const rgl_material& material);
 
 /// Writes a file beside its target and renames it.
 void write_rgl(const std::filesystem::path& path, const rgl_material& material);
 
-/// Writes any BRDF in RGB; unless it has tables, `tabulate_keeping_albedo` makes them.
+/// Writes any isotropic BRDF in RGB, or an `adaptive_brdf`. The latter has the file's tables; for any other
+/// BRDF, `tabulate_keeping_albedo` makes them.
 template <brdf Brdf>
 void write_rgl(const std::filesystem::path& path, const Brdf& f, const std::string& description = "gonio") {
   if constexpr (std::same_as<Brdf, model::adaptive_brdf>)

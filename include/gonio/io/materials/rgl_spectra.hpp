@@ -1,6 +1,6 @@
 #pragma once
-/// Spectra in files of the RGL material database (io/materials/rgl.hpp): written from a spectral table, read in any
-/// directions.
+/// Spectra in files of the RGL material database (io/materials/rgl.hpp): writes a spectral table, and reads spectra in
+/// any directions.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/io/materials/rgl.hpp>
@@ -15,19 +15,19 @@
 namespace gonio::io {
 
 /// Returns a spectral table as the spectral variant of a material, for `write_rgl`. pbrt-v4 and Mitsuba's spectral
-/// variants interpolate linearly between wavelengths: keeps those that suffice within `tolerance`
-/// (`model::sufficient_wavelengths`). Throws gonio::error for fewer than two wavelengths. Costs a
-/// `model::tabulate_adaptively` and a `model::tabulate_over` for each three wavelengths.
+/// variants interpolate linearly between wavelengths. The material therefore keeps only the wavelengths that suffice
+/// within `tolerance` (`model::sufficient_wavelengths`). Throws gonio::error for fewer than two wavelengths. Costs one
+/// `model::tabulate_adaptively`, and one `model::tabulate_over` for each three wavelengths.
 [[nodiscard]] rgl_material tabulate_adaptively(const spectral_table& table,
                                                double tolerance = model::usual_albedo_tolerance,
                                                const std::string& description = "gonio", thread_count threads = {});
 
 /// Returns the spectra at other wavelengths, in nanometres, by linear interpolation as in renderers. Throws
-/// gonio::error for invalid wavelengths and for those outside the range of `spectra`. O(values).
+/// gonio::error for wavelengths that are invalid or outside the range of `spectra`. O(values).
 [[nodiscard]] rgl_spectra at_wavelengths(const rgl_spectra& spectra, std::vector<double> wavelengths);
 
-/// Returns the spectra of a material over the valid cells of a grid. Throws gonio::error for a material in RGB. Costs a
-/// `tabulate` for each three wavelengths.
+/// Returns the spectra of a material over the valid cells of a grid. Throws gonio::error for a material in RGB and for
+/// an anisotropic one. Costs a `tabulate` for each three wavelengths.
 [[nodiscard]] spectral_table tabulate_spectra(const rgl_material& material, const valid_cells& cells,
                                               thread_count threads = {});
 

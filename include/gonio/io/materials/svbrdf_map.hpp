@@ -1,8 +1,8 @@
 #pragma once
-/// Maps of spatially varying BRDFs (.gsv). For each texel of an image, a map holds half floats: the weights of
-/// functions, each a combination of a prior's components, its uncertainty and its disagreement
-/// (texels/texel_decomposition.hpp). It is stored in bands of whole rows, each with its checksum, so that writers and
-/// readers need only one band in memory. docs/reference/formats.md describes the format. POSIX.
+/// Maps of spatially varying BRDFs (.gsv). For each texel of an image, a map holds half floats: its uncertainty, its
+/// disagreement (texels/texel_decomposition.hpp), and its weights of functions that combine a prior's components. The
+/// map is stored in bands of whole rows, each with its checksum: writers and readers need only one band in memory.
+/// docs/reference/formats.md describes the format. POSIX only.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/direction.hpp>
@@ -31,7 +31,7 @@ struct svbrdf_header {
   std::uint32_t prior_checksum = 0;        ///< `checksum_of` the prior
   std::string prior_source;                ///< source of the prior's materials, for people
   std::vector<direction_pair> directions;  ///< pairs of directions in which the texels were measured
-  Eigen::MatrixXf functions;  ///< V, k x r: V times a texel's weights are the weights of the prior's k components
+  Eigen::MatrixXf functions;  ///< k x r matrix that turns a texel's r weights into weights of the k components
 
   [[nodiscard]] Eigen::Index bands() const noexcept { return (rows + band_rows - 1) / band_rows; }
   [[nodiscard]] Eigen::Index texels_of_band(Eigen::Index band) const noexcept {
@@ -42,20 +42,20 @@ struct svbrdf_header {
 /// Returns a number that identifies a header: its CRC-32 in the file.
 [[nodiscard]] std::uint32_t checksum_of(const svbrdf_header& header);
 
-/// Returns the rows of a band of about 16,384 texels.
+/// Returns the number of rows in a band of about 16,384 texels.
 [[nodiscard]] Eigen::Index rows_of_band(Eigen::Index columns) noexcept;
 
 /// A band's numbers as half floats, as in the file.
 struct svbrdf_band {
-  std::vector<std::uint16_t> weights;                    ///< texels x 3 x r: the weights of red, of green, of blue
-  std::vector<std::uint16_t> uncertainty, disagreement;  ///< texels
+  std::vector<std::uint16_t> weights;                    ///< per texel r weights of red, then of green, then of blue
+  std::vector<std::uint16_t> uncertainty, disagreement;  ///< one number per texel
 
   /// Does the texel belong to the sample? Other texels are all zeros.
   [[nodiscard]] bool has_material(Eigen::Index texel) const { return uncertainty.at(texel) != 0; }
 };
 
-/// Rounds each number to 11 bits. A texel with nonzero uncertainty belongs to the sample: neither its uncertainty nor
-/// all of its weights are rounded to zero. Throws gonio::error if a number is outside the range of half floats.
+/// Rounds each number to 11 significant bits. A texel with nonzero uncertainty belongs to the sample: neither its
+/// uncertainty nor all of its weights are rounded to zero. Throws gonio::error for a number too large for a half float.
 [[nodiscard]] svbrdf_band as_halves(const texel_estimates& found, thread_count threads = {});
 
 /// Returns a band's bytes in the file, its checksum last. Throws gonio::error unless its counts fit the header.
@@ -66,8 +66,8 @@ struct svbrdf_band {
 /// same job resumes after the last complete band and produces the same bytes. Only one process can have the file open.
 class svbrdf_writer {
  public:
-  /// Throws gonio::error if an unfinished file exists that belongs to another job (its header differs), is open in
-  /// another process or cannot be written, or if the header is invalid. The file is then unchanged.
+  /// Creates PATH.part or resumes it. Throws gonio::error, leaving it unchanged, if it belongs to another job (its
+  /// header differs), is open in another process or cannot be written, or if `header` is invalid.
   svbrdf_writer(const std::filesystem::path& path, const svbrdf_header& header);
 
   /// Returns the number of bands already written, by this process or an earlier one.
@@ -78,10 +78,11 @@ class svbrdf_writer {
 
   /// Appends the next band. Throws gonio::error if it cannot be stored, for example on a full disk: earlier bands stay.
   void append(const svbrdf_band& values);
-  /// Appends the next band as bytes of `write_band`, possibly made elsewhere. Also throws gonio::error if damaged.
+  /// Appends the next band, given as the bytes that `write_band` returned, possibly in another process. Throws as the
+  /// function above does, and if the bytes are damaged.
   void append(std::span<const std::byte> bytes);
 
-  /// Gives the file its name once all bands are on the disk.
+  /// Renames the file to PATH once all bands are on the disk. Throws gonio::error if a band is missing.
   void commit();
 
  private:
@@ -101,8 +102,8 @@ class svbrdf_writer {
 /// A complete map, read band by band. Any number of threads may read it.
 class svbrdf_map {
  public:
-  /// Reads the header. Throws gonio::error if the file is not a map, of another version, damaged, or of another size
-  /// than its header requires.
+  /// Reads the header. Throws gonio::error if the file is not a map, is of another version, is damaged, or has another
+  /// size than its header requires.
   explicit svbrdf_map(const std::filesystem::path& path);
 
   [[nodiscard]] const svbrdf_header& header() const noexcept { return header_; }
@@ -123,7 +124,7 @@ class svbrdf_map {
 /// Does the file start with a map's magic word?
 [[nodiscard]] bool is_svbrdf_map(const std::filesystem::path& path);
 
-/// Returns the weights of the prior's components for a texel of a band, k x 3, for `render::component_brdf` and
+/// Returns the weights of the prior's k components for a texel of a band, k x 3, for `render::component_brdf` and
 /// `fitted_brdf`; zeros outside the sample.
 [[nodiscard]] Eigen::MatrixXd weights_of_texel(const svbrdf_header& header, const svbrdf_band& band,
                                                Eigen::Index texel);

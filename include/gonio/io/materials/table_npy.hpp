@@ -11,16 +11,17 @@
 
 namespace gonio::io {
 
-/// Writes a table for programs that read arrays: its values at the cells' centres; a table with values at lower corners
-/// is interpolated. A cell below the horizon gets the value of the next one above the horizon in theta_h, so that
-/// interpolation meets no holes. `valid_cells` tells which cells are below the horizon, from geometry.
+/// Writes a table's values at the cells' centres, for programs that read arrays. A table with values at lower corners
+/// is interpolated. A cell below the horizon gets the value of the valid cell with the next smaller theta_h:
+/// interpolation then meets no holes. The array does not mark such cells; `valid_cells` finds them by geometry.
 void write_table_npy(const std::filesystem::path& path, const brdf_table& table);
 
-/// Writes half floats. Throws gonio::error for a value outside their range.
+/// Writes half floats instead of float32, but is otherwise like `write_table_npy`. Throws gonio::error for a value
+/// outside the range of half floats.
 void write_table_npy_halves(const std::filesystem::path& path, const brdf_table& table);
 
-/// Reads a table from the bytes of such an array, whose values are at the cells' centres. Errors call it `name`. Throws
-/// gonio::error for another shape and for values that are not finite.
+/// Reads a table from the bytes of a .npy file with an array of this shape, whose values are at the cells' centres.
+/// Throws gonio::error for another shape and for values that are not finite. Errors call the file `name`.
 [[nodiscard]] brdf_table read_table_npy(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace gonio::io

@@ -17,13 +17,13 @@ namespace gonio::io {
 /// Does the text have a line `VARS theta_i,...` in its first 4096 bytes?
 [[nodiscard]] bool looks_like_astm_e1392(std::string_view text);
 
-/// Reads samples from the text of such a file. Errors call it `name`. The columns, in any order, are `theta_i`,
-/// `phi_i`, `theta_s` and `phi_s` in radians, and values in sr^-1 without the cosine: `R`, `G`, `B` (linear), `X`, `Y`,
-/// `Z` (under D65), wavelengths (`400nm`, ascending), or a single one of any name. Throws gonio::error naming the
-/// faulty line and column, or if the number of lines is not `NUM_POINTS`.
+/// Reads samples from the text of an ASTM E1392 file. The columns, in any order, are `theta_i`, `phi_i`, `theta_s` and
+/// `phi_s` in radians, and values in sr^-1 without the cosine: `R`, `G`, `B` (linear), `X`, `Y`, `Z` (under D65),
+/// wavelengths (`400nm`, ascending), or one column of any name. Throws gonio::error naming the faulty line and column,
+/// and if the number of lines is not `NUM_POINTS`. Errors call the file `name`.
 [[nodiscard]] sample_set read_astm_e1392(std::string_view text, const std::string& name);
 
-/// Reads such a file.
+/// Reads an ASTM E1392 file.
 [[nodiscard]] sample_set read_astm_e1392(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -16,23 +16,23 @@ namespace gonio::io {
 /// Is the text a JSON object with `metadata` or `data`?
 [[nodiscard]] bool looks_like_bird(std::string_view text);
 
-/// Reads samples from the text of such a file. Errors call it `name`. Measurements with the same directions become one
-/// sample: the mean over polarisations and repeats at each wavelength. If wavelengths differ between pairs of
-/// directions, samples become colours (linear Rec. 709 under D65). The states of illumination must average to
-/// unpolarised light (s and p, or opposite Stokes vectors).
+/// Reads samples from the text of a BiRD file. Measurements with the same directions become one sample: the mean over
+/// polarisations and repeats at each wavelength. If wavelengths differ between pairs of directions, samples become
+/// colours (linear Rec. 709 under D65). The states of illumination must average to unpolarised light (s and p, or
+/// opposite Stokes vectors). Errors call the file `name`.
 ///
-/// The cone of the receiver is given by `metadata.instrumentation.detection_system.solid_angle`, that of the source by
-/// half of `metadata.instrumentation.illumination_system.beam.divergence`, if the file has them.
+/// If the file has them, `metadata.instrumentation.detection_system.solid_angle` gives the cone of the receiver, and
+/// half of `metadata.instrumentation.illumination_system.beam.divergence` the cone of the source.
 ///
-/// A sample's weight is (m / u)^2, clamped to 0.01 to 100. Here u is its relative uncertainty (root mean square over
-/// the averaged measurements) and m the file's median of u, so that the coverage factor cancels. Without uncertainty
-/// the weight is 1.
+/// A sample's weight is (m / u)^2, clamped to 0.01 to 100. Here u is the sample's relative uncertainty (root mean
+/// square over the averaged measurements) and m the file's median of u: the coverage factor cancels. Without
+/// uncertainty the weight is 1.
 ///
 /// Throws gonio::error naming the fault; also for light analysed after reflection, for fluorescence, and if other
 /// variables change within the file, because a sample cannot hold them.
 [[nodiscard]] sample_set read_bird(std::string_view text, const std::string& name);
 
-/// Reads such a file.
+/// Reads a BiRD file.
 [[nodiscard]] sample_set read_bird(const std::filesystem::path& path);
 
 }  // namespace gonio::io

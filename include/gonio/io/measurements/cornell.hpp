@@ -53,11 +53,11 @@ class cornell_reader {
 
 }  // namespace detail
 
-/// Reads samples at the file's wavelengths from its text. Errors call it `name`. Throws gonio::error naming the faulty
-/// line and field.
+/// Reads samples from the text of a Cornell file, at the file's wavelengths. Throws gonio::error naming the faulty line
+/// and field. Errors call the file `name`.
 [[nodiscard]] sample_set read_cornell(std::string_view text, const std::string& name);
 
-/// Reads such a file. Throws gonio::error naming the file, the faulty line and the field.
+/// Reads a Cornell file.
 [[nodiscard]] sample_set read_cornell(const std::filesystem::path& path);
 
 }  // namespace gonio::io

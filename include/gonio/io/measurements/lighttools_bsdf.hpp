@@ -14,18 +14,18 @@
 
 namespace gonio::io {
 
-/// Does the text begin as such a file does? Zemax's files have the same keywords. In LightTools' files, keywords of a
-/// block follow DataBegin.
+/// Does the text begin like a LightTools BSDF file? Zemax's files have the same keywords, but no keyword of a block
+/// follows their DataBegin.
 [[nodiscard]] bool looks_like_lighttools_bsdf(std::string_view text);
 
-/// Reads samples from the text of such a file: the reflection of the front, or of the back if there is none. Errors
-/// call it `name`. Values are grey, spectra if blocks have several wavelengths, or CIE XYZ under D65. If a table has
-/// only half of the azimuths because of symmetry about the plane of incidence, only that half is read. Throws
-/// gonio::error naming the faulty line, if there is no reflection, and for planes of incidence (POI) other than 0: the
-/// descriptions of the layout do not say how they turn.
+/// Reads samples from the text of a LightTools BSDF file: the reflection of the front, or of the back if the front has
+/// none. Values are grey, spectra if blocks have several wavelengths, or CIE XYZ under D65. If a table has only half of
+/// the azimuths because of symmetry about the plane of incidence, only that half is read. Throws gonio::error naming
+/// the faulty line, if there is no reflection, and for planes of incidence (POI) other than 0: the descriptions of the
+/// layout do not say how such planes turn the directions. Errors call the file `name`.
 [[nodiscard]] sample_set read_lighttools_bsdf(std::string_view text, const std::string& name);
 
-/// Reads such a file.
+/// Reads a LightTools BSDF file.
 [[nodiscard]] sample_set read_lighttools_bsdf(const std::filesystem::path& path);
 
 }  // namespace gonio::io

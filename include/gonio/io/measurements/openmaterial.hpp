@@ -26,20 +26,20 @@ struct openmaterial_metadata {
   std::string sources = "not stated";  ///< measured, simulated, or from literature
 };
 
-/// Steps between the rows of a written table.
+/// Numbers of steps between the angles of a written table.
 struct openmaterial_steps {
-  Eigen::Index polar = 18;    ///< of each zenith angle, from 0 to 90 degrees
-  Eigen::Index azimuth = 36;  ///< from 0 to 360 degrees
+  Eigen::Index polar = 18;    ///< steps of each zenith angle, from 0 to 90 degrees
+  Eigen::Index azimuth = 36;  ///< steps of the azimuth, from 0 to 360 degrees
 };
 
 namespace detail {
 
 /// Returns the directions of the rows of one wavelength, in their order. The light's azimuth is 0; the last zenith
-/// angle is 1.570796, just above the horizon. Throws gonio::error for fewer than 1 step or more than 60 polar and 120
-/// azimuthal steps (half a gigabyte).
+/// angle is 1.570796, just above the horizon. Throws gonio::error for fewer than 1 step, and for more than 60 polar or
+/// 120 azimuthal steps (half a gigabyte).
 [[nodiscard]] std::vector<direction_pair> openmaterial_directions(const openmaterial_steps& steps);
 
-/// Returns the file of colours in these directions. Throws gonio::error for a colour that is not finite.
+/// Returns the text of a file with these colours, in the order of `openmaterial_directions`. Refuses NaN and infinity.
 [[nodiscard]] std::string openmaterial_text(const std::vector<rgb>& colours, const openmaterial_steps& steps,
                                             const openmaterial_metadata& metadata);
 
@@ -64,14 +64,15 @@ void write_openmaterial(const std::filesystem::path& path, const std::string& te
 /// Is the text a JSON object with `openMaterial3dVersion` or `lookupTable`?
 [[nodiscard]] bool looks_like_openmaterial(std::string_view text);
 
-/// Reads samples from the text of such a file, in ascending order of their angles. Errors call it `name`. Rows with the
-/// same directions become one sample, rows with the same directions and wavelength are averaged. If wavelengths differ
+/// Reads samples from the text of an OpenMATERIAL file, in ascending order of their angles. Rows with the same
+/// directions become one sample; rows with the same directions and wavelength are averaged. If wavelengths differ
 /// between pairs of directions, samples become colours (linear Rec. 709 under D65). Skips rows with a null and
-/// directions at the horizon. The cone of the receiver is given by the mean of `receiverSolidAngles`, if there are any.
-/// Throws gonio::error naming the faulty line, and for tables of other properties. O(rows log rows).
+/// directions at the horizon. The mean of `receiverSolidAngles`, if there are any, gives the cone of the receiver.
+/// Throws gonio::error naming the faulty line, and for tables of other properties. Errors call the file `name`. O(rows
+/// log rows).
 [[nodiscard]] sample_set read_openmaterial(std::string_view text, const std::string& name);
 
-/// Reads such a file.
+/// Reads an OpenMATERIAL file.
 [[nodiscard]] sample_set read_openmaterial(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -12,8 +12,8 @@ namespace gonio::io {
 /// optionally `theta_o` (degrees, or with a unit as in files of samples), and `factor` or `factor_r,factor_g,factor_b`
 /// (or per cent, `factor [%]`). Lines ascend by theta_i, then by theta_o; every theta_i has the same values of theta_o.
 ///
-/// Throws gonio::error naming the file and, where possible, the line if a column is missing or unknown, if a number is
-/// invalid, if angles do not ascend or a pair of them is missing, or as reference_reflectance does.
+/// Throws gonio::error naming the file and, where possible, the line: if a column is missing or unknown, a number is
+/// invalid, angles do not ascend, a pair of angles is missing, or `reference_reflectance` refuses the table.
 [[nodiscard]] capture::reference_reflectance read_reference_reflectance(const std::filesystem::path& path);
 
 }  // namespace gonio::io

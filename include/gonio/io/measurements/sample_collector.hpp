@@ -1,5 +1,5 @@
 #pragma once
-/// Common parts of the readers of other programs' tables: meaning and validity of the numbers of directions.
+/// Common parts of the readers of other programs' tables: checks of numbers and directions, and a collector of samples.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/io/text/json_reader.hpp>
@@ -32,14 +32,15 @@ void require_float_range(double reflectance, const text_place& place);
 /// `read` if it exceeds the largest half angle.
 [[nodiscard]] double receiver_half_angle(double solid_angle, const json_reader& read);
 
-/// For each azimuth, in degrees: is it different, modulo 360 degrees, from all before it? O(n log n).
+/// Returns for each azimuth whether it differs, modulo 360 degrees, from all azimuths before it. O(n log n) for n
+/// azimuths.
 [[nodiscard]] std::vector<bool> are_new_azimuths(std::span<const double> azimuths);
 
 /// Collects samples, except those at or below the horizon.
 class sample_collector {
  public:
   explicit sample_collector(channels kinds = channels::one_value()) : kinds_(std::move(kinds)), samples_(kinds_) {}
-  /// For CIE XYZ under D65, where a perfect diffuser has Y = 1 / pi.
+  /// Returns a collector of CIE XYZ under D65, where a perfect diffuser has Y = 1 / pi.
   [[nodiscard]] static sample_collector of_xyz();
 
   /// Returns the number of values of a sample.
@@ -49,13 +50,14 @@ class sample_collector {
   /// colours. Throws gonio::error unless they ascend.
   void use_wavelengths(std::span<const double> wavelengths);
 
-  /// Sets the cones of all samples.
+  /// Sets the cones of source and receiver for all samples.
   void use_aperture(const aperture& cones) noexcept { aperture_ = cones; }
 
   /// Adds a sample with one value for each channel.
   void add(const direction_pair& pair, std::span<const double> values, double weight = 1.0);
 
-  /// Throws gonio::error naming the file if there is no sample, or if wavelengths differ and some give no colour.
+  /// Returns the samples. Throws gonio::error naming the file if there is none, or if the wavelengths differ between
+  /// samples and no wavelength of some sample is visible.
   [[nodiscard]] sample_set samples(const std::string& name) &&;
 
  private:

@@ -65,38 +65,38 @@ inline constexpr column_group tristimulus_group{25, 3};
   return column < vector_group.first || half_angle_group.has(column);
 }
 
-/// A name in the header line as written, and the name without its unit: "Theta In [deg]" is theta_i in degrees.
+/// A field of the header line as written, and its name and unit in lower case: "Theta In [deg]", "theta in" and "deg".
 struct written_column {
   std::string text, name, unit;
 };
 
-/// Returns the name in lower case. A unit is in brackets after it, or its last word if that is a unit: theta_i_deg.
+/// Splits a field of the header line. The unit is in brackets after the name, or is the last word: theta_i_deg.
 [[nodiscard]] written_column written(std::string_view field);
 
 enum class column_unit { none, degrees, radians, nanometres, percent, per_steradian, unknown };
 [[nodiscard]] column_unit unit_named(std::string_view name);
 
-/// A possible name of a column in letters and digits only: Theta_In, "theta in" and thetaIn are one name.
+/// A possible name of a column, in lower-case letters and digits only: Theta_In, "theta in" and thetaIn are one name.
 struct known_name {
   std::string_view letters;
   std::size_t column;
   std::optional<sample_quantity> quantity = {};  ///< if the name implies it
-  bool is_relative = false;                      ///< phi_o relative to the light's azimuth
+  bool is_relative = false;                      ///< true for a name of phi_o - phi_i
 };
 
-/// Returns the column with this name in English, French, German or Greek letters, with accents in UTF-8 or Latin-1.
+/// Returns the entry of a name in English, French, German (accents in UTF-8 or Latin-1) or Greek letters, or nullptr.
 [[nodiscard]] const known_name* find_known(std::string_view name);
 
 /// Can a column have this unit?
 [[nodiscard]] bool fits(column_unit unit, std::size_t column);
 
-/// Is it a line of units, as some programs write below the header line: no numbers, and at least one unit?
+/// Are these the fields of a line of units, as some programs write below the header line: no number, at least one unit?
 [[nodiscard]] bool are_units(std::span<const std::string_view> fields);
 
-/// Returns an angle without the degree sign, or the word for it, after it.
+/// Returns a field without a degree sign or the word "deg" at its end.
 [[nodiscard]] std::string_view without_degree_sign(std::string_view field);
 
-/// Returns the unit in a field of such a line, in lower case and without brackets.
+/// Returns the unit in a field of a line of units, in lower case and without brackets.
 [[nodiscard]] std::string unit_of(std::string_view field);
 
 }  // namespace gonio::io::detail

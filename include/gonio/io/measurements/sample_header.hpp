@@ -23,15 +23,15 @@ struct column_name {
   std::string column, in_file;
 };
 
-/// The side where theta_o is positive, for positive theta_i and equal azimuths (or none): the light's side of the
-/// normal, with the mirror direction at theta_o = -theta_i, or the mirror direction's side.
+/// The side of the normal where theta_o is positive if theta_i is positive and the azimuths are equal or missing: the
+/// light's side (the mirror direction is at theta_o = -theta_i), or the mirror direction's side (at theta_o = theta_i).
 enum class theta_o_sign { light, mirror };
 
-/// What the caller knows about a file.
+/// The caller's knowledge of a file, and the receiver of notes on it.
 struct sample_reading {
   std::vector<column_name> columns = {};              ///< names are compared without regard to case
   std::optional<sample_quantity> quantity = {};       ///< needed if the file does not state it
-  std::function<void(const std::string&)> note = {};  ///< receives a sentence on what is ignored or assumed
+  std::function<void(const std::string&)> note = {};  ///< receives sentences on ignored columns and on assumptions
   std::optional<theta_o_sign> sign = {};              ///< for files that do not state it
 };
 
@@ -48,21 +48,21 @@ namespace detail {
 
 class sample_header {
  public:
-  /// The column of a field that is not a column of samples.
+  /// The column number of a field that belongs to no known column.
   static constexpr std::size_t ignored = sample_columns.size();
 
-  /// Reads the file's current line, and the line of units below it if there is one, to which the file then advances.
-  /// `stated` are angles stated above the header line; they apply if they have no column.
+  /// Reads the file's current line. If a line of units is below it, moves the file to that line and reads it, too.
+  /// `stated` has the angles stated above the header line; those without a column apply to all samples.
   void read(csv_reader& file, const sample_reading& reading, bool needs_value, std::span<const stated_angle> stated);
 
   [[nodiscard]] const std::vector<std::size_t>& columns() const noexcept { return columns_; }
   [[nodiscard]] const column_group& directions() const noexcept { return directions_; }
-  /// Returns the columns of r,g,b, of the one value, or of the wavelengths, which are numbered from `ignored` + 1; its
-  /// count is 0 if there are none.
+  /// Returns the columns of r,g,b, of X,Y,Z, of a single value, or of the wavelengths, which are numbered from
+  /// `ignored` + 1; the count is 0 if there are none.
   [[nodiscard]] const column_group& values() const noexcept { return values_; }
-  /// If set, each field after the first is a value, whose angles are given by its line and its column.
+  /// Returns the matrix, if the file is one: fields after the first are values at the angles of their line and column.
   [[nodiscard]] const std::optional<sample_matrix>& matrix() const noexcept { return matrix_; }
-  /// Returns the angles of all samples that have no column.
+  /// Returns the angles that have no column because they are stated for all samples.
   [[nodiscard]] const std::vector<stated_angle>& stated() const noexcept { return stated_; }
   /// Returns the wavelengths of columns named by their wavelength, nanometres, ascending.
   [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return wavelengths_; }

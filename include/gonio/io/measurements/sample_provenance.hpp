@@ -1,6 +1,6 @@
 #pragma once
-/// The origin of measurements, free text from the comment lines `# instrument: ...`, `# date: ...` and `# conditions:
-/// ...` of their file.
+/// The origin of measurements: free text from the comment lines `# instrument: ...`, `# date: ...` and
+/// `# conditions: ...` of their file.
 
 #include <string>
 #include <string_view>
@@ -20,14 +20,15 @@ struct sample_provenance {
 
 namespace detail {
 
-/// A comment `key: value` without its #: the key in lower case, both trimmed; both empty if there is no colon.
+/// A comment `# key: value`: the key in lower case, key and value trimmed; both empty if there is no colon.
 struct comment_entry {
   std::string key;
   std::string_view value;
 };
 [[nodiscard]] comment_entry entry_of(std::string_view comment);
 
-/// Keeps an entry if it belongs to a provenance; appends it after a semicolon if one with the same key exists.
+/// Stores an entry whose key is instrument, date or conditions; ignores any other. Appends it, after a semicolon, to an
+/// earlier entry of the same key.
 void keep(sample_provenance& provenance, const comment_entry& entry);
 
 }  // namespace detail

@@ -16,7 +16,7 @@ namespace gonio::io {
 
 enum class sample_quantity { brdf, brdf_cosine, reflectance_factor, percent };
 
-/// Their names in options and files.
+/// The quantities' names in options and files.
 inline constexpr std::array<std::string_view, 4> sample_quantity_names{"brdf", "brdf-cosine", "reflectance-factor",
                                                                        "percent"};
 
@@ -36,9 +36,9 @@ class stated_quantity {
  public:
   /// States a quantity; `by` is its source in messages. Throws gonio::error if another quantity has been stated.
   void state(sample_quantity quantity, const std::string& by, const text_place& place);
-  /// States that the numbers have percent signs, each of them or the unit of their column.
+  /// States that each number, or the unit of its column, has a percent sign.
   void state_percent_signs(const std::string& by, const text_place& place);
-  /// Repeats the statements of another object.
+  /// Takes over the statement of another object, as if it were stated here.
   void state(const stated_quantity& other, const text_place& place);
 
   [[nodiscard]] const std::optional<sample_quantity>& quantity() const noexcept { return quantity_; }

@@ -41,15 +41,16 @@ class sample_rows {
  public:
   sample_rows(std::string_view text, const std::string& name, bool needs_value, const sample_reading& reading);
 
-  /// Moves to the next line of numbers, or cell of a matrix. At the end of the file returns false, or throws
-  /// gonio::error if there was none. Skips lines without a value ("n/a", "OVER") if values are needed; always such
-  /// cells.
+  /// Moves to the next line of numbers, or to the next cell of a matrix. Returns false at the end of the file. Throws
+  /// gonio::error for a file without a line of numbers. Skips cells without a value ("n/a", "OVER") and, if values are
+  /// needed, lines without a value.
   [[nodiscard]] bool next();
 
-  /// Returns the number of lines without a value, and a text on the first: "no value (line 92: 'OVER')".
+  /// Returns the number of lines or cells without a value; `first_without_value` describes the first of them, as in
+  /// "no value (line 92: 'OVER')".
   [[nodiscard]] std::size_t rows_without_value() const noexcept { return missing_; }
   [[nodiscard]] const std::string& first_without_value() const noexcept { return first_missing_; }
-  /// Returns "row", or "cells" for a matrix.
+  /// Returns "row" or "rows", for a matrix "cell" or "cells".
   [[nodiscard]] std::string_view rows_are_called(std::size_t count) const noexcept;
   /// Throws gonio::error if more than half of the lines have no value.
   void require_values() const;
@@ -59,7 +60,7 @@ class sample_rows {
             header_};
   }
   [[nodiscard]] const sample_header& header() const noexcept { return header_; }
-  /// For people: separators and decimal marks.
+  /// Returns separator and decimal mark in words.
   [[nodiscard]] std::string dialect() const { return description(csv_.dialect()); }
   [[nodiscard]] std::optional<sample_quantity> quantity() const noexcept { return quantity_.quantity(); }
   [[nodiscard]] std::optional<double> wavelength() const noexcept { return wavelength_; }
@@ -67,7 +68,7 @@ class sample_rows {
   /// Does the file lack both azimuths and a statement of the side of the normal on which theta_o is positive?
   [[nodiscard]] bool assumes_side() const noexcept { return header_.is_in_plane() && !sign_; }
   [[nodiscard]] const std::optional<theta_o_sign>& sign() const noexcept { return sign_; }
-  /// Are azimuths counted from the mirror direction? Without azimuths the signs in the rows tell.
+  /// Are azimuths counted from the mirror direction? Without azimuths, this class changes the sign of theta_o instead.
   [[nodiscard]] bool turns_viewers() const noexcept { return !header_.is_in_plane() && sign_ == theta_o_sign::mirror; }
 
  private:
@@ -107,7 +108,7 @@ class sample_rows {
   std::size_t rows_ = 0, missing_ = 0;
   std::string first_missing_, missing_message_;
   bool has_percent_signs_ = false, has_signed_angle_ = false;
-  std::size_t line_of_unknown_side_ = 0;  ///< first line with two nonzero angles, neither negative
+  std::size_t line_of_unknown_side_ = 0;  ///< first line with two positive polar angles
 };
 
 }  // namespace gonio::io::detail

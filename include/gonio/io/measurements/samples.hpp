@@ -29,7 +29,7 @@ struct sample_text {
   std::string dialect = {};             ///< "semicolon-separated with decimal commas"
   std::vector<std::size_t> lines = {};  ///< the line of each sample, from 1
   std::size_t rows_left_out = 0;        ///< rows, or cells of a matrix, without a value or at 90 degrees
-  bool assumes_side = false;            ///< nobody states the sign of theta_o: positive is on the light's side
+  bool assumes_side = false;            ///< theta_o is assumed positive on the light's side: its sign is not stated
 };
 
 /// Samples and the statements of their file.
@@ -38,10 +38,10 @@ struct sample_file {
   std::optional<sample_quantity> quantity = {};  ///< stated by the file or the caller; r,g,b need none
   std::optional<theta_o_sign> sign = {};         ///< stated by the file or the caller
   sample_provenance provenance = {};
-  sample_text text = {};  ///< empty of a file in another format
+  sample_text text = {};  ///< empty for a file in another format
 };
 
-/// Reads samples from the text of a CSV file. Errors call it `name`.
+/// Reads samples from the text of a CSV file. Errors call the file `name`.
 [[nodiscard]] sample_file read_sample_file(std::string_view text, const std::string& name,
                                            const sample_reading& reading = {});
 [[nodiscard]] sample_set read_samples(std::string_view text, const std::string& name,
@@ -53,7 +53,8 @@ struct sample_file {
                                         const sample_reading& reading = {});
 
 /// Reads measurements. Throws gonio::error naming the file, line, column and value of a fault, and if neither the file
-/// nor `reading` states the quantity of `value`. `reading.note` receives what is ignored or assumed.
+/// nor `reading` states the quantity of `value`. `reading.note` receives sentences on ignored columns and on
+/// assumptions.
 [[nodiscard]] sample_file read_sample_file(const std::filesystem::path& path, const sample_reading& reading = {});
 [[nodiscard]] sample_set read_samples(const std::filesystem::path& path, const sample_reading& reading = {});
 
@@ -63,7 +64,7 @@ struct sample_file {
 [[nodiscard]] std::vector<half_difference> read_directions(const std::filesystem::path& path,
                                                            const sample_reading& reading = {});
 
-/// Reads the same files as pairs, which distinguish light and viewer.
+/// Reads only directions, as pairs, which distinguish light and viewer.
 [[nodiscard]] std::vector<direction_pair> read_direction_pairs(std::string_view text, const std::string& name,
                                                                const sample_reading& reading = {});
 [[nodiscard]] std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
@@ -72,15 +73,23 @@ struct sample_file {
 /// Writes pairs as `theta_i,phi_i,theta_o,phi_o`, rounded to 1e-9 degrees.
 void write_direction_pairs(const std::filesystem::path& path, std::span<const direction_pair> pairs);
 
+/// The columns of directions in a written file.
+enum class direction_columns {
+  half_difference,  ///< theta_h,theta_d,phi_d
+  pairs             ///< theta_i,phi_i,theta_o,phi_o: also the azimuths, for anisotropic materials; to 1e-9 degrees
+};
+
 /// Returns samples as CSV text, every number in the fewest digits that read back as the same number. The columns are
-/// `theta_h,theta_d,phi_d`, then `r,g,b`, or, below `# quantity: brdf`, `value` or a column for each wavelength, then
-/// `weight`, or `weight_r,weight_g,weight_b` if a sample has different weights for its colours. Comment lines above
-/// state the provenance.
-[[nodiscard]] std::string write_samples(const sample_set& samples, const sample_provenance& provenance = {});
+/// those of the directions, then `r,g,b`, `value` or a column for each wavelength, then `weight`, or
+/// `weight_r,weight_g,weight_b` if a sample has different weights for its colours, then both half angles if a sample
+/// has a cone. Comment lines above state the provenance and, except for `r,g,b`, the quantity (brdf).
+[[nodiscard]] std::string write_samples(const sample_set& samples, const sample_provenance& provenance = {},
+                                        direction_columns columns = direction_columns::half_difference);
 
 /// Writes measurements. If a sample is unusable, throws gonio::error before anything is written.
 void write_samples(const std::filesystem::path& path, const sample_set& samples,
-                   const sample_provenance& provenance = {});
+                   const sample_provenance& provenance = {},
+                   direction_columns columns = direction_columns::half_difference);
 
 }  // namespace gonio::io
 

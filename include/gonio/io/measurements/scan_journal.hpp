@@ -24,12 +24,12 @@ namespace gonio::io {
 /// The sample and the conditions of a scan. Scans that differ in one of these are different scans.
 struct scan_subject {
   std::string sample;          ///< the sample in the machine: a line of text
-  std::uint32_t checksum = 0;  ///< CRC-32 of the file that it is simulated from, or of its list of frames; else 0
+  std::uint32_t checksum = 0;  ///< CRC-32 of the sample's file (simulation) or of the list of frames; otherwise 0
   std::string setup;           ///< the machine and its options: a line of text
   std::uint64_t seed = 0;      ///< of the random numbers of a simulation
 };
 
-/// Returns the CRC-32 of a file, for scan_subject. It detects files that were mixed up, not forgeries.
+/// Returns the CRC-32 of a file, for scan_subject. Detects files that were mixed up, not forgeries.
 [[nodiscard]] std::uint32_t checksum_of_file(const std::filesystem::path& path);
 
 /// A scan, complete or not.
@@ -54,7 +54,8 @@ namespace detail {
 
 [[nodiscard]] std::string write_pose(const direction_pair& pose);
 [[nodiscard]] std::string write_added_pose(const direction_pair& pose);
-/// Throws gonio::error if a text of the subject has more than one line.
+/// Returns the lines of a scan's file above its readings. Throws gonio::error unless each text of the subject is one
+/// line.
 [[nodiscard]] std::string write_scan_header(const scan_subject& subject, std::span<const direction_pair> poses,
                                             std::uint16_t largest_count);
 
@@ -78,10 +79,10 @@ class number_reader {
 [[nodiscard]] capture::reading read_reading(number_reader& numbers, std::uint16_t largest_count,
                                             const text_place& place);
 
-/// Reads a pose of the plan, or one added later, which has a checksum after its six numbers.
+/// Reads a pose of the plan (`numbers` is 6), or one added later (7: the last is a checksum).
 [[nodiscard]] direction_pair read_pose(const text_rule& rule, std::size_t numbers, const text_place& place);
 
-/// What the reader knows from the lines before.
+/// The content of the lines read so far.
 struct scan_lines {
   bool has_sample = false, has_setup = false, has_seed = false, has_reading = false;
   scan_subject subject;
@@ -92,7 +93,7 @@ struct scan_lines {
 /// Reads a line of the subject: a name, a number and, except for the seed, a text. Returns false for any other line.
 [[nodiscard]] bool apply_subject_line(std::string_view line, const text_place& place, scan_lines& before);
 void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan, scan_lines& before);
-/// Checks the head when all lines are read, and completes the scan.
+/// Checks the header lines when all lines have been read, and completes the scan.
 void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name);
 
 /// Returns the text without an incomplete last line, which a killed process or a power failure may leave.
@@ -100,29 +101,30 @@ void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& 
 
 }  // namespace detail
 
-/// Throws gonio::error naming a line that is damaged or invalid; ignores an incomplete last line. Errors call it
-/// `name`.
+/// Reads a scan, complete or not, from the text of its file; ignores an incomplete last line. Throws gonio::error
+/// naming a line that is damaged or invalid. Errors call the file `name`.
 [[nodiscard]] recorded_scan read_scan(std::string_view text, const std::string& name);
 
-/// Reads a scan, complete or not. Throws gonio::error naming the file and the line.
+/// Reads a scan's file.
 [[nodiscard]] recorded_scan read_scan(const std::filesystem::path& path);
 
-/// A scan_record in a file. Only one process can have it open.
+/// A `capture::scan_record` in a file. Only one process can have the file open.
 class scan_journal {
  public:
-  /// Resumes a scan, or begins it if there is no such file. Throws gonio::error if the file has another subject or
-  /// none, other poses or another camera, is damaged, cannot be written, or is open elsewhere. It is then unchanged.
+  /// Resumes a scan, or begins it if there is no such file. Throws gonio::error, leaving the file unchanged, if it has
+  /// another subject or none, other poses or another camera, is damaged, cannot be written, or is open elsewhere.
   scan_journal(const std::filesystem::path& path, const scan_subject& subject, std::span<const direction_pair> poses,
                std::uint16_t largest_count);
 
   [[nodiscard]] bool has(std::size_t pose) const { return scan_.readings.at(pose).has_value(); }
   [[nodiscard]] const recorded_scan& scan() const noexcept { return scan_; }
 
-  /// Returns when the reading is on the disk. Throws gonio::error if it cannot be written or already exists.
+  /// Returns when the reading is on the disk. Throws gonio::error if the reading cannot be written or the pose already
+  /// has a reading.
   void add(std::size_t pose, const capture::reading& taken);
 
-  /// Adds a pose after all others, which an adaptive scan chooses from its readings. Returns when it is on the disk.
-  /// Throws gonio::error if it cannot be written, or is not above the horizon.
+  /// Adds a pose after all others, for a scan that chooses poses by its readings. Returns when the pose is on the disk.
+  /// Throws gonio::error if the pose cannot be written or is not above the horizon.
   void add_pose(const direction_pair& pose);
 
  private:

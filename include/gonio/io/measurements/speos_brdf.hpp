@@ -17,15 +17,15 @@ namespace gonio::io {
 /// Does the text begin with the header `OPTIS - brdf surface file` or `OPTIS - Anisotropic BSDF surface file`?
 [[nodiscard]] bool looks_like_speos_brdf(std::string_view text);
 
-/// Reads samples from the text of such a file: a spectrum for each direction, sr^-1 without the cosine. Errors call it
-/// `name`. Tables are proportional to the BRDF, or to the BRDF times the viewer's cosine. The reflectance in percent
-/// scales them: it is the integral over the table's directions of the BRDF times the cosine. Azimuth 0 is the side of
-/// the mirror direction. The spectrum of an anisotropic file belongs to one angle of incidence and scales all tables;
-/// azimuths count from its anisotropy vector. Throws gonio::error naming the faulty line, for binary files, for
-/// transmission, and if the directions differ between wavelengths.
+/// Reads samples from the text of a Speos file: a spectrum for each direction, sr^-1 without the cosine. Tables are
+/// proportional to the BRDF, or to the BRDF times the viewer's cosine. The reflectance in percent scales a table: it is
+/// the integral of the BRDF times the cosine over the table's directions. Azimuth 0 is the side of the mirror
+/// direction. The spectrum of an anisotropic file belongs to one angle of incidence and scales all tables; azimuths
+/// count from the file's anisotropy vector. Throws gonio::error naming the faulty line, for binary files, for
+/// transmission, and if the directions differ between wavelengths. Errors call the file `name`.
 [[nodiscard]] sample_set read_speos_brdf(std::string_view text, const std::string& name);
 
-/// Reads such a file.
+/// Reads a Speos file.
 [[nodiscard]] sample_set read_speos_brdf(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -35,7 +35,7 @@ class ssdd_reader {
     std::string_view type, colour_model;
     std::optional<coordinates> parameters;
     std::vector<double> wavelengths;
-    std::array<std::vector<double>, 4> angles;  ///< degrees; without azimuths of incidence a single one, 0
+    std::array<std::vector<double>, 4> angles;  ///< degrees; if azimuths of incidence are missing, the azimuth is 0
   };
 
   void read_header();
@@ -43,7 +43,7 @@ class ssdd_reader {
   void read_entry(block_header& block, std::string_view key);
   [[nodiscard]] std::size_t channel_count(const block_header& block) const;
   void check_block(const block_header& block) const;
-  /// Reads the numbers of `count` colours.
+  /// Reads `count` numbers, as text or binary.
   [[nodiscard]] std::vector<double> read_numbers(std::size_t count);
   void read_block();
   [[nodiscard]] sample_collector collector_of(const block_header& block) const;
@@ -56,17 +56,17 @@ class ssdd_reader {
 
 }  // namespace detail
 
-/// Does the text begin as such a file does?
+/// Does the text begin like an SSDD file?
 [[nodiscard]] bool looks_like_ssdd(std::string_view text);
 
-/// Reads samples of the BRDF from the text of such a file; skips other blocks. Errors call it `name`. Colours are grey,
-/// linear RGB (assumed to be Rec. 709, because the format does not say), CIE XYZ (D65) or spectra. If a table is
-/// reduced by symmetry or reciprocity, only its stored part is read. A direction that occurs more than once gives one
-/// sample; directions at the horizon are skipped. Throws gonio::error naming the faulty line, also for distorted
-/// spherical coordinates and offsets, which the specification does not fully define.
+/// Reads samples of the BRDF from the text of an SSDD file; skips other blocks. Colours are grey, linear RGB (assumed
+/// to be Rec. 709, because the format does not say), CIE XYZ (D65) or spectra. If a table is reduced by symmetry or
+/// reciprocity, only its stored part is read. A direction that occurs more than once gives one sample; directions at
+/// the horizon are skipped. Throws gonio::error naming the faulty line, and for distorted spherical coordinates and
+/// offsets, which the specification does not fully define. Errors call the file `name`.
 [[nodiscard]] sample_set read_ssdd(std::string_view text, const std::string& name);
 
-/// Reads such a file.
+/// Reads an SSDD file.
 [[nodiscard]] sample_set read_ssdd(const std::filesystem::path& path);
 
 }  // namespace gonio::io

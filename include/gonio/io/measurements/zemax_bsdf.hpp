@@ -1,12 +1,13 @@
 #pragma once
 /// Measurements in Zemax's tabular BSDF format, also written by imaging spheres (IS-SA): R. Rykowski, "Zemax Tabular
 /// BSDF data file format", support.zemax.com/hc/en-us/articles/1500005486801 (first as "BSDF Data Interchange file
-/// format specification", 2008). A block of rows for each rotation of the sample and angle of incidence. Rows are
-/// azimuths and columns radial angles **about the specular direction**: radial 0 is the specular direction, azimuth 0
-/// points from it towards the normal, azimuths go counterclockwise seen from outside (as in libbsdf by Kimura Ryo,
-/// github.com/KimuraRyo/libbsdf). Values are sr^-1 without the cosine, grey or CIE XYZ.
+/// format specification", 2008). A file has a block of rows for each rotation of the sample and angle of incidence.
+/// Rows are azimuths and columns radial angles **about the specular direction**: radial 0 is the specular direction,
+/// azimuth 0 points from it towards the normal, azimuths go counterclockwise seen from outside (as in libbsdf by Kimura
+/// Ryo, github.com/KimuraRyo/libbsdf). Values are sr^-1 without the cosine, grey or CIE XYZ.
 
 #include <gonio/io/text/words.hpp>
+#include <gonio/model/angle_grid_brdf.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <array>
@@ -25,13 +26,17 @@ class zemax_bsdf_reader {
  public:
   zemax_bsdf_reader(std::string_view text, text_place& place) : words_(text, place) {}
 
+  /// Returns the samples.
   [[nodiscard]] sample_set read();
+  /// Returns all nodes; an azimuth or rotation that occurs twice (0 and 360) is there once.
+  [[nodiscard]] model::angle_grid read_grid();
 
  private:
   /// One channel's numbers in the file's order: rotations, angles of incidence, azimuths, radial angles.
   using plane = std::vector<double>;
 
   void read_header();
+  [[nodiscard]] std::vector<plane> read_planes();
   void read_scatter_type();
   void require_lists() const;
   [[nodiscard]] plane read_plane();
@@ -47,16 +52,16 @@ class zemax_bsdf_reader {
 
 }  // namespace detail
 
-/// Does the text begin as such a file does?
+/// Does the text begin like a Zemax BSDF file?
 [[nodiscard]] bool looks_like_zemax_bsdf(std::string_view text);
 
-/// Reads samples from the text of such a file. Errors call it `name`. A direction that occurs more than once (radial 0,
-/// azimuths 0 and 360) gives one sample; directions at or below the horizon are skipped. If a table has only half of
+/// Reads samples from the text of a Zemax BSDF file. A direction that occurs more than once (radial 0, azimuths or
+/// rotations 0 and 360) gives one sample; directions at or below the horizon are skipped. If a table has only half of
 /// the azimuths because of symmetry about the plane of incidence, only that half is read. Throws gonio::error naming
-/// the faulty line, and for files of transmission.
+/// the faulty line, and for files of transmission. Errors call the file `name`.
 [[nodiscard]] sample_set read_zemax_bsdf(std::string_view text, const std::string& name);
 
-/// Reads such a file.
+/// Reads a Zemax BSDF file.
 [[nodiscard]] sample_set read_zemax_bsdf(const std::filesystem::path& path);
 
 }  // namespace gonio::io

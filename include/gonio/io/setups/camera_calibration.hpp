@@ -22,13 +22,13 @@ struct camera_calibration {
   lens_distortion distortion;
 };
 
-/// Throws gonio::error naming the entry that is missing or wrong: a matrix whose shape does not fit its numbers, a size
-/// that is not a whole number, focal lengths that are not positive, skewed axes, nonzero coefficients after k3, or a
-/// fisheye lens (OpenCV's `fisheye_model`, ROS's `distortion_model` equidistant), whose four coefficients have another
-/// meaning. Errors call the text `name`.
+/// Reads a calibration. Throws gonio::error naming the entry that is missing or wrong: a matrix whose shape does not
+/// fit its numbers, a size that is not a whole number, focal lengths that are not positive, skewed axes, nonzero
+/// coefficients after k3, or a fisheye lens (OpenCV's `fisheye_model`, ROS's `distortion_model` equidistant), whose
+/// coefficients have another meaning. Errors call the text `name`.
 [[nodiscard]] camera_calibration read_camera_calibration(std::string_view text, const std::string& name);
 
-/// Reads a calibration. Throws gonio::error naming the file.
+/// Reads a calibration file.
 [[nodiscard]] camera_calibration read_camera_calibration(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -3,11 +3,11 @@
 /// in any one unit, the sample in the plane z = 0. docs/reference/formats.md lists all entries.
 ///
 /// ```
-/// size 640 480           # of the image: columns, rows
+/// size 640 480           # columns and rows of the image
 /// focal_length 1210.5    # in pixels
 /// position 0.5 0 0.3     # of the camera, which looks at the target
 /// target 0 0 0
-/// light_angles 50 180    # theta, phi of the distant light, or lamp x y z
+/// light_angles 50 180    # theta, phi of a distant light; for a lamp, give lamp x y z instead
 /// region 0.1             # radius of the evaluated disc
 /// ```
 
@@ -21,12 +21,13 @@
 
 namespace gonio::io {
 
-/// Throws gonio::error naming the line if an entry is unknown, repeated or wrong, naming the entry if one is missing,
-/// and as `require_usable` does. With a calibration the text must give neither size nor lens. Errors call it `name`.
+/// Reads the set-up of an image. Throws gonio::error naming the line if an entry is unknown, repeated or wrong, naming
+/// the entry if one is missing, and as `require_usable` does. With a calibration the text must give neither size nor
+/// lens. Errors call the text `name`.
 [[nodiscard]] capture::near_field_setup read_near_field_setup(
     std::string_view text, const std::string& name, const std::optional<camera_calibration>& calibration = {});
 
-/// Reads the set-up of an image. Throws gonio::error naming the file and the line.
+/// Reads a set-up file.
 [[nodiscard]] capture::near_field_setup read_near_field_setup(
     const std::filesystem::path& path, const std::optional<camera_calibration>& calibration = {});
 

@@ -23,7 +23,8 @@
 
 namespace gonio::io::detail {
 
-/// An entry's name and its possible counts of numbers; `or_numbers` 0: only one count.
+/// An entry's name and how many numbers it takes: `numbers`. If `or_numbers` is not 0, it may take `or_numbers`
+/// instead.
 struct setup_entry {
   std::string_view name;
   std::size_t numbers = 0, or_numbers = 0;
@@ -50,7 +51,7 @@ inline constexpr std::array<setup_entry, 19> photograph_entries{{{"size", 2},
                                                                  {"white_plane", 6},
                                                                  {"saturation", 1}}};
 
-/// Returns these entries and those of a format of its own.
+/// Returns `photograph_entries` and a format's own entries.
 template <std::size_t Own>
 [[nodiscard]] constexpr auto with_photograph_entries(const std::array<setup_entry, Own>& own) {
   std::array<setup_entry, photograph_entries.size() + Own> all;

@@ -3,12 +3,12 @@
 /// io/setups/setup_text.hpp: a line for each entry, lengths in any one unit. All entries: docs/reference/formats.md.
 ///
 /// ```
-/// size 640 480             # of the image: columns, rows
-/// field_of_view 20         # degrees from left to right, or focal_length in pixels
+/// size 640 480             # columns and rows of the image
+/// field_of_view 20         # degrees from left to right; or give focal_length in pixels
 /// distortion -0.2 0.05 0 0 # k1 k2 p1 p2 [k3]
 /// position 0 0 0.6         # of the camera, which looks at the target
 /// target 0 0 0
-/// lamp 0.5 0.2 0.7         # or light x y z, the direction of a distant light
+/// lamp 0.5 0.2 0.7         # its position; for a distant light, give its direction as light x y z instead
 /// sphere 0.05              # its radius, and its centre if known
 /// white_reflectance 0.98   # of the reference in the white image
 /// ```
@@ -38,12 +38,12 @@ struct sphere_setup {
   capture::photograph_options options = {};
 };
 
-/// Throws gonio::error naming the line if an entry is unknown, repeated or wrong, or naming the entry if one is
-/// missing. With a calibration the file must give neither size nor lens. Errors call the text `name`.
+/// Reads a set-up. Throws gonio::error naming the line if an entry is unknown, repeated or wrong, or naming the entry
+/// if one is missing. With a calibration the text must give neither size nor lens. Errors call the text `name`.
 [[nodiscard]] sphere_setup read_sphere_setup(std::string_view text, const std::string& name,
                                              const std::optional<camera_calibration>& calibration = {});
 
-/// Reads a set-up. Throws gonio::error naming the file and the line.
+/// Reads a set-up file.
 [[nodiscard]] sphere_setup read_sphere_setup(const std::filesystem::path& path,
                                              const std::optional<camera_calibration>& calibration = {});
 

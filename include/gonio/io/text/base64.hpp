@@ -8,7 +8,7 @@
 
 namespace gonio::io {
 
-/// Returns four letters for each three bytes. O(n).
+/// Returns the bytes in base64: four characters for each three bytes.
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
 /// Returns `data:`, the media type and the bytes in base64.

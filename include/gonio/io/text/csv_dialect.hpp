@@ -1,9 +1,9 @@
 #pragma once
-/// How a CSV file separates its fields and writes its numbers. Derived from the file itself, always in the same way.
-/// The separator is the most frequent of comma, semicolon and tab in the header line outside double quotes; of equally
-/// frequent ones the first of these; runs of blanks if there is none. The decimal mark, point or comma, is that of the
-/// first number that has one; a comma-separated field that contains a comma is in quotes. From then on the other mark
-/// is refused, so that 1.234 among decimal commas is not read as 1234. Thousands may be grouped where the group mark
+/// How a CSV file separates its fields and writes its numbers, derived from the file itself. The separator is the most
+/// frequent of comma, semicolon and tab in the header line outside double quotes (in this order if equally frequent).
+/// If the line has none of them, runs of blanks separate fields. The first number with a point or a comma sets the
+/// decimal mark; later numbers with the other mark are refused: among decimal commas, 1.234 could mean 1234. In a
+/// comma-separated file, a field that contains a comma is in quotes. Thousands may be grouped where the group mark
 /// cannot be a decimal mark: 1.081,43 and 1,081.43, 1'081.43, 1 081,43 with a no-break space.
 
 #include <cstddef>

@@ -27,16 +27,16 @@ class csv_reader {
   /// gonio::error if the text is a workbook.
   csv_reader(std::string_view text, const std::string& name);
 
-  /// Moves to the next line, first to the header line; returns false at the end. Calls `read_comment` with the text
-  /// after the `#` of each comment above the line. Throws gonio::error naming the line if a double quote is not closed
-  /// or if the number of fields differs from the header line's; empty fields after those are dropped.
+  /// Moves to the next line, on the first call to the header line; returns false at the end. Calls `read_comment` with
+  /// the text after the `#` of each comment above the line. Drops surplus empty fields at the line's end. Throws
+  /// gonio::error naming the line if a double quote is not closed or the number of fields is not the header line's.
   [[nodiscard]] bool next(const std::function<void(std::string_view)>& read_comment = {});
 
   /// Moves to the next line if it has as many fields as the header line and `is_it` returns true for them.
   [[nodiscard]] bool next_if(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
 
-  /// Searches the first 1,000 lines for the header line: the first for whose fields `is_it` returns true. Lines above
-  /// it are then passed over, except comments. Returns false if there is none.
+  /// Searches the first 1,000 lines for the header line: the first line for whose fields `is_it` returns true. If there
+  /// is one, next() passes over the lines above it, except comments; otherwise returns false.
   bool find_header(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
 
   /// Returns the lines above the header line that were passed over.
@@ -45,8 +45,8 @@ class csv_reader {
   /// Returns the line's fields, trimmed and without quotes.
   [[nodiscard]] const std::vector<std::string_view>& fields() const noexcept { return fields_; }
 
-  /// Reads a finite number in the file's dialect; the first decimal mark sets it. Returns the field's fault, or
-  /// nullptr.
+  /// Reads a finite number in the file's dialect; the first decimal mark sets the dialect's. Returns the field's fault,
+  /// or nullptr.
   [[nodiscard]] const char* read_number(std::string_view field, double& value) {
     // Fast path: nearly all numbers are plain with a decimal point.
     if (dialect_.decimal_mark == '.' && io::read_number(field, value) == nullptr) return nullptr;
@@ -62,7 +62,7 @@ class csv_reader {
   [[nodiscard]] bool next_line(std::string_view& line, const std::function<void(std::string_view)>& read_comment);
   [[noreturn]] void refuse_size(std::string_view line) const;
 
-  std::shared_ptr<const std::string> converted_;  ///< the text, if the file was UTF-16
+  std::shared_ptr<const std::string> converted_;  ///< the text in UTF-8 if the file was UTF-16
   std::string_view left_;
   text_place place_;
   csv_dialect dialect_;

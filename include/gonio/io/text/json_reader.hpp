@@ -24,7 +24,7 @@ class json_reader {
  public:
   json_reader(std::string_view text, text_place& place) : text_(without_byte_order_mark(text)), place_(place) {}
 
-  /// Enters an object. Errors call it `what`.
+  /// Enters an object. Errors call the object `what`.
   void open_object(std::string_view what) { open('{', "an object", what); }
   void open_array(std::string_view what) { open('[', "an array", what); }
 
@@ -40,10 +40,10 @@ class json_reader {
   /// Reads a string into UTF-8. An escaped character outside the basic multilingual plane becomes two question marks.
   [[nodiscard]] std::string read_string(std::string_view what);
 
-  /// Returns the first character of the next value, one of {["-0123456789tfn if the value is valid.
+  /// Returns the first character of the next value without reading it; for a valid value, one of {["-0123456789tfn.
   [[nodiscard]] char peek();
 
-  /// Checks a value of any kind, with at most 100 levels, and returns its text.
+  /// Skips a value of any kind with at most 100 levels, checks it and returns its text.
   std::string_view skip(std::size_t depth = 0);
 
   /// Throws gonio::error if anything but blanks follows.

@@ -14,9 +14,9 @@ struct named_file {
   std::filesystem::path path;
 };
 
-/// Returns at least one file, sorted by name; ignores the rest of the folder. Extensions include the dot and are in
-/// lower case. Throws gonio::error if the folder cannot be read, if it holds no such file (perhaps the wrong folder was
-/// given), or if two files have the same name. Errors call such a file `what`.
+/// Returns the folder's files with these extensions, sorted by name. Extensions include the dot and are in lower case.
+/// Throws gonio::error if the folder cannot be read, if it holds no such file, or if two of them have the same name.
+/// Errors call the files `what`.
 [[nodiscard]] std::vector<named_file> list_named_files(const std::filesystem::path& folder,
                                                        std::span<const std::string_view> extensions,
                                                        std::string_view what);

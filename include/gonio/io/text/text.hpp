@@ -46,13 +46,14 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields, 
 /// Splits a line at blanks into words, which replace the content of `words`.
 void split_at_blanks(std::string_view line, std::vector<std::string_view>& words);
 
-/// Takes the next line that is not blank from the front of a text, and moves `place` there.
+/// Takes the next line that is not blank from the front of a text and moves `place` there. Returns false at the end.
 [[nodiscard]] bool next_whole_line(std::string_view& text, text_place& place, std::string_view& line);
 
-/// The same for the next line that is not a comment (does not start with #), trimmed.
+/// Takes the next line that is neither blank nor a comment (#) from the front of a text, trims it, and moves `place`
+/// there. Returns false at the end.
 [[nodiscard]] bool next_line(std::string_view& text, text_place& place, std::string_view& line);
 
-/// Calls `use(line)` for each line, trimmed, that is neither blank nor a comment (starting with #), with `place` there.
+/// Calls `use(line)` with each trimmed line that is neither blank nor a comment (#); `place` is then at the line.
 template <class Use>
 void for_each_line(std::string_view text, text_place& place, Use&& use) {
   text = without_byte_order_mark(text);

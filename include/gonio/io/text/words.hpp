@@ -1,6 +1,6 @@
 #pragma once
 /// Text files of words and numbers, read regardless of line breaks. A comment is a line that starts with #, or the rest
-/// of a line after a single #.
+/// of a line after the word #.
 
 #include <gonio/io/text/text.hpp>
 
@@ -11,7 +11,7 @@
 
 namespace gonio::io::detail {
 
-/// Reads the words of a text one after the other; `place` is the line of the last word.
+/// Reads the words of a text one after the other; `place` is the position of the last word.
 class word_reader {
  public:
   word_reader(std::string_view text, text_place& place) : text_(without_byte_order_mark(text)), place_(place) {}
@@ -36,13 +36,13 @@ class word_reader {
   /// Reads a count, at least 1, then as many numbers from `lowest` to `highest`. Memory grows with the numbers read.
   [[nodiscard]] std::vector<double> read_list(std::string_view what, double lowest, double highest);
 
-  /// Reads the numbers on the rest of this line, at least one.
+  /// Reads the numbers on the rest of the last word's line; at least one must follow.
   [[nodiscard]] std::vector<double> read_line(std::string_view what, double lowest, double highest);
 
   /// Reads the remaining words on the last word's line.
   [[nodiscard]] std::string_view read_rest_of_line();
 
-  /// Reads up to `count` times `of_each` bytes of any value, from the line after the last word's.
+  /// Reads `count` times `of_each` bytes of any value, from the beginning of the line after the last word read.
   [[nodiscard]] std::string_view read_bytes(std::size_t count, std::size_t of_each);
 
   [[nodiscard]] text_place& place() const noexcept { return place_; }

@@ -1,5 +1,5 @@
 #pragma once
-/// Elements of XML texts by name, for the files of a few programs: no attributes, no entities, no tree of elements.
+/// Finds elements of XML texts by name, for the files of a few programs: no attributes, entities or tree of elements.
 /// ```
 /// const xml_element file(text, name);
 /// for (const xml_element& layer : file.all("Layer")) use(layer.text("Name"));
@@ -15,20 +15,19 @@
 
 namespace gonio::io::detail {
 
-/// An element of an XML text: its content and its position. Elements contain no others of the same name, except the
-/// bases of the matrices, which are read through their own elements.
+/// An element of an XML text: its content and its position. An element must not contain one of its own name.
 class xml_element {
  public:
   /// The whole file as one element.
   xml_element(std::string_view file, const std::string& name) : file_(file), content_(file), name_(name) {}
 
-  /// Returns the elements of this name inside it, in order.
+  /// Returns the elements of this name inside this element, in order.
   [[nodiscard]] std::vector<xml_element> all(std::string_view name) const;
-  /// Returns the first of these. Throws gonio::error if there is none.
+  /// Returns the first element of this name inside this element. Throws gonio::error if there is none.
   [[nodiscard]] xml_element first(std::string_view name) const;
-  /// Returns the trimmed text of the first of these; empty if there is none.
+  /// Returns the first line, trimmed, of the first element of this name; empty if there is none.
   [[nodiscard]] std::string_view text(std::string_view name) const;
-  /// Returns the text between its tags.
+  /// Returns the text between this element's tags.
   [[nodiscard]] std::string_view content() const noexcept { return content_; }
   /// Returns the position of a part of the file.
   [[nodiscard]] text_place place(std::string_view part) const {

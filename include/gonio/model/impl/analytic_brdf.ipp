@@ -38,12 +38,20 @@ GONIO_INLINE std::span<const lobe_kind* const> lobe_kinds() {
   return all;
 }
 
+GONIO_INLINE std::span<const lobe_kind* const> anisotropic_lobe_kinds() {
+  static const std::array all{&lobe_kind::of<anisotropic_ward_shape>(), &lobe_kind::of<anisotropic_ward_duer_shape>(),
+                              &lobe_kind::of<anisotropic_ward_bounded_shape>(),
+                              &lobe_kind::of<anisotropic_ggx_shape>()};
+  return all;
+}
+
 GONIO_INLINE const lobe_kind& lobe_kind_named(std::string_view name) {
   std::string known;
-  for (const lobe_kind* kind : lobe_kinds()) {
-    if (kind->name() == name) return *kind;
-    known += (known.empty() ? "" : ", ") + std::string(kind->name());
-  }
+  for (const std::span<const lobe_kind* const> kinds : {lobe_kinds(), anisotropic_lobe_kinds()})
+    for (const lobe_kind* kind : kinds) {
+      if (kind->name() == name) return *kind;
+      known += (known.empty() ? "" : ", ") + std::string(kind->name());
+    }
   refuse("there is no lobe named '" + std::string(name) + "'; the names are " + known);
 }
 

@@ -34,16 +34,34 @@ GONIO_INLINE std::vector<lobe_kind::values> typical_shapes(const std::vector<con
   return shapes;
 }
 
-/// Returns the options of the descent for the fit's norm.
+/// Returns typical shapes; if they have periodic parameters, four times, with these in the middles of four parts of
+/// their period.
+[[nodiscard]] GONIO_INLINE std::vector<std::vector<lobe_kind::values>> usual_starts(
+    const std::vector<const lobe_kind*>& kinds) {
+  std::vector<std::vector<lobe_kind::values>> starts(4, typical_shapes(kinds));
+  bool are_alike = true;
+  for (std::size_t s = 0; s < starts.size(); ++s)
+    for (std::size_t l = 0; l < kinds.size(); ++l)
+      for (std::size_t p = 0; p < kinds[l]->parameters().size(); ++p) {
+        const shape_parameter& about = kinds[l]->parameters()[p];
+        if (!about.periodic) continue;
+        are_alike = false;
+        starts[s][l][p] = about.lowest + (static_cast<double>(s) + 0.5) / 4.0 * (about.highest - about.lowest);
+      }
+  if (are_alike) starts.resize(1);
+  return starts;
+}
+
+/// Returns the options of the minimisation for the fit's norm.
 [[nodiscard]] GONIO_INLINE levenberg_marquardt_options descent_of(const model_fit_options& options) {
   levenberg_marquardt_options descent{.iteration_limit = options.iteration_limit};
-  // Reweighted squares approach the minimum of another norm only linearly.
+  // With reweighted squares, convergence to the minimum of another norm than L2 is only linear.
   if (options.norm != fit_norm::l2) descent.smallest_gain = 1e-10;
   return descent;
 }
 
-/// Bounds the albedo of a model: continues to the best nearby model that does not reflect too much, with a growing
-/// penalty. Darkens the colours to remove the remaining excess, about 1e-4.
+/// Bounds the albedo of a model. If the albedo exceeds the limit, continues the minimisation with a growing penalty.
+/// Then darkens the colours to remove the remaining excess, about 1e-4.
 GONIO_INLINE void bound_albedo(const model_loss& loss, Eigen::VectorXd& x, local_minimum& end,
                                const model_fit_options& options) {
   constexpr int bins = 400;
@@ -61,7 +79,7 @@ GONIO_INLINE void bound_albedo(const model_loss& loss, Eigen::VectorXd& x, local
   end.value = loss.joint(x).value;
 }
 
-/// Minimises over all unknowns, starting from shapes and their best colours.
+/// Minimises over shapes and colours together, starting from given shapes and their best colours.
 [[nodiscard]] GONIO_INLINE std::pair<Eigen::VectorXd, local_minimum> fit_from(const model_loss& loss,
                                                                               const Eigen::VectorXd& shapes,
                                                                               const model_fit_options& options) {
@@ -75,14 +93,15 @@ GONIO_INLINE void bound_albedo(const model_loss& loss, Eigen::VectorXd& x, local
     local_minimum found = levenberg_marquardt([&](const Eigen::VectorXd& u) { return loss.projected(u); }, shapes,
                                               {box.lowest.head(p), box.highest.head(p)}, by_products);
     Eigen::VectorXd x = loss.with_colours(found.unknowns);
-    // Residuals computed from products lose precision if they are small compared to the measurements.
+    // Minimise again if the loss is tiny: residuals computed from products lose precision if they are small compared to
+    // the measurements.
     if (found.value > 1e-8 * loss.of_nothing()) return {std::move(x), std::move(found)};
     local_minimum polished = levenberg_marquardt(joint, x, box, descent);
     polished.evaluations += found.evaluations;
     return {polished.unknowns, std::move(polished)};
   }
   const Eigen::VectorXd start = loss.with_colours(shapes);
-  // The paper's stages: first colours, then shapes, then all; as printed, all but the diffuse colours.
+  // The paper's stages: first colours, then shapes, then both (with `diffuse_stays`, except for the diffuse colours).
   unknown_bounds stage = box;
   stage.lowest.head(p) = stage.highest.head(p) = start.head(p);
   const local_minimum coloured = levenberg_marquardt(joint, start, stage, descent);
@@ -112,8 +131,17 @@ GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
     refuse("all measurements are zero or have weight zero");
 
   const model_loss loss(kinds, observations, std::move(metric), options);
-  auto [best, end] = fit_from(loss, loss.coded(typical_shapes(kinds)), options);
+  const std::vector<std::vector<lobe_kind::values>> usual = usual_starts(kinds);
+  auto [best, end] = fit_from(loss, loss.coded(usual.front()), options);
   Eigen::Index evaluations = end.evaluations;
+  const auto try_from = [&](const Eigen::VectorXd& shapes) {
+    auto [x, other] = fit_from(loss, shapes, options);
+    evaluations += other.evaluations;
+    if (!(other.value < end.value)) return;
+    best = std::move(x);
+    end = std::move(other);
+  };
+  for (std::size_t start = 1; start < usual.size(); ++start) try_from(loss.coded(usual[start]));
 
   std::mt19937_64 random(options.seed);
   const unknown_bounds box = loss.bounds();
@@ -121,11 +149,7 @@ GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
     Eigen::VectorXd shapes(loss.shapes());
     for (Eigen::Index j = 0; j < shapes.size(); ++j)
       shapes[j] = std::uniform_real_distribution(box.lowest[j], box.highest[j])(random);
-    auto [x, other] = fit_from(loss, shapes, options);
-    evaluations += other.evaluations;
-    if (!(other.value < end.value)) continue;
-    best = std::move(x);
-    end = std::move(other);
+    try_from(shapes);
   }
   end.evaluations = evaluations;
   if (std::isfinite(options.largest_albedo)) bound_albedo(loss, best, end, options);

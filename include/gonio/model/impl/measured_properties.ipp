@@ -34,8 +34,8 @@ struct turned_pair {
     return other;
   }
 
-  /// Whether two pairs agree within a tolerance. The azimuth difference is measured at the direction nearer to the
-  /// normal.
+  /// Returns true if two pairs agree within a tolerance. A difference of azimuth counts as the angle by which it moves
+  /// the direction nearer to the normal.
   [[nodiscard]] bool agrees(const turned_pair& other, double tolerance) const noexcept {
     const double turn = std::abs(std::remainder(azimuth - other.azimuth, 2.0 * std::numbers::pi));
     return std::abs(theta_i - other.theta_i) <= tolerance && std::abs(theta_o - other.theta_o) <= tolerance &&
@@ -47,15 +47,15 @@ struct turned_pair {
   return angle_between(a.wi, b.wi) <= tolerance && angle_between(a.wo, b.wo) <= tolerance;
 }
 
-/// Returns the rotation about the normal between two pairs in radians, measured at the direction farther from the
-/// normal.
+/// Returns the rotation about the normal between two pairs in radians, measured at the light or the viewer, whichever
+/// is farther from the normal.
 [[nodiscard]] GONIO_INLINE double turn_between(const direction_pair& a, const direction_pair& b) {
   const bool by_light = a.wi.z() < a.wo.z();
   return std::abs(
       std::remainder(azimuth(by_light ? a.wi : a.wo) - azimuth(by_light ? b.wi : b.wo), 2.0 * std::numbers::pi));
 }
 
-/// Whether all half vectors have azimuth 0. This is so if the file gives only half and difference angles.
+/// Returns true if all half vectors have azimuth 0, as in files that have only half and difference angles.
 [[nodiscard]] GONIO_INLINE bool lacks_azimuths(const sample_set& samples) {
   constexpr double rounding = 1e-9;
   return std::ranges::all_of(samples, [](const sample& s) {
@@ -77,7 +77,7 @@ class boxed_samples {
 
   [[nodiscard]] const turned_pair& operator[](Eigen::Index i) const { return pairs_[i]; }
 
-  /// Calls `visit(j)` for the samples after i in the boxes around a pair, until it returns false.
+  /// Calls `visit(j)` for the samples j > i in the boxes around a pair, until it returns false.
   template <class Visit>
   void around(const turned_pair& pair, Eigen::Index i, Visit&& visit) const {
     for (const int further_i : {-1, 0, 1})
@@ -90,7 +90,8 @@ class boxed_samples {
   }
 
  private:
-  /// Returns the key of the box at an offset from a pair's own. Polar angles are below pi/2; boxes count from 1.
+  /// Returns the key of a box, given by its offset from the box of a pair. Polar angles are below pi/2; boxes count
+  /// from 1.
   [[nodiscard]] std::uint64_t box_of(const turned_pair& pair, int further_i, int further_o) const {
     const auto along = [&](double theta, int further) {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(theta / tolerance_) + 1 + further);
@@ -103,7 +104,7 @@ class boxed_samples {
   std::vector<std::pair<std::uint64_t, Eigen::Index>> boxes_;
 };
 
-/// Collects the differences of pairs of samples.
+/// Collects the differences between pairs of samples.
 class pair_differences {
  public:
   void add(const sample_set& samples, Eigen::Index first, Eigen::Index second) {

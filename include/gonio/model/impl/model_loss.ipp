@@ -25,7 +25,7 @@
 
 namespace gonio::model::detail {
 
-/// Returns some rows and columns of a matrix.
+/// Returns the submatrix with the given rows and columns.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd entries(const Eigen::MatrixXd& of, const std::vector<Eigen::Index>& rows,
                                                    const std::vector<Eigen::Index>& columns) {
   Eigen::MatrixXd found(std::ssize(rows), std::ssize(columns));
@@ -34,7 +34,8 @@ namespace gonio::model::detail {
   return found;
 }
 
-/// Angles of the light in radians at which the albedo is bounded. It grows towards grazing.
+/// Angles of the light in radians at which the albedo is bounded. They are denser towards grazing angles, where the
+/// albedo grows.
 inline constexpr std::array albedo_angles{0.0,           radians(45.0), radians(60.0), radians(70.0),
                                           radians(80.0), radians(85.0), radians(88.0)};
 
@@ -162,26 +163,27 @@ GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const Eigen::MatrixXd& pr
 }
 
 GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) const {
-  // Solve for the colours x of each channel: the normal equations with x >= 0.
+  // Solve for the best colours of each channel: the normal equations with the constraint that no colour is negative.
   const std::vector<Eigen::MatrixXd> of_channels = products(u);
   const Eigen::MatrixXd found = solve_colours(of_channels);
   const Eigen::Index count = lobes(), p = shapes();
   local_parabola result{0.0, Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Zero(p, p)};
   for (Eigen::Index c = 0; c < 3; ++c) {
     const Eigen::MatrixXd& all = of_channels[weighs_channels_apart_ ? c : 0];
-    // Evaluate the loss. The residual is G x - y. Its slopes are D times the colours of the lobes.
+    // Evaluate the loss. The residual is the sum of the lobes times their colours, minus the measured channel.
     Eigen::VectorXd residual = Eigen::VectorXd::Zero(all.rows());
     residual.head(count) = found.col(c);
     residual[count + p + c] = -1.0;
     const Eigen::VectorXd against = all * residual;
     result.value += 0.5 * residual.dot(against);
-    // Add the gradient and the Gauss-Newton Hessian by the shapes.
+    // Add the gradient and the Gauss-Newton Hessian with respect to the shapes' parameters.
     Eigen::VectorXd colour(p);
     for (Eigen::Index j = 0; j < p; ++j) colour[j] = found(owner(j).lobe, c);
     result.gradient += colour.cwiseProduct(against.segment(count, p));
     for (Eigen::Index j = 0; j < p; ++j)
       for (Eigen::Index i = 0; i < p; ++i) result.hessian(i, j) += colour[i] * all(count + i, count + j) * colour[j];
-    // Subtract the part of the Hessian that the colours compensate, unless they are held at zero.
+    // Subtract the part of the Hessian that changing colours compensate. Colours that are held at zero compensate
+    // nothing.
     std::vector<Eigen::Index> lit;
     for (Eigen::Index l = 0; l < count; ++l)
       if (found(l, c) > 0.0) lit.push_back(l);
@@ -200,25 +202,26 @@ GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) cons
 
 GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x, double albedo_steepness) const {
   const Eigen::Index count = lobes(), p = shapes(), n = p + count;
-  // Decode the shapes and the colours from the unknowns.
+  // Split the unknowns into shapes and colours.
   const auto parameters = parameters_of(x);
   const Eigen::MatrixXd colour = colours(x);
-  // Sum over the observations, for each channel, the products among its slopes (by shapes and by its own colours) and
-  // of those slopes with the residual.
+  // For each channel, sum over the observations the products of the slopes with one another and with the residual. The
+  // slopes are those with respect to the shapes and to the channel's own colours.
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(3 * (n + 1), n + 1);
   const Eigen::MatrixXd sums = sum_over_blocks(
       observations_.size(), block_size, zero,
       [&](Eigen::MatrixXd& sum, block range) {
         std::array<Eigen::MatrixXd, 3> columns;
         columns.fill(Eigen::MatrixXd(n + 1, range.size()));
-        // Evaluate each lobe and its slopes by the shapes at an observation.
+        // Evaluate each lobe and its slopes with respect to the shapes at an observation.
         Eigen::VectorXd value(n + 3);
         std::array<double, 3> losses{};
         for (Eigen::Index i = range.begin; i < range.end; ++i) {
           const fit_observation& seen = observations_[i];
           evaluate(seen.at, parameters, value);
           for (Eigen::Index c = 0; c < 3; ++c) {
-            // Weight the residual of each channel: its loss, and the square root of its curvature.
+            // Compute the loss of each channel's residual, and weight the residual by the square root of the loss's
+            // curvature.
             const double modelled = value.head(count).dot(colour.col(c));
             const double residual = mapped(seen, modelled) - mapped(seen, seen.value[c]);
             const auto [loss, curvature] = norm_of(residual);
@@ -226,13 +229,14 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x, double a
             const double root = std::sqrt(seen.weight[c] * curvature);
             const double slope = root * cosine(seen) * metric_.slope(modelled * cosine(seen));
             auto column = columns[c].col(i - range.begin);
-            // Store a column: the slopes by shapes, the slopes by the channel's colours, and the residual.
+            // Store a column: the slopes with respect to shapes and to the channel's colours, and the residual.
             for (Eigen::Index j = 0; j < p; ++j) column[j] = slope * value[count + j] * colour(owner(j).lobe, c);
             column.segment(p, count) = slope * value.head(count);
             column[n] = root * residual;
           }
         }
-        // Add the products of all columns. The last diagonal entry sums the losses instead of squared residuals.
+        // Add the products of all columns. The last diagonal entry would sum squared residuals; sum the losses there
+        // instead.
         for (Eigen::Index c = 0; c < 3; ++c) {
           const auto& own = columns[c];
           auto part = sum.middleRows(c * (n + 1), n + 1);
@@ -243,7 +247,7 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x, double a
       },
       options_.threads);
 
-  // Assemble the parabola. The channels share the shapes; each has its own colours.
+  // Assemble the parabola from the sums of the channels, which share the shapes but have their own colours.
   local_parabola result{0.0, Eigen::VectorXd::Zero(unknowns()), Eigen::MatrixXd::Zero(unknowns(), unknowns())};
   for (Eigen::Index c = 0; c < 3; ++c) {
     const auto part = sums.middleRows(c * (n + 1), n + 1) / total_weight_;
@@ -262,16 +266,21 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x, double a
 
 GONIO_INLINE Eigen::MatrixXd model_loss::lobe_albedos(const std::vector<lobe_kind::values>& parameters,
                                                       int bins) const {
-  Eigen::MatrixXd albedos(lobes() + shapes(), std::ssize(albedo_angles));
+  const bool is_anisotropic = std::ranges::any_of(kinds_, [](const lobe_kind* kind) { return kind->is_anisotropic(); });
+  const Eigen::Index angles = std::ssize(albedo_angles), azimuths = is_anisotropic ? 4 : 1;
+  Eigen::MatrixXd albedos(lobes() + shapes(), angles * azimuths);
   for_each_index(
       albedos.cols(), 1,
-      [&](Eigen::Index angle) {
+      [&](Eigen::Index number) {
+        const double azimuth = radians(45.0 * static_cast<double>(number / angles));
+        const auto turned = [&](const direction& w) { return is_anisotropic ? turned_about_normal(w, azimuth) : w; };
         Eigen::VectorXd sum = Eigen::VectorXd::Zero(albedos.rows()), value(albedos.rows());
-        for_each_light(albedo_angles[angle], bins, [&](const direction& wi, const direction& wo, double weight) {
-          evaluate(lobe_geometry(wi, wo), parameters, value);
-          sum += weight * value;
-        });
-        albedos.col(angle) = sum;
+        for_each_light(albedo_angles[number % angles], bins,
+                       [&](const direction& wi, const direction& wo, double weight) {
+                         evaluate(lobe_geometry(turned(wi), turned(wo)), parameters, value);
+                         sum += weight * value;
+                       });
+        albedos.col(number) = sum;
       },
       options_.threads);
   return albedos;

@@ -34,7 +34,8 @@ struct neighbouring_cells {
   }
 };
 
-/// Returns the angle between two azimuths, from 0 to pi; pi, as for the mirror direction, if a direction is the normal.
+/// Returns the angle between two azimuths, from 0 to pi. If a direction is the normal, returns pi, as for the mirror
+/// direction.
 [[nodiscard]] inline double azimuth_between(const direction& wi, const direction& wo) noexcept {
   const double across = std::abs(wi.x() * wo.y() - wi.y() * wo.x()), along = wi.x() * wo.x() + wi.y() * wo.y();
   return across == 0.0 && along == 0.0 ? std::numbers::pi : std::atan2(across, along);
@@ -43,13 +44,13 @@ struct neighbouring_cells {
 }  // namespace detail
 
 GONIO_INLINE polar_grid_brdf::polar_grid_brdf(const polar_grid& grid, std::vector<float> values) : grid_(grid) {
-  // These tests cannot overflow, because `count` values exist in memory.
+  // Divide where a product might overflow. Products up to `count`, the number of values in memory, cannot.
   const Eigen::Index count = std::ssize(values);
   if (grid.polar < 1 || grid.azimuth < 1 || grid.polar > count || grid.azimuth > count ||
       grid.polar > count / grid.polar || grid.azimuth > count / (grid.polar * grid.polar) ||
       (count != grid.size() && count != 3 * grid.size()))
     refuse({"a polar grid of ", grid.polar, " x ", grid.polar, " x ", grid.azimuth,
-            " cells needs one value for each, or three, not ", count, " in all"});
+            " cells needs one or three values for each cell, not ", count, " in all"});
   for (Eigen::Index i = 0; i < count; ++i)
     if (!std::isfinite(values[i])) refuse({"value ", i, " of a polar grid is not finite"});
   channels_ = count / grid.size();

@@ -38,13 +38,11 @@ GONIO_INLINE sampling_techniques techniques_of(const lafortune::shape_type& shap
 }
 
 GONIO_INLINE sampling_techniques techniques_of(const analytic_lobe& f) {
-  using detail::anisotropic_ward, detail::ward_normalisation;
   return detail::techniques_among<
       lambert_shape, phong_shape, blinn_phong_shape, phong_blinn_shape, with_fresnel<phong_shape>::shape,
       with_fresnel<blinn_phong_shape>::shape, with_fresnel<phong_blinn_shape>::shape, ward_shape, ward_duer_shape,
-      ward_bounded_shape, anisotropic_ward<ward_normalisation::geometric_mean>::shape,
-      anisotropic_ward<ward_normalisation::product>::shape, anisotropic_ward<ward_normalisation::bounded>::shape,
-      lafortune_shape, torrance_sparrow_shape, ggx_shape>(f);
+      ward_bounded_shape, anisotropic_ward_shape, anisotropic_ward_duer_shape, anisotropic_ward_bounded_shape,
+      lafortune_shape, torrance_sparrow_shape, ggx_shape, anisotropic_ggx_shape>(f);
 }
 
 }  // namespace gonio::model

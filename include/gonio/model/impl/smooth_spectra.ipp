@@ -22,9 +22,9 @@ namespace gonio::model::detail {
 /// Returns, as columns, the smoothest non-negative spectra whose colours are the columns of `colours`.
 [[nodiscard]] inline Eigen::ArrayXXd smoothest_spectra(const std::vector<double>& wavelengths,
                                                        const Eigen::Matrix3d& colours) {
-  const Eigen::MatrixXd weights = interpolated_colour(wavelengths);  // refuses a single wavelength
+  const Eigen::MatrixXd weights = interpolated_colour(wavelengths);  // throws for a single wavelength
   const auto count = std::ssize(wavelengths);
-  // Second differences, plus first differences with a small weight.
+  // Penalise second differences, and first differences with a small weight.
   constexpr double slope_weight = 0.05;
   row_matrix rows = row_matrix::Zero(2 * count - 3, count);
   for (Eigen::Index i = 0; i + 1 < count; ++i) {

@@ -19,18 +19,18 @@
 
 namespace gonio::model::detail {
 
-/// Finds how far a straight line from one wavelength on stays close to many spectra.
+/// Finds how far a straight line from one wavelength stays close to many spectra.
 class straight_reach {
  public:
-  /// Looks no farther than the wavelength `last`.
+  /// Starts at the wavelength `first` and looks no farther than the wavelength `last`.
   straight_reach(const std::vector<double>& wavelengths, Eigen::Index first, Eigen::Index last)
       : at_(wavelengths), first_(first), last_(last), is_bent_(wavelengths.size(), false) {}
 
-  /// Shortens the reach to where a line can stay within `allowed(i)` of a spectrum's values.
+  /// Shortens the reach to the wavelengths up to which a line can stay within `allowed(i)` of a spectrum's values.
   template <class Values, class Allowed>
   void shorten_to(const Values& values, const Allowed& allowed) {
     double least = -std::numeric_limits<double>::infinity(),
-           most = -least;  // slopes of the lines that are still possible
+           most = -least;  // smallest and largest slope of the lines that are still possible
     for (Eigen::Index i = first_ + 1; i <= last_; ++i) {
       const double run = at_[i] - at_[first_], rise = double{values[i]} - double{values[first_]};
       if (rise < least * run || rise > most * run) is_bent_[i] = true;
@@ -40,7 +40,7 @@ class straight_reach {
     }
   }
 
-  /// Returns the farthest possible wavelength. The next one is always possible.
+  /// Returns the farthest wavelength that a line can reach. The wavelength after the first is always possible.
   [[nodiscard]] Eigen::Index farthest() const {
     Eigen::Index i = last_;
     while (is_bent_[i]) --i;
@@ -92,7 +92,8 @@ class spectra_within {
   }
 
  private:
-  /// Relative to a diffuser. Darker values may have the error that this value may have.
+  /// The tolerance is relative to a value or, if that is larger, to this share of a diffuser with the material's
+  /// albedo.
   static constexpr double dark_share = 0.1;
 
   const spectral_table& table_;
@@ -107,7 +108,7 @@ namespace gonio::model {
 
 GONIO_INLINE std::vector<Eigen::Index> sufficient_wavelengths(const spectral_table& table, double tolerance,
                                                               thread_count threads) {
-  if (!(tolerance >= 0.0)) refuse("the tolerance of wavelengths must be at least 0");
+  if (!(tolerance >= 0.0)) refuse("the tolerance of wavelengths must be at least 0, not " + std::to_string(tolerance));
   std::vector<Eigen::Index> chosen{0};
   if (tolerance == 0.0) {
     chosen.resize(table.wavelengths().size());

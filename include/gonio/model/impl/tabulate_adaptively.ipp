@@ -10,17 +10,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gonio::model::detail {
 
 inline constexpr double quarter_turn = 0.5 * std::numbers::pi;
-/// Values at the horizon are taken slightly above it, where a BRDF is defined.
+/// Values at the horizon are evaluated slightly above it, where a BRDF is defined.
 inline constexpr double highest_angle = quarter_turn - 1e-3;
-/// The fraction of normals that follow an extremely rough surface. It gives values far from the highlight a part of the
-/// tables, and keeps the density of every normal above zero.
+/// The fraction of normals that are distributed as on an extremely rough surface. They give values far from the
+/// highlight a part of the tables, and keep the density of every normal above zero.
 inline constexpr double rough_share = 0.2;
 
 /// Returns the coordinate of a node, from 0 to 1.
@@ -28,7 +30,7 @@ inline constexpr double rough_share = 0.2;
   return static_cast<double>(node) / static_cast<double>(nodes - 1);
 }
 
-/// Returns the polar angle of a coordinate along the rows: the inverse of `polar_coordinate`.
+/// Returns the polar angle in radians of a coordinate along a row of the tables: the inverse of `polar_coordinate`.
 [[nodiscard]] inline double polar_angle_at(double along) { return quarter_turn * along * along; }
 
 /// Returns the integral of max(0, m . w) over the azimuth of m, given the polar angles of m and w.
@@ -39,16 +41,16 @@ inline constexpr double rough_share = 0.2;
   return 2.0 * (up * limit + aside * std::sin(limit));
 }
 
-/// A distribution of normals. Its polar angles are uniform in the coordinate along the rows.
+/// A distribution of normals over polar angles. They are at equal steps of the coordinate along a row of the tables.
 class normal_distribution {
  public:
-  /// Computes it from the retroreflection of f.
+  /// Computes the distribution from the retroreflection of f.
   normal_distribution(const brdf_function& f, Eigen::Index nodes)
       : theta_(nodes), weights_(nodes), rings_(nodes, nodes), density_(nodes) {
     for (Eigen::Index i = 0; i < nodes; ++i) {
       const double along = unit_coordinate(i, nodes);
       theta_[i] = polar_angle_at(along);
-      // d theta = pi along d along, by the trapezoidal rule.
+      // The trapezoidal rule with d theta = pi along d along.
       const double step = (i == 0 || i == nodes - 1 ? 0.5 : 1.0) / static_cast<double>(nodes - 1);
       weights_[i] = std::numbers::pi * along * std::sin(theta_[i]) * step;
     }
@@ -74,7 +76,7 @@ class normal_distribution {
   static constexpr int iterations = 16;
 
   void iterate(const Eigen::ArrayXd& back) {
-    // A material without retroreflection gets the normals of an extremely rough surface.
+    // If f has no retroreflection, keep the normals of an extremely rough surface.
     density_.setConstant(std::numbers::inv_pi);
     if (!(back > 0.0).any()) return;
 
@@ -92,13 +94,86 @@ class normal_distribution {
   Eigen::ArrayXd density_;
 };
 
+[[nodiscard]] inline direction half_vector_at(const square_point& at) {
+  return spherical_direction(polar_angle_at(at.along), (2.0 * at.across - 1.0) * std::numbers::pi);
+}
+
+/// The distribution of normals of an anisotropic material, over azimuth and polar angle.
+class turned_normal_distribution {
+ public:
+  /// Computes it from the retroreflection of f.
+  turned_normal_distribution(const brdf_function& f, Eigen::Index nodes, thread_count threads)
+      : nodes_(nodes), normals_(nodes * nodes, 3), weights_(nodes * nodes), density_(nodes * nodes) {
+    Eigen::ArrayXd back(nodes * nodes);
+    for (Eigen::Index i = 0; i < back.size(); ++i) {
+      const square_point at = node(i);
+      const direction m = half_vector_at(at);
+      normals_.row(i) = m.transpose();
+      // d theta = pi along d along, d phi = 2 pi d across, by the trapezoidal rule.
+      weights_[i] = 2.0 * std::numbers::pi * std::numbers::pi * at.along * std::hypot(m.x(), m.y()) * step(i / nodes) *
+                    step(i % nodes);
+      const direction above = spherical_direction(std::min(polar_angle_at(at.along), highest_angle), azimuth(m));
+      back[i] = std::max(luminance(f(above, above)), 0.0) * above.z();
+    }
+    iterate(back, threads);
+  }
+
+  [[nodiscard]] unit_square_tables density() const {
+    unit_square_tables table{1, nodes_, nodes_, std::vector<float>(density_.size())};
+    Eigen::Map<Eigen::ArrayXf>(table.values.data(), density_.size()) = density_.cast<float>();
+    return table;
+  }
+
+  /// Returns the projected area over directions. It is smoother than the density, so half as many nodes suffice.
+  [[nodiscard]] unit_square_tables projected_area(thread_count threads) const {
+    const Eigen::Index side = nodes_ / 2 + 1;
+    unit_square_tables area{1, side, side, std::vector<float>(side * side)};
+    const Eigen::ArrayXd weighted = density_ * weights_;
+    for_each_index(
+        area.values.size(), 16,
+        [&](Eigen::Index i) {
+          const direction w = half_vector_at({unit_coordinate(i / side, side), unit_coordinate(i % side, side)});
+          const Eigen::ArrayXd cosines = w.x() * normals_.col(0) + w.y() * normals_.col(1) + w.z() * normals_.col(2);
+          area.values[i] = static_cast<float>((cosines.max(0.0) * weighted).sum());
+        },
+        threads);
+    return area;
+  }
+
+ private:
+  static constexpr int iterations = 16;
+
+  [[nodiscard]] square_point node(Eigen::Index i) const {
+    return {unit_coordinate(i / nodes_, nodes_), unit_coordinate(i % nodes_, nodes_)};
+  }
+  [[nodiscard]] double step(Eigen::Index number) const {
+    return (number == 0 || number == nodes_ - 1 ? 0.5 : 1.0) / static_cast<double>(nodes_ - 1);
+  }
+
+  void iterate(const Eigen::ArrayXd& back, thread_count threads) {
+    density_.setConstant(std::numbers::inv_pi);
+    if (!(back > 0.0).any()) return;
+    for (int i = 0; i < iterations; ++i) {
+      const unit_square_tables area = projected_area(threads);
+      const table_lookup area_at(area);
+      for (Eigen::Index j = 0; j < back.size(); ++j) density_[j] = back[j] * area_at.value(node(j));
+      density_ /= (density_ * normals_.col(2) * weights_).sum();
+    }
+    density_ = (1.0 - rough_share) * density_ + rough_share * std::numbers::inv_pi;
+  }
+
+  Eigen::Index nodes_;
+  Eigen::ArrayX3d normals_;  ///< row by row: of each azimuth, all polar angles
+  Eigen::ArrayXd weights_, density_;
+};
+
 /// Returns the x in [0, 1] at which a density that rises linearly from `low` to `high` has the integral `wanted`.
 [[nodiscard]] inline double linear_quantile(double low, double high, double wanted) {
   const double root = std::sqrt(std::max(low * low + 2.0 * (high - low) * wanted, 0.0));
   return low + root > 0.0 ? std::clamp(2.0 * wanted / (low + root), 0.0, 1.0) : 0.0;
 }
 
-/// The inverse of `visible_lookup::position` at one theta_i.
+/// For one theta_i, computes the inverse of `visible_lookup::position`.
 class visible_normal_quantiles {
  public:
   visible_normal_quantiles(const float* density, Eigen::Index rows, Eigen::Index columns)
@@ -123,7 +198,7 @@ class visible_normal_quantiles {
   }
 
  private:
-  /// Clamps just inside the borders. A border then maps to the nearest visible point.
+  /// Clamps a coordinate to just inside of [0, 1]. A border then maps to the nearest visible point.
   [[nodiscard]] static double inside(double coordinate) { return std::clamp(coordinate, 1e-6, 1.0 - 1e-6); }
 
   /// Returns the last interval between nodes whose sum at its start is below `wanted`. The sums must not decrease.
@@ -141,7 +216,7 @@ class visible_normal_quantiles {
   table_sums sums_;
 };
 
-/// Returns f(wi, wo) cos(theta_o). Below the horizon it continues as a straight line.
+/// Returns f(wi, wo) cos(theta_o). If wo is below the horizon, extrapolates linearly in cos(theta_o).
 [[nodiscard]] inline rgb continued_cosine_value(const brdf_function& f, const direction& wi, const direction& wo) {
   constexpr double lowest_cosine = 0.02;
   if (wo.z() > 0.0) return f(wi, wo) * wo.z();
@@ -157,25 +232,30 @@ class visible_normal_quantiles {
   return table;
 }
 
-[[nodiscard]] inline direction half_vector_at(const square_point& at) {
-  return spherical_direction(polar_angle_at(at.along), (2.0 * at.across - 1.0) * std::numbers::pi);
-}
-
 [[nodiscard]] inline double normal_density_at(const unit_square_tables& normals, const square_point& at) {
   return table_lookup(normals).value(at);
 }
 
 [[nodiscard]] inline direction light_at(const adaptive_brdf_parts& parts, Eigen::Index number) {
-  return spherical_direction(std::min(parts.theta_i[number], highest_angle), 0.0);
+  const Eigen::Index angles = std::ssize(parts.theta_i);
+  return spherical_direction(std::min(parts.theta_i[number % angles], highest_angle),
+                             parts.is_anisotropic() ? parts.phi_i[number / angles] : 0.0);
 }
 
-/// Fills the three tables of f at one theta_i, over the normals of a material. `reflectance` gives their size.
+/// Returns the projected area towards the light.
+[[nodiscard]] inline double area_towards(const adaptive_brdf_parts& parts, const direction& wi) {
+  const double turn = parts.is_anisotropic() ? relative_turn(wi, direction(1.0, 0.0, 0.0)) : 0.5;
+  return table_lookup(parts.projected_area).value({turn, polar_coordinate(wi)});
+}
+
+/// Fills the three tables of f at one direction of the light, over the normals of a material. `reflectance` gives their
+/// size.
 inline void fill_reflectance(const brdf_function& f, const adaptive_brdf_parts& parts, Eigen::Index number,
                              unit_square_tables& reflectance) {
   const unit_square_tables& visible = parts.visible_normals;
   const visible_normal_quantiles quantiles(visible.row(number, 0), visible.rows, visible.columns);
   const direction wi = light_at(parts, number);
-  const double area = table_lookup(parts.projected_area).value({0.5, polar_coordinate(wi)});
+  const double area = area_towards(parts, wi);
   const Eigen::Index size = reflectance.rows * reflectance.columns;
   float* red = reflectance.values.data() + 3 * number * size;
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -188,20 +268,29 @@ inline void fill_reflectance(const brdf_function& f, const adaptive_brdf_parts& 
   }
 }
 
-/// Fills the tables of a material, one theta_i at a time.
+/// Fills the tables of a material, one direction of the light at a time.
 class adaptive_tabulation {
  public:
   adaptive_tabulation(const brdf_function& f, const adaptive_resolution& resolution) : f_(f) {
-    const auto [angles, values, visible, normals] = resolution;
-    const normal_distribution distribution(f, normals);
+    const normal_distribution distribution(f, resolution.normals);
     parts_.normals = isotropic_table(distribution.density());
     parts_.projected_area = isotropic_table(distribution.projected_area());
-    for (Eigen::Index i = 0; i < angles; ++i) parts_.theta_i.push_back(quarter_turn * unit_coordinate(i, angles));
-    parts_.visible_normals = {angles, visible, visible, std::vector<float>(angles * visible * visible)};
-    parts_.reflectance = {3 * angles, values, values, std::vector<float>(3 * angles * values * values)};
+    resize(resolution.theta_i, resolution.visible_normals, resolution.values);
   }
 
-  /// Fills the tables of one theta_i.
+  adaptive_tabulation(const brdf_function& f, const anisotropic_resolution& resolution, thread_count threads) : f_(f) {
+    const turned_normal_distribution distribution(f, resolution.normals, threads);
+    parts_.normals = distribution.density();
+    parts_.projected_area = distribution.projected_area(threads);
+    for (Eigen::Index i = 0; i < resolution.phi_i; ++i)
+      parts_.phi_i.push_back(std::numbers::pi * (2.0 * unit_coordinate(i, resolution.phi_i) - 1.0));
+    resize(resolution.theta_i, resolution.visible_normals, resolution.values);
+  }
+
+  /// Returns the number of directions of the light.
+  [[nodiscard]] Eigen::Index lights() const noexcept { return parts_.lights(); }
+
+  /// Fills the tables of one direction of the light.
   void fill(Eigen::Index number) {
     fill_visible_normals(number, light_at(parts_, number));
     fill_reflectance(f_, parts_, number, parts_.reflectance);
@@ -210,6 +299,13 @@ class adaptive_tabulation {
   [[nodiscard]] adaptive_brdf_parts parts() && { return std::move(parts_); }
 
  private:
+  void resize(Eigen::Index angles, Eigen::Index visible, Eigen::Index values) {
+    for (Eigen::Index i = 0; i < angles; ++i) parts_.theta_i.push_back(quarter_turn * unit_coordinate(i, angles));
+    const Eigen::Index all = parts_.lights();
+    parts_.visible_normals = {all, visible, visible, std::vector<float>(all * visible * visible)};
+    parts_.reflectance = {3 * all, values, values, std::vector<float>(3 * all * values * values)};
+  }
+
   void fill_visible_normals(Eigen::Index number, const direction& wi) {
     unit_square_tables& visible = parts_.visible_normals;
     Eigen::Index at = number * visible.rows * visible.columns;
@@ -217,7 +313,7 @@ class adaptive_tabulation {
       for (Eigen::Index column = 0; column < visible.columns; ++column) {
         const square_point node{unit_coordinate(row, visible.rows), unit_coordinate(column, visible.columns)};
         const direction m = half_vector_at(node);
-        // Density per unit square instead of solid angle, up to a constant factor.
+        // The density per unit square, from that per solid angle, up to a constant factor.
         const double jacobian = node.along * std::hypot(m.x(), m.y());
         visible.values[at++] =
             static_cast<float>(normal_density_at(parts_.normals, node) * std::max(wi.dot(m), 0.0) * jacobian);
@@ -228,27 +324,38 @@ class adaptive_tabulation {
   adaptive_brdf_parts parts_;
 };
 
-inline void require_resolution(const adaptive_resolution& resolution) {
-  const auto [angles, values, visible, normals] = resolution;
-  for (const Eigen::Index count : {angles, values, visible, normals})
+inline void require_resolution(std::initializer_list<Eigen::Index> counts) {
+  for (const Eigen::Index count : counts)
     if (count < 2 || count > 4096) refuse({"adaptive tables need from 2 to 4096 numbers along each axis, not ", count});
+}
+
+[[nodiscard]] inline adaptive_brdf_parts filled(adaptive_tabulation&& tabulation, thread_count threads) {
+  for_each_index(
+      tabulation.lights(), 1, [&](Eigen::Index number) { tabulation.fill(number); }, threads);
+  return std::move(tabulation).parts();
 }
 
 GONIO_INLINE adaptive_brdf_parts tabulated_adaptively(const brdf_function& f, const adaptive_resolution& resolution,
                                                       thread_count threads) {
-  require_resolution(resolution);
-  adaptive_tabulation tabulation(f, resolution);
-  for_each_index(
-      resolution.theta_i, 1, [&](Eigen::Index number) { tabulation.fill(number); }, threads);
-  return std::move(tabulation).parts();
+  const auto [angles, values, visible, normals] = resolution;
+  require_resolution({angles, values, visible, normals});
+  return filled(adaptive_tabulation(f, resolution), threads);
+}
+
+GONIO_INLINE adaptive_brdf_parts tabulated_adaptively(const brdf_function& f, const anisotropic_resolution& resolution,
+                                                      thread_count threads) {
+  const auto [azimuths, angles, values, visible, normals] = resolution;
+  require_resolution({angles, values, visible, normals});
+  if (azimuths < 3 || azimuths > 4096)
+    refuse({"anisotropic tables need from 3 to 4096 azimuths of the light, not ", azimuths});
+  return filled(adaptive_tabulation(f, resolution, threads), threads);
 }
 
 GONIO_INLINE unit_square_tables tabulated_over(const brdf_function& f, const adaptive_brdf_parts& normals,
                                                thread_count threads) {
   unit_square_tables reflectance = normals.reflectance;
   for_each_index(
-      std::ssize(normals.theta_i), 1, [&](Eigen::Index number) { fill_reflectance(f, normals, number, reflectance); },
-      threads);
+      normals.lights(), 1, [&](Eigen::Index number) { fill_reflectance(f, normals, number, reflectance); }, threads);
   return reflectance;
 }
 

@@ -28,7 +28,7 @@ GONIO_INLINE environment_map::environment_map(gonio::image latitude_longitude) :
   row_solid_angles_.reserve(rows());
   const double step = std::numbers::pi / static_cast<double>(rows());
   for (std::size_t row = 0; row < rows(); ++row) {
-    // cos a - cos b as a product, which avoids cancellation at the poles. A pixel is as wide as it is high.
+    // Compute cos a - cos b as a product, which avoids cancellation at the poles. A pixel is as wide as it is high.
     const double middle = step * (static_cast<double>(row) + 0.5);
     row_solid_angles_.push_back(step * 2.0 * std::sin(middle) * std::sin(0.5 * step));
   }
@@ -36,9 +36,8 @@ GONIO_INLINE environment_map::environment_map(gonio::image latitude_longitude) :
 
 GONIO_INLINE void environment_map::check_shape() const {
   if (rows() == 0 || columns() != 2 * rows() || image_.shape(2) != 3)
-    refuse("an environment map of shape (" + std::to_string(rows()) + ", " + std::to_string(columns()) + ", " +
-           std::to_string(image_.shape(2)) +
-           "): a latitude-longitude image is twice as wide as high and has 3 channels");
+    refuse("an environment map has the shape (" + std::to_string(rows()) + ", " + std::to_string(columns()) + ", " +
+           std::to_string(image_.shape(2)) + "), expected (n, 2 n, 3)");
 }
 
 GONIO_INLINE void environment_map::check_values() const {
@@ -87,7 +86,8 @@ GONIO_INLINE directional_lighting important_lights(const environment_map& map, s
   });
   const std::vector<double> draws = detail::stratified_draws(count, seed);
 
-  // Walk along the curve. Each pixel's length is its expected number of draws; draws that fall on it are its own.
+  // Walk along the curve. Each pixel covers an interval as long as its expected number of draws, and gets the draws in
+  // this interval.
   std::vector<directional_light> lights;
   auto next = draws.begin();
   double walked = 0.0;

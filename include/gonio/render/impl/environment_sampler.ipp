@@ -29,7 +29,7 @@ GONIO_INLINE environment_sampler::environment_sampler(environment_map map) : map
   pdf_per_luminance_ = 1.0 / sum;
   for (std::size_t row = 0; row <= map_.rows(); ++row)
     edges_.push_back(std::cos(static_cast<double>(row) * std::numbers::pi / static_cast<double>(map_.rows())));
-  // The first position of each step, and one more entry for rounding at the end.
+  // Store the first position of each step, and one more position to allow for rounding at the end.
   guesses_.reserve(pixels + 1);
   std::size_t place = 0;
   for (std::size_t step = 0; step < pixels; ++step) {

@@ -35,8 +35,8 @@ GONIO_INLINE horizon_index::horizon_index(const gonio::grid& cells)
 GONIO_INLINE std::string horizon_index::sentence(Eigen::Index column) const {
   const auto [theta_h, theta_d, phi_d] = grid_.extents();
   return "a grid of " + std::to_string(theta_h) + " x " + std::to_string(theta_d) + " x " + std::to_string(phi_d) +
-         " cells has none above the horizon at theta_d " + std::to_string(column / columns_) + ", phi_d " +
-         std::to_string(column % columns_) + ": it needs more cells along theta_h";
+         " cells has none above the horizon at theta_d number " + std::to_string(column / columns_) +
+         ", phi_d number " + std::to_string(column % columns_) + ": it needs more cells along theta_h";
 }
 
 }  // namespace gonio::render

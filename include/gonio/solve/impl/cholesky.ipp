@@ -26,7 +26,7 @@ GONIO_INLINE Eigen::MatrixXd product_with_transpose(const matrix_view& a) {
 GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a) {
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(lower_);  // in place
   positive_definite_ = factors.info() == Eigen::Success;
-  // Eigen accepts NaN as positive.
+  // Check the diagonal, because Eigen accepts NaN as positive.
   for (Eigen::Index k = 0; k < lower_.rows(); ++k) positive_definite_ = positive_definite_ && lower_(k, k) > 0.0;
 }
 

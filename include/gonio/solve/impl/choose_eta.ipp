@@ -17,9 +17,9 @@
 
 namespace gonio::detail {
 
-/// Scores of a criterion for many etas from one eigendecomposition. If there are at most as many observations as
-/// unknowns, it is that of the n x n dual W^(1/2) A A' W^(1/2), which is exact even if the residual and 1 - h_i both
-/// vanish with eta. Otherwise it is that of A'WA.
+/// Computes a criterion for many etas from one eigendecomposition: of the n x n dual W^(1/2) A A' W^(1/2) if there are
+/// no more observations than unknowns, else of A'WA. The dual is exact even if the residual and 1 - h_i both vanish
+/// with eta.
 class eta_scores {
  public:
   eta_scores(const least_squares_problem& problem, eta_criterion criterion) : problem_(problem), criterion_(criterion) {
@@ -30,13 +30,14 @@ class eta_scores {
       decompose_dual();
     else
       decompose(problem.normal().gram(), problem.normal().rhs());
-    if (!(largest() > 0.0)) refuse("eta cannot be chosen: all rows of positive weight are zero");
+    if (!(largest() > 0.0))
+      refuse("eta cannot be chosen, because all rows of positive weight are 0: give a number (--eta)");
   }
 
   /// Returns the largest eigenvalue of A'WA.
   [[nodiscard]] double largest() const { return values_[values_.size() - 1]; }
 
-  /// Returns the sum over all right-hand sides for each eta.
+  /// Returns the criterion at each eta, summed over all right-hand sides.
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& etas) const {
     if (criterion_ == eta_criterion::generalised_cross_validation) return generalised(etas);
     return dual_ ? leave_one_out_dual(etas) : leave_one_out_primal(etas);
@@ -54,8 +55,8 @@ class eta_scores {
     decompose(product_with_transpose(problem_.weighted_rows()), problem_.weighted_right_hand_side());
   }
 
-  /// Returns eta / (values + eta), the share of the misfit that the penalty leaves in each direction: directions x
-  /// etas.
+  /// Returns eta / (value + eta) for each eigenvalue: the share of the misfit in the direction of its eigenvector that
+  /// the penalty leaves. Eigenvalues x etas.
   [[nodiscard]] Eigen::MatrixXd left_over(const Eigen::VectorXd& etas) const {
     return Eigen::MatrixXd::NullaryExpr(
         values_.size(), etas.size(), [&](Eigen::Index i, Eigen::Index e) { return etas[e] / (values_[i] + etas[e]); });
@@ -76,9 +77,9 @@ class eta_scores {
     return squares;
   }
 
-  /// Computes |r|^2 from the rows at the smallest eta, and adds non-negative terms for the others, so that nothing
-  /// cancels if the residual is small. With f = eta / (lambda + eta), |r|^2 grows by z^2 / lambda times the growth of
-  /// f^2 in each direction.
+  /// Computes |r|^2 from the rows at the smallest eta, and adds non-negative terms for each larger eta: nothing cancels
+  /// if the residual is small. In the direction of an eigenvector with eigenvalue lambda and coefficient z, |r|^2 grows
+  /// by z^2 / lambda times the growth of f^2, where f = eta / (lambda + eta).
   [[nodiscard]] Eigen::VectorXd squared_residuals_primal(const Eigen::VectorXd& etas) const {
     const double first = etas.minCoeff();
     const Eigen::VectorXd energy = coefficients_.rowwise().squaredNorm();
@@ -94,7 +95,7 @@ class eta_scores {
     return squares;
   }
 
-  /// Computes r = U f U'b and 1 - h = U^2 f in the eigenvectors U of the dual.
+  /// Computes the criterion from r = U f U'b and 1 - h = U^2 f, where U are the eigenvectors of the dual.
   [[nodiscard]] Eigen::VectorXd leave_one_out_dual(const Eigen::VectorXd& etas) const {
     const Eigen::MatrixXd factors = left_over(etas), remaining = product(vectors_.cwiseAbs2(), factors);
     Eigen::VectorXd scores = Eigen::VectorXd::Zero(etas.size());
@@ -105,12 +106,12 @@ class eta_scores {
     return scores;
   }
 
-  /// Passes over the rows once for all etas: with u = V'a of a row a, h = sum of u_j^2 / (lambda_j + eta).
+  /// Reads the rows once for all etas. The leverage of a row a is h = sum of u_j^2 / (lambda_j + eta) with u = V'a.
   [[nodiscard]] Eigen::VectorXd leave_one_out_primal(const Eigen::VectorXd& etas) const {
     const Eigen::MatrixXd factors = left_over(etas).array().rowwise() / etas.transpose().array();
     std::vector<Eigen::MatrixXd> of_each;
     for (Eigen::Index column = 0; column < coefficients_.cols(); ++column) of_each.push_back(scaled(factors, column));
-    // No leverage exceeds the largest eigenvalue of the hat matrix, except by rounding.
+    // Bound 1 - h from below: except by rounding, no leverage exceeds the largest eigenvalue of the hat matrix.
     const Eigen::VectorXd least = etas.array() / (largest() + etas.array());
     Eigen::VectorXd scores = Eigen::VectorXd::Zero(etas.size());
     problem_.for_each_row_block([&](block range, const row_matrix& part) {
@@ -131,7 +132,7 @@ class eta_scores {
     return scores;
   }
 
-  /// Returns U'W^(1/2) b or V'A'Wb of one right-hand side times the factors of each eta: directions x etas.
+  /// Returns U'W^(1/2) b or V'A'Wb of one right-hand side, times the factors of each eta: eigenvalues x etas.
   [[nodiscard]] Eigen::MatrixXd scaled(Eigen::MatrixXd factors, Eigen::Index column) const {
     for (Eigen::Index e = 0; e < factors.cols(); ++e) factors.col(e).array() *= coefficients_.col(column).array();
     return factors;
@@ -142,7 +143,7 @@ class eta_scores {
   Eigen::Index count_ = 0;  // observations
   bool dual_ = false;
   Eigen::VectorXd values_;        // ascending
-  Eigen::MatrixXd vectors_;       // of the dual (U) or of A'WA (V)
+  Eigen::MatrixXd vectors_;       // eigenvectors of the dual (U) or of A'WA (V)
   Eigen::MatrixXd coefficients_;  // U'W^(1/2) b or V'A'Wb
 };
 

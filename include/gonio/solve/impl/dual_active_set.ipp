@@ -73,7 +73,7 @@ GONIO_INLINE void dual_active_set::settle() {
     resolve();
     if (drop_wrong_sign()) continue;
     choose_violated();
-    // A small violation may be rounding of the solution.
+    // Refine the solution if a violation is small: it may be due to rounding.
     if (violated_ >= 0 && violation(violated_) > small_violation * terms()) return;
     refine();
     update_bound_multipliers();
@@ -186,7 +186,7 @@ GONIO_INLINE dual_active_set::direction dual_active_set::direction_towards(const
   way.dependent = set_.depends(rest, way.row_rate);
   way.z = vector::Zero(rest.size());
   if (!way.dependent) {
-    // Only the part that the active rows do not span moves y. Starting from it keeps its digits.
+    // Only the part of the normal that the active rows do not span moves y. Starting from this part keeps its digits.
     way.z = rest;
     vector correction = vector::Zero(way.row_rate.size());
     set_.solve(way.z, correction);
@@ -207,7 +207,7 @@ GONIO_INLINE dual_active_set::obstacle dual_active_set::first_obstacle(const dir
   const double smallest = (way.dependent ? 1e-11 : 1e-15) * size;
   obstacle first;
   const auto consider = [&](Eigen::Index constraint, double multiplier, double rate) {
-    // A product excludes most of them.
+    // Compare without a division. Most constraints fail this comparison.
     if (rate <= smallest || multiplier >= first.length * rate) return;
     first = {constraint, std::max(multiplier, 0.0) / rate};
   };
@@ -252,7 +252,7 @@ GONIO_INLINE void dual_active_set::tolerate(Eigen::Index constraint, double boun
   }
   if (bound - allowed > 1e3 * rounding * size)
     refuse({"the constraints contradict one another: no weights satisfy ", describe(constraint),
-            " together with the others"});
+            " together with all other constraints"});
   tolerated_[constraint] = true;
 }
 

@@ -15,7 +15,8 @@ namespace gonio::detail {
 
 GONIO_INLINE double make_reflection(double* x, Eigen::Index count) {
   if (norm(x + 1, count - 1) == 0.0) return 0.0;
-  // The rest of a column that depends on others may be denormal. Scaling by a power of two restores its digits.
+  // Scale by a power of two. If a column depends on others, its remainder may be denormal, and scaling restores its
+  // digits.
   const double inverse = near_inverse(norm(x, count));
   for (Eigen::Index i = 0; i < count; ++i) x[i] *= inverse;
   const double reflected = -std::copysign(norm(x, count), *x), first = *x - reflected;

@@ -16,7 +16,7 @@ namespace gonio {
 
 namespace detail {
 
-/// `x` has an entry for each unknown.
+/// Computes the gradient for one right-hand side. `x` has an entry for each unknown.
 [[nodiscard]] GONIO_INLINE scaled_gradient gradient_of(const normal_equations& normal, Eigen::Index right_hand_side,
                                                        const double* x) {
   const Eigen::Index k = normal.unknowns();

@@ -20,8 +20,8 @@
 
 namespace gonio::detail {
 
-/// Returns normal numbers by Box and Muller's method. std::normal_distribution differs between standard libraries, and
-/// a prior must have the same bytes with all of them.
+/// Returns random numbers of a normal distribution by Box and Muller's method. std::normal_distribution differs between
+/// standard libraries, and a prior must have the same bytes with all of them.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd random_vectors(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   Eigen::MatrixXd vectors(rows, columns);
@@ -40,7 +40,7 @@ template <class Vector>
   return vector[largest] < 0.0 ? -1.0 : 1.0;
 }
 
-/// Returns orthonormal columns with the same span.
+/// Returns orthonormal columns with the same span as `vectors`.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd orthonormalised(Eigen::MatrixXd vectors) {
   const Eigen::Index rows = vectors.rows(), columns = vectors.cols();
   const householder_qr factors(std::move(vectors));
@@ -66,14 +66,14 @@ GONIO_INLINE leading_eigenpairs decompose_leading(const Eigen::MatrixXd& matrix,
 GONIO_INLINE subspace_eigenpairs iterate_leading(Eigen::Index size, Eigen::Index count, const subspace_options& options,
                                                  const matrix_times& times) {
   if (count < 1 || options.oversampling < 0 || options.products < 1)
-    refuse({"cannot find ", count, " eigenvalues by ", options.products, " products with ", options.oversampling,
-            " additional vectors"});
+    refuse({"leading eigenpairs need at least 1 eigenvalue, 1 product and 0 additional vectors, not ", count, ", ",
+            options.products, " and ", options.oversampling});
   const Eigen::Index width = std::min(size, count + options.oversampling);
   // Multiply random vectors by the matrix several times (Alg. 4.4).
   Eigen::MatrixXd subspace = detail::orthonormalised(detail::random_vectors(size, width, options.seed));
   for (int product = 1; product < options.products; ++product)
     subspace = detail::orthonormalised(times(subspace, false));
-  // Compute the matrix within the subspace, and its eigenpairs (Alg. 5.3).
+  // Project the matrix onto the subspace, and compute the eigenpairs of the projection (Alg. 5.3).
   const Eigen::MatrixXd multiplied = times(subspace, true);
   Eigen::MatrixXd within = product(subspace.transpose(), multiplied);
   within = (0.5 * (within + within.transpose())).eval();

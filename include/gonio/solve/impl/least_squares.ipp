@@ -18,20 +18,21 @@ namespace gonio {
 
 namespace detail {
 
-/// Returns norms to divide by: 1 for a column of zeros.
+/// Returns norms by which columns can be divided: 1 instead of the norm of a column of zeros.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd divisors(Eigen::VectorXd norms) {
   for (double& norm : norms)
     if (!(norm > 0.0)) norm = 1.0;
   return norms;
 }
 
-/// Multiplies each row of a matrix by a number.
+/// Multiplies each row of a matrix by its factor.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd scaled_rows(Eigen::MatrixXd matrix, const Eigen::VectorXd& factors) {
   for (Eigen::Index column = 0; column < matrix.cols(); ++column) matrix.col(column).array() *= factors.array();
   return matrix;
 }
 
-/// Returns the x of the smallest norm with B x = `right` for independent rows of B, given B': k x p, p <= k.
+/// Returns the solution x of B x = `right` with the smallest norm, for independent rows of B. `transposed` is B', k x p
+/// with p <= k.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd minimum_norm(const Eigen::MatrixXd& transposed, Eigen::MatrixXd right) {
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(transposed.rows(), right.cols());
   if (right.rows() == 0) return x;
@@ -43,7 +44,8 @@ namespace detail {
   return x;
 }
 
-/// W^(1/2) [A, b] D^-1, where D scales the columns of A to length 1, and the QR factorisation of its left part.
+/// The matrix W^(1/2) [A D^-1, b], where D has the lengths of A's weighted columns, and the QR factorisation of W^(1/2)
+/// A D^-1.
 struct pivoted_rows {
   Eigen::VectorXd lengths;
   Eigen::MatrixXd right;
@@ -62,7 +64,8 @@ struct pivoted_rows {
   return rows;
 }
 
-/// D^-1 Q D^-1 = V diag(values) V' with D^2 the diagonal of Q, without the eigenvalues that count as zero.
+/// The spectrum of D^-1 Q D^-1 = V diag(values) V', where D^2 is the diagonal of Q, without the eigenvalues that count
+/// as zero.
 struct normal_spectrum {
   Eigen::VectorXd lengths;
   Eigen::VectorXd values;
@@ -110,7 +113,7 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
   const Eigen::MatrixXd kept = right.topRows(rank);
 
   solution found;
-  // Solve the triangle. If columns depend on each other, find the x of the smallest norm.
+  // Solve the triangular system. If columns depend on each other, find the solution of the smallest norm.
   if (rank == problem.unknowns()) {
     const Eigen::MatrixXd scaled = triangle.triangularView<Eigen::Upper>().solve(kept);
     found.weights = detail::scaled_rows(qr.colsPermutation() * scaled, lengths.cwiseInverse());
@@ -118,14 +121,14 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
     const Eigen::MatrixXd transposed = triangle.transpose();
     found.weights = detail::minimum_norm(detail::scaled_rows(qr.colsPermutation() * transposed, lengths), kept);
   }
-  // Report the residual of the rows.
+  // Compute the residual from the rows.
   found.report.residual = problem.residual(found.weights);
-  // Compute 1/2 x'Qx - m'x as half the difference of two squares. Its own terms cancel if x is large.
+  // Compute 1/2 x'Qx - m'x as half the difference of two squares. The terms of the formula itself cancel if x is large.
   found.report.objective.resize(found.report.residual.size());
   for (Eigen::Index column = 0; column < found.report.residual.size(); ++column)
     found.report.objective[column] = 0.5 * (found.report.residual[column] * found.report.residual[column] -
                                             problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights()));
-  // Check the optimality of the rows, and refuse weights that explain less than zeros would.
+  // Compute the KKT residual from the rows. Throw if the weights fit worse than zero weights.
   found.report.kkt_residual = detail::stationarity_of_rows(problem, found.weights);
   for (Eigen::Index column = 0; column < found.report.objective.size(); ++column) {
     const double residual = found.report.residual[column];

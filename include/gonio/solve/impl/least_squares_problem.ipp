@@ -28,12 +28,12 @@ namespace gonio {
 
 namespace detail {
 
-/// Assembles the normal equations of weighted rows. A and b side by side, scaled by sqrt(w), give Q, A'Wb and b'Wb as
-/// blocks of one Gram matrix. All in double; reads A once; n (k + r)^2 operations; same bytes for any number of
-/// threads. Throws gonio::error if the result is not finite.
+/// Assembles the normal equations of weighted rows. [A, b], scaled by sqrt(w), gives Q, A'Wb and b'Wb as blocks of one
+/// Gram matrix. All in double; reads A once; n (k + r)^2 operations for n rows, k columns and r right-hand sides; same
+/// bytes for any number of threads. Throws gonio::error if the result is not finite.
 [[nodiscard]] GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::MatrixXd& right_hand_side,
                                                      const Eigen::VectorXd& weights, thread_count threads) {
-  // Sum (A b)'W(A b) over blocks of rows, right-hand sides as further columns.
+  // Sum [A b]'W [A b] over blocks of rows.
   const Eigen::Index k = rows.columns, r = right_hand_side.cols();
   using sum_type = product_sum<double>;
   const auto add_rows = [&](sum_type& sum, block range) {
@@ -125,7 +125,7 @@ GONIO_INLINE least_squares_problem least_squares_problem::subset(std::span<const
     if (columns_) column = (*columns_)[column];
   }
   if (chosen.empty()) gonio::refuse("a least-squares problem needs at least one column");
-  // Columns are numbered in the whole that has no whole itself, so that subsets of subsets do not nest.
+  // A subset of a subset refers to the outermost problem, so columns are numbered in that problem.
   if (whole_) part.whole_ = whole_;
   part.columns_ = std::move(chosen);
   return part;
@@ -172,8 +172,8 @@ GONIO_INLINE least_squares_problem::stored::stored(row_source source, Eigen::Mat
 GONIO_INLINE row_matrix least_squares_problem::read(block range) const {
   row_matrix all(range.size(), equations_->rows.columns);
   equations_->rows.read(range, all);
-  // A finite sum of squares has finite terms, and takes one vectorised pass. If it overflows, the terms may still be
-  // finite.
+  // Check the sum of squares first: if it is finite, all its terms are, and it takes one vectorised pass. If the sum
+  // overflows, the terms may still be finite.
   if (!std::isfinite(dot(all.data(), all.data(), all.size()))) require_finite(all, range.begin);
   if (!columns_) return all;
   row_matrix chosen(all.rows(), unknowns());
@@ -195,13 +195,13 @@ GONIO_INLINE normal_equations least_squares_problem::assemble_finite() const {
     require_no_underflow(normal);
     return normal;
   } catch (const error&) {
-    read_all();  // names the row, which the sums do not know
+    read_all();  // throws an error that names the row, which the sums cannot
     throw;
   }
 }
 
 GONIO_INLINE void least_squares_problem::require_no_underflow(const normal_equations& normal) const {
-  // Above this, underflow takes less from a sum of squares than rounding does.
+  // If a sum of squares is at least this large, it loses less by underflow than by rounding.
   const double least = std::numeric_limits<double>::min() * static_cast<double>(equations());
   const auto refuse_tiny = [](const std::string& what) {
     gonio::refuse({what, " of a least-squares problem is too small: its squares underflow double precision. ",

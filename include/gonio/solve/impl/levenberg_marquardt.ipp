@@ -29,7 +29,7 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
   }
   while (!free.empty()) {
     // Solve for the free unknowns: H_ff s = -(g + H s_held)_f.
-    const Eigen::VectorXd change = thin_product(hessian, step);  // by the step of the held unknowns
+    const Eigen::VectorXd change = thin_product(hessian, step);  // of the gradient, by the held unknowns
     const Eigen::Index count = std::ssize(free);
     Eigen::MatrixXd among(count, count);
     Eigen::VectorXd descent(count);
@@ -39,7 +39,7 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
       for (Eigen::Index i = 0; i < count; ++i) among(i, j) = hessian(free[i], column);
     }
     const Eigen::VectorXd moves = solve_semidefinite(among, descent);
-    // Hold unknowns whose step leaves the box at its border.
+    // If the step of an unknown leaves the box, hold the unknown at the border.
     std::vector<Eigen::Index> inside;
     for (Eigen::Index j = 0; j < std::ssize(free); ++j) {
       const Eigen::Index i = free[j];
@@ -77,12 +77,13 @@ GONIO_INLINE void step_control::learn(const local_parabola& here, const Eigen::V
   // False for NaN.
   const bool better = change < 0.0;
   const double kept = -change / promised;
-  // Adapt the damping to the share of the promised gain that was kept.
+  // Adapt the damping to the ratio of the actual to the promised gain.
   damping *= !better ? 8.0 : kept > 0.75 ? 0.1 : kept > 0.25 ? 1.0 : 3.0;
   damping = std::max(damping, 1e-15);
   bend = 1.0;
   if (!better) return;
-  // Estimate the curvature from the last step: weighted squares above a norm have more curvature than it.
+  // Estimate the curvature from the last step: weighted squares that bound another norm from above have more curvature
+  // than this norm.
   constexpr double least_bend = 0.05;
   const double met = 2.0 * (change - here.gradient.dot(step)) / step.dot(here.hessian * step);
   if (std::isfinite(met)) bend = std::clamp(met, least_bend, 1.0);

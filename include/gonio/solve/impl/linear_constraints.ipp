@@ -109,8 +109,8 @@ GONIO_INLINE scaled_gradient lagrangian_gradient(const normal_equations& normal,
     add(multipliers.equality[i], constraints.E.row(i).transpose());
   const Eigen::VectorXd lengths = column_lengths(normal, constraints);
   double scale = terms.cwiseQuotient(lengths).maxCoeff();
-  // If all weight is on columns of zeros there are no terms, and rounding would be compared with rounding. (A linear
-  // program has terms.)
+  // If only columns of zeros have weights, all terms are zero, and rounding errors would be compared with rounding
+  // errors: compare with the weights instead. (A linear program has terms.)
   const bool linear = normal.gram().diagonal().maxCoeff() == 0.0 && !normal.rhs().col(right_hand_side).isZero(0.0);
   if (!linear) scale = std::max(scale, x.cwiseAbs().cwiseProduct(lengths).maxCoeff());
   return {sum.cwiseQuotient(lengths), scale > 0.0 ? scale : 1.0, lengths};
@@ -136,7 +136,7 @@ GONIO_INLINE double kkt_violation(const normal_equations& normal, Eigen::Index r
   for (Eigen::Index i = 0; i < constraints.d.size(); ++i) {
     const detail::judged_row row(constraints.D.row(i).transpose(), gradient.column_norms, x);
     const double slack = row.relative_slack(constraints.d[i], size);
-    if (!std::isfinite(slack)) return infinite;  // the row has overflowed; std::max would ignore NaN
+    if (!std::isfinite(slack)) return infinite;  // after an overflow, which std::max would ignore as NaN
     const double multiplier = multipliers.inequality[i] * row.largest / gradient.scale;
     worst = std::max({worst, -slack, -multiplier, std::min(multiplier, slack)});
   }

@@ -41,8 +41,9 @@ GONIO_INLINE Eigen::VectorXd normal_equations::residual(const Eigen::MatrixXd& x
 
 GONIO_INLINE normal_equations operator+(const normal_equations& a, const normal_equations& b) {
   if (a.unknowns() != b.unknowns() || a.right_hand_sides() != b.right_hand_sides())
-    refuse({"normal equations of ", a.unknowns(), " unknowns and ", a.right_hand_sides(),
-            " right-hand sides and others of ", b.unknowns(), " and ", b.right_hand_sides(), " cannot be added"});
+    refuse({"normal equations of ", b.unknowns(), " unknowns and ", b.right_hand_sides(),
+            " right-hand sides cannot be added to normal equations of ", a.unknowns(), " unknowns and ",
+            a.right_hand_sides(), " right-hand sides"});
   Eigen::MatrixXd gram = a.gram_, rhs = a.rhs_;
   Eigen::VectorXd rhs_squared_norm = a.rhs_squared_norm_;
   add_scaled(1.0, b.gram_.data(), gram.data(), gram.size());
@@ -74,8 +75,8 @@ GONIO_INLINE void normal_equations::require_consistent() const {
     refuse({"normal equations of ", gram_.rows(), " unknowns and ", rhs_.cols(), " right-hand sides are empty"});
   if (gram_.rows() != gram_.cols() || rhs_.rows() != gram_.rows() || rhs_squared_norm_.size() != rhs_.cols())
     refuse({"normal equations do not match in size: the Gram matrix is ", gram_.rows(), " x ", gram_.cols(),
-            ", the right-hand sides are ", rhs_.rows(), " x ", rhs_.cols(), ", and ", rhs_squared_norm_.size(),
-            " of them have a squared norm"});
+            ", the right-hand sides are ", rhs_.rows(), " x ", rhs_.cols(), ", and there are ",
+            rhs_squared_norm_.size(), " squared norms of right-hand sides"});
   for (Eigen::Index column = 0; column < gram_.cols(); ++column) {
     bool finite = true;
     for (Eigen::Index row = 0; row < gram_.rows(); ++row) finite = finite && std::isfinite(gram_(row, column));

@@ -53,7 +53,8 @@ GONIO_INLINE program_optimum program_solver::judge(const iteration& run, const v
   };
   found.kkt_residual = certify(found.weights);
   if (found.kkt_residual <= good) return found;
-  // Rows that only allow zero give weights of the size of rounding, which violate them completely.
+  // If the rows only allow zero, the weights are rounding errors, and their violation of the rows is large relative to
+  // them.
   const vector& y = run.scaled_weights();
   const double tiny = 1e-14 * (q.cwiseAbs().maxCoeff() + y.cwiseAbs().maxCoeff());
   const vector snapped = (y.array().abs() > tiny).select(found.weights, 0.0);
@@ -132,7 +133,7 @@ GONIO_INLINE std::string program_solver::falling(const vector& movement) {
 
 namespace gonio::detail {
 
-/// Certifies a solution under x >= 0 or without constraints: the conditions are those of NNLS.
+/// Certifies a solution with x >= 0 as the only constraint, or without constraints, by the conditions of NNLS.
 template <quadratic_problem Problem>
 [[nodiscard]] solution certified_signed_program(const Problem& problem, bool non_negative, solution found) {
   const sign_rule signs = non_negative ? sign_rule::non_negative : sign_rule::any;
@@ -167,7 +168,7 @@ GONIO_INLINE solution certified_program(const least_squares_problem& problem, co
     if (std::abs(0.5 * (residual * residual - rhs_squared_norm) - found.report.objective[column]) >
         kkt_residual_limit * (residual * residual + rhs_squared_norm))
       refuse({"the quadratic program is too ill-conditioned for its normal equations: its residual is ", residual,
-              " from the rows and ", by_normal[column], " from the normal equations"});
+              " computed from the rows, but ", by_normal[column], " computed from the normal equations"});
   }
   return found;
 }

@@ -20,12 +20,13 @@ namespace gonio {
 
 namespace detail {
 
-/// A column counts as a combination of others up to this share of its length.
+/// A column counts as a combination of other columns if its remainder is at most this share of its length.
 inline constexpr double dependent_share = 3e-11;
 
 }  // namespace detail
 
-/// The optimum of the passive columns: A_P'(b - A_P z) = penalties with their signs.
+/// The optimum z of the passive columns A_P: A_P'(b - A_P z) equals the penalties with the signs of z. `misfit` is b -
+/// A_P z.
 struct row_active_set::passive_optimum {
   Eigen::VectorXd z, misfit;
   bool independent = false;
@@ -79,7 +80,7 @@ GONIO_INLINE bool row_active_set::enter(Eigen::Index column) {
   return exchange(column);
 }
 
-/// See `active_set::exchange`.
+/// Does what `active_set::exchange` does, on the rows.
 GONIO_INLINE bool row_active_set::exchange(Eigen::Index column) {
   if (penalty_[column] == 0.0 || state_.passive.empty()) return false;
   const householder_qr qr(columns_of(state_.passive));
@@ -120,8 +121,8 @@ GONIO_INLINE row_active_set::passive_optimum row_active_set::optimum() const {
   const householder_qr qr(columns);
   for (Eigen::Index i = 0; i < p; ++i)
     if (!(std::abs(qr.triangle(i, i)) > detail::dependent_share * qr.length(i))) return found;
-  // Solve misfit + A_P z = b, A_P' misfit = penalties. Repeat for the residuals of both, computed in twice the
-  // precision (Bjorck 1967).
+  // Solve misfit + A_P z = b and A_P' misfit = penalties. Solve again for the residuals of both equations, computed in
+  // twice the precision (Bjorck 1967).
   constexpr int refinements = 2;
   Eigen::VectorXd above(n), below(p), z(p);
   for (int round = 0; round <= refinements; ++round) {

@@ -21,15 +21,16 @@
 
 namespace gonio::detail {
 
-/// The number of rows read at once. Products are summed over them before they are added.
+/// The number of rows that are read at a time. The products of these rows are summed before they are added to the
+/// total.
 inline constexpr Eigen::Index rows_at_once = product_sum<double>::block_rows;
 
-/// The sums of subtrees that wait for their neighbours.
+/// The sums of subtrees of groups, each kept until the sum of the neighbouring subtree is known.
 class waiting_sums {
  public:
   explicit waiting_sums(block groups) : groups_(groups) {}
 
-  /// Adds the sum of a group, and every sum that waits for it.
+  /// Adds the sum of a group. Joins it with the sums of neighbouring subtrees that are already known.
   void add(Eigen::Index group, Eigen::MatrixXd sum) {
     Eigen::Index size = 1, number = group - groups_.begin;
     for (; size < groups_.size(); size *= 2, number /= 2) {
@@ -55,7 +56,7 @@ class waiting_sums {
   Eigen::MatrixXd total_;
 };
 
-/// Calls `work(range)` for the blocks of a group's rows, in order.
+/// Calls `work(range)` for each block of a group's rows, in order.
 template <class Work>
 void for_each_block_of(Eigen::Index group, Eigen::Index all_rows, Work&& work) {
   const block rows = rows_of_groups(all_rows, {group, group + 1});
@@ -63,7 +64,7 @@ void for_each_block_of(Eigen::Index group, Eigen::Index all_rows, Work&& work) {
     work(block{begin, std::min(rows.end, begin + rows_at_once)});
 }
 
-/// Calls `work` with the range, A and A U of each block.
+/// Calls `work(range, A, A U)` for each block of a group's rows.
 template <class Work>
 void for_each_product_of(Eigen::Index group, const row_source& rows, const Eigen::MatrixXd& transposed_vectors,
                          Work&& work) {
@@ -92,7 +93,7 @@ GONIO_INLINE Eigen::MatrixXd sum_over_groups(block groups, thread_count threads,
   const Eigen::Index count = groups.size();
   if (groups.begin < 0 || groups.end > row_groups || count < 1 || !std::has_single_bit(std::uint64_t(count)) ||
       groups.begin % count != 0)
-    refuse({"groups ", groups.begin, " to ", groups.end, " are not a subtree of ", row_groups});
+    refuse({"groups ", groups.begin, " to ", groups.end, " are not a subtree of the ", row_groups, " groups"});
   detail::waiting_sums sums(groups);
   for_each_index(
       count, 1,

@@ -22,11 +22,11 @@
 
 namespace gonio::detail {
 
-/// With a larger KKT residual, a method tries a second way.
+/// If the KKT residual of weights is above this limit, they are computed in a second way.
 inline constexpr double kkt_residual_sought = 1e-12;
 
-/// The largest error of an objective as a share of b'Wb / 2, and the largest move of A x by rounding its weights as a
-/// share of |b|.
+/// The largest error of an objective, as a share of b'Wb / 2; and the largest change of A x by rounding the weights, as
+/// a share of |b|.
 inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
 
 [[nodiscard]] inline double penalty_at(const solution& found, Eigen::Index column, double lambda) {
@@ -45,7 +45,7 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
   return found;
 }
 
-/// Returns the sum of |a_j| |x_j|.
+/// Returns the sum of |a_j| |x_j| over the columns a_j of A: an upper bound of |A x|.
 [[nodiscard]] GONIO_INLINE double reach_of(const normal_equations& normal, const Eigen::MatrixXd& weights,
                                            Eigen::Index column) {
   double sum = 0.0;
@@ -54,14 +54,15 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
   return sum;
 }
 
-/// Returns the reason why a solution fails, or an empty string if it passes. `rounding` is that of its objective.
+/// Returns the reason why a solution fails the tests, or an empty string if it passes. `rounding` is the rounding error
+/// of the objective.
 [[nodiscard]] GONIO_INLINE std::string objection(const normal_equations& normal, const solution& found,
                                                  Eigen::Index column, double rounding, double limit) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   if (!(found.report.kkt_residual[column] <= limit)) return "the best weights found miss the optimality conditions";
   const double rhs_squared_norm = normal.rhs_squared_norm()[column],
                rhs = normal.rhs().col(column).cwiseAbs().maxCoeff();
-  if (rhs_squared_norm == 0.0 && rhs > 0.0) return "";  // b'Wb was not given
+  if (rhs_squared_norm == 0.0 && rhs > 0.0) return "";  // the normal equations were made without b'Wb
   const double half = 0.5 * rhs_squared_norm;
   if (!(epsilon * reach_of(normal, found.weights, column) <= rounding_tolerance * std::sqrt(rhs_squared_norm)))
     return "the weights are so large that rounding them moves A x by 1e-5 |b|";
@@ -77,14 +78,15 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
       {task.method, " has found no optimum: ", why, "; the columns are too ill-conditioned for double precision"}));
 }
 
-/// Returns the rounding error of an objective of normal equations, by cancellation.
+/// Returns the rounding error of an objective computed from normal equations, which is due to cancellation.
 [[nodiscard]] GONIO_INLINE double rounding_of_objective(const normal_equations& normal, const solution& found,
                                                         Eigen::Index column) {
   const double reach = reach_of(normal, found.weights, column);
   return 4.0 * std::numeric_limits<double>::epsilon() * reach * reach;
 }
 
-/// Solves min 1/2 x'Q x - m'x + lambda |x|_1 as a program over x >= 0, or over both parts of x = u - v.
+/// Solves min 1/2 x'Q x - m'x + lambda |x|_1 as a quadratic program over x >= 0, or over u >= 0 and v >= 0 with x = u -
+/// v.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd optimum_by_program(const normal_equations& normal, Eigen::Index column,
                                                               const signed_task& task) {
   const Eigen::Index k = normal.unknowns(), parts = task.signs == sign_rule::any ? 2 : 1;
@@ -106,7 +108,7 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
   }
 }
 
-/// Copies one right-hand side of another solution.
+/// Copies weights and report of one right-hand side from one solution to another.
 GONIO_INLINE void take(const solution& from, Eigen::Index column, solution& to) {
   to.weights.col(column) = from.weights.col(column);
   to.report.residual[column] = from.report.residual[column];
@@ -145,8 +147,8 @@ GONIO_INLINE solution certified(const normal_equations& normal, const signed_tas
   return std::abs(of_rows - found.report.objective[column]) <= 0.5 * objective_tolerance * rhs_squared_norm;
 }
 
-/// Returns true if the objective can be above the optimum only by a small amount: at most reach times the error of the
-/// gradient, which is the KKT residual times |b| + reach.
+/// Returns true if the objective is close to its optimum. The distance is at most `reach_of` the weights times the
+/// error of the gradient, which is the KKT residual times |b| + reach.
 [[nodiscard]] GONIO_INLINE bool gap_is_small(const normal_equations& normal, const solution& found,
                                              Eigen::Index column) {
   const double rhs_squared_norm = normal.rhs_squared_norm()[column], reach = reach_of(normal, found.weights, column);
@@ -200,7 +202,7 @@ GONIO_INLINE bool is_resolved(const normal_equations& normal, Eigen::Index right
     const double largest = norms.maxCoeff() * length / (2.0 * task.lambda);
     if (epsilon * largest * largest <= 1e-10) return true;
   }
-  // Collect the columns with a weight, and those whose sign the gradient leaves undecided.
+  // Collect the columns with a weight, and the columns whose gradient does not determine whether they have one.
   const scaled_gradient gradient = gradient_of(normal, right_hand_side, weights);
   std::vector<Eigen::Index> columns;
   for (Eigen::Index j = 0; j < weights.size(); ++j)
@@ -217,7 +219,7 @@ GONIO_INLINE bool is_resolved(const normal_equations& normal, Eigen::Index right
       for (const Eigen::Index j : columns) acute = acute && gram(i, j) >= 0.0;
     if (acute) return true;
   }
-  // Find the least pivot of the columns that may take part.
+  // Find the smallest pivot of these columns.
   growing_cholesky factor(std::ssize(columns));
   double least = 1.0;
   Eigen::VectorXd cross(std::ssize(columns));

@@ -18,7 +18,7 @@ namespace gonio {
 
 namespace detail {
 
-/// Reflects the rows from `step` on, so that column `step` of a square matrix becomes (.., d, 0, ...). Returns d.
+/// Reflects the rows from row `step` on, so that column `step` of a square matrix becomes (.., d, 0, ...). Returns d.
 [[nodiscard]] GONIO_INLINE double reflect_rows(Eigen::Index step, Eigen::MatrixXd& r) {
   const Eigen::Index k = r.cols();
   double* x = &r(step, step);
@@ -27,7 +27,8 @@ namespace detail {
   return *x;
 }
 
-/// Reflects the columns after `step`, so that row `step` becomes (.., e, 0, ...). Returns e. Skips the rows above.
+/// Reflects the columns after column `step`, so that row `step` becomes (.., e, 0, ...). Returns e. Skips rows above
+/// `step`.
 [[nodiscard]] GONIO_INLINE double reflect_columns(Eigen::Index step, Eigen::MatrixXd& r) {
   const Eigen::Index first = step + 1, count = r.cols() - first;
   Eigen::VectorXd v(count), along = Eigen::VectorXd::Zero(count);
@@ -51,7 +52,7 @@ namespace detail {
   return found;
 }
 
-/// Returns the triangle R of a tall matrix.
+/// Returns the triangle R of the QR factorisation of a tall matrix.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd triangle_of(Eigen::MatrixXd a) {
   const householder_qr qr(std::move(a));
   Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(qr.cols(), qr.cols());
@@ -75,8 +76,8 @@ GONIO_INLINE Eigen::VectorXd singular_values(const matrix_view& a, const char* w
   Eigen::MatrixXd tall = a.rows() >= a.cols() ? Eigen::MatrixXd(a) : Eigen::MatrixXd(a.transpose());
   tall /= largest;
   if (tall.rows() > k) tall = detail::triangle_of(std::move(tall));
-  // The tridiagonal matrix with a zero diagonal and these numbers beside it has the eigenvalues +-sigma. Shift it by a
-  // bound of the eigenvalues: the iteration needs a positive matrix to decide which numbers are negligible.
+  // A tridiagonal matrix with a zero diagonal and these numbers beside it has the eigenvalues +-sigma. Shift it by a
+  // bound of the eigenvalues, because the iteration needs a positive matrix to decide which numbers are negligible.
   const Eigen::VectorXd beside = detail::bidiagonal_of(std::move(tall));
   double bound = 0.0;
   for (Eigen::Index i = 0; i < 2 * k; ++i)

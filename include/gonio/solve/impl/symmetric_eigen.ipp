@@ -17,7 +17,7 @@ namespace gonio {
 
 namespace detail {
 
-/// A = scale Q T Q', with T tridiagonal. The scale, the largest entry, keeps squares of entries within range.
+/// The tridiagonal form A = scale Q T Q'. The scale, the largest entry of A, keeps squares of entries within range.
 struct tridiagonal_form {
   explicit tridiagonal_form(const matrix_view& a) : scale(largest(a)), form(a / scale) {}
 
@@ -43,8 +43,7 @@ struct tridiagonal_form {
 }
 
 /// Replaces z by Q z: applies the reflections I - tau (1, v)(1, v)' one after the other to each column. Eigen's product
-/// with Q, as used in SelfAdjointEigenSolver::compute, costs every includer as much compile time as everything else
-/// here.
+/// with Q, as used in SelfAdjointEigenSolver::compute, would double the compile time of this file.
 GONIO_INLINE void multiply_by_q(const Eigen::Tridiagonalization<Eigen::MatrixXd>& form, Eigen::MatrixXd& z) {
   const Eigen::Index n = z.rows();
   const Eigen::MatrixXd packed = form.packedMatrix();

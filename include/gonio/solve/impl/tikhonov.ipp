@@ -17,7 +17,7 @@ namespace gonio {
 
 namespace detail {
 
-/// The rows of |W^(1/2) (A x - b)|^2 + eta |x|^2.
+/// The weighted rows and right-hand sides of the objective |W^(1/2) (A x - b)|^2 + eta |x|^2.
 struct ridge_rows {
   Eigen::MatrixXd rows;   ///< W^(1/2) A, n x k
   Eigen::MatrixXd right;  ///< W^(1/2) b, n x r
@@ -28,7 +28,7 @@ struct ridge_rows {
     add_scaled(-1.0, right.data(), off.data(), off.size());
     return off;
   }
-  /// Returns A'W(A x - b) + eta x, which vanishes at the optimum, without the k x k Gram matrix.
+  /// Returns A'W(A x - b) + eta x, which vanishes at the optimum. Does not need the k x k Gram matrix.
   [[nodiscard]] Eigen::MatrixXd gradient(const Eigen::MatrixXd& misfit, const Eigen::MatrixXd& x) const {
     Eigen::MatrixXd sum = thin_transposed_product(rows, misfit);
     add_scaled(eta, x.data(), sum.data(), sum.size());
@@ -48,7 +48,7 @@ struct ridge_rows {
   return dot(numbers, numbers, matrix.rows());
 }
 
-/// Returns infinity if a number is not finite; std::max would ignore NaN.
+/// Returns the largest magnitude in a column; infinity if a number is not finite, because std::max would ignore NaN.
 [[nodiscard]] GONIO_INLINE double largest_magnitude(const Eigen::MatrixXd& matrix, Eigen::Index column) {
   double largest = 0.0;
   for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
@@ -81,8 +81,8 @@ struct ridge_rows {
   for (Eigen::Index i = 0; i < penalised.rows(); ++i) penalised(i, i) += eta;
   const cholesky factors(penalised);
   Eigen::MatrixXd x = thin_transposed_product(ridge.rows, factors.solve(ridge.right));
-  // Make a Newton step, with the inverse of A~'A~ + eta I through the dual (Woodbury). If eta is small and rows depend
-  // on each other, A~' times a large dual solution has lost digits.
+  // Make a Newton step, with the inverse of A~'A~ + eta I through the dual (Woodbury). It restores digits: if eta is
+  // small and rows depend on each other, the product of A~' with a large dual solution loses some.
   Eigen::MatrixXd step = ridge.gradient(ridge.misfit(x), x);
   const Eigen::MatrixXd seen = thin_transposed_product(ridge.rows, factors.solve(thin_product(ridge.rows, step)));
   add_scaled(-1.0, seen.data(), step.data(), step.size());

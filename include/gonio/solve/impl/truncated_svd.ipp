@@ -19,7 +19,7 @@ namespace gonio {
 
 namespace detail {
 
-/// The kept squares of singular values, ascending, and their singular vectors on one side.
+/// The squares of the singular values that are kept, ascending, and their left or right singular vectors.
 struct kept_spectrum {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
@@ -37,7 +37,7 @@ struct kept_spectrum {
   return {values.tail(kept), eigen.vectors.rightCols(kept)};
 }
 
-/// Returns an orthonormal basis of the columns, and the triangle R.
+/// Returns Q and R of the QR factorisation of some columns: an orthonormal basis of the columns, and a triangle.
 [[nodiscard]] GONIO_INLINE std::pair<Eigen::MatrixXd, Eigen::MatrixXd> thin_qr(const Eigen::MatrixXd& columns) {
   const Eigen::Index k = columns.rows(), p = columns.cols();
   if (p == 0) return {Eigen::MatrixXd(k, 0), Eigen::MatrixXd(0, 0)};
@@ -47,8 +47,8 @@ struct kept_spectrum {
   return {std::move(basis), qr.matrixQR().topRows(p)};
 }
 
-/// Returns the largest magnitude over `scale`: 0 if nothing is kept, infinite after overflow. std::max would ignore
-/// NaN.
+/// Returns the largest magnitude divided by `scale`. Returns 0 if there are no numbers, and infinity after an overflow,
+/// because std::max would ignore NaN.
 [[nodiscard]] GONIO_INLINE double relative_violation(const Eigen::MatrixXd& violation, double scale) {
   if (violation.size() == 0) return 0.0;
   if (!violation.allFinite() || !std::isfinite(scale)) return std::numeric_limits<double>::infinity();
@@ -59,10 +59,10 @@ struct kept_spectrum {
 struct subspace_solution {
   const Eigen::MatrixXd& x;
   const Eigen::MatrixXd& rhs;              ///< A'Wb
-  const Eigen::MatrixXd& basis;            ///< V, of the subspace
+  const Eigen::MatrixXd& basis;            ///< orthonormal basis V of the subspace
   const Eigen::MatrixXd& projected_image;  ///< A'WA x
   const Eigen::MatrixXd& span;             ///< A'WA V
-  double largest = 0.0;                    ///< eigenvalue of A'WA
+  double largest = 0.0;                    ///< largest eigenvalue of A'WA
 
   [[nodiscard]] solution judged() const {
     const double led_out = relative_violation(outside(span), largest);
@@ -79,7 +79,7 @@ struct subspace_solution {
   }
 
  private:
-  /// Returns the part of some columns outside of the subspace.
+  /// Returns the part of each column that is outside of the subspace.
   [[nodiscard]] Eigen::MatrixXd outside(const Eigen::MatrixXd& columns) const {
     return columns - product(basis, product(basis.transpose(), columns));
   }
@@ -88,8 +88,8 @@ struct subspace_solution {
 [[nodiscard]] GONIO_INLINE solution solve_truncated_dual(const least_squares_problem& problem, double share) {
   const Eigen::MatrixXd rows = problem.weighted_rows(), columns = rows.transpose();
   const auto [values, vectors] = truncate_spectrum(product_with_transpose(rows), share);
-  // Solve the kept equations U'A x = U'b for the minimum norm by factors of A'U. Division by the eigenvalues would lose
-  // about half of the digits if these differ much.
+  // Solve the kept equations U'A x = U'b for the smallest norm through the QR factorisation of A'U. Division by the
+  // eigenvalues would lose about half of the digits if the eigenvalues differ much.
   const auto [basis, triangle] = thin_qr(product(columns, vectors));
   const Eigen::MatrixXd right = problem.weighted_right_hand_side();
   Eigen::MatrixXd within = product(vectors.transpose(), right);

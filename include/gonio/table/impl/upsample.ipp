@@ -15,7 +15,7 @@
 namespace gonio::detail {
 
 GONIO_INLINE std::vector<axis_run> axis_runs(std::span<const axis_interval> intervals, Eigen::Index longest) {
-  // Nodes are snapped to within 1e-9: see `split_coordinate`.
+  // More than the 1e-9 by which `split_coordinate` moves a coordinate to a node.
   constexpr double rounding = 1e-8;
   std::vector<axis_run> runs;
   double step = 0.0;

@@ -29,7 +29,8 @@ GONIO_INLINE valid_cells::index::index(const gonio::grid& cells, double threshol
       representative[cell] = count;
       linear.push_back(static_cast<std::uint32_t>(cell));
     } else if (cell >= layer) {
-      // The smaller cosine decreases with theta_h, so the previous layer has already found the last valid cell.
+      // The smaller cosine decreases with theta_h. The cell with the next smaller theta_h therefore already has the
+      // representative.
       representative[cell] = representative[cell - layer];
     } else {
       representative[cell] = count == 0 ? 0 : count - 1;

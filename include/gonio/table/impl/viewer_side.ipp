@@ -20,7 +20,7 @@ GONIO_INLINE double brightness_towards_light(const sample_set& samples) {
   constexpr double least_incidence = 10.0, reach = 5.0;  // degrees
   const double in_plane = std::cos(radians(reach));
   struct sides {
-    std::optional<double> light, mirror, elsewhere;  ///< the brightest sample
+    std::optional<double> light, mirror, elsewhere;  ///< the value of the brightest sample there
   };
   std::map<long, sides> incidences;
   double largest = 0.0;
@@ -39,7 +39,7 @@ GONIO_INLINE double brightness_towards_light(const sample_set& samples) {
     side = std::max(side.value_or(value), value);
   }
   std::vector<double> ratios;
-  const double floor = 1e-3 * largest;  // a receiver in front of the lamp reads nothing
+  const double floor = 1e-3 * largest;  // a receiver that hides the lamp reads almost 0
   for (const auto& [angle, both] : incidences)
     if (const auto other = both.mirror ? both.mirror : both.elsewhere; both.light && other && floor > 0.0)
       ratios.push_back(*both.light / std::max(*other, floor));

@@ -20,15 +20,15 @@ namespace gonio {
 
 namespace detail {
 
-/// Texels that are solved at once, so that their numbers stay in the cache.
+/// Number of texels that are solved at once: few enough for their values to stay in the cache.
 inline constexpr Eigen::Index texels_at_once = 512;
 
-/// Throws gonio::error naming a value that is not finite.
+/// Throws gonio::error naming the first value of an image that is not finite in a range of texels.
 [[gnu::cold]] GONIO_INLINE void refuse_texel(const float_matrix_view& reflectance, Eigen::Index image, block texels) {
   for (Eigen::Index i = 3 * texels.begin; i < 3 * texels.end; ++i)
     if (!std::isfinite(reflectance(i, image)))
       refuse({"the value of texel ", i / 3, " in image ", image, " is ", double{reflectance(i, image)},
-              ", expected a finite one"});
+              ", expected a finite number"});
 }
 
 }  // namespace detail
@@ -46,7 +46,8 @@ GONIO_INLINE texel_decomposition::texel_decomposition(const log_relative_pca& pr
     offset_[i] =
         static_cast<float>(std::log(metric.reference(at) * weight + log_relative::epsilon) + offset_at(prior, at));
   }
-  // With components alone and errors of the variance eta / m, the ridge's dual is m times the covariance of the images.
+  // If the covariance consists of components and errors of the variance eta / m alone, K is m times the covariance of
+  // the images.
   const auto observations = static_cast<double>(prior.coefficients().rows());
   const expected_covariance expected{observations, {.variance = 0.0, .error_variance = penalty.eta() / observations}};
   const located_samples nothing{locations, Eigen::MatrixXd(n, 0), Eigen::MatrixXd::Ones(n, 1)};
@@ -71,8 +72,8 @@ GONIO_INLINE texel_decomposition::texel_decomposition(const log_relative_pca& pr
   products_.topRows(r) = ((scales / penalised.tail(r)).matrix().asDiagonal() * spanning.transpose()).cast<float>();
   for (Eigen::Index i = 0; i < n; ++i) products_.row(r + i) = (inverse.row(i) / deviations[i]).cast<float>();
   mahalanobis_weights_ = (observations * deviations).matrix().transpose().cast<float>();
-  // Average the variance over all cells. There the components are orthogonal, with the squared singular values as
-  // norms.
+  // Average the variance over all cells. Over all cells, the components are orthogonal, and their norms are the
+  // singular values.
   const Eigen::MatrixXd weights = product(rows.transpose(), inverse);
   double variance = penalty.eta() / observations;
   const auto cells = static_cast<double>(prior.cells().size());
@@ -119,7 +120,7 @@ GONIO_INLINE texel_estimates texel_decomposition::solve(const float_matrix_view&
                                                         thread_count threads) const {
   if (reflectance.cols() != images() || reflectance.rows() % 3 != 0)
     refuse({"there are ", reflectance.cols(), " images of ", reflectance.rows(), " numbers, expected ", images(),
-            " images of three for each texel"});
+            " images with three numbers for each texel"});
   const Eigen::Index texels = reflectance.rows() / 3;
   texel_estimates found{Eigen::MatrixXf(functions_.cols(), 3 * texels), Eigen::ArrayXf(texels), Eigen::ArrayXf(texels)};
   for_each_block(

@@ -13,8 +13,8 @@ struct valued_candidate {
   Eigen::Index number = 0;
 };
 
-/// Returns the candidate of all ranks with the lowest value, at every rank; the lowest number if several are equal. 2
-/// (size() - 1) messages of 16 bytes.
+/// Returns, at every rank, the candidate with the lowest value of all ranks; of equal values, the one with the lowest
+/// number. Takes 2 (size() - 1) messages of 16 bytes.
 [[nodiscard]] valued_candidate best_of_ranks(const ranks& ranks, valued_candidate own);
 
 }  // namespace gonio::mpi

@@ -1,8 +1,8 @@
 #pragma once
 /// The ranks of an MPI job: `mpirun -n 4 program` starts four processes of the program, numbered from 0. Messages
 /// between them are counted here. Collective operations consist of single messages, so neither the order of a sum nor
-/// the bytes on the network depend on the MPI library. Standard: MPI 3.1 (mpi-forum.org). It needs an MPI library
-/// (gonio::mpi), but does not include its headers.
+/// the bytes on the network depend on the MPI library. Standard: MPI 3.1 (mpi-forum.org). This header needs an MPI
+/// library (gonio::mpi), but does not include the library's headers.
 
 #include <cstddef>
 #include <cstdint>
@@ -47,7 +47,7 @@ class ranks {
 
   [[nodiscard]] int rank() const noexcept;
   [[nodiscard]] int size() const noexcept;
-  /// Whether this is rank 0, which reads and writes unique resources.
+  /// Returns true at rank 0, which reads and writes unique resources.
   [[nodiscard]] bool is_first() const noexcept { return rank() == 0; }
   /// Returns the number of ranks on this machine, including this one. They share its cores.
   [[nodiscard]] int on_this_machine() const noexcept;
@@ -57,27 +57,27 @@ class ranks {
   void send(int to, std::span<const std::byte> bytes) const;
   /// Sends bytes and returns at once. They stay in memory until the other rank receives them.
   void post(int to, std::vector<std::byte> bytes) const;
-  /// Returns when at most `most` posted messages have not been received.
+  /// Waits until at most `most` of the posted messages are still to be received.
   void wait(std::size_t most = 0) const;
   /// Returns the next bytes that a rank sent to this one.
   [[nodiscard]] std::vector<std::byte> receive(int from) const;
-  /// Whether a rank sent something that has not been received yet.
+  /// Returns true if a rank sent something that has not been received yet.
   [[nodiscard]] bool has_message(int from) const;
 
-  /// Returns every rank's bytes at rank 0, in rank order; nothing elsewhere. size() - 1 messages.
+  /// Returns every rank's bytes at rank 0, in rank order; nothing at other ranks. Takes size() - 1 messages.
   [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::span<const std::byte> bytes) const;
   /// Returns rank 0's bytes at every rank: size() - 1 messages in a binary tree, at most log2(size()) in sequence.
   [[nodiscard]] std::vector<std::byte> broadcast(std::vector<std::byte> bytes) const;
 
-  /// Runs work that may throw in each rank. If it throws in any rank, it throws in all: the message of the lowest
-  /// failing rank, with its number unless all failed, as gonio::error if it was one and otherwise as
-  /// std::runtime_error.
+  /// Runs work that may throw in each rank. If the work throws in any rank, this function throws in all ranks, with the
+  /// message of the lowest failing rank and, unless all ranks failed, its number: gonio::error if the work threw one,
+  /// otherwise std::runtime_error.
   void together(const std::function<void()>& work) const;
-  /// Whether `together` threw. Then all ranks know, and none waits for another.
+  /// Returns true if `together` threw. Then all ranks know of the failure, and none waits for another.
   [[nodiscard]] bool failed_together() const noexcept;
 
   /// Throws gonio::error in all ranks unless the checksum of each rank's input is the same: "the ranks read different
-  /// inputs: rank 1's prior is not rank 0's" for `what` = "prior".
+  /// inputs: rank 1's prior differs from rank 0's" for `what` = "prior".
   void agree_on(std::uint32_t checksum, std::string_view what) const;
 
   /// Ends all processes of the job with an exit code.

@@ -1,9 +1,9 @@
 #pragma once
-/// Alignment of shapes by rotation, translation and optionally scale. Two shapes are aligned by least squares (Umeyama,
-/// IEEE PAMI 13(4), 1991, doi:10.1109/34.88573; Kabsch, Acta Cryst. A32, 1976, doi:10.1107/S0567739476001873), many to
-/// their mean by generalised Procrustes alignment (Gower, Psychometrika 40, 1975, doi:10.1007/BF02291478), as in
-/// "Anatomically correct surface recovery" (Nielsen's doctoral thesis, DTU 2016, contribution C.V, section 2 and
-/// Algorithm 1).
+/// Alignment of shapes by rotation, translation and optionally scale. `align` aligns two shapes by least squares
+/// (Umeyama, IEEE PAMI 13(4), 1991, doi:10.1109/34.88573; Kabsch, Acta Cryst. A32, 1976,
+/// doi:10.1107/S0567739476001873). `procrustes_mean` aligns many to their mean by generalised Procrustes alignment
+/// (Gower, Psychometrika 40, 1975, doi:10.1007/BF02291478), as in "Anatomically correct surface recovery" (Nielsen's
+/// doctoral thesis, DTU 2016, contribution C.V, section 2 and Algorithm 1).
 
 #include <gonio/shape/triangle_mesh.hpp>
 
@@ -44,19 +44,19 @@ struct similarity_transform {
   [[nodiscard]] similarity_transform after(const similarity_transform& first) const;
 };
 
-/// The transforms that an alignment may use, besides translation.
+/// The freedom of an alignment, besides translation.
 enum class alignment_kind {
   rigid,      ///< rotation
   similarity  ///< rotation and scale
 };
 
-/// Returns the transform T that minimises sum_i weights_i |T(from_i) - onto_i|^2 over corresponding points, without
-/// reflection. Without weights, all points count equally. O(points).
+/// Returns the transform T, without reflection, that minimises sum_i weights_i |T(from_i) - onto_i|^2 over
+/// corresponding points. Without weights, all points count equally. O(points).
 ///
 /// Throws gonio::error if the numbers of points or weights differ, a value is not finite, a weight is negative, fewer
-/// than three points have weight, or the rotation is undetermined: the points of one side lie on a line, or `onto` is
-/// so close to a reflection that two rotations are equally good. Eigen::umeyama has no weights and does not report
-/// these cases.
+/// than three points have positive weight, or the rotation is undetermined: the points of one shape lie on a line, or
+/// `onto` is so close to a mirror image of `from` that two rotations fit equally well. Eigen::umeyama has no weights
+/// and does not report these cases.
 [[nodiscard]] similarity_transform align(const point_columns& from, const point_columns& onto,
                                          alignment_kind kind = alignment_kind::rigid,
                                          const Eigen::VectorXd& weights = {});
@@ -71,7 +71,7 @@ struct aligned_shapes {
 /// The stopping rule of `procrustes_mean`.
 struct procrustes_options {
   alignment_kind kind = alignment_kind::rigid;
-  double tolerance = 1e-9;  ///< largest change of the mean, relative to its centroid size
+  double tolerance = 1e-9;  ///< largest change of the mean, relative to the shapes' mean centroid size
   int most_iterations = 1000;
 };
 
@@ -82,13 +82,13 @@ namespace detail {
 
 }  // namespace detail
 
-/// Aligns each shape to the mean of all repeatedly, until the mean converges. The first mean is the first shape; the
-/// result is in its coordinates. Similarities alone would shrink all shapes to a point, so with them the mean keeps the
-/// mean centroid size of the given shapes, and lengths keep their unit. With rigid transforms it is the mean of the
-/// aligned shapes. O(points x shapes) per iteration.
+/// Repeatedly aligns each shape to the mean of all, until the mean converges. The first mean is the first shape, and
+/// the result stays in its coordinates. With rigid transforms, the mean is that of the aligned shapes. With
+/// similarities, each iteration scales the mean to the mean centroid size of the given shapes; without that, all shapes
+/// would shrink to a point. O(points x shapes) per iteration.
 ///
-/// Throws gonio::error as `align` does, if there is no shape, if their sizes differ, or if the mean still changes after
-/// the last iteration.
+/// Throws gonio::error as `align` does, and if there is no shape, if the numbers of points differ, or if the mean still
+/// changes after the last iteration.
 [[nodiscard]] aligned_shapes procrustes_mean(const std::vector<point_columns>& shapes,
                                              const procrustes_options& options = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Finds the vertices of a shape on a scan, and the vertices that the scan does not show. "Anatomically correct surface
+/// Finds the vertices of a shape that a scan shows, and their positions on the scan. "Anatomically correct surface
 /// recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), sections 2 and 3.
 
 #include <gonio/core/parallel.hpp>
@@ -14,7 +14,7 @@
 
 namespace gonio::shape {
 
-/// A scan and its pose. `pose` maps its coordinates to the model's.
+/// A scan and its pose. `pose` maps the scan's coordinates to the model's.
 struct posed_scan {
   surface_index surface;
   similarity_transform pose;
@@ -27,7 +27,8 @@ struct posed_scan {
   [[nodiscard]] std::optional<surface_point> along(const Eigen::Vector3d& point, const Eigen::Vector3d& line,
                                                    double reach) const;
 
-  /// Returns the outward normal at a point found before, in the model's space: see `surface_index::pseudonormal`.
+  /// Returns the outward normal at a point that `closest` or `along` found, in the model's space: see
+  /// `surface_index::pseudonormal`.
   [[nodiscard]] Eigen::Vector3d normal(const surface_point& place) const;
 
   /// Returns the weight at a point; 1 if the surface's vertices have no weights.
@@ -37,21 +38,22 @@ struct posed_scan {
   [[nodiscard]] surface_point placed(surface_point found) const;
 };
 
-/// The rule for whether a scan shows a vertex.
+/// The conditions for a scan to show a vertex, and the weight of its residuals.
 struct correspondence_options {
-  double reach = 3.0;             ///< points farther away are not the corresponding ones, mm
+  double reach = 3.0;             ///< largest distance of a vertex from its point on the scan, mm
   double normal_agreement = 0.5;  ///< smallest cosine between the normals of shape and scan
   double tangential = 0.0003;     ///< weight along the surface: see `vertex_observations`
 };
 
-/// Returns the positions of the vertices that the scan shows, with the shape's normals.
+/// Returns the marked vertices, with their columns of `places` and `normals`.
 [[nodiscard]] vertex_observations shown_vertices(const point_columns& places, const point_columns& normals,
                                                  const std::vector<char>& shown, double tangential);
 
-/// Returns the position on the scan of each vertex that it shows.
+/// Returns, for each vertex that the scan shows, the closest point of the scan. This point must not be on the scan's
+/// border and must meet `options`.
 ///
-/// Errors across the surface are measured along the shape's normals. A scan's triangle normals are wrong by some
-/// degrees if its noise is a tenth of their length; sliding vertices would then appear to leave the surface.
+/// The normals are the shape's, not the scan's. Noise of a tenth of the edge length turns the scan's triangle normals
+/// by some degrees; with these, a vertex that slides along the surface would seem to leave it.
 [[nodiscard]] vertex_observations closest_places(const posed_scan& scan, const triangle_mesh& shape,
                                                  const correspondence_options& options = {}, thread_count threads = {});
 

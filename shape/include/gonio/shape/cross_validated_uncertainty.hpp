@@ -1,6 +1,6 @@
 #pragma once
-/// Measures the uncertainty of a recovered scan's vertices. Leaves shapes of the model out, scans them like the given
-/// scan, recovers them from the others, and compares the results.
+/// Measures the uncertainty of a recovered scan's vertices: leaves shapes out of the model, scans them like the given
+/// scan, recovers them with the remaining model, and compares the results with the known vertices.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/shape/recovery.hpp>
@@ -14,25 +14,24 @@ namespace gonio::shape {
 
 /// The settings of the measurement.
 struct cross_validation_options {
-  Eigen::Index trials = 40;   ///< number of shapes that are left out and recovered
-  Eigen::Index parts = 5;     ///< number of parts of the shapes; one part is left out at a time
+  Eigen::Index trials = 40;   ///< number of shapes to leave out and recover
+  Eigen::Index parts = 5;     ///< number of parts that the shapes are divided into; each trial's model lacks one part
   recovery_options recovery;  ///< the options used for the scan
-  std::uint64_t seed = 1;     ///< for the noise
+  std::uint64_t seed = 1;     ///< seed of the simulated noise
 };
 
 /// The covariance of a recovered surface's vertices, in the model's space.
 ///
-/// V{s1|s2} (see `shape_uncertainty`) assumes that known vertices are in the right place up to independent errors. On a
-/// scan these errors are correlated. Vertices can slide along a surface with little change, and the model error of the
-/// family, hundredths of a millimetre, is similar for neighbours and makes them slide by tenths. This class therefore
-/// repeats the whole recovery, including the alignment by shape context, with shapes whose vertices are known: see
-/// docs/decisions/0013-measured-uncertainty.md.
+/// V{s1|s2} (see `shape_uncertainty`) assumes that known positions have independent errors. On a scan the errors are
+/// correlated: the model error, about 0.01 mm, is similar for neighbours, and the fit compensates by sliding vertices
+/// about 0.1 mm along the surface. This class therefore repeats the whole recovery, including the alignment by shape
+/// context, with shapes whose vertices are known: see docs/decisions/0013-measured-uncertainty.md.
 class cross_validated_uncertainty {
  public:
-  /// Measures it for the result of `recover` for a scan and a model. Takes the time of that many recoveries. The result
-  /// does not depend on the number of threads. Throws gonio::error for fewer than 10 trials or more than there are
-  /// shapes, for fewer than two parts, if leaving one part out leaves fewer than two shapes, and if fewer than 10 of
-  /// the shapes are recovered.
+  /// Measures the covariance for `recovered`, the result of `recover` for this model and scan. Takes the time of
+  /// `trials` recoveries. The result does not depend on the number of threads. Throws gonio::error for fewer than 10
+  /// trials or more trials than shapes, for fewer than two parts, if fewer than two shapes remain without a part, and
+  /// if fewer than 10 trials recover their shape.
   cross_validated_uncertainty(const shape_model& model, const surface_index& scan, const recovered_shape& recovered,
                               const cross_validation_options& options = {}, thread_count threads = {});
 
@@ -42,12 +41,12 @@ class cross_validated_uncertainty {
   /// Returns the 3 x 3 covariance of one vertex about its recovered position.
   [[nodiscard]] const Eigen::Matrix3d& covariance(Eigen::Index vertex) const { return covariances_[vertex]; }
 
-  /// Returns the squared radius such that a vertex is in the ellipsoid d' covariance^-1 d <= squared_radius(share) with
-  /// this probability. It is the quantile of the left-out vertices under the covariance of the other trials, enlarged:
-  /// the errors of one shape's vertices are correlated, and the scanned shape may be the worst of trials + 1 (Lee,
-  /// Barber, Willett, "Distribution-free inference with hierarchical data", arXiv:2306.06342). Shares above trials /
-  /// (trials + 1) cannot be determined and give the largest measured value. Throws gonio::error unless the share is
-  /// above 0 and below 1.
+  /// Returns the squared radius of the ellipsoid d' covariance^-1 d <= squared_radius(share) that contains a vertex
+  /// with probability `share`; d is the vertex's offset from its recovered position. The squared radius is the quantile
+  /// `share` (1 + 1 / n) of the vertex errors in n trials, each under the covariance of the other trials. (The errors
+  /// of one shape's vertices are correlated, and the scanned shape may be the worst of n + 1: Lee, Barber, Willett,
+  /// "Distribution-free inference with hierarchical data", arXiv:2306.06342.) If the share is above n / (n + 1), the
+  /// result is the largest measured value. Throws gonio::error unless the share is above 0 and below 1.
   [[nodiscard]] double squared_radius(double share) const;
 
  private:

@@ -1,11 +1,11 @@
 #pragma once
-/// Distances along a surface's edges, and the nearest vertices by them: Dijkstra's algorithm (1959,
-/// doi:10.1007/BF01386390). "Statistical surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V,
-/// section 3) uses these distances to choose the vertices that predict a missing one, so that none is across a fold.
+/// Shortest distances along a surface's edges, and the vertices nearest in this distance: Dijkstra's algorithm (1959,
+/// doi:10.1007/BF01386390). "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution
+/// C.V, section 3) chooses the vertices that predict a missing one by these distances: across a fold they are long.
 ///
 /// Paths along edges are never shorter than the true geodesics. On equilateral triangles they are 10% longer on average
-/// over all directions and 15.5% (2/sqrt(3)) at most, however fine the mesh. On a grid of squares cut in two they are
-/// up to 41% (sqrt(2)) longer, across the cuts. This suffices to order neighbours on an even mesh.
+/// over all directions and at most 15.5% (2/sqrt(3)), however fine the mesh. On a grid of squares cut in two they are
+/// up to 41% (sqrt(2)) longer, in the direction across the cuts.
 
 #include <gonio/shape/mesh_topology.hpp>
 
@@ -22,9 +22,9 @@ namespace gonio::shape {
 [[nodiscard]] Eigen::VectorXd geodesic_distances(const triangle_mesh& mesh, const mesh_topology& topology,
                                                  Eigen::Index source);
 
-/// Returns the `count` vertices nearest along edges for which `is_candidate(vertex)` is true, in ascending distance,
-/// then number; fewer if no more can be reached. The source is included if it is a candidate. The search stops after
-/// the last one. Throws gonio::error as `geodesic_distances` does.
+/// Returns the `count` candidates nearest to the source along edges, by ascending distance, then number; fewer if no
+/// more can be reached. A vertex is a candidate if `is_candidate(vertex)` is true; the source may be one. The search
+/// stops at the distance of the last candidate. Throws gonio::error as `geodesic_distances` does.
 [[nodiscard]] std::vector<Eigen::Index> nearest_along_surface(const triangle_mesh& mesh, const mesh_topology& topology,
                                                               Eigen::Index source,
                                                               const std::function<bool(Eigen::Index)>& is_candidate,

@@ -1,5 +1,5 @@
 #pragma once
-/// Renders surfaces with a colour at each vertex, seen from far away, without a graphics library.
+/// Renders surfaces with a colour at each vertex in parallel projection, without a graphics library.
 
 #include <gonio/core/rgb.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
@@ -12,7 +12,7 @@
 
 namespace gonio::shape {
 
-/// The view: parallel rays towards a ball that fills a square image.
+/// The view: parallel rays, and a ball that fills the square image.
 struct mesh_view {
   Eigen::Vector3d towards = -Eigen::Vector3d::UnitZ();  ///< viewing direction, of any length
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
@@ -26,9 +26,10 @@ struct mesh_view {
                                     const Eigen::Vector3d& up = Eigen::Vector3d::UnitY());
 };
 
-/// Renders a mesh lit from the viewer: colours (one linear colour per vertex) times the cosine to the viewer. The
-/// inside of an open surface is darker. O(triangles + pixels covered). Throws gonio::error if the numbers of colours
-/// and vertices differ, or for a view without extent or direction.
+/// Renders a mesh lit from the viewer. Let c be the cosine of the angle between a vertex's normal and the viewer. The
+/// vertex's linear colour is multiplied by 0.15 + 0.85 c, or on the inside of an open surface (c < 0) by 0.1 - 0.2 c.
+/// O(triangles + pixels covered). Throws gonio::error if the numbers of colours and vertices differ, or for a view
+/// without extent or direction.
 [[nodiscard]] image image_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view);
 
 }  // namespace gonio::shape

@@ -1,5 +1,5 @@
 #pragma once
-/// Extracts a part of a surface that is a surface again.
+/// Extracts a part of a surface, which is itself a surface.
 
 #include <gonio/shape/triangle_mesh.hpp>
 
@@ -7,9 +7,9 @@
 
 namespace gonio::shape {
 
-/// Returns the triangles whose corners are all marked, with their vertices. Where these triangles would touch in a
-/// single vertex, each side gets its own vertex, so that the result is a surface. O(triangles log triangles). Throws
-/// gonio::error if the numbers of marks and vertices differ, and if no triangle remains.
+/// Returns the triangles whose corners are all marked, with their vertices. If pieces of the result would touch in a
+/// single vertex, each piece gets a copy of that vertex, which keeps the result a surface. O(triangles log triangles).
+/// Throws gonio::error if the numbers of marks and vertices differ, and if no triangle remains.
 [[nodiscard]] triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<bool>& marked);
 
 }  // namespace gonio::shape

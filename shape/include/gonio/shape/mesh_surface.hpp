@@ -1,7 +1,6 @@
 #pragma once
-/// A mesh as seen by a camera. It makes a photograph of an object of known shape one measurement per pixel (Noell,
-/// Koehler and Stricker 2014; `capture::samples_of`). Each pixel's ray, bent by the lens, is traced to the nearest
-/// triangle with a tree of boxes.
+/// The points and normals of a mesh that a camera sees through its lens. With them, `capture::samples_of` turns a
+/// photograph of an object of known shape into one measurement per pixel (Noell, Koehler and Stricker 2014).
 
 #include <gonio/core/lens_distortion.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
@@ -16,20 +15,20 @@ namespace gonio::shape {
 
 namespace detail {
 
-/// The intersection of a ray and a mesh.
 struct mesh_hit {
   double distance = std::numeric_limits<double>::infinity();
   Eigen::Index triangle = -1;                        ///< negative: none
   Eigen::Vector3d shares = Eigen::Vector3d::Zero();  ///< barycentric coordinates of the point
 };
 
-/// The triangles of a mesh in a tree of boxes, split in halves along their longest sides.
+/// A binary tree of boxes around a mesh's triangles. Each node halves its triangles along the longest side of its box.
 class triangle_tree {
  public:
   /// O(n log n) for n triangles. The mesh must outlive the tree.
   explicit triangle_tree(const triangle_mesh& mesh);
 
-  /// Returns the nearest triangle on a ray, from either side. If two are equally near, returns the smaller number.
+  /// Returns the nearest triangle that a ray meets, from either side. If two triangles are equally near, returns the
+  /// one with the smaller number.
   [[nodiscard]] mesh_hit nearest(const ray& line) const;
 
  private:
@@ -51,9 +50,9 @@ class triangle_tree {
 }  // namespace detail
 
 /// Returns the point of a mesh at each pixel's centre, with the normal interpolated from the triangle's vertices. If
-/// the nearest triangle is seen from its inside, the pixel sees nothing; surfaces behind it are hidden. Throws
-/// gonio::error if the mesh has no triangle, if a triangle names a missing vertex, or if a vertex is not finite.
-/// Usually O((triangles + pixels) log triangles).
+/// the nearest triangle is seen from its inside, the pixel gets no point, because the triangle hides the surfaces
+/// behind it. Throws gonio::error if the mesh has no triangle, if a triangle names a missing vertex, or if a vertex is
+/// not finite. Usually O((triangles + pixels) log triangles).
 /// ```cpp
 /// const auto surface = gonio::shape::surface_of(gonio::io::read_mesh("vase.ply"), camera);
 /// const auto samples = gonio::capture::samples_of(photograph, surface, camera, lamp, white).samples;

@@ -21,7 +21,7 @@ class mesh_topology {
   explicit mesh_topology(const triangle_mesh& mesh)
       : mesh_topology(mesh.triangles, (require_finite(mesh), mesh.vertices.cols())) {}
 
-  /// Takes only triangles, and the number of vertices.
+  /// Takes the triangles and the number of vertices; needs no positions.
   mesh_topology(const triangle_columns& triangles, Eigen::Index vertices);
 
   [[nodiscard]] Eigen::Index vertices() const noexcept { return std::ssize(border_); }
@@ -29,11 +29,11 @@ class mesh_topology {
   /// Returns the vertices joined to this one by an edge, ascending.
   [[nodiscard]] std::span<const int> neighbours(Eigen::Index vertex) const noexcept;
 
-  /// Whether the vertex is on an edge of a single triangle, or on no edge.
+  /// Returns whether the vertex is on an edge of a single triangle, or on no edge.
   [[nodiscard]] bool on_border(Eigen::Index vertex) const noexcept { return border_[vertex]; }
 
  private:
-  /// From one vertex to another, along a triangle.
+  /// A directed edge of a triangle.
   struct half_edge {
     int from, to;
     [[nodiscard]] friend auto operator<=>(const half_edge&, const half_edge&) = default;
@@ -55,7 +55,7 @@ class mesh_topology {
 
   [[nodiscard]] static bool is_one_chain(const std::vector<half_edge>& edges);
 
-  std::vector<Eigen::Index> first_;  // of each vertex's neighbours in `neighbours_`
+  std::vector<Eigen::Index> first_;  // index in `neighbours_` of each vertex's first neighbour
   std::vector<int> neighbours_;
   std::vector<bool> border_;
 };

@@ -42,16 +42,16 @@ struct shape_match {
 
 namespace detail {
 
-/// A k-d tree of points. It refers to the points, which must outlive it. Copies share it.
+/// A k-d tree of points, which must outlive it. Copies share the tree.
 class point_tree {
  public:
   /// O(n log n).
   explicit point_tree(const point_columns& points);
 
-  /// Returns the squared distance to the closest point. O(log n). There must be a point.
+  /// Returns the squared distance to the closest point. O(log n). The tree must have a point.
   [[nodiscard]] double squared_distance(const Eigen::Vector3d& place) const;
 
-  /// Returns the points nearer than a radius, always in the same order.
+  /// Returns the numbers of the points nearer than a radius, always in the same order.
   [[nodiscard]] std::vector<Eigen::Index> within(double radius, const Eigen::Vector3d& place) const;
 
  private:
@@ -62,22 +62,23 @@ class point_tree {
 
 }  // namespace detail
 
-/// Returns the frame of a point with an outward unit normal, as columns: b1 along the projection of the vertical axis
-/// onto the tangent plane, b2 = b3 x b1, and b3 the normal. A point q' has the coordinates F'(q' - q), where the paper
-/// prints R (q' - q). Returns nothing if the normal is zero or within `least_inclination` of the vertical axis, up or
-/// down, where b1 is uncertain.
+/// Returns the frame F of a point q with an outward unit normal, as columns: b1 along the projection of the vertical
+/// axis onto the tangent plane, b2 = b3 x b1, and b3 the normal. In it, a point p has the coordinates F' (p - q); the
+/// paper prints R (q' - q). Returns nothing if the normal is zero or within `least_inclination` of the vertical axis,
+/// up or down, where b1 is uncertain.
 [[nodiscard]] std::optional<Eigen::Matrix3d> context_frame(const Eigen::Vector3d& normal,
                                                            const shape_context_options& options);
 
-/// Returns the bin of a point in a frame's coordinates. It must not be zero and must be within the radius. The azimuth
-/// is atan2(y, x), a full turn from b1; the paper prints arctan(y / x), which cannot distinguish opposite points.
+/// Returns the bin of a point in a frame's coordinates. The point must not be zero, and must be within the radius. The
+/// azimuth from b1 is atan2(y, x), over a full turn; the paper prints arctan(y / x), which cannot distinguish opposite
+/// points.
 [[nodiscard]] Eigen::Index context_bin(const Eigen::Vector3d& place, const shape_context_options& options);
 
-/// Returns `count` vertices of triangles, spread as evenly as possible: first the one farthest from the centroid of
-/// all, then always the one farthest from those chosen, the lowest number if several are equally far. Fewer if there
-/// are no more distinct positions. Gonzalez, Theoretical Computer Science 38, 1985 (doi:10.1016/0304-3975(85)90224-5).
-/// O(count x vertices). Throws gonio::error if a vertex is not finite, if a triangle names a missing vertex, or if
-/// there are no triangles.
+/// Returns `count` evenly spread vertices of triangles: first the one farthest from the centroid of all vertices, then
+/// always the one farthest from those chosen before. If several are equally far, takes the lowest number. Returns fewer
+/// if there are fewer distinct positions. Gonzalez, Theoretical Computer Science 38, 1985
+/// (doi:10.1016/0304-3975(85)90224-5). O(count x vertices). Throws gonio::error if a vertex is not finite, if a
+/// triangle names a missing vertex, or if there are no triangles.
 [[nodiscard]] std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh, Eigen::Index count);
 
 /// Returns descriptors of chosen vertices, in their order. Skips vertices whose normal is too near the vertical axis
@@ -99,8 +100,9 @@ class point_tree {
 [[nodiscard]] Eigen::MatrixXd chi_square_costs(const shape_descriptors& from, const shape_descriptors& onto,
                                                thread_count threads = {});
 
-/// Matches each descriptor of the smaller set to one of the other at the least total cost, and sorts the matches by
-/// cost. O(bins n^2 + n^3). Throws gonio::error as `chi_square_costs` and `optimal_assignment` do.
+/// Matches each descriptor of the smaller set to a different one of the other set at the least total cost, and sorts
+/// the matches by cost. O(bins n^2 + n^3) for n descriptors of the larger set. Throws gonio::error as
+/// `chi_square_costs` and `optimal_assignment` do.
 [[nodiscard]] std::vector<shape_match> match(const shape_descriptors& from, const shape_descriptors& onto,
                                              thread_count threads = {});
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Aligns a scan in any pose with a model by similar points, as a start for a fit. "Anatomically correct surface
-/// recovery" (Nielsen's doctoral thesis, DTU 2016, contribution C.V), section 2.
+/// Aligns a scan in any pose with a model by matching similar points, as a start for a fit. "Anatomically correct
+/// surface recovery" (Nielsen's doctoral thesis, DTU 2016, contribution C.V), section 2.
 
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/shape_context.hpp>
@@ -16,8 +16,8 @@ namespace gonio::shape {
 struct shape_context_alignment_options {
   shape_context_options context;
   Eigen::Index points = 300;       ///< number of points described on each surface
-  double significant = 1.0 / 3.0;  ///< fraction of the best matches that give the first pose: the paper's 100
-  double tolerance = 5.0;          ///< matches farther apart at the end are ignored; infinity keeps the first pose
+  double significant = 1.0 / 3.0;  ///< fraction of the matches, the best ones, that give the first pose
+  double tolerance = 5.0;          ///< matches farther apart are ignored at the end; infinity keeps the first pose
 };
 
 /// A pose and the quality of its fit.
@@ -37,16 +37,17 @@ struct matched_points {
   [[nodiscard]] Eigen::VectorXd squared_distances(const similarity_transform& pose) const;
 };
 
-/// Computes the paper's least squares over the first matches, then weighted least squares over all. A weight falls with
-/// the squared distance and is zero above a limit. The limit narrows from three times the root mean square to the
-/// tolerance and stays there until the pose converges. Narrowing stops early if less than a tenth of the matches would
-/// remain. This is an M-estimate with Epanechnikov weights, by Blake and Zisserman's graduated non-convexity.
+/// Returns the pose, and the number of matches that determine it. Starts with the paper's least squares over the first
+/// matches, and continues with weighted least squares over all. A weight falls with the squared distance and is zero
+/// above a limit. The limit narrows from three times the root mean square distance to the tolerance, and stays there
+/// until the pose converges. The iteration stops early if fewer than a tenth of the matches, or three, would remain.
+/// This is an M-estimate with Epanechnikov weights, by Blake and Zisserman's graduated non-convexity.
 [[nodiscard]] std::pair<similarity_transform, Eigen::Index> robust_pose(const matched_points& points,
                                                                         Eigen::Index first, double tolerance);
 
 }  // namespace detail
 
-/// A model for aligning many scans. It processes the model once. Copies are cheap.
+/// Aligns many scans with one model, which it describes once. Copies are cheap.
 class shape_context_matcher {
  public:
   /// Throws gonio::error for options out of range, for a mesh that `describe` refuses, or if fewer than three points of
@@ -57,8 +58,8 @@ class shape_context_matcher {
   [[nodiscard]] const shape_context_alignment_options& options() const noexcept { return options_; }
 
   /// Returns the rotation and translation from a scan to the model, robust against wrong matches: least squares over
-  /// the most significant matches, as in the paper, then over all but the wrong ones. It is deterministic. The bytes do
-  /// not depend on the number of threads.
+  /// the most significant matches, as in the paper, then over all but the wrong ones. The bytes do not depend on the
+  /// number of threads.
   ///
   /// O(bins points^2 + points^3 + points x neighbours + vertices log vertices). Throws gonio::error for a mesh that
   /// `describe` refuses, if fewer than three points of the scan can be described, or if all of these lie on a line.

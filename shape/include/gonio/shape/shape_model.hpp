@@ -15,7 +15,7 @@
 
 namespace gonio::shape {
 
-/// M(c). A value type; copies share their storage.
+/// The model M(c) of Eq. 2. Copies share their storage.
 class shape_model {
  public:
   /// Throws gonio::error unless the triangles are a surface of the basis' vertices.
@@ -27,13 +27,12 @@ class shape_model {
   [[nodiscard]] const triangle_columns& triangles() const noexcept { return template_->triangles; }
   [[nodiscard]] const mesh_topology& topology() const noexcept { return template_->topology; }
   [[nodiscard]] Eigen::Index vertices() const noexcept { return vertices_of(basis_); }
-  /// Returns the number of shapes that it was learned from.
+  /// Returns the number of shapes from which the model was learned.
   [[nodiscard]] Eigen::Index shapes() const noexcept { return basis_.names().size(); }
 
-  /// Returns vertices with the triangles of the model.
   [[nodiscard]] triangle_mesh mesh(point_columns vertices) const { return {std::move(vertices), triangles()}; }
   [[nodiscard]] triangle_mesh mean() const { return mesh(mean_shape(basis_)); }
-  /// Returns M(c) (Eq. 2) for some weights: see `shape_of`.
+  /// Returns M(c) for some weights: see `shape_of`.
   [[nodiscard]] triangle_mesh shape(const Eigen::VectorXd& weights) const { return mesh(shape_of(basis_, weights)); }
 
   /// Returns the model with only the components that explain a share of the variance: see `truncated_to_variance`.
@@ -55,8 +54,8 @@ class shape_model {
 };
 
 /// Learns a model from corresponded shapes: aligns them (generalised Procrustes) and takes all their principal
-/// components. O(vertices x shapes^2). Throws gonio::error for fewer than two shapes, shapes with different numbers of
-/// vertices, vertices that are not finite, or triangles that are not a surface.
+/// components. O(vertices x shapes^2). Throws gonio::error for fewer than two different shapes, shapes with different
+/// numbers of vertices, vertices that are not finite, or triangles that are not a surface.
 [[nodiscard]] shape_model learn_shape_model(const std::vector<point_columns>& shapes, std::vector<std::string> names,
                                             triangle_columns triangles, thread_count threads = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A basis of shapes that may also move: the shapes' functions and six of rigid motion. One fit finds shape and pose.
+/// A shape basis with six more functions for rigid motion: one fit finds shape and pose.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/shape/alignment.hpp>
@@ -14,16 +14,15 @@ namespace gonio::shape {
 /// The functions of a shape basis, followed by the displacements of the shape `moved` by small rotations about each
 /// axis through its centroid and by shifts along each axis.
 ///
-/// `moved` is a shape of the family, not its mean. A rotation of the mean differs from one of the shape by a change of
-/// shape, so a fit with the mean would stop while the shape still needs to rotate. Copies share the functions.
+/// `moved` is the current shape: with the mean, a fit would stop while the shape still needs to rotate.
 class shape_with_motion {
  public:
   /// Three rotations and three shifts.
   static constexpr Eigen::Index motions = 6;
 
   /// The weights of the motions are the rotation in radians and the shift in the unit of the mesh, each divided by
-  /// `freedom`. The larger it is, the less a solver's penalty restrains the motion. Throws gonio::error for a shape
-  /// with another number of vertices.
+  /// `freedom`. The larger `freedom` is, the less a solver's penalty restrains the motion. Throws gonio::error if
+  /// `moved` does not have as many vertices as `shape`.
   shape_with_motion(shape_basis shape, const point_columns& moved, double freedom = 1e3);
 
   [[nodiscard]] Eigen::Index size() const noexcept { return shape_.size() + Eigen::Index{motions}; }
@@ -34,7 +33,6 @@ class shape_with_motion {
   [[nodiscard]] double offset(Eigen::Index coordinate) const { return shape_.offset(coordinate); }
   [[nodiscard]] const lin& metric() const noexcept { return shape_.metric(); }
 
-  /// Returns the basis of shapes alone.
   [[nodiscard]] const shape_basis& shape() const noexcept { return shape_; }
   /// Returns all functions: coordinates x size().
   [[nodiscard]] const cell_matrix& functions() const noexcept { return functions_; }
@@ -42,7 +40,7 @@ class shape_with_motion {
   /// The shape and motion that weights represent.
   struct parts {
     Eigen::VectorXd shape;        ///< the weights of `shape()`
-    similarity_transform motion;  ///< of that shape
+    similarity_transform motion;  ///< of the shape that `shape` represents
   };
   [[nodiscard]] parts split(const Eigen::VectorXd& weights) const;
 

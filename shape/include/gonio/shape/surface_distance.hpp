@@ -24,9 +24,9 @@ struct surface_distance {
   [[nodiscard]] static surface_distance of(const Eigen::VectorXd& signed_distances);
 };
 
-/// Returns the distances of points from a surface. Select some points, such as recovered ones, with `points(Eigen::all,
-/// vertices)`. Distances from a surface's vertices to the points' mesh are different. Throws gonio::error if there is
-/// no point or one is not finite.
+/// Returns the statistics of the points' distances from a surface. Select some points, such as recovered ones, with
+/// `points(Eigen::all, vertices)`. Distances of the surface's vertices from the points' own mesh would differ. Throws
+/// gonio::error if there is no point or one is not finite.
 [[nodiscard]] surface_distance distance_to(const surface_index& surface, const point_columns& points,
                                            thread_count threads = {});
 

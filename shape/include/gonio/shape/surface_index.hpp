@@ -26,9 +26,8 @@ struct surface_point {
 
 /// A surface with a search structure for queries. Copies are cheap and share it. All queries may run concurrently.
 ///
-/// The triangles are in our own tree of boxes. A tree of their centroids (nanoflann) must search farther than the best
-/// triangle by the size of the largest one, and does not support lines. Measured, it was as fast for points near an
-/// even mesh, and eight times slower if some triangles are eight times as long.
+/// The triangles are in a tree of boxes. A k-d tree of their centroids (nanoflann) was as fast for points near an even
+/// mesh, but eight times slower if some triangles are eight times as long, and does not support lines.
 class surface_index {
  public:
   /// O(n log n) for n triangles. Throws gonio::error as `mesh_topology` does.
@@ -37,24 +36,26 @@ class surface_index {
   [[nodiscard]] const triangle_mesh& mesh() const noexcept;
   [[nodiscard]] const mesh_topology& topology() const noexcept;
 
-  /// Returns the closest point of the surface, up to rounding; if triangles are equally far, that of the lowest number.
-  /// About O(log n) near the surface. Throws gonio::error if the point or the squared distance is not finite.
+  /// Returns the closest point of the surface, up to rounding. If several triangles are equally far, the point is on
+  /// the one with the lowest number. About O(log n) near the surface. Throws gonio::error if the point or the squared
+  /// distance is not finite.
   [[nodiscard]] surface_point closest(const Eigen::Vector3d& point) const;
 
-  /// Returns the intersection with the line through `origin` nearest to it, in both directions and at most `reach`
-  /// away, in the unit of the mesh for any length of `line`. Triangles seen edge-on are not hit. Throws gonio::error
-  /// unless all values are finite (`reach` may be infinite), the direction is not zero and `reach` is not negative.
+  /// Returns the intersection nearest to `origin` with the line through it, in both directions. It is at most `reach`
+  /// away, in the unit of the mesh, whatever the length of `line`. Triangles seen edge-on are not hit. Throws
+  /// gonio::error unless all values are finite (`reach` may be infinite), the direction is not zero and `reach` is not
+  /// negative.
   [[nodiscard]] std::optional<surface_point> along(const Eigen::Vector3d& origin, const Eigen::Vector3d& line,
                                                    double reach) const;
 
-  /// Returns the outward normal that determines signs: the triangle's; on an edge the mean of its triangles'; at a
-  /// vertex the mean of its triangles' weighted by their angles there. It has length 1, or is zero if none of these
-  /// triangles has an area.
+  /// Returns the outward normal that determines signs: inside a triangle, its normal; on an edge, the mean normal of
+  /// its triangles; at a vertex, the mean normal of its triangles, weighted by their angles there. It has length 1, or
+  /// is zero if none of these triangles has an area.
   [[nodiscard]] Eigen::Vector3d pseudonormal(const surface_point& place) const;
 
   /// Returns the distance to the surface, positive outside. The sign is that of Baerentzen and Aanaes, who prove it for
-  /// closed surfaces; with interpolated vertex normals it is wrong near sharp edges. Outside a border it refers to the
-  /// continued surface. Throws gonio::error if the point is not finite.
+  /// closed surfaces. Beyond a border, the sign refers to the continued surface. Throws gonio::error if the point is
+  /// not finite.
   [[nodiscard]] double signed_distance(const Eigen::Vector3d& point) const;
 
  private:

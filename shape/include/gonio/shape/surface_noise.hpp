@@ -8,17 +8,17 @@
 
 namespace gonio::shape {
 
-/// Replaces each column by the mean of itself and its neighbours. Vertices on the border use only neighbours on the
-/// border, so that the surface does not shrink.
+/// Replaces each column by the mean of itself and its neighbours. Border vertices use only neighbours on the border,
+/// which keeps the surface from shrinking.
 [[nodiscard]] point_columns averaged_over_neighbours(const mesh_topology& topology, const point_columns& values);
 [[nodiscard]] Eigen::RowVectorXd averaged_over_neighbours(const mesh_topology& topology,
                                                           const Eigen::RowVectorXd& values);
 
 /// Returns the variance of the noise along the normals about each vertex, in the squared unit of the mesh.
 ///
-/// Subtracting means over neighbours twice leaves only fourth derivatives of a smooth surface, but nearly all
-/// differences between single vertices: for independent noise its variance, within a few percent, where five to seven
-/// edges meet. Two more means average it over about nineteen vertices. O(vertices + edges).
+/// Subtracting means over neighbours twice leaves only fourth derivatives of a smooth surface, but nearly all of
+/// independent noise. Where five to seven edges meet, the variance of the remainder is that of the noise within a few
+/// percent. Two more means average the squared remainder over about nineteen vertices. O(vertices + edges).
 [[nodiscard]] Eigen::RowVectorXd noise_variances(const triangle_mesh& mesh, const mesh_topology& topology);
 
 }  // namespace gonio::shape

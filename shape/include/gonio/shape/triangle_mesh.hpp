@@ -34,14 +34,14 @@ struct triangle_mesh {
 /// Returns each column scaled to length 1; zero stays zero.
 [[nodiscard]] point_columns unit_columns(point_columns vectors);
 
-/// Returns the mean of the points. There must be one.
+/// Returns the mean of the points. There must be at least one.
 [[nodiscard]] Eigen::Vector3d centroid_of(const point_columns& points);
 
-/// Returns some of the columns, in the order given.
+/// Returns the columns with these numbers, in their order.
 [[nodiscard]] point_columns chosen_columns(const point_columns& all, std::span<const Eigen::Index> numbers);
 
-/// Returns outward unit normals at the vertices: the area-weighted mean of the triangles around them; zero if none of
-/// these has an area. O(triangles).
+/// Returns outward unit normals at the vertices: the area-weighted mean normal of the triangles around them; zero if
+/// none of these has an area. O(triangles).
 [[nodiscard]] point_columns vertex_normals(const triangle_mesh& mesh);
 
 }  // namespace gonio::shape

@@ -71,8 +71,8 @@ namespace gonio::io::detail {
   while (true) {
     size += stream.read(std::span(result).subspan(size));
     if (stream.ended() || result.size() == limit) return size;
-    // Double the buffer each time. Growing it holds the old and the new buffer at once, so the last step goes straight
-    // to the limit, from a buffer of a quarter to a half of it.
+    // Double the buffer; from a quarter of the limit on, go straight to the limit. Growing holds the old and the new
+    // buffer at once, so the old one should be small in the last step.
     const std::size_t doubled = std::max<std::size_t>(2 * result.size(), 4096);
     const std::size_t next = doubled < limit / 2 ? doubled : limit;
     result.reserve(next);
@@ -93,9 +93,10 @@ namespace gonio::io {
                                                          const std::string& name) {
   detail::inflater stream(bytes, detail::deflate_format::gzip, name);
   if (!is_gzip(bytes)) stream.refuse({"is not gzip data"});
-  // One byte more than allowed shows that there is more, and lets an exact fit reach its checksum.
+  // Leave room for one byte more than allowed: it shows that the data is too long, and zlib needs it to read the
+  // checksum of data that fits exactly.
   const std::size_t limit = std::min(maximum_size, std::numeric_limits<std::size_t>::max() - 1) + 1;
-  // A file of one member ends with its size, modulo 2^32.
+  // A file of one member ends with its expanded size modulo 2^32.
   std::uint32_t claimed = 0;
   if (bytes.size() >= sizeof claimed) std::memcpy(&claimed, bytes.last(sizeof claimed).data(), sizeof claimed);
   std::vector<std::byte> result = detail::first_buffer(std::min(std::size_t{claimed} + 1, limit), bytes.size());
@@ -140,7 +141,7 @@ namespace gonio::io {
   const std::size_t size = detail::expand(stream, result, 0, expected_size);
   if (size < expected_size)
     stream.refuse({"expands to ", size, " bytes, not to the expected ", expected_size, " bytes"});
-  // The stream ends only once its checksum is read; zlib reads it only if there is room for one more byte.
+  // The stream ends with its checksum, which zlib reads only if there is room for one more byte.
   std::array<std::byte, 1> surplus{};
   if (stream.read(surplus) != 0) stream.refuse({"expands to more than the expected ", expected_size, " bytes"});
   if (!stream.left().empty()) stream.refuse({stream.left().size(), " bytes follow the compressed data"});

@@ -62,7 +62,7 @@ GONIO_INLINE npy_layout npy_header_reader::layout() const {
   if (*order_) refuse("holds an array in Fortran order, expected C order (numpy.ascontiguousarray makes it so)");
   npy_layout found{static_cast<std::size_t>(descr_->back() - '0'), *shape_};
   constexpr std::size_t most = std::numeric_limits<std::ptrdiff_t>::max() / 8;
-  // An extent of 0 must not hide that the others overflow.
+  // An extent of 0 must not hide that the product of all other extents overflows.
   std::size_t product = 1;
   for (const std::size_t extent : found.shape) {
     const std::size_t factor = std::max<std::size_t>(extent, 1);

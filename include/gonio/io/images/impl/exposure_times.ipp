@@ -18,13 +18,13 @@
 
 namespace gonio::io::detail {
 
-/// Returns the part of a text after the last character that is not in `characters`.
+/// Returns the longest ending of a text that consists of the given characters.
 [[nodiscard]] GONIO_INLINE std::string_view ending_of(std::string_view text, std::string_view characters) {
   const std::size_t before = text.find_last_not_of(characters);
   return before == std::string_view::npos ? text : text.substr(before + 1);
 }
 
-/// Reads a positive number or quotient of two; nothing if it is neither. `numbers.read_number` reads each.
+/// Reads a positive number or quotient of two numbers by `numbers.read_number`; nothing if the text is neither.
 template <class Numbers>
 [[nodiscard]] std::optional<double> positive_quotient(std::string_view text, Numbers&& numbers) {
   const std::size_t slash = text.find('/');
@@ -63,7 +63,7 @@ GONIO_INLINE std::optional<double> exposure_time_of_name(std::string_view name) 
   if (above.empty()) return seconds;
   if (above == "1") return 1.0 / *seconds;
   gonio::refuse({"the name ", in_quotes(whole), " ends in two numbers, ", in_quotes(above), " and ", in_quotes(number),
-                 ": the first of a fraction must be 1"});
+                 ", expected one number of seconds, or a fraction such as 1_250s"});
 }
 
 GONIO_INLINE void require_believable_exposure(double seconds, const std::string& name) {

@@ -37,7 +37,7 @@ namespace gonio::io::detail {
 struct exr_input {
   std::string name;
   std::uint64_t size;
-  /// Fills `bytes` from an offset until the data ends; returns how many were read.
+  /// Reads from an offset until `bytes` is full or the data ends; returns the number of bytes read.
   std::function<std::size_t(std::uint64_t offset, std::span<std::byte> bytes)> read;
 };
 
@@ -100,11 +100,10 @@ class exr_sink : public Imf::OStream {
   std::size_t at_ = 0;
 };
 
-/// The largest number of rows or columns of an image.
 inline constexpr int exr_limit = 16384;
 inline constexpr std::array<const char*, 3> exr_channels{"R", "G", "B"};
 
-/// Returns an image's size, or refuses an implausible one. Decoding takes up to 28 bytes per pixel, 32 lines at a time.
+/// Returns an image's rows and columns; refuses an implausible size. Decoding takes up to 28 bytes per pixel.
 [[nodiscard]] GONIO_INLINE std::array<std::size_t, 2> exr_extents(std::int64_t columns, std::int64_t rows,
                                                                   std::size_t bytes, const std::string& name) {
   if (rows < 1 || columns < 1 || rows > exr_limit || columns > exr_limit)
@@ -130,7 +129,7 @@ GONIO_INLINE std::int64_t size_of_exr_bytes(exr_const_context_t, void* input) {
 GONIO_INLINE void ignore_exr_message(exr_const_context_t, exr_result_t, const char*) {}
 
 /// A file's header and the positions of its blocks, read through OpenEXR's C interface without decoding. The C++
-/// interface allocates whatever a file claims; this one checks it against the file's size.
+/// interface allocates whatever a file claims; the C interface checks the claim against the file's size.
 class exr_outline {
  public:
   explicit exr_outline(exr_input& input) : input_(input) {

@@ -36,7 +36,7 @@ struct hdr_header {
   Eigen::Matrix3d colours = Eigen::Matrix3d::Identity();  ///< converts stored numbers to linear Rec. 709
 };
 
-/// Returns the numbers of a line "EXPOSURE= 2.5". Throws gonio::error unless there are `count` finite ones.
+/// Returns the numbers of a line "EXPOSURE= 2.5". Throws gonio::error unless there are `count` finite numbers.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd hdr_numbers(std::string_view line, Eigen::Index count,
                                                        const std::string& name) {
   const auto equals = line.find('=');
@@ -50,8 +50,7 @@ struct hdr_header {
   return numbers;
 }
 
-/// Returns the matrix to Rec. 709 from colours with primaries red, green and blue and a white, given as x and y, such
-/// that white stays white.
+/// Returns the matrix that converts to Rec. 709 and keeps white white, from x and y of red, green, blue and white.
 [[nodiscard]] GONIO_INLINE Eigen::Matrix3d from_primaries(const Eigen::VectorXd& xy, const std::string& name) {
   Eigen::Matrix<double, 3, 4> xyz;
   for (Eigen::Index i = 0; i < 4; ++i)
@@ -73,13 +72,14 @@ struct hdr_header {
   return found;
 }
 
-/// Returns the smallest number of bytes for the pixels: all rows in runs of 127.
+/// Returns the smallest number of bytes for the pixels, reached if all rows are runs of 127 pixels.
 [[nodiscard]] constexpr std::size_t least_hdr_size(std::size_t rows, std::size_t columns) noexcept {
   const std::size_t flat = 4 * columns;
   return rows * (columns < 8 ? flat : std::min(flat, 4 + 8 * ((columns + 126) / 127)));
 }
 
-/// Takes "-Y 12" from the front of a line: sets `extent` to the number after these letters, 0 if it is negative.
+/// Takes the letters and a number, as in "-Y 12", from the front of a line. Sets `extent` to the number, 0 if it is
+/// negative. Returns false if either is missing.
 [[nodiscard]] GONIO_INLINE bool read_hdr_extent(std::string_view& line, std::string_view letters, std::size_t& extent) {
   if (!line.starts_with(letters)) return false;
   line.remove_prefix(letters.size());
@@ -113,7 +113,7 @@ class hdr_colours {
   }
 
  private:
-  /// Photoshop writes eight zeros for the default primaries.
+  /// Reads PRIMARIES. Eight zeros, which Photoshop writes, mean the default primaries.
   void read_primaries(const Eigen::VectorXd& xy) {
     if ((xy.array() != 0.0).any()) primaries_ = from_primaries(xy, name_);
   }
@@ -176,8 +176,8 @@ class hdr_rows::row_reader {
   [[nodiscard]] std::uint64_t offset() const noexcept { return end_ - left_.size(); }
   [[nodiscard]] bool ended() { return left_.empty() && !refill(); }
 
-  /// Returns the codes of the next row. Run-length encoded rows: all mantissas of red, of green, of blue, then all
-  /// exponents. Flat rows: pixel by pixel.
+  /// Returns the codes of the next row. A run-length encoded row has all mantissas of red, of green, of blue, then all
+  /// exponents; a flat row goes pixel by pixel.
   [[nodiscard]] std::span<const std::uint8_t> next() {
     if (!file_.has_runs_) {
       read(codes_);
@@ -251,8 +251,8 @@ GONIO_INLINE hdr_rows::hdr_rows(const std::filesystem::path& path) : name_(path.
   has_colours_ = !header.colours.isIdentity(0.0);
   colours_ = header.colours.cast<float>();
   from_bottom_ = header.from_bottom;
-  // An encoded row begins with 2, 2 and its number of columns. A dark pixel may look the same, but rarely has that
-  // number.
+  // An encoded row begins with 2, 2 and its number of columns. A flat row may begin with 2, 2, too (a dark pixel), but
+  // rarely goes on with that number.
   const std::string_view first = std::string_view(text).substr(header.size).substr(0, 4);
   has_runs_ = header.columns >= 8 && first.size() == 4 && first.starts_with("\x02\x02") &&
               256u * static_cast<unsigned char>(first[2]) + static_cast<unsigned char>(first[3]) == header.columns;
@@ -270,7 +270,7 @@ GONIO_INLINE void hdr_rows::read(block rows, std::span<float> out) const {
   static const std::array<float, 256> factors = detail::rgbe_factors();
   const auto columns = static_cast<std::size_t>(columns_);
   const std::size_t across = has_runs_ ? 1 : 4,
-                    along = has_runs_ ? columns : 1;  // from pixel to pixel, from channel to channel
+                    along = has_runs_ ? columns : 1;  // `across`: to the next pixel; `along`: to the next channel
   // The rows in file order; if `from_bottom_`, the file's last row is the highest.
   const block stored = from_bottom_ ? block{this->rows() - rows.end, this->rows() - rows.begin} : rows;
   row_reader reader(*this, begins_.at(static_cast<std::size_t>(stored.begin)));

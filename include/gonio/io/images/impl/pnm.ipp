@@ -45,7 +45,7 @@ GONIO_INLINE void copy_pnm_counts(std::span<const std::byte> bytes, std::size_t 
     for (std::size_t k = 0; k < width; ++k) count = count << 8 | std::to_integer<unsigned>(stored[k]);
     if (count > codes.largest)
       gonio::refuse({name, ": pixel (row ", i / 3 / codes.columns, ", column ", i / 3 % codes.columns, ") counts ",
-                     count, ", more than the file's largest ", unsigned{codes.largest}});
+                     count, ", more than the largest count in its header, ", unsigned{codes.largest}});
     codes.values[i] = static_cast<std::uint16_t>(count);
   }
 }

@@ -60,7 +60,7 @@ class tiff_source {
     if (failure.empty()) failure = printable(text.data());
     return 1;
   }
-  /// Ignores unknown tags. Refuses counts that contradict the image's size, although libtiff compensates for them.
+  /// Ignores unknown tags. Refuses byte counts that contradict the image's size, although libtiff can correct them.
   static int warn(TIFF* file, void* self, const char* module, const char* format, va_list arguments) {
     if (std::string_view(format).starts_with("Bogus")) return fail(file, self, module, format, arguments);
     return 1;
@@ -81,7 +81,7 @@ using tiff_file = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
   TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), most_at_once);
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), &tiff_source::fail, &source);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), &tiff_source::warn, &source);
-  // m: no memory mapping, so that a wrong offset is a short read.
+  // The mode m turns memory mapping off: reading at a wrong offset then returns too few bytes instead of crashing.
   tiff_file file(
       TIFFClientOpenExt(name.c_str(), "rm", &source, &tiff_source::read, &tiff_source::write, &tiff_source::seek,
                         &tiff_source::close, &tiff_source::size, nullptr, nullptr, options.get()),
@@ -101,7 +101,7 @@ struct tiff_layout {
   unsigned bits = 0, channels = 0;
 };
 
-/// Returns the layout of a supported image; refuses others with the reason.
+/// Returns the layout of a supported image. Refuses any other image and states the reason.
 [[nodiscard]] GONIO_INLINE tiff_layout layout_of(TIFF* file, std::size_t bytes, const std::string& name) {
   const auto require = [&](bool fine, std::initializer_list<message_part> what) {
     if (!fine) gonio::refuse({name, ": ", message_of(what)});

@@ -21,7 +21,7 @@ inline constexpr std::string_view mbsdf_magic = "NVIDIA ARC MBSDF V1\n";
 inline constexpr std::string_view mbsdf_reflection = "MBSDF_DATA_REFLECTION=", mbsdf_either = "MBSDF_DATA=";
 inline constexpr std::string_view mbsdf_transmission = "MBSDF_DATA_TRANSMISSION=";
 
-/// Quotes a text: a backslash before quotes and backslashes, line feeds as \n.
+/// Returns a text in quotes, with a backslash before each quote and backslash, and \n for a line feed.
 [[nodiscard]] inline std::string mbsdf_quoted(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -81,7 +81,7 @@ class mbsdf_reader {
     return left.substr(0, end);
   }
 
-  /// key="value"
+  /// Reads a line key="value"; ignores any other line.
   static void read_entry(std::string_view line, mbsdf_metadata& metadata) {
     const std::size_t middle = line.find("=\"");
     if (middle == std::string_view::npos || line.size() < middle + 3 || !line.ends_with('"')) return;

@@ -21,8 +21,8 @@
 
 namespace gonio::io::detail {
 
-/// Returns cell anchor, cosine weighting and the presence of wavelengths in one number. In version 1 this field has
-/// always been the anchor's 0 or 1, so that older programs refuse larger values.
+/// Returns cell anchor, cosine weighting and the presence of wavelengths as one number. Older programs know only the
+/// anchor's 0 or 1 and refuse larger numbers.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::uint32_t conventions_of(const log_relative_pca& prior) {
   const bool corner = prior.cells().grid().anchor() == cell_anchor::lower_corner;
   const bool larger = prior.metric().weighting() == cosine_weighting::larger;
@@ -58,8 +58,8 @@ struct prior_domain {
   const int theta_h = extent(), theta_d = extent(), phi_d = extent();
   const auto conventions = in.read<std::uint32_t>();
   if (conventions > 7)
-    gonio::refuse({name, ": cell anchor and cosine weight are ", conventions,
-                   ", expected 0 (centre) or 1 (lower corner), 2 more for the larger cosine, 4 more for wavelengths"});
+    gonio::refuse(
+        {name, ": the flags of anchor, cosine weight and wavelengths are ", conventions, ", expected 0 to 7"});
   const auto minimum_cosine = in.read<double>();
   if (!(minimum_cosine >= 0.0 && minimum_cosine < 1.0))
     gonio::refuse({name, ": the smallest cosine of a valid cell must be in [0, 1)"});
@@ -147,7 +147,8 @@ GONIO_INLINE log_relative_pca read_prior(byte_reader& in, const std::string& nam
   std::vector<double> wavelengths = detail::read_wavelengths(in, is_spectral, name);
   const std::uint64_t channels = is_spectral ? wavelengths.size() : 3;
   if (components == 0 || components > channels * materials)
-    gonio::refuse({name, ": ", components, " components of ", materials, " materials are impossible"});
+    gonio::refuse(
+        {name, ": ", components, " components of ", materials, " materials, expected 1 to ", channels * materials});
   if (detail::least_rest_of_prior(static_cast<double>(cells.size()), components, materials,
                                   static_cast<double>(channels)) > static_cast<double>(in.left()))
     gonio::refuse({name, ": the file is truncated or its counts are wrong: ", in.left(), " bytes cannot hold ",
@@ -166,14 +167,13 @@ GONIO_INLINE log_relative_pca read_prior(byte_reader& in, const std::string& nam
   for (float& value : reference) value = std::exp(value);
   std::vector<float> mean = detail::dequantise_all(read_quantised<std::uint16_t>(in, cells.size()));
   cell_matrix functions(cells.size(), k);
-  advise_huge_pages(functions.data(), functions.size() * sizeof(float));  // an expansion reads all of it
+  advise_huge_pages(functions.data(), functions.size() * sizeof(float));  // expanding a prior reads all of them
   for (Eigen::Index c = 0; c < k; ++c) {
     const auto column = read_quantised<std::uint8_t>(in, cells.size());
     for (Eigen::Index cell = 0; cell < cells.size(); ++cell) functions(cell, c) = dequantise(column, cell);
   }
   if (in.left() != 0) gonio::refuse({name, ": ", in.left(), " bytes follow the last component"});
 
-  // Refuse values that are not finite.
   Eigen::VectorXd singular_values(k);
   std::copy(singular.begin(), singular.end(), singular_values.data());
   Eigen::MatrixXf coefficients(static_cast<Eigen::Index>(channels * materials), k);

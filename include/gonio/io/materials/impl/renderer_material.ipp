@@ -30,7 +30,7 @@ GONIO_INLINE double rough_surface::refractive_index() const {
 }
 
 GONIO_INLINE double rough_surface::metalness() const {
-  constexpr double base_of_metal = 0.05, largest_of_dielectrics = 0.3;  // rutile has 0.21
+  constexpr double base_of_metal = 0.05, largest_of_dielectrics = 0.3;  // rutile, a dielectric, has 0.21
   if ((diffuse <= base_of_metal * highlight()).all()) return 1.0;
   if (highlight().maxCoeff() <= largest_of_dielectrics) return 0.0;
   return highlight().sum() / (highlight() + diffuse).sum();
@@ -49,7 +49,7 @@ GONIO_INLINE rough_surface bounded(rough_surface surface) {
 }
 
 GONIO_INLINE rgb base_below_coat(const rgb& seen, double index) {
-  // Fraction of diffuse light that a dielectric transmits; by reciprocity it gives that from inside, too.
+  // Integrate the fraction of diffuse light that enters a dielectric; reciprocity gives the fraction that leaves it.
   constexpr int steps = 1000;
   double enters = 0.0;
   for (int step = 0; step < steps; ++step) {
@@ -112,7 +112,7 @@ GONIO_INLINE rough_surface as_ggx_surface(const model::analytic_brdf& model, con
   return surface;
 }
 
-/// Returns the rest of a glTF document: a scene of a unit sphere with the first material.
+/// Returns the part of a glTF document that describes a scene: a unit sphere with the first material.
 [[nodiscard]] GONIO_INLINE std::string gltf_sphere() {
   constexpr int columns = 32, rows = 16;
   std::vector<float> points;
@@ -162,14 +162,15 @@ GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
   };
   const double metalness = surface.metalness();
   if (metalness == 1.0) return "Material \"conductor\"\n" + reflectance(surface.highlight()) + roughness;
-  if (metalness > 0.0)  // each point is randomly one or the other
+  if (metalness > 0.0)  // pbrt picks one of the two materials at random
     return "MakeNamedMaterial \"base\"\n  \"string type\" \"diffuse\"\n" +
            reflectance(surface.diffuse / (1.0 - metalness)) +
            "MakeNamedMaterial \"metal\"\n  \"string type\" \"conductor\"\n" +
            reflectance(surface.highlight() / metalness) + roughness +
            "Material \"mix\"\n  \"string materials\" [ \"base\" \"metal\" ]\n  \"float amount\" [ " +
            shortest(metalness) + " ]\n";
-  // A coat with thickness would absorb. Below a dense coat, the default of ten bounces is too few.
+  // A coat of nonzero thickness would absorb light. Below a coat of high index, pbrt's default of ten bounces is too
+  // few.
   const double index = surface.refractive_index();
   return "Material \"coateddiffuse\"\n" + reflectance(detail::base_below_coat(surface.diffuse, index)) + roughness +
          "  \"float eta\" [ " + shortest(index) + " ]\n  \"float thickness\" [ 0 ]\n  \"integer maxdepth\" [ 100 ]\n";
@@ -186,7 +187,7 @@ GONIO_INLINE std::string mitsuba_material(const model::analytic_brdf& model) {
            detail::three_numbers(value, ", ") +
            "\"/>\n      <boolean name=\"unbounded\" value=\"true\"/>\n    </spectrum>\n";
   };
-  // A blend in equal parts of lobes with doubled brightness is their sum.
+  // The sum of two lobes is a blend, in equal parts, of these lobes with doubled brightness.
   const auto [index, extinction] = detail::conductor_like_schlick(surface.f0);
   return "<bsdf type=\"blendbsdf\">\n  " + number("float", "weight", 0.5) + "  <bsdf type=\"diffuse\">\n    " +
          colour("reflectance", 2.0 * surface.diffuse) + "  </bsdf>\n  <bsdf type=\"roughconductor\">\n    " +
@@ -217,7 +218,7 @@ GONIO_INLINE std::string materialx_material(const model::analytic_brdf& model, c
   text += input("base_metalness", "float", shortest(metalness));
   text += input("specular_roughness", "float", shortest(std::sqrt(surface.alpha)));
   if (metalness == 0.0) text += colour("specular_color", surface.specular);
-  // Below 1, the base of a metal must not have a highlight of its own: index 1.
+  // If the metalness is between 0 and 1, index 1 removes the highlight that the base would have of its own.
   if (metalness < 1.0)
     text += input("specular_ior", "float", metalness > 0.0 ? "1" : shortest(surface.refractive_index()));
   return text + "  </open_pbr_surface>\n  <surfacematerial name=\"" + name + "\" type=\"material\">\n" +
@@ -241,7 +242,7 @@ GONIO_INLINE std::string gltf_material(const model::analytic_brdf& model) {
   if (metalness > 0.0)
     return begin + "  \"extensionsUsed\": [\"KHR_materials_ior\"],\n" + materials +
            ",\n      \"extensions\": {\"KHR_materials_ior\": {\"ior\": 1}}" + end;
-  // The factor scales f0 and f90, the colour only f0.
+  // glTF's specular factor scales f0 and f90, its specular colour only f0.
   const double factor = std::min(surface.specular.maxCoeff(), 1.0);
   const rgb colour = factor > 0.0 ? rgb(surface.specular / factor) : rgb(rgb::Ones());
   return begin + "  \"extensionsUsed\": [\"KHR_materials_ior\", \"KHR_materials_specular\"],\n" + materials +

@@ -27,7 +27,7 @@ inline constexpr std::uint8_t tensor_uint8 = 1, tensor_float32 = 10;
 /// Bytes of an element for each type code: nothing, eight kinds of integers, then float16, float32 and float64.
 inline constexpr std::array<std::uint64_t, 12> tensor_element_size{0, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8};
 
-/// Returns the bytes of an array, or more than `most` if they exceed it.
+/// Returns the size of an array in bytes, or a number above `most` if the size exceeds `most`.
 [[nodiscard]] inline std::uint64_t tensor_size(const tensor_field& field, std::uint64_t most) {
   std::uint64_t size = tensor_element_size[field.type];
   for (const std::uint64_t extent : field.shape) {
@@ -94,8 +94,8 @@ class rgl_arrays {
     return byte_reader(found.elements, name_).read_all<float>(found.elements.size() / sizeof(float));
   }
 
-  /// Returns the last two dimensions of an array as tables. If the array is over the azimuths of the light, of which an
-  /// isotropic material may have two, returns the tables of the first.
+  /// Returns an array as tables of its last two dimensions. If it has more than two dimensions, the first is the
+  /// light's azimuth. An isotropic material may have two azimuths; only the tables of the first azimuth are returned.
   [[nodiscard]] model::unit_square_tables tables(const std::string& field, std::size_t dimensions) const {
     const std::vector<std::uint64_t>& extents = shape(field, dimensions);
     std::vector<float> values = numbers(field);
@@ -104,13 +104,30 @@ class rgl_arrays {
     const std::size_t rows = extents[dimensions - 2], columns = extents[dimensions - 1];
     if (dimensions > 2) {
       if (extents[0] == 0) refuse({name_, ": the array '", field, "' is empty"});
-      values.resize(values.size() / extents[0]);
+      const std::vector<float> azimuths = numbers("phi_i");
+      if (azimuths.size() > most_isotropic && extents[0] != azimuths.size())
+        refuse({name_, ": the array '", field, "' has ", extents[0], " azimuths of the light, but phi_i has ",
+                azimuths.size()});
+      if (azimuths.size() > most_isotropic)
+        count *= extents[0];
+      else
+        values.resize(values.size() / extents[0]);
     }
     return {static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns),
             std::move(values)};
   }
 
+  /// Returns the azimuths of the light in radians; none for an isotropic material.
+  [[nodiscard]] std::vector<double> azimuths() const {
+    const std::vector<float> all = numbers("phi_i");
+    if (all.size() <= most_isotropic) return {};
+    return {all.begin(), all.end()};
+  }
+
  private:
+  /// An isotropic material may have the tables of this many azimuths of the light, which are alike.
+  static constexpr std::size_t most_isotropic = 2;
+
   [[nodiscard]] const tensor_field& array(const std::string& field) const {
     const auto found = fields_.find(field);
     if (found == fields_.end()) refuse({name_, ": has no array '", field, "'"});
@@ -140,10 +157,10 @@ class rgl_arrays {
   return colours;
 }
 
-/// Throws gonio::error unless there is a table for each wavelength and each theta_i.
-inline void require_spectra(const rgl_spectra& spectra, std::size_t angles) {
+/// Throws gonio::error unless there is a table for each wavelength and each direction of the light.
+inline void require_spectra(const rgl_spectra& spectra, Eigen::Index angles) {
   const model::unit_square_tables& all = spectra.values;
-  const auto tables = std::ssize(spectra.wavelengths) * static_cast<Eigen::Index>(angles);
+  const Eigen::Index tables = std::ssize(spectra.wavelengths) * angles;
   if (all.rows < 2 || all.columns < 2)
     refuse({"the spectra need tables of at least 2 x 2 numbers, not ", all.rows, " x ", all.columns});
   if (all.tables != tables || std::ssize(all.values) != tables * all.rows * all.columns)
@@ -151,7 +168,7 @@ inline void require_spectra(const rgl_spectra& spectra, std::size_t angles) {
             " angles, not ", all.tables});
 }
 
-[[nodiscard]] inline rgl_spectra read_spectra(const rgl_arrays& arrays, std::size_t angles) {
+[[nodiscard]] inline rgl_spectra read_spectra(const rgl_arrays& arrays, Eigen::Index angles) {
   const std::vector<float> wavelengths = arrays.numbers("wavelengths");
   rgl_spectra spectra{{wavelengths.begin(), wavelengths.end()}, arrays.tables("spectra", 5)};
   require_spectra(spectra, angles);
@@ -170,7 +187,7 @@ class tensor_writer {
   void add(const std::string& name, const extents& shape, const std::vector<float>& numbers) {
     add(name, shape, std::as_bytes(std::span(numbers)), tensor_float32);
   }
-  /// The tables give the last two dimensions.
+  /// Adds tables: their rows and columns are the last two dimensions.
   void add(const std::string& name, extents shape, const model::unit_square_tables& tables) {
     shape.push_back(static_cast<std::uint64_t>(tables.rows));
     shape.push_back(static_cast<std::uint64_t>(tables.columns));
@@ -215,8 +232,8 @@ class tensor_writer {
   std::vector<field> fields_;
 };
 
-/// Returns the luminance of the values, by which renderers sample directions: at least 0.001 of the mean, so that every
-/// direction can be sampled.
+/// Returns the luminance of the values, by which renderers sample directions. It is at least 0.001 of the mean, so that
+/// every direction can be sampled.
 [[nodiscard]] inline std::vector<float> luminances(const model::unit_square_tables& colours) {
   constexpr double least_share = 1e-3;
   const Eigen::Index size = colours.rows * colours.columns, angles = colours.tables / 3;
@@ -242,26 +259,29 @@ template <class Write>
 void write_rgl_parts(const rgl_material& material, Write&& write) {
   const model::adaptive_brdf_parts& parts = material.material.parts();
   const model::unit_square_tables& values = material.spectra ? material.spectra->values : parts.reflectance;
-  if (material.spectra) require_spectra(*material.spectra, parts.theta_i.size());
+  if (material.spectra) require_spectra(*material.spectra, parts.lights());
   if (values.rows != values.columns || values.rows != parts.reflectance.rows)
     gonio::refuse({"a .bsdf file needs square tables of reflectance, not ", values.rows, " x ", values.columns});
-  const auto size = static_cast<std::uint64_t>(values.rows), angles = static_cast<std::uint64_t>(parts.theta_i.size());
+  const auto size = static_cast<std::uint64_t>(values.rows), angles = static_cast<std::uint64_t>(parts.theta_i.size()),
+             azimuths = std::max<std::uint64_t>(parts.phi_i.size(), 1);
   const std::string description = material.description.empty() ? "gonio" : material.description;
-  const std::vector<float> phi_i{0.0f}, theta_i(parts.theta_i.begin(), parts.theta_i.end()),
+  std::vector<float> phi_i(parts.phi_i.begin(), parts.phi_i.end());
+  if (phi_i.empty()) phi_i.push_back(0.0f);
+  const std::vector<float> theta_i(parts.theta_i.begin(), parts.theta_i.end()),
       luminance = luminances(parts.reflectance);
   std::vector<float> wavelengths;
   if (material.spectra) wavelengths.assign(material.spectra->wavelengths.begin(), material.spectra->wavelengths.end());
   tensor_writer file;
   file.add("description", {description.size()}, std::as_bytes(std::span(description)), tensor_uint8);
-  file.add("phi_i", {1}, phi_i);
+  file.add("phi_i", {azimuths}, phi_i);
   file.add("theta_i", {angles}, theta_i);
   file.add("sigma", {}, parts.projected_area);
   file.add("ndf", {}, parts.normals);
-  file.add("vndf", {1, angles}, parts.visible_normals);
-  file.add("luminance", {1, angles, size, size}, luminance);
+  file.add("vndf", {azimuths, angles}, parts.visible_normals);
+  file.add("luminance", {azimuths, angles, size, size}, luminance);
   if (material.spectra) file.add("wavelengths", {wavelengths.size()}, wavelengths);
-  const auto channels = static_cast<std::uint64_t>(values.tables) / angles;
-  file.add(material.spectra ? "spectra" : "rgb", {1, angles, channels}, values);
+  const auto channels = static_cast<std::uint64_t>(values.tables) / (azimuths * angles);
+  file.add(material.spectra ? "spectra" : "rgb", {azimuths, angles, channels}, values);
   file.add("jacobian", {1}, std::as_bytes(std::span("\1", 1)), tensor_uint8);
   file.write_parts(std::forward<Write>(write));
 }
@@ -307,24 +327,25 @@ GONIO_INLINE void write_rgl(const std::filesystem::path& path, const rgl_materia
 
 GONIO_INLINE rgl_material read_rgl(std::span<const std::byte> bytes, const std::string& name) {
   const detail::rgl_arrays arrays(bytes, name);
-  if (const std::size_t azimuths = arrays.numbers("phi_i").size(); azimuths > 2)
-    gonio::refuse({name, ": is anisotropic (", azimuths, " azimuths of the light), expected an isotropic material"});
   const std::vector<float> theta_i = arrays.numbers("theta_i");
   std::string description;
   if (arrays.has("description")) description = arrays.text("description");
-  // Without `jacobian` the file holds plain values, which are not to be multiplied by the distribution of normals.
+  // If `jacobian` is 0, the file holds plain values, which are not relative to the distribution of normals.
   if (arrays.has("jacobian") && arrays.text("jacobian") != std::string("\1"))
-    gonio::refuse({name, ": the array 'jacobian' is not 1, expected values relative to the normals"});
+    gonio::refuse(
+        {name, ": the array 'jacobian' is not 1: the values must be relative to the distribution of normals"});
   try {
     // pi/2 as a float may be larger than as a double.
     std::vector<double> angles(theta_i.begin(), theta_i.end());
     for (double& angle : angles)
       if (angle > 0.5 * std::numbers::pi && angle < 0.5 * std::numbers::pi + 1e-6) angle = 0.5 * std::numbers::pi;
+    std::vector<double> azimuths = arrays.azimuths();
+    const auto lights = static_cast<Eigen::Index>(angles.size() * std::max<std::size_t>(azimuths.size(), 1));
     std::optional<rgl_spectra> spectra;
-    if (!arrays.has("rgb") && arrays.has("spectra")) spectra = detail::read_spectra(arrays, angles.size());
+    if (!arrays.has("rgb") && arrays.has("spectra")) spectra = detail::read_spectra(arrays, lights);
     model::unit_square_tables colours = spectra ? detail::rgb_of(*spectra) : arrays.tables("rgb", 5);
     return {model::adaptive_brdf({std::move(angles), arrays.tables("ndf", 2), arrays.tables("sigma", 2),
-                                  arrays.tables("vndf", 4), std::move(colours)}),
+                                  arrays.tables("vndf", 4), std::move(colours), std::move(azimuths)}),
             std::move(description), std::move(spectra)};
   } catch (const error& why) {
     const std::string what = why.what();

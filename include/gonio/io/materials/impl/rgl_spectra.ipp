@@ -17,7 +17,8 @@
 
 namespace gonio::io::detail {
 
-/// Three wavelengths of a spectral table in the places of red, green and blue; the last one fills missing places.
+/// The BRDF of a spectral table at three of the chosen wavelengths, from `first` on, as red, green and blue. If fewer
+/// than three wavelengths are left, repeats the last one.
 class three_wavelengths {
  public:
   three_wavelengths(const spectral_table& table, std::span<const Eigen::Index> chosen, Eigen::Index first)
@@ -42,8 +43,8 @@ class three_wavelengths {
 
 static_assert(brdf<three_wavelengths>);
 
-/// Calls `copy` for each pair of tables with the same theta_i and wavelength: one of three channels, the other of all
-/// wavelengths from `first` on.
+/// Calls `copy(i, j)` for each theta_i and each of three wavelengths from `first` on: i is the table's index among
+/// tables of three channels, and j its index among tables of all wavelengths.
 template <class Copy>
 void for_each_shared_table(Eigen::Index angles, Eigen::Index bands, Eigen::Index first, const Copy& copy) {
   for (Eigen::Index angle = 0; angle < angles; ++angle)
@@ -55,18 +56,18 @@ GONIO_INLINE void require_in_spectra(const rgl_material& material) {
   if (!material.spectra) gonio::refuse("the material is in RGB, expected spectra");
 }
 
-/// Returns the last of ascending numbers that is at most `value`, and the fraction of the way from it to the next.
+/// Returns the index of the last of ascending numbers that is at most `value`, and the fraction of the way to the next.
 [[nodiscard]] GONIO_INLINE std::pair<Eigen::Index, double> between(const std::vector<double>& numbers, double value) {
   const auto next = std::ranges::upper_bound(numbers, value);
   const Eigen::Index lower = next - numbers.begin() - 1;
   return {lower, next == numbers.end() ? 0.0 : (value - numbers[lower]) / (*next - numbers[lower])};
 }
 
-/// Returns the material at three of its wavelengths.
+/// Returns the material at three of its wavelengths, from `first` on.
 [[nodiscard]] GONIO_INLINE model::adaptive_brdf three_wavelengths_of(const rgl_material& material, Eigen::Index first) {
   model::adaptive_brdf_parts parts = material.material.parts();
   const model::unit_square_tables& all = material.spectra->values;
-  const Eigen::Index size = all.rows * all.columns, angles = std::ssize(parts.theta_i);
+  const Eigen::Index size = all.rows * all.columns, angles = parts.lights();
   parts.reflectance = {3 * angles, all.rows, all.columns, std::vector<float>(3 * angles * size)};
   for_each_shared_table(angles, std::ssize(material.spectra->wavelengths), first, [&](auto colour, auto table) {
     std::copy_n(all.row(table, 0), size, parts.reflectance.values.data() + colour * size);
@@ -82,7 +83,7 @@ GONIO_INLINE rgl_material tabulate_adaptively(const spectral_table& table, doubl
                                               const std::string& description, thread_count threads) {
   if (table.bands() < 2) refuse("a spectral material needs at least two wavelengths, not one: write a table in RGB");
   const std::vector<Eigen::Index> chosen = model::sufficient_wavelengths(table, tolerance, threads);
-  // Colours decide where and how finely to tabulate; three wavelengths do if none is visible.
+  // Colours decide where and how finely to tabulate; if no wavelength is visible, three wavelengths decide.
   const bool has_colours = std::ranges::any_of(table.wavelengths(), is_visible);
   rgl_material made{has_colours ? model::tabulate_adaptively(table.colours(illuminant::d65, threads), {}, threads)
                                 : model::tabulate_adaptively(detail::three_wavelengths(table, chosen, 0), {}, threads),
@@ -130,6 +131,8 @@ GONIO_INLINE rgl_spectra at_wavelengths(const rgl_spectra& spectra, std::vector<
 GONIO_INLINE spectral_table tabulate_spectra(const rgl_material& material, const valid_cells& cells,
                                              thread_count threads) {
   detail::require_in_spectra(material);
+  if (material.material.is_anisotropic())
+    refuse("the material is anisotropic, but a table over half and difference angles needs an isotropic one");
   return tabulate_by_threes(cells, material.spectra->wavelengths, [&](Eigen::Index first) {
     return tabulate(detail::three_wavelengths_of(material, first), cells, threads);
   });

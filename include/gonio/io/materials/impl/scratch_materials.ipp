@@ -19,7 +19,7 @@ namespace gonio::io {
 
 namespace detail {
 
-/// Opens a file without a name, or removes its name at once.
+/// Opens an unnamed file, or a named one and removes its name at once.
 [[nodiscard]] GONIO_INLINE descriptor open_scratch(const std::filesystem::path& folder) {
   const auto fail = [&] { refuse_file(folder, {"cannot hold a scratch file: ", system_reason(errno)}); };
 #if defined(O_TMPFILE)
@@ -34,7 +34,8 @@ namespace detail {
 
 }  // namespace detail
 
-/// The file is a sequence of row-major matrices, each cells x columns of the materials that were written together.
+/// The file is a sequence of row-major matrices. Each has a row per cell, and the columns of the materials that were
+/// written together.
 struct scratch_materials::state {
   struct part {
     std::uint64_t offset;       ///< in the file

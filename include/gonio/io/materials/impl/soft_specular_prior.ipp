@@ -17,7 +17,7 @@
 
 namespace gonio::io::detail {
 
-/// Writes a prior's length in 64 bits, and its payload.
+/// Writes the length of a prior's payload in 64 bits, then the payload.
 GONIO_INLINE void write_half(byte_writer& out, const log_relative_pca& prior) {
   byte_writer half;
   write_prior(half, prior);

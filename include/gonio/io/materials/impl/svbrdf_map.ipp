@@ -38,7 +38,7 @@ inline constexpr checked_file_kind svbrdf_kind{"gonio-svbrdf", 1, "map of a spat
 inline constexpr std::uint32_t most_svbrdf_texels = 1u << 17, most_svbrdf_components = 1u << 12,
                                most_svbrdf_directions = 1u << 16;
 inline constexpr std::uint64_t most_svbrdf_band = std::uint64_t{1} << 30;  ///< bytes
-/// Before the header's own bytes: magic word, version, and the number of bytes before the first band.
+/// The size in bytes of the fields before the header itself: magic word, version and size of the header.
 inline constexpr std::size_t svbrdf_start = 12 + 2 * sizeof(std::uint32_t);
 
 [[nodiscard]] GONIO_INLINE std::uint64_t bytes_of_band(const svbrdf_header& header, Eigen::Index band) {
@@ -73,7 +73,8 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
       if (!(w->allFinite() && w->z() > 0.0)) gonio::refuse({name, ": a direction is not above the horizon"});
 }
 
-/// Returns all bytes before the first band: a multiple of 64, the last of them a checksum of the others.
+/// Returns all bytes before the first band. Their number is a multiple of 64; the last four are a checksum of the bytes
+/// before them.
 [[nodiscard]] GONIO_INLINE std::vector<std::byte> write_svbrdf_header(const svbrdf_header& header) {
   byte_writer own;
   for (const Eigen::Index each : {header.rows, header.columns, header.band_rows, std::ssize(header.directions),
@@ -122,7 +123,7 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
   return header;
 }
 
-/// Returns the bytes of a file at an offset, fewer if the file ends first.
+/// Returns `count` bytes of a file from an offset on, fewer if the file ends first.
 [[nodiscard]] GONIO_INLINE std::vector<std::byte> bytes_at(const descriptor& file, std::uint64_t offset,
                                                            std::size_t count, const std::filesystem::path& path) {
   std::vector<std::byte> bytes(count);
@@ -130,7 +131,7 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
   return bytes;
 }
 
-/// Are a band's last bytes the checksum of the others?
+/// Are the last four bytes of a band or header the checksum of the bytes before them?
 [[nodiscard]] GONIO_INLINE bool is_whole_band(std::span<const std::byte> bytes) {
   std::uint32_t expected = 0;
   if (bytes.size() < sizeof expected) return false;
@@ -139,7 +140,7 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
   return checksum(own) == expected;
 }
 
-/// Throws gonio::error naming the first number outside the range of half floats.
+/// Rounds numbers to half floats. Throws gonio::error naming a number outside their range.
 template <class Numbers>
 void to_halves(const Numbers& numbers, std::vector<std::uint16_t>& halves, thread_count threads) {
   halves.resize(static_cast<std::size_t>(numbers.size()));
@@ -149,14 +150,16 @@ void to_halves(const Numbers& numbers, std::vector<std::uint16_t>& halves, threa
         for (Eigen::Index i = range.begin; i < range.end; ++i) {
           const float value = numbers.data()[i];
           if (!(std::abs(value) < 65504.0f))
-            gonio::refuse({"a number of the map is ", double{value}, ", outside the range of half floats, 65504"});
+            gonio::refuse(
+                {"a number of the map is ", double{value}, ", outside the range of half floats, -65504 to 65504"});
           halves[static_cast<std::size_t>(i)] = to_half(value);
         }
       },
       threads);
 }
 
-/// Gives texels of the sample whose numbers round to zero the smallest half float, 6e-8: zeros mean no material.
+/// Zeros mean that a texel is outside the sample. If a texel of the sample has an uncertainty or only weights that
+/// round to zero, sets the uncertainty or the first weight to the smallest half float, 6e-8.
 GONIO_INLINE void keep_materials(const texel_estimates& found, svbrdf_band& band) {
   const std::size_t own = band.weights.size() / std::max<std::size_t>(band.uncertainty.size(), 1);
   for (std::size_t i = 0; i < band.uncertainty.size(); ++i) {
@@ -244,7 +247,7 @@ GONIO_INLINE void svbrdf_writer::open() {
   static_cast<void>(size_of_regular(file_, part_));
   const bool is_locked = ::flock(file_.get(), LOCK_EX | LOCK_NB) == 0;
   if (!is_locked && errno != EWOULDBLOCK) fail();
-  // Since it was opened, another process may have finished and renamed the file.
+  // Another process may have finished and renamed the file since this one opened it.
   struct stat opened {
   }, named{};
   const bool is_ours = ::fstat(file_.get(), &opened) == 0 && ::stat(part_.c_str(), &named) == 0 &&
@@ -281,7 +284,7 @@ GONIO_INLINE bool svbrdf_writer::has_written(Eigen::Index band, std::span<const 
 }
 
 GONIO_INLINE void svbrdf_writer::require_unfinished() const {
-  if (finished_ == header_.bands()) gonio::refuse({path_.string(), ": has all of its ", finished_, " bands"});
+  if (finished_ == header_.bands()) gonio::refuse({path_.string(), ": all ", finished_, " bands are already written"});
 }
 
 GONIO_INLINE void svbrdf_writer::append(const svbrdf_band& values) {

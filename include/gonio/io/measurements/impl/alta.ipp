@@ -135,7 +135,7 @@ GONIO_INLINE void alta_reader::read_output(std::string_view name) {
   output_ = name;
 }
 
-/// Checks the header at its end and prepares the collector.
+/// Checks the complete header and prepares the collector.
 GONIO_INLINE void alta_reader::begin_rows() {
   if (input_ == nullptr) place_.refuse("there is no line #PARAM_IN above the numbers");
   if (output_.empty())
@@ -173,7 +173,7 @@ GONIO_INLINE direction alta_reader::unit_vector(std::span<const double> numbers)
   return w / length;
 }
 
-/// Returns light and viewer. ALTA's difference vector is the viewer's; MERL's and gonio's is the light's.
+/// Returns light and viewer. ALTA's difference angles are the viewer's; MERL's and gonio's are the light's.
 GONIO_INLINE direction_pair alta_reader::directions() const {
   const std::vector<double>& x = numbers_;
   const auto of_half = [&](double theta_h, double theta_d, double phi_d) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Bodies of io/measurements/bird.hpp: makes samples of the measurements: groups by direction, averages, weights.
+/// Bodies of io/measurements/bird.hpp: groups measurements by their directions, averages them, and weights the samples.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
@@ -28,7 +28,7 @@
 
 namespace gonio::io::detail {
 
-/// The measurements at one wavelength in one pair of directions.
+/// Sums over the measurements at one wavelength in one pair of directions.
 struct bird_mean {
   double value = 0.0, squared_uncertainty = 0.0;
   std::array<double, 3> stokes{};
@@ -64,7 +64,7 @@ class bird_samples {
   const bird_data& data_;
   const text_place& place_;
   const bird_variable* wavelengths_ = nullptr;
-  double nanometres_ = 1.0;  ///< nanometres in the file's unit of wavelengths
+  double nanometres_ = 1.0;  ///< per unit of the file's wavelengths
 };
 
 GONIO_INLINE const bird_variable& bird_samples::require(std::string_view variable) const {
@@ -164,8 +164,8 @@ GONIO_INLINE void bird_samples::require_unpolarised(const bird_group& group) con
     for (const double parameter : mean.stokes)
       if (!(std::abs(parameter) <= 1e-6 * mean.count))
         gonio::refuse({place_.name, ": at theta_i ", rounded(group.pair.wi), " and theta_r ", rounded(group.pair.wo),
-                       " degrees the states of polarization_i do not average to unpolarised light, expected s and p "
-                       "alike"});
+                       " degrees, the states of polarization_i do not average to unpolarised light, "
+                       "expected as much s as p"});
 }
 
 GONIO_INLINE void bird_samples::add(const bird_group& group, double weight, sample_collector& collector) const {
@@ -205,7 +205,7 @@ GONIO_INLINE sample_collector bird_samples::make() {
   collector.use_aperture(data_.cones);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     require_unpolarised(groups[i]);
-    // A value of 0 has no relative uncertainty.
+    // A value of 0 with an uncertainty of 0 has no relative uncertainty.
     const double ratio = std::isnan(uncertainties[i]) ? 1.0 : usual / uncertainties[i];
     const double weight = usual > 0.0 ? std::clamp(ratio * ratio, 0.01, 100.0) : 1.0;
     add(groups[i], weight, collector);

@@ -87,7 +87,8 @@ GONIO_INLINE bird_data bird_reader::read() {
   return std::move(data_);
 }
 
-/// Enters the objects that contain the cones, and skips the others. Paths end with a point.
+/// Reads the cones of receiver and source: enters the objects that contain them, and skips all other entries. Paths end
+/// with a point.
 GONIO_INLINE void bird_reader::read_metadata(const std::string& path) {
   constexpr std::string_view receiver = "metadata.instrumentation.detection_system.solid_angle.",
                              source = "metadata.instrumentation.illumination_system.beam.divergence.";
@@ -191,7 +192,7 @@ GONIO_INLINE stokes_states bird_reader::read_polarisation(const std::string& key
   json_.open_object(key);
   while (const auto field = json_.next_key()) {
     if (*field != "values") {
-      json_.skip();  // the values show the notation
+      json_.skip();  // the values themselves show whether they are letters or Stokes vectors
       continue;
     }
     json_.open_array(key + ".values");

@@ -61,7 +61,7 @@ GONIO_INLINE void check_fred_format(std::string_view line, const text_place& pla
       collector.add({*wi, fred_direction(words[0], words[1], 0.0, place)}, {&value, 1});
     } else {
       place.refuse({words.size(), words.size() == 1 ? " number" : " numbers",
-                    ", expected two angles of the light, or below them two angles of the viewer and a value"});
+                    ", expected two angles of the light or, on lines below, two angles of the viewer and a value"});
     }
   });
   if (lines < 2) gonio::refuse({place.name, ": ends before its lines 'type bsdf_data' and 'format'"});

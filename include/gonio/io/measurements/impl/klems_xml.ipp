@@ -57,7 +57,7 @@ inline constexpr std::size_t most_patches = 4096;
   return patches;
 }
 
-/// Reads the basis of this name.
+/// Returns the patches of the basis with this name.
 [[nodiscard]] GONIO_INLINE std::vector<klems_patch> basis_named(const xml_element& definition, std::string_view name,
                                                                 const text_place& place) {
   for (const xml_element& each : definition.all("AngleBasis"))
@@ -67,7 +67,7 @@ inline constexpr std::size_t most_patches = 4096;
 
 // ---- matrices ------------------------------------------------------------------------------------------------------
 
-// Finding a word's position takes long: only for errors.
+// Finds the word's position only for error messages, because finding it is slow.
 GONIO_INLINE double scattering_value(const xml_element& data, std::string_view word) {
   double number = 0.0;
   if (const char* wrong = read_number(word, number))

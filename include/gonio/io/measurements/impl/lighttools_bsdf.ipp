@@ -25,7 +25,7 @@
 
 namespace gonio::io::detail {
 
-/// A table of one angle of incidence and one channel: polar angles for each azimuth.
+/// A table of one angle of incidence and one channel: a value for each polar angle, azimuth by azimuth.
 struct lighttools_block {
   double incidence = 0.0, wavelength = 0.0;  ///< degrees and nanometres; 0 if the file has none
   int tristimulus = -1;                      ///< 0, 1, 2: X, Y, Z
@@ -73,7 +73,7 @@ GONIO_INLINE void lighttools_reader::read_header() {
   while (!words_.read_if("DataBegin")) {
     const std::string_view key = words_.read("DataBegin");
     if (key == "Source" || key == "Symmetry")
-      static_cast<void>(words_.read(key));  // the list of azimuths shows what was measured
+      static_cast<void>(words_.read(key));  // ignored: the list of azimuths shows the measured directions
     else if (key == "SpectralContent")
       is_tristimulus_ = words_.read_one_of({"Monochrome", "XYZ"}) == 1;
     else if (key == "ScatterAzimuth")
@@ -87,7 +87,7 @@ GONIO_INLINE void lighttools_reader::read_header() {
   if (polar_angles_.empty()) words_.place().refuse("ScatterRadial is missing above DataBegin");
 }
 
-/// Skips transmission.
+/// Reads the blocks of reflection: those of the front, or if there are none, those of the back.
 GONIO_INLINE void lighttools_reader::read_blocks() {
   while (!words_.peek().empty() && !words_.read_if("DataEnd")) {
     lighttools_block block = read_block();
@@ -100,7 +100,7 @@ GONIO_INLINE void lighttools_reader::read_blocks() {
     std::erase_if(blocks_, [](const lighttools_block& block) { return !block.is_front; });
 }
 
-/// Reads a block: its keywords in any order, TIS last.
+/// Reads a block: its keywords in any order, TIS last, then its values.
 GONIO_INLINE lighttools_block lighttools_reader::read_block() {
   lighttools_block block;
   for (std::string_view key = words_.read("TIS"); key != "TIS"; key = words_.read("TIS")) read_keyword(key, block);
@@ -140,7 +140,7 @@ GONIO_INLINE void lighttools_reader::read_values(lighttools_block& block) {
   }
 }
 
-/// Returns the channel number of a block: its wavelength, or 0, 1, 2.
+/// Returns the channel number of a block: its wavelength, or 0, 1, 2 for X, Y, Z.
 GONIO_INLINE double lighttools_reader::channel_of(const lighttools_block& block) const {
   if (!is_tristimulus_) return block.wavelength;
   if (block.tristimulus < 0) refuse(block, {"a block of XYZ has no TristimulusValue above its TIS"});
@@ -175,7 +175,8 @@ GONIO_INLINE sample_collector lighttools_reader::collector_of(const channel_bloc
   for (const auto& [wavelength, block] : blocks) wavelengths.push_back(wavelength);
   if (wavelengths.front() > 0.0) return sample_collector(channels(wavelengths));
   if (wavelengths.size() > 1)
-    refuse(*blocks.begin()->second, {"the block has no Wavelength but others have, expected all or none"});
+    refuse(*blocks.begin()->second,
+           {"the block has no Wavelength but other blocks have, expected one in all blocks or in none"});
   return sample_collector();
 }
 

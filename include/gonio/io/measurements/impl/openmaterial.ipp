@@ -232,13 +232,13 @@ class openmaterial_reader {
   [[nodiscard]] row checked(const row& values) const {
     const auto [wavelength, theta_i, theta_o, phi, value] = values;
     require("wavelength in metres", wavelength, 1e-9, 17.16e-3);
-    // Accept limits that were rounded up.
+    // Accept pi / 2 and 2 pi rounded up to four decimals.
     require("zenith angle of the light in rad", theta_i, 0.0, 1.5708);
     require("zenith angle of the viewer in rad", theta_o, 0.0, 1.5708);
     require("azimuth in rad", phi, 0.0, 6.2832);
     if (std::abs(value) > double{std::numeric_limits<float>::max()})
       json_.refuse({shortest(value), " sr^-1 is outside the range of float"});
-    // Equal directions must have equal azimuths.
+    // Rows of equal directions must have equal azimuths: use 0 for any azimuth at the normal and for a whole turn.
     const bool is_none = theta_i == 0.0 || theta_o == 0.0 || phi >= 6.28318;
     return {theta_i, theta_o, is_none ? 0.0 : phi, 1e9 * wavelength, value};
   }

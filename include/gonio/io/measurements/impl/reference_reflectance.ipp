@@ -39,7 +39,7 @@ class reflectance_table {
  private:
   struct scaled_column {
     std::size_t column;
-    double scale;  ///< to degrees, or from per cent
+    double scale;  ///< converts the column's numbers to degrees, or from per cent
   };
 
   [[nodiscard]] static std::optional<scaled_column> column_of(const written_column& written);
@@ -98,7 +98,7 @@ GONIO_INLINE void reflectance_table::read_row(csv_reader& file) {
   factors_.push_back(has(2) ? rgb::Constant(row[2]) : rgb(row[3], row[4], row[5]));
 }
 
-/// The first theta_i determines the theta_o that all of them must have.
+/// The lines of the first theta_i determine the list of theta_o, which every theta_i must have.
 GONIO_INLINE void reflectance_table::add_angles(double theta_i, double theta_o, const text_place& place) {
   const std::size_t number = factors_.size();
   if (!has(1)) return theta_i_.push_back(theta_i);
@@ -109,7 +109,7 @@ GONIO_INLINE void reflectance_table::add_angles(double theta_i, double theta_o, 
   if (theta_i != theta_i_.back() || theta_o != theta_o_[column])
     place.refuse({"theta_i ", shortest(theta_i), " and theta_o ", shortest(theta_o), ", expected ",
                   shortest(theta_i_.back()), " and ", shortest(theta_o_[column]),
-                  ": every theta_i needs the same theta_o"});
+                  ": every theta_i must have the same list of theta_o, in the same order"});
 }
 
 GONIO_INLINE capture::reference_reflectance reflectance_table::table() const {

@@ -149,7 +149,7 @@ GONIO_INLINE void rt300s_reader::read_row() {
   return numbers;
 }
 
-/// The rows of angles are above the row RT, the last one to be read.
+/// Reads the rows of angles, which are above the row RT, and the row RT; ignores rows below it.
 [[nodiscard]] GONIO_INLINE sample_collector collect_rt300s_sheet(std::string_view text, const std::string& name) {
   csv_reader sheet(text, name);
   std::vector<std::optional<double>> azimuths, incidences, receivers, readings;
@@ -163,7 +163,7 @@ GONIO_INLINE void rt300s_reader::read_row() {
   if (readings.empty()) gonio::refuse({name, ": has no row RT"});
   const text_place& place = sheet.place();
   if (azimuths.empty() || incidences.empty() || receivers.empty())
-    place.refuse("the row RT precedes the rows Azimuth, Incidence and Receive, expected it after them");
+    place.refuse("expected the rows Azimuth, Incidence and Receive above the row RT");
   sample_collector collector;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (!readings[i]) continue;

@@ -86,8 +86,8 @@ GONIO_INLINE sample_set sample_collector::samples(const std::string& name) && {
   if (samples_.empty()) gonio::refuse({name, ": has no sample above the horizon, expected at least one"});
   if (!have_colours_)
     gonio::refuse({name,
-                   ": pairs of directions have different wavelengths, and not all have a colour, "
-                   "expected the same wavelengths in all"});
+                   ": pairs of directions have different wavelengths, and those of some pairs make no colour, "
+                   "expected the same wavelengths in all pairs"});
   return aperture_.is_point() ? std::move(samples_) : samples_.through(aperture_);
 }
 

@@ -89,7 +89,7 @@ inline constexpr std::array greek_letters{
 inline constexpr std::string_view latin_letters = "aaaaaa ceeeeiiii nooooo  uuuu   aaaaaa ceeeeiiii nooooo  uuuu  y";
 static_assert(latin_letters.size() == 64);
 
-/// Returns the bytes of the first UTF-8 letter; 1 for ASCII and Latin-1.
+/// Returns the number of bytes of the first letter in UTF-8; 1 for ASCII and Latin-1.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::size_t letter_size(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const auto goes_on = [&](std::size_t i) { return (byte(i) & 0xC0) == 0x80; };

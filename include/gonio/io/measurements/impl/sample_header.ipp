@@ -64,7 +64,7 @@ namespace gonio::io::detail {
   return nullptr;
 }
 
-/// Longer names are not compared with the columns' names.
+/// The number of letters up to which a name in a file is compared with the columns' names.
 inline constexpr std::size_t longest_name = 40;
 
 // ---- the header line -----------------------------------------------------------------------------------------------
@@ -127,7 +127,7 @@ inline constexpr std::size_t longest_name = 40;
   find_weights(place);
 }
 
-/// The first column is the angle down, the others are values.
+/// The first column of a matrix has the angle of each row; all other columns have values.
 [[gnu::cold]] GONIO_INLINE void sample_header::read_matrix(const std::vector<written_column>& names,
                                                            const text_place& place) {
   columns_.assign(names.size(), grey_group.first);
@@ -140,7 +140,8 @@ inline constexpr std::size_t longest_name = 40;
       return quantity_.state_percent_signs("the line of units", place);
 }
 
-/// Adds stated angles without a column. An azimuth counts only if the other has a column; else the file is in-plane.
+/// Adds the stated angles that have no column. Adds an azimuth only if the other azimuth has a column; otherwise the
+/// file is in-plane.
 [[gnu::cold]] GONIO_INLINE void sample_header::find_stated(std::span<const stated_angle> stated) {
   if (!has_any(angle_group)) return;
   const auto take = [&](std::size_t column) {
@@ -172,14 +173,14 @@ inline constexpr std::size_t longest_name = 40;
   extra_.push_back(written);
 }
 
-/// Returns false if the unit does not fit the column.
+/// Adds a column with a known name. Returns false if its unit does not fit.
 [[gnu::cold]] GONIO_INLINE bool sample_header::add_known(const written_column& written, const known_name& known,
                                                          const text_place& place) {
   const std::size_t column = known.column;
   const column_unit unit = unit_named(written.unit);
   if (!fits(unit, column)) return false;
   if (known.is_relative && has(column)) return false;  // phi_o has a column of its own
-  // In lower case these are chromaticities or coordinates.
+  // In lower case, x, y and z are chromaticities or coordinates.
   if (tristimulus_group.has(column) && (has(column) || written.text.front() < 'A' || written.text.front() > 'Z'))
     return false;
   const std::string text = in_quotes(written.text);
@@ -196,7 +197,7 @@ inline constexpr std::size_t longest_name = 40;
   return true;
 }
 
-/// Returns false if the name is not a wavelength.
+/// Adds a column named by its wavelength. Returns false if the name is not a wavelength.
 [[gnu::cold]] GONIO_INLINE bool sample_header::add_wavelength(const written_column& written, const text_place& place) {
   const double nanometres = wavelength_named(written);
   if (nanometres == 0.0) return false;
@@ -255,7 +256,7 @@ inline constexpr std::size_t longest_name = 40;
   const bool is_grey = has_any(grey_group), is_colour = has_any(colour_group), is_spectral = !wavelengths_.empty();
   if (int{is_grey} + int{is_colour} + int{is_spectral} > 1)
     place.refuse({"reflectance is given in two ways, expected r,g,b or value",
-                  is_spectral ? " or columns of wavelengths, as " : "", is_spectral ? name_of(ignored + 1) : ""});
+                  is_spectral ? " or columns of wavelengths, such as " : "", is_spectral ? name_of(ignored + 1) : ""});
   if (is_grey) values_ = grey_group;
   if (is_spectral) values_ = {ignored + 1, wavelengths_.size()};
   if (is_tristimulus) values_ = tristimulus_group;
@@ -288,7 +289,7 @@ inline constexpr std::size_t longest_name = 40;
   if (r == columns_.end() || has(colour_group.first + 1) || has(colour_group.first + 2) || has_any(grey_group)) return;
   if (quantity_.quantity() != sample_quantity::percent)
     place.refuse(
-        {"column 'g' is missing, expected r,g,b, or value for one channel, or wavelengths, as 400nm; if the "
+        {"column 'g' is missing, expected r,g,b, or value for one channel, or columns such as 400nm; if the "
          "column R is the only value, give --columns value=R; the header line looks ",
          description(dialect_)});
   *r = grey_group.first;
@@ -315,7 +316,7 @@ inline constexpr std::size_t longest_name = 40;
     if (!knows(column)) refuse_missing(column, place);
 }
 
-/// Does it have a column, or is it stated for all samples?
+/// Does the file have this column, or state its angle for all samples?
 [[gnu::cold]] GONIO_INLINE bool sample_header::knows(std::size_t column) const {
   return has(column) || std::ranges::find(stated_, column, &stated_angle::column) != stated_.end();
 }
@@ -332,11 +333,11 @@ inline constexpr std::size_t longest_name = 40;
         place.refuse({"column '", name, "' is missing: perhaps it is ", in_quotes(each.text), "; ", looks});
   place.refuse(
       {"column '", name, "' is missing",
-       colour_group.has(column) ? ", expected r,g,b, or value for one channel, or wavelengths, as 400nm; " : "; ",
+       colour_group.has(column) ? ", expected r,g,b, or value for one channel, or columns such as 400nm; " : "; ",
        looks});
 }
 
-/// How many names of a long list messages show.
+/// The number of names that messages show of a long list.
 inline constexpr std::size_t most_listed = 6;
 
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string how_many_more(std::size_t count) {

@@ -19,7 +19,7 @@ namespace gonio::io::detail {
 
 inline constexpr std::size_t column_theta_i = angle_group.first, column_theta_o = angle_group.first + 2;
 
-/// Reads degrees, with or without their sign. The file's decimal mark is not known yet.
+/// Reads degrees, with or without a degree sign. The file's decimal mark is not known yet.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::optional<double> degrees_in(std::string_view field) {
   std::string digits(without_degree_sign(trimmed(field)));
   std::ranges::replace(digits, ',', '.');
@@ -32,7 +32,7 @@ inline constexpr std::size_t column_theta_i = angle_group.first, column_theta_o 
   return column == column_theta_i ? column_theta_o : column_theta_i;
 }
 
-/// Returns the angles of a matrix's first field, without those across.
+/// Returns the matrix that the first field of its header line describes, still without the angles of the other fields.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::optional<sample_matrix> corner_of(std::string_view field,
                                                                                 const column_finder& find_column) {
   const std::size_t between = field.find_first_of("\\/|");
@@ -46,7 +46,7 @@ inline constexpr std::size_t column_theta_i = angle_group.first, column_theta_o 
   return sample_matrix{.down = down, .across = across};
 }
 
-/// Reads an angle across: a number, or a name and a number.
+/// Reads an angle from a field of the header line: a number, or a name and a number.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::optional<double> angle_across(std::string_view field, std::size_t across,
                                                                             const column_finder& find_column) {
   if (const auto angle = degrees_in(field)) return angle;

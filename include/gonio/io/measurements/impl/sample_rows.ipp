@@ -54,7 +54,8 @@ GONIO_INLINE bool sample_rows::next_row() {
   return csv_.next([this](std::string_view text) { read_comment(text); });
 }
 
-/// Does a field of the line belong to the current row? In a matrix, these are the first field and one other.
+/// Does a field of the line belong to the current row? In a matrix, these are the first field and the field of the
+/// current cell.
 GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
   return !header_.matrix() || field == 0 || field == cell_;
 }
@@ -85,7 +86,7 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
   sign_ = stated;
 }
 
-/// Sets the half angle of all lines below, unless they have a column for it.
+/// Sets the half angle of all lines below the comment, unless the file has a column for it.
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_half_angle(std::size_t column, const comment_entry& entry) {
   if (const char* wrong = csv_.read_number(entry.value, numbers_[column]); wrong != nullptr)
     csv_.place().refuse({entry.key, ": ", in_quotes(entry.value), wrong, ", expected degrees"});
@@ -199,7 +200,7 @@ GONIO_INLINE void sample_rows::read_number_of(std::size_t column, std::string_vi
                        description(csv_.dialect())});
 }
 
-/// A file may repeat its quantity in each line; it must be the same in all.
+/// Reads the quantity that a line states. All lines must state the same quantity.
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_quantity(std::string_view field) {
   const auto quantity = quantity_named(field);
   if (!quantity)
@@ -255,8 +256,8 @@ GONIO_INLINE void sample_rows::check_weights() const {
     gonio::refuse({csv_.place().name, ": has half vectors, to which theta-o-sign does not apply"});
   if (line_of_unknown_side_ > 0 && !has_signed_angle_)
     text_place{csv_.place().name, line_of_unknown_side_}.refuse(
-        "on which sides of the normal are light and viewer? There are no columns phi_i and phi_o, and no angle of the "
-        "file is negative; expected these columns, signed angles (same sign: same side) or --theta-o-sign");
+        "the viewer's side of the normal is unknown: there are no columns phi_i and phi_o, and no angle is negative; "
+        "expected these columns, negative angles on one side of the normal, or --theta-o-sign");
   if (reading_.note) note_assumptions();
 }
 

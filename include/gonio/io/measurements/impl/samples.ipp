@@ -26,8 +26,8 @@
 
 namespace gonio::io::detail {
 
-/// Returns a polar angle in radians. With `either_side` it may be negative, as for a goniometer's arm: the same as an
-/// azimuth of 180 degrees.
+/// Returns a polar angle in radians. With `either_side` it may be negative, as for a goniometer's arm: this turns the
+/// azimuth by 180 degrees.
 [[nodiscard]] GONIO_INLINE double polar_angle(const sample_row& row, std::size_t column, bool either_side,
                                               const text_place& place) {
   const double angle = row[column];
@@ -81,14 +81,15 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
           spherical_direction(theta_o, azimuth(numbers, 6, place))};
 }
 
-/// Returns the angles as given. A phi_d outside half a turn exchanges light and viewer: then they are kept as a pair.
+/// Returns the angles as given. If phi_d is outside half a turn, returns a pair of directions instead: folding phi_d
+/// would exchange light and viewer.
 [[nodiscard]] GONIO_INLINE sample_directions directions_of(const half_difference& given) {
   if (fold_phi_d(given.phi_d) == given.phi_d) return given;
   return to_directions(given);
 }
 
-/// Returns a row's directions. Rounding can put grazing directions below the horizon in only one representation; they
-/// are refused in both.
+/// Returns a row's directions. Refuses grazing directions that rounding puts below the horizon in either form, as
+/// angles or as a pair.
 [[nodiscard]] GONIO_INLINE sample_directions row_directions(const parsed_row& row) {
   const sample_directions at = row.has_half_difference() ? directions_of(given_angles(row)) : given_directions(row);
   require_above_horizon(cosines(at.angles()), row);
@@ -96,7 +97,7 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
   return at;
 }
 
-/// Is light or viewer at 90 degrees? Goniometers reach this angle, but there is no BRDF.
+/// Is light or viewer at 90 degrees? Goniometers reach this angle, where there is no BRDF.
 [[nodiscard]] GONIO_INLINE bool is_at_horizon(const parsed_row& row) {
   if (row.has_half_difference() || row.group.first == vector_group.first) return false;
   return std::abs(row.numbers[3]) == 90.0 || std::abs(row.numbers[5]) == 90.0;
@@ -160,11 +161,11 @@ GONIO_INLINE void require_plausible_sides(const sample_set& samples, const std::
   if (ratio > implausible_brightness_towards_light)
     gonio::refuse(
         {name, ": at theta_o = theta_i the sample is ", shortest(std::round(10.0 * ratio) / 10.0),
-         " times as bright as on the other side of the normal: is theta_o positive towards the mirror direction? Then "
-         "give --theta-o-sign mirror; a material that reflects the light back needs --theta-o-sign light"});
+         " times as bright as on the other side of the normal: give --theta-o-sign mirror if theta_o is positive "
+         "towards the mirror direction, --theta-o-sign light if the material reflects the light back"});
 }
 
-/// Notes how many rows are left out and why; throws gonio::error if these are more than half. `kept` rows remain.
+/// Notes how many rows are left out and why; throws gonio::error if they are more than the `kept` rows.
 GONIO_INLINE void note_left_out(const sample_rows& rows, std::size_t at_horizon, std::size_t kept,
                                 const sample_reading& reading, const std::string& name) {
   const std::size_t left_out = at_horizon + rows.rows_without_value();
@@ -177,9 +178,9 @@ GONIO_INLINE void note_left_out(const sample_rows& rows, std::size_t at_horizon,
   if (reading.note) reading.note(counts);
 }
 
-/// Returns the reading with the assumed scale of a file of X, Y and Z that states no quantity, from a first pass over
-/// it: percent of a perfect diffuser's Y if the median of Y is above 1.5, which no matt surface reaches; reflectance
-/// factors if no Y is above 1.
+/// A file of X, Y and Z may lack a statement of its quantity. Returns `reading` with the quantity to assume, from a
+/// first pass over the file: percent if the median of Y is above 1.5, which no matt surface reaches; reflectance
+/// factors if no Y is above 1. Otherwise throws gonio::error.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE sample_reading with_assumed_scale(std::string_view text,
                                                                            const std::string& name,
                                                                            const sample_reading& reading) {
@@ -192,8 +193,8 @@ GONIO_INLINE void note_left_out(const sample_rows& rows, std::size_t at_horizon,
   const bool are_percent = middle > 1.5;
   if (!are_percent && largest > 1.0)
     gonio::refuse({name, ": the largest Y is ", shortest(largest), ", the median ", shortest(middle),
-                   ": is a perfect diffuser's Y 1 or 100? Expected --quantity reflectance-factor or "
-                   "percent, or a comment line '# quantity: percent'"});
+                   ": give --quantity reflectance-factor if a perfect diffuser has Y 1, --quantity percent if it has "
+                   "Y 100, or a comment line such as '# quantity: percent'"});
   if (reading.note)
     reading.note(message_of({name, ": a perfect diffuser is taken to have Y ", are_percent ? "100" : "1",
                              ", as the largest Y is ", shortest(largest), ", the median ", shortest(middle),
@@ -304,17 +305,35 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
   return read_direction_pairs(as_text(bytes), path.string(), reading);
 }
 
-GONIO_INLINE std::string write_samples(const sample_set& samples, const sample_provenance& provenance) {
+namespace detail {
+
+/// Returns the numbers of a sample's directions, in degrees.
+[[nodiscard]] inline std::vector<double> direction_numbers(const sample_directions& directions,
+                                                           direction_columns columns) {
+  if (columns == direction_columns::half_difference) {
+    const half_difference& at = directions.angles();
+    return {degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d))};
+  }
+  const auto rounded = [](double angle) { return std::round(degrees(angle) * 1e9) / 1e9 + 0.0; };
+  const auto& [wi, wo] = directions.pair();
+  return {rounded(gonio::polar_angle(wi)), rounded(gonio::azimuth(wi)), rounded(gonio::polar_angle(wo)),
+          rounded(gonio::azimuth(wo))};
+}
+
+}  // namespace detail
+
+GONIO_INLINE std::string write_samples(const sample_set& samples, const sample_provenance& provenance,
+                                       direction_columns columns) {
   const channels& kinds = samples.channels();
   const bool apart = !kinds.are_wavelengths() && weigh_channels_apart(samples), through = samples.have_apertures();
   std::string text = comment_lines(provenance);
   if (!kinds.are_colours()) text += "# quantity: brdf\n";
-  text += "theta_h,theta_d,phi_d," + detail::column_names(kinds);
+  text += columns == direction_columns::pairs ? "theta_i,phi_i,theta_o,phi_o," : "theta_h,theta_d,phi_d,";
+  text += detail::column_names(kinds);
   text += apart ? "weight_r,weight_g,weight_b" : "weight";
   text += through ? ",source_half_angle,receiver_half_angle\n" : "\n";
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
-    const half_difference& at = samples.directions(i).angles();
-    std::vector<double> numbers{degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d))};
+    std::vector<double> numbers = detail::direction_numbers(samples.directions(i), columns);
     numbers.insert(numbers.end(), samples.values(i).begin(), samples.values(i).end());
     for (Eigen::Index c = 0; c < (apart ? 3 : 1); ++c) numbers.push_back(samples.weight(i)[c]);
     if (through)
@@ -326,13 +345,13 @@ GONIO_INLINE std::string write_samples(const sample_set& samples, const sample_p
 }
 
 GONIO_INLINE void write_samples(const std::filesystem::path& path, const sample_set& samples,
-                                const sample_provenance& provenance) {
+                                const sample_provenance& provenance, direction_columns columns) {
   try {
     require_usable(samples);
   } catch (const error& unusable) {
     gonio::refuse({path.string(), ": ", unusable.what()});
   }
-  detail::write_text(path, write_samples(samples, provenance));
+  detail::write_text(path, write_samples(samples, provenance, columns));
 }
 
 [[gnu::cold]] GONIO_INLINE void write_direction_pairs(const std::filesystem::path& path,

@@ -39,7 +39,7 @@ GONIO_INLINE bool has_control_characters(std::string_view text) {
   return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
 }
 
-/// Returns a pose's line without its end.
+/// Returns the line of a pose up to its last component.
 GONIO_INLINE std::string pose_fields(std::string text, const direction_pair& pose) {
   for (const direction& w : {pose.wi, pose.wo})
     for (const double component : w) text += ' ' + shortest(component);
@@ -100,7 +100,7 @@ GONIO_INLINE capture::reading read_reading(number_reader& numbers, std::uint16_t
   }
   const std::size_t pixels = numbers.next_whole(1e6, "the number of pixels");
   if (frames == 0 || pixels == 0) place.refuse("a reading needs at least one frame of at least one pixel");
-  if (numbers.left() != frames * pixels * 3 + 1)  // the last one is the checksum
+  if (numbers.left() != frames * pixels * 3 + 1)  // the last number is the checksum
     place.refuse("has " + std::to_string(numbers.left() - std::min<std::size_t>(numbers.left(), 1)) +
                  " counts, expected " + std::to_string(frames * pixels * 3));
   for (std::size_t i = 0; i < frames; ++i) {
@@ -191,7 +191,7 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
 }
 
 GONIO_INLINE void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name) {
-  // Readings come last: if there is none, the process may have been killed while it wrote the head.
+  // Readings come last: if there is none, the process may have been killed while it wrote the header.
   const std::string_view again =
       all.has_reading ? "" : "; if the scan was stopped before its first reading, the same command restarts it";
   if (scan.largest_count == 0) gonio::refuse({name, ": the line largest_count is missing", again});
@@ -245,7 +245,7 @@ GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const
   open();
   auto bytes = read_bytes(path);
   if (bytes.size() < header.size() && header.starts_with(as_text(bytes))) {
-    // A new file, or the process was killed while it wrote the same head.
+    // The file is new, or a process was killed while it wrote this header.
     write(std::string_view(header).substr(bytes.size()));
     bytes = read_bytes(path);
   }
@@ -292,14 +292,15 @@ GONIO_INLINE void scan_journal::require_same(const scan_subject& subject, std::s
                                              std::uint16_t largest_count) const {
   const std::string name = path_.string();
   if (scan_.largest_count != largest_count)
-    gonio::refuse({name, ": is a scan by a camera of ", scan_.largest_count, " counts, not ", largest_count});
+    gonio::refuse({name, ": the scan's camera counts up to ", scan_.largest_count, ", not up to ", largest_count});
   const auto same = [](const direction_pair& a, const direction_pair& b) { return a.wi == b.wi && a.wo == b.wo; };
   if (!std::ranges::equal(std::span(scan_.poses).first(scan_.planned), poses, same))
     gonio::refuse(
         {name, ": is a scan of ", scan_.planned, " other poses, expected the ", poses.size(), " of this plan"});
   if (!scan_.subject)
-    gonio::refuse({name, ": does not name its sample, like scans of earlier versions: it can be calibrated, but not ",
-                   "continued"});
+    gonio::refuse({name,
+                   ": does not name its sample, because an earlier version wrote the file: the scan can be calibrated, "
+                   "but not continued"});
   const scan_subject& known = *scan_.subject;
   if (known.sample != subject.sample)
     gonio::refuse({name, ": is a scan of '", known.sample, "', not of '", subject.sample, "'"});

@@ -31,14 +31,14 @@ struct speos_table {
   std::vector<double> theta, phi, values;
 };
 
-/// The tables of one azimuth of the light about the file's anisotropy vector, one for each angle of incidence.
+/// The tables of one azimuth of the light, counted from the anisotropy vector: one for each angle of incidence.
 struct speos_turn {
   double azimuth = 0.0;  ///< degrees
   std::vector<double> incidences;
   std::vector<speos_table> tables;
 };
 
-/// Takes the rows above the numbers from the front of the text; `place` is then at the last of them.
+/// Takes the rows above the numbers from the front of the text; `place` is then at the last of these rows.
 GONIO_INLINE void read_speos_rows(std::string_view& text, text_place& place) {
   const auto line = [&] {
     if (text.empty())
@@ -64,7 +64,8 @@ GONIO_INLINE void read_speos_rows(std::string_view& text, text_place& place) {
   static_cast<void>(line());
 }
 
-/// Returns the weights of values at ascending nodes, linear in between, in an integral of `density` over the angle.
+/// Returns weights of values at ascending nodes (degrees): the weighted sum of the values is the integral over the
+/// angle (radians) of `density` times the values, which are linear between nodes.
 template <class Density>
 [[nodiscard]] std::vector<double> node_weights(const std::vector<double>& nodes, const Density& density) {
   constexpr int steps = 64;
@@ -80,7 +81,6 @@ template <class Density>
   return weights;
 }
 
-/// Reads the numbers of a file.
 class speos_reader {
  public:
   speos_reader(std::string_view text, text_place& place) : words_(text, place), size_(text.size()) {}
@@ -143,7 +143,7 @@ GONIO_INLINE speos_table speos_reader::read_table() {
   return table;
 }
 
-/// Returns the weights of a whole turn, or of half a symmetric one. A whole turn may omit its end.
+/// Returns the weights of azimuths that cover a whole turn, whose end may be missing, or half of a symmetric turn.
 GONIO_INLINE std::vector<double> speos_reader::azimuth_weights(const std::vector<double>& phi) const {
   const auto one = [](double) { return 1.0; };
   constexpr double rounding = 1e-3;
@@ -178,7 +178,7 @@ GONIO_INLINE double speos_reader::integral(const speos_table& table) const {
   return sum;
 }
 
-/// Scales a table to the BRDF.
+/// Multiplies a table by a factor, and divides it by the cosine if the file includes the cosine.
 GONIO_INLINE void speos_reader::scale(speos_table& table, double factor) const {
   for (std::size_t i = 0; i < table.theta.size(); ++i)
     for (std::size_t k = 0; k < table.phi.size(); ++k) {
@@ -189,7 +189,7 @@ GONIO_INLINE void speos_reader::scale(speos_table& table, double factor) const {
     }
 }
 
-/// Adds samples; `turn` is added to both azimuths, `read_values(i, values)` gives the spectrum of value i.
+/// Adds samples; `turn` (degrees) is added to both azimuths, `read_values(i, values)` gives the spectrum of value i.
 template <class ReadValues>
 void speos_reader::add(sample_collector& to, double incidence, double turn, const speos_table& table,
                        const ReadValues& read_values) const {
@@ -210,7 +210,8 @@ void speos_reader::add(sample_collector& to, double incidence, double turn, cons
 GONIO_INLINE void speos_reader::read_kind() {
   const bool reflects = words_.read_one_of({"0", "1"}) == 1, transmits = words_.read_one_of({"0", "1"}) == 1;
   if (!reflects || transmits)
-    words_.place().refuse("the file has transmission, expected only reflection, '1 0': save that part in Speos");
+    words_.place().refuse(
+        "the file has transmission, expected only reflection, '1 0': save the reflection alone in Speos");
   has_cosine_ = words_.read_one_of({"0", "1"}) == 0;
 }
 
@@ -265,7 +266,7 @@ GONIO_INLINE void speos_reader::skip_title() {
   if (io::read_number(words_.peek(), number) != nullptr) static_cast<void>(words_.read_rest_of_line());
 }
 
-/// Interpolates linearly between angles of incidence; outside their range uses the nearest.
+/// Returns the integral at an angle of incidence: linear between the tables' angles, constant outside their range.
 GONIO_INLINE double speos_reader::integral_at(const speos_turn& turn, double incidence) const {
   const std::vector<double>& all = turn.incidences;
   const auto above = static_cast<std::size_t>(std::ranges::lower_bound(all, incidence) - all.begin());
@@ -275,7 +276,7 @@ GONIO_INLINE double speos_reader::integral_at(const speos_turn& turn, double inc
   return (1.0 - share) * integral(turn.tables[above - 1]) + share * integral(turn.tables[above]);
 }
 
-/// Limits memory: the file has each value once, samples have it for each wavelength.
+/// Limits memory: the file has each value once, samples repeat it for each wavelength.
 GONIO_INLINE void speos_reader::require_room(std::size_t wavelengths, const std::vector<speos_turn>& turns) const {
   constexpr std::size_t small = 4'000'000, of_each_byte = 64;
   std::size_t values = 0;

@@ -137,7 +137,7 @@ GONIO_INLINE void tensor_tree_reader::add_cells(const tree_cell& cell, const std
   }
 }
 
-/// Adds a cell; divides a wide one.
+/// Adds a cell; divides it if it is wider than an eighth of the cube.
 GONIO_INLINE void tensor_tree_reader::add_cell(const tree_cell& cell, double value) {
   constexpr double widest = 1.0 / 8.0;
   const auto along_axis = static_cast<std::size_t>(std::max(1.0, cell.size / widest));
@@ -147,7 +147,8 @@ GONIO_INLINE void tensor_tree_reader::add_cell(const tree_cell& cell, double val
   add_cells(cell, std::vector<double>(count, value), along_axis);
 }
 
-/// In trees of rank 3 the first axis goes from grazing light (0) to the normal (0.5); cells above 0.5 are empty.
+/// Adds a sample at the cell's centre. In trees of rank 3 the first axis goes from grazing light (0) to the normal
+/// (0.5); cells above 0.5 are empty.
 GONIO_INLINE void tensor_tree_reader::add_centre(const tree_cell& cell, double value) {
   std::array<double, 4> centre = cell.corner;
   for (double& coordinate : centre) coordinate += 0.5 * cell.size;

@@ -24,16 +24,52 @@
 namespace gonio::io::detail {
 
 GONIO_INLINE direction about_specular(double theta, double phi, double radial, double azimuth) noexcept {
-  // In the plane of incidence, with light from +x: the specular direction, and that from it towards the normal.
-  const direction specular{-std::sin(theta), 0.0, std::cos(theta)}, to_normal{std::cos(theta), 0.0, std::sin(theta)};
-  const double across = std::sin(radial);
-  direction w = gonio::detail::combined(std::cos(radial), specular, across * std::cos(azimuth), to_normal);
-  w.y() = across * std::sin(azimuth);
-  return turned_about_normal(w, phi);
+  return model::detail::direction_about_specular(theta, phi, radial, azimuth);
 }
 
 GONIO_INLINE sample_set zemax_bsdf_reader::read() {
   read_header();
+  return samples(read_planes());
+}
+
+GONIO_INLINE model::angle_grid zemax_bsdf_reader::read_grid() {
+  read_header();
+  const std::vector<plane> planes = read_planes();
+  const auto kept = [](const std::vector<double>& list, const std::vector<bool>& are_new) {
+    std::vector<Eigen::Index> positions;
+    for (Eigen::Index i = 0; i < std::ssize(list); ++i)
+      if (are_new[i]) positions.push_back(i);
+    return positions;
+  };
+  const auto angles = [](const std::vector<double>& list, const std::vector<Eigen::Index>& positions) {
+    std::vector<double> chosen;
+    for (const Eigen::Index i : positions) chosen.push_back(radians(list[i]));
+    return chosen;
+  };
+  const auto all = [&](const std::vector<double>& list) { return kept(list, std::vector<bool>(list.size(), true)); };
+  const std::vector<Eigen::Index> rotations = kept(rotations_, are_new_azimuths(rotations_)),
+                                  rows = kept(azimuths_, are_new_azimuths(azimuths_));
+  model::angle_grid grid{angles(rotations_, rotations),
+                         angles(incidences_, all(incidences_)),
+                         angles(azimuths_, rows),
+                         angles(radials_, all(radials_)),
+                         {}};
+  grid.viewer = model::viewer_angles::about_specular;
+  const Eigen::Index columns = std::ssize(radials_), incidences = std::ssize(incidences_);
+  for (const Eigen::Index rotation : rotations)
+    for (Eigen::Index incidence = 0; incidence < incidences; ++incidence)
+      for (const Eigen::Index row : rows)
+        for (Eigen::Index column = 0; column < columns; ++column) {
+          const Eigen::Index at =
+              ((rotation * incidences + incidence) * std::ssize(azimuths_) + row) * columns + column;
+          const rgb value = is_tristimulus_ ? from_xyz({planes[0][at], planes[1][at], planes[2][at]})
+                                            : rgb(rgb::Constant(planes[0][at]));
+          for (Eigen::Index c = 0; c < 3; ++c) grid.values.push_back(static_cast<float>(value[c]));
+        }
+  return grid;
+}
+
+GONIO_INLINE std::vector<zemax_bsdf_reader::plane> zemax_bsdf_reader::read_planes() {
   std::vector<plane> planes;
   if (!is_tristimulus_) {
     static_cast<void>(words_.read_one_of({"Monochrome"}));
@@ -46,7 +82,7 @@ GONIO_INLINE sample_set zemax_bsdf_reader::read() {
   }
   if (const std::string_view more = words_.peek(); !more.empty())
     words_.place().refuse({in_quotes(more), " follows the data, expected the end of the file"});
-  return samples(planes);
+  return planes;
 }
 
 GONIO_INLINE void zemax_bsdf_reader::read_header() {
@@ -55,7 +91,7 @@ GONIO_INLINE void zemax_bsdf_reader::read_header() {
   while (!is_data(words_.peek())) {
     const std::string_view key = words_.read(start_of_data);
     if (key == "Source" || key == "Symmetry")
-      static_cast<void>(words_.read(key));  // the list of azimuths shows what was measured
+      static_cast<void>(words_.read(key));  // ignored: the list of azimuths shows the measured directions
     else if (key == "SpectralContent")
       is_tristimulus_ = words_.read_one_of({"Monochrome", "XYZ"}) == 1;
     else if (key == "ScatterType")
@@ -105,11 +141,12 @@ GONIO_INLINE zemax_bsdf_reader::plane zemax_bsdf_reader::read_plane() {
 }
 
 GONIO_INLINE sample_set zemax_bsdf_reader::samples(const std::vector<plane>& planes) const {
-  const std::vector<bool> are_new = are_new_azimuths(azimuths_);
+  const std::vector<bool> are_new = are_new_azimuths(azimuths_), are_new_rotations = are_new_azimuths(rotations_);
   const std::size_t columns = radials_.size(), block = azimuths_.size() * columns;
   std::array<double, 3> values{};
   sample_collector collector = is_tristimulus_ ? sample_collector::of_xyz() : sample_collector();
   for (std::size_t b = 0; b < rotations_.size() * incidences_.size(); ++b) {
+    if (!are_new_rotations[b / incidences_.size()]) continue;
     const double theta = radians(incidences_[b % incidences_.size()]);
     const double phi = radians(rotations_[b / incidences_.size()]);
     for (std::size_t row = 0; row < azimuths_.size(); ++row)

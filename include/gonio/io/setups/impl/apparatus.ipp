@@ -1,5 +1,5 @@
 #pragma once
-/// Bodies of io/setups/capture_constraint.hpp.
+/// Bodies of io/setups/apparatus.hpp.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/design/apparatus.hpp>
@@ -19,7 +19,7 @@ GONIO_INLINE design::polar_range read_polar_range(const text_rule& rule, std::si
   return {radians(smallest), radians(largest)};
 }
 
-/// The tolerance of a rule that gives none.
+/// The tolerance of an angle or of the plane if its rule gives none.
 inline constexpr double default_tolerance = radians(0.5);
 
 [[nodiscard]] GONIO_INLINE double read_tolerance(double angle, const text_place& place) {

@@ -19,8 +19,7 @@
 
 namespace gonio::io::detail {
 
-/// The entries of a file of OpenCV, YAML or XML, found by name: the value is the text between a name and the next one.
-/// Understands only numbers and matrices of numbers.
+/// Finds entries of OpenCV's YAML and XML files by name. Understands only numbers, words and matrices of numbers.
 class storage_text {
  public:
   storage_text(std::string_view text, const std::string& name)
@@ -53,7 +52,7 @@ class storage_text {
     return text;
   }
 
-  /// Returns a whole number that counts pixels.
+  /// Returns the number of pixels under the first of these names that is present.
   [[nodiscard]] std::size_t pixels(std::initializer_list<std::string_view> names) const {
     for (const std::string_view each : names)
       if (const auto value = find(text_, each)) return count_of(trimmed(*value), each);
@@ -76,14 +75,14 @@ class storage_text {
       const std::size_t after = at + opening.size();
       if (after >= within.size() || !(within[after] == '>' || within[after] == ' ')) continue;
       const std::size_t begin = within.find('>', after), end = within.find(closing, after);
-      if (begin == within.npos || end == within.npos || end < begin) refuse(entry, "has no end");
+      if (begin == within.npos || end == within.npos || end < begin) refuse(entry, "is not closed");
       return within.substr(begin + 1, end - begin - 1);
     }
     return {};
   }
 
-  /// Returns the text after "entry:" at the start of a line, up to the next line that is not indented deeper; for a
-  /// list, up to its bracket.
+  /// Returns the text after "entry:" at the start of a line, up to the next line that is not indented deeper and does
+  /// not start with - or ].
   [[nodiscard]] std::optional<std::string_view> find_key(std::string_view within, std::string_view entry) const {
     for (std::size_t begin = 0; begin < within.size();) {
       const std::size_t end = std::min(within.find('\n', begin), within.size());

@@ -73,7 +73,7 @@ GONIO_INLINE const setup_text::placed_rule& setup_text::at(std::string_view name
   return *find(name);
 }
 
-/// Returns the focal length for an angle from the left to the right of the image.
+/// Returns the focal length in pixels from the field of view between the image's left and right borders.
 GONIO_INLINE double focal_length_of_view(const setup_text& text, double columns) {
   const double angle = text.numbers("field_of_view")[0];
   if (!(angle > 0.0 && angle < 180.0))
@@ -130,7 +130,7 @@ GONIO_INLINE lens_camera setup_camera(const setup_text& text, const std::optiona
   return text.naming_file([&] { return lens_camera(pinhole, distortion); });
 }
 
-/// Returns an entry of one number for all channels, or of three.
+/// Returns an entry's colour: three numbers, or one for all channels, or 1 if the entry is missing.
 GONIO_INLINE rgb setup_colour(const setup_text& text, std::string_view name) {
   if (!text.has(name)) return rgb::Ones();
   const auto& values = text.numbers(name);
@@ -144,7 +144,7 @@ GONIO_INLINE directional_light distant_light(const setup_text& text) {
   if (text.has("light")) {
     light.towards = text.vector("light");
     const double length = light.towards.norm();
-    if (!(length > 0.0 && std::isfinite(length))) text.refuse("light", "a direction needs a length that is not 0");
+    if (!(length > 0.0 && std::isfinite(length))) text.refuse("light", "the direction must be finite and not 0 0 0");
     light.towards /= length;
   } else {
     const double theta = text.numbers("light_angles")[0], phi = text.numbers("light_angles")[1];

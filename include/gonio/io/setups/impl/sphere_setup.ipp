@@ -19,9 +19,9 @@ namespace gonio::io::detail {
 inline constexpr auto sphere_setup_entries =
     with_photograph_entries(std::array<setup_entry, 3>{{{"sphere", 1, 4}, {"outline", 3}, {"smallest_cosine", 1}}});
 
-/// Reads the position and radius of the sphere, if the file gives them.
+/// Reads the sphere's radius, centre and outline if the file gives them.
 GONIO_INLINE void read_sphere(const setup_text& text, sphere_setup& setup) {
-  if (text.has("outline") && !text.has("sphere")) text.refuse("outline", "needs 'sphere', its radius");
+  if (text.has("outline") && !text.has("sphere")) text.refuse("outline", "needs 'sphere' with the sphere's radius");
   if (!text.has("sphere")) return;
   const auto& sphere = text.numbers("sphere");
   if (!(sphere[0] > 0.0)) text.refuse("sphere", "the radius must be positive, not " + shortest(sphere[0]));

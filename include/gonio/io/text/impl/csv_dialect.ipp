@@ -65,7 +65,7 @@ namespace gonio::io::detail {
   if (separator == ' ') line = trimmed(line);
   fields.clear();
   while (true) {
-    // Blanks before a field do not belong to it, but a separating tab does count.
+    // Skip blanks before a field, but not a tab that separates fields.
     line.remove_prefix(std::min(line.find_first_not_of(separator == '\t' ? " " : blanks), line.size()));
     std::string_view field;
     const bool has_quotes = line.starts_with('"');
@@ -80,7 +80,7 @@ namespace gonio::io::detail {
 
 /// Returns a number without the marks between its groups of three digits; empty if it has no such groups.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string without_group_marks(std::string_view field) {
-  // Apostrophes, no-break and thin spaces; a point or a comma if the other follows.
+  // Group marks are apostrophes, no-break and thin spaces, and a point or a comma if the other of these two follows.
   const std::size_t comma = field.find(','), point = field.find('.');
   const bool has_both = comma != std::string_view::npos && point != std::string_view::npos;
   const std::string_view both = comma < point ? "," : ".";
@@ -104,7 +104,7 @@ namespace gonio::io::detail {
   return {};
 }
 
-/// Reads a number of a file that has decimal commas, or whose decimal mark is not known yet.
+/// Reads a number that may have a decimal comma or group marks. Its decimal mark sets the dialect's if that is unknown.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE const char* read_marked_number(std::string_view field, csv_dialect& dialect,
                                                                         double& value) {
   const std::string grouped = without_group_marks(field);

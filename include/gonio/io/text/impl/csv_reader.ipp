@@ -1,5 +1,5 @@
 #pragma once
-/// Bodies of io/csv_reader.hpp.
+/// Bodies of io/text/csv_reader.hpp.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/io/text/csv_dialect.hpp>
@@ -88,7 +88,8 @@ GONIO_INLINE bool csv_reader::next(const std::function<void(std::string_view)>& 
   return true;
 }
 
-/// Spreadsheets put quotes around a comment. Below the header line a quoted text is a field.
+/// Reads the next line that is not a comment. Above the header line, a comment may be in quotes, which spreadsheets
+/// add. Below it, a quoted text is a field.
 GONIO_INLINE bool csv_reader::next_line(std::string_view& line,
                                         const std::function<void(std::string_view)>& read_comment) {
   while (next_whole_line(left_, place_, line)) {

@@ -29,7 +29,7 @@ GONIO_INLINE std::vector<named_file> list_named_files(const std::filesystem::pat
   std::ranges::sort(files, {}, &named_file::name);
   const auto twice = std::ranges::adjacent_find(files, {}, &named_file::name);
   if (twice != files.end())
-    gonio::refuse({folder.string(), ": two files are named '", twice->name, "' apart from their extension"});
+    gonio::refuse({folder.string(), ": two files differ only in their extension: '", twice->name, "'"});
   return files;
 }
 

@@ -106,11 +106,17 @@ GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string
   constexpr std::string_view begins = "-.0123456789iInN";
   if (digits.empty() || begins.find(digits.front()) == std::string_view::npos) return std::errc::invalid_argument;
   if (digits.find_first_of("xX") != std::string_view::npos) return std::errc::invalid_argument;
+#if defined(_WIN32)
+  static const auto plain = ::_create_locale(LC_ALL, "C");
+  constexpr auto read = &::_strtod_l;
+#else
   static const ::locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  constexpr auto read = &::strtod_l;
+#endif
   const std::string text(digits);  // zero-terminated, for strtod
   char* end = nullptr;
   errno = 0;
-  const double number = ::strtod_l(text.c_str(), &end, plain);
+  const double number = read(text.c_str(), &end, plain);
   if (end != text.c_str() + text.size()) return std::errc::invalid_argument;
   if (errno == ERANGE && (number == 0.0 || std::isinf(number))) return std::errc::result_out_of_range;
   value = number;

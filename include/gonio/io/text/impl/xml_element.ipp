@@ -14,7 +14,7 @@
 
 namespace gonio::io::detail {
 
-/// Takes the next element from the front of a text. Returns a null view at the end.
+/// Takes the next element of this name from the front of a text; returns its content, or a null view at the end.
 GONIO_INLINE std::string_view xml_element::next(std::string_view& rest, std::string_view name) const {
   constexpr std::string_view ends_of_name = " \t\r\n/>";
   const std::string close = message_of({"</", name, ">"});

@@ -30,7 +30,8 @@ inline constexpr std::byte is_part{1}, is_end{0};
   return nullptr;
 }
 
-/// Rank 0: takes all parts, or until one fails anywhere. Then tells the others to stop and waits for them.
+/// Runs at rank 0: takes all parts, but stops at a part that fails at any rank. Then tells all other ranks to stop, and
+/// waits until they have.
 [[nodiscard]] GONIO_INLINE std::exception_ptr take_in_order(
     const ranks& ranks, block range, const std::function<std::vector<std::byte>(Eigen::Index)>& compute,
     const std::function<void(Eigen::Index, std::vector<std::byte>)>& take) {
@@ -56,7 +57,7 @@ inline constexpr std::byte is_part{1}, is_end{0};
   return thrown;
 }
 
-/// Another rank: sends its parts until there are no more, one fails, or rank 0 tells it to stop.
+/// Runs at all other ranks: sends the rank's parts until all are sent, one fails, or rank 0 tells the rank to stop.
 [[nodiscard]] GONIO_INLINE std::exception_ptr send_in_order(
     const ranks& ranks, block range, const std::function<std::vector<std::byte>(Eigen::Index)>& compute) {
   const auto thrown = thrown_by([&] {

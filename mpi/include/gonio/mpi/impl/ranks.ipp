@@ -57,13 +57,13 @@ class processor_timer {
 
 }  // namespace detail
 
-// Errors of MPI itself end the job, the default of a communicator.
+// Errors of MPI itself end the job, as is the default for a communicator.
 struct ranks::state {
   MPI_Comm all = MPI_COMM_NULL;
   int rank = 0, size = 1, on_this_machine = 1;
   int tag = detail::message_tag;
   bool ends_mpi = false, failed_together = false;
-  std::string failure;  ///< of this rank, while it is told to the others
+  std::string failure;  ///< the failure of this rank, while the rank tells it to all other ranks
   traffic sent;
   std::deque<detail::posted> under_way;
 
@@ -138,7 +138,7 @@ GONIO_INLINE ranks::ranks() : state_(std::make_unique<state>()) {
   int begun = 0;
   MPI_Initialized(&begun);
   if (begun == 0) {
-    int threads = 0;  // others compute, this one sends
+    int threads = 0;  // MPI's answer; only this thread calls MPI, other threads only compute
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &threads);
     state_->ends_mpi = true;
   }
@@ -224,7 +224,8 @@ GONIO_INLINE std::vector<std::vector<std::byte>> ranks::gather(std::span<const s
 }
 
 GONIO_INLINE std::vector<std::byte> ranks::broadcast(std::vector<std::byte> bytes) const {
-  // Rank r receives from r without its lowest set bit, and sends to r plus each lower bit.
+  // Rank r receives from the rank whose number is r without its lowest set bit. It sends to r + 2^i for all bits i
+  // below that bit.
   const unsigned own = static_cast<unsigned>(rank()), count = static_cast<unsigned>(size());
   const unsigned lowest = own == 0 ? std::bit_ceil(count) : own & (~own + 1u);
   if (own != 0) bytes = receive(static_cast<int>(own - lowest));

@@ -50,8 +50,8 @@ class tree_of_sums {
     }
   }
 
-  /// Returns the sum of a range of groups if its first is this rank's. Otherwise returns nothing and sends this rank's
-  /// part of it.
+  /// Returns the sum of a range of groups if its first group belongs to this rank. Otherwise sends this rank's part of
+  /// the sum, and returns nothing.
   [[nodiscard]] Eigen::MatrixXd sum(block range) {
     if (owner(range.begin) > ranks_.rank() || owner(range.end - 1) < ranks_.rank()) return {};
     if (range.size() == 1) return leaf(range.begin);

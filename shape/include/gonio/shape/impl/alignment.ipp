@@ -114,7 +114,7 @@ GONIO_INLINE similarity_transform align(const point_columns& from, const point_c
     singular[2] = -singular[2];
     left.col(2) = -left.col(2);
   }
-  // The rise of the sum of squares for a small rotation about the axis with the smallest rise.
+  // The curvature of the sum of squares about its least determined rotation axis.
   const double stiffness = singular[1] + singular[2];
   constexpr double undetermined = 1e-9;
   if (!(stiffness > undetermined * source.scaled.norm() * target.scaled.norm()))
@@ -146,7 +146,7 @@ GONIO_INLINE void require_corresponded(const std::vector<point_columns>& shapes,
   return sum / static_cast<double>(shapes.size());
 }
 
-/// Scales a shape about its centroid.
+/// Scales a shape about its centroid to a centroid size.
 GONIO_INLINE void rescale(point_columns& shape, double size) {
   const Eigen::Vector3d centroid = centroid_of(shape);
   const double factor = size / centroid_size(shape);

@@ -16,13 +16,13 @@
 namespace gonio::shape::detail {
 
 /// Converts costs to 2^40 integer steps between the smallest and the largest, with opposite sign because dlib
-/// maximises. Pads with rows or columns of zeros to a square; an assignment there means no partner, at equal cost.
+/// maximises. Pads with rows or columns of zeros to a square; an element assigned to the padding has no partner.
 [[nodiscard]] GONIO_INLINE dlib::matrix<std::int64_t> integer_gains(const Eigen::MatrixXd& costs) {
   constexpr double steps = 0x1p40;
   const auto size = static_cast<long>(std::max(costs.rows(), costs.cols()));
   dlib::matrix<std::int64_t> gains(size, size);
   gains = 0;
-  // Halves keep the range of finite numbers finite.
+  // Halving keeps the range of finite costs finite.
   const double least = 0.5 * costs.minCoeff(), range = 0.5 * costs.maxCoeff() - least;
   if (!(range > 0.0)) return gains;
   for (Eigen::Index j = 0; j < costs.cols(); ++j)

@@ -60,7 +60,6 @@ GONIO_INLINE void growing_model::add(std::string name, point_columns shape) {
   shapes_.push_back(std::move(shape));
 }
 
-/// Makes one attempt at a scan.
 [[nodiscard]] GONIO_INLINE bootstrap_outcome attempt(const shape_model& model, const shape_context_matcher& matcher,
                                                      const triangle_mesh& scan, const bootstrap_options& options,
                                                      thread_count threads) {

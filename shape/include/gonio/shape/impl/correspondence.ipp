@@ -66,7 +66,7 @@ GONIO_INLINE vertex_observations closest_places(const posed_scan& scan, const tr
         const surface_point found = scan.closest(shape.vertices.col(vertex));
         places.col(vertex) = found.position;
         weights[vertex] = scan.weight_at(found);
-        // The closest point to a missing part is on the scan's border.
+        // If the scan lacks the vertex, its closest point is on the scan's border.
         shown[vertex] = !found.on_border && found.distance <= options.reach &&
                         scan.normal(found).dot(normals.col(vertex)) >= options.normal_agreement;
       },

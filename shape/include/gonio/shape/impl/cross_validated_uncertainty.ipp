@@ -43,7 +43,7 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
   return std::sqrt(upper_median(std::span(variances.data(), variances.size())));
 }
 
-/// Returns a model without each part of the shapes.
+/// Returns a model for each part, learned from the other shapes.
 [[nodiscard]] GONIO_INLINE std::vector<shape_model> models_without_parts(const shape_model& model,
                                                                          const std::vector<point_columns>& shapes,
                                                                          Eigen::Index parts, thread_count threads) {
@@ -61,14 +61,14 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
   return models;
 }
 
-/// Returns the error of a shape recovered by the others; nothing if hardly any of its vertices are found.
+/// Returns the vertex errors of a shape that a model of other shapes recovers; nothing if the recovery fails.
 [[nodiscard]] GONIO_INLINE std::optional<point_columns> error_of(const shape_model& others, const point_columns& shape,
                                                                  const std::vector<bool>& shown, double noise,
                                                                  std::uint64_t seed, const recovery_options& options) {
   triangle_mesh noisy = others.mesh(shape);
   const point_columns normals = vertex_normals(noisy);
   std::mt19937_64 generator(seed);
-  // Only the variance matters. The standard's normal numbers differ between libraries, uniform ones do not.
+  // The noise is uniform: only its variance matters, and normal random numbers differ between standard libraries.
   for (Eigen::Index v = 0; v < normals.cols(); ++v) {
     const double centred = uniform_number(generator) - 0.5;
     noisy.vertices.col(v) += noise * std::sqrt(12.0) * centred * normals.col(v);
@@ -77,7 +77,7 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
     const triangle_mesh scan = part_of(noisy, shown);
     constexpr thread_count one{1};
     const similarity_transform pose = align_by_shape_context(scan, others.mean(), {}, one).transform;
-    recovery_options of_the_family = options;  // the shape is of the family, and rare shapes belong to the measurement
+    recovery_options of_the_family = options;  // accepts rare shapes, too: their errors belong to the measurement
     of_the_family.confidence = 1.0 - 1e-12;
     const recovered_shape found = recover(others, surface_index(scan), pose, of_the_family, one);
     return found.pose.inverse()(found.surface.vertices) - shape;
@@ -146,7 +146,8 @@ GONIO_INLINE void cross_validated_uncertainty::add_vertex(const std::vector<poin
   covariances_.emplace_back(sum / n);
   for (Eigen::Index trial = 0; trial < off.cols(); ++trial) {
     const double with_itself = whitened.col(trial).squaredNorm();
-    // With the covariance of the others, (sum - e e') / (n - 1): Sherman and Morrison.
+    // The squared distance under the covariance of the other trials, (sum - e e') / (n - 1), by the Sherman-Morrison
+    // formula.
     squared_distances_.push_back((n - 1.0) * with_itself / std::max(1.0 - with_itself, 1e-12));
   }
 }

@@ -65,14 +65,13 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
   return weights;
 }
 
-/// Returns the weights of a scan's vertices: noise adds to the position error.
+/// Returns the weights of a scan's vertices, which fall with the ratio of noise to position error.
 [[nodiscard]] GONIO_INLINE Eigen::RowVectorXd surface_weights(const surface_index& scan, double position_error) {
   Eigen::RowVectorXd weights = noise_variances(scan.mesh(), scan.topology());
   for (double& noise : weights) noise = 1.0 / (1.0 + noise / (position_error * position_error));
   return weights;
 }
 
-/// Returns the closest points of a posed scan, and their weights.
 [[nodiscard]] GONIO_INLINE vertex_observations weighted_places(const posed_scan& scan, const triangle_mesh& shape,
                                                                const fit_to_scan_options& options,
                                                                thread_count threads) {
@@ -83,7 +82,7 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
   return places;
 }
 
-/// Returns the weights of the shape that fits some positions, and of its motion; these are 0 if the pose is held.
+/// Returns the weights of all functions for the observed positions. If the pose is held, those of the motion are 0.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd fitted_weights(const shape_with_motion& functions,
                                                           const vertex_observations& places, const tikhonov& solver,
                                                           bool holds_pose, thread_count threads) {

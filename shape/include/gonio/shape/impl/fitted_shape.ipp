@@ -36,7 +36,7 @@ GONIO_INLINE std::vector<bool> marks_of(const vertex_observations& known, Eigen:
 
 namespace gonio::shape::detail {
 
-/// Appends locations for x, y and z of a vertex, as an estimator reads them: one along each unit column of `axes`.
+/// Appends three locations of a vertex's x, y and z for the estimator: one along each unit column of `axes`.
 GONIO_INLINE void locate_along(const Eigen::Matrix3d& axes, Eigen::Index vertex, std::vector<location>& at) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     location along;
@@ -49,7 +49,7 @@ GONIO_INLINE void locate_along(const Eigen::Matrix3d& axes, Eigen::Index vertex,
   }
 }
 
-/// Returns the normal and two directions across it.
+/// Returns a normal and two tangents.
 [[nodiscard]] GONIO_INLINE Eigen::Matrix3d axes_about(const Eigen::Vector3d& normal) {
   Eigen::Matrix3d axes;
   axes.col(0) = normal;

@@ -17,8 +17,8 @@
 
 namespace gonio::shape::detail {
 
-/// Returns the two neighbours along the border of a border vertex. Returns all its neighbours if there are not two, as
-/// where three edges form a ring but no triangle.
+/// Returns the two neighbours along the border of a border vertex. Returns all its neighbours if it does not have
+/// exactly two along the border, for example where three edges form a ring but no triangle.
 [[nodiscard]] GONIO_INLINE std::vector<int> along_border(const mesh_topology& topology, Eigen::Index vertex) {
   const auto neighbours = topology.neighbours(vertex);
   std::vector<int> along, common;
@@ -41,15 +41,16 @@ struct vertex_share {
 /// A linear combination of vertices that should be short. The energy is the sum of its squared length over all terms.
 using energy_term = std::vector<vertex_share>;
 
-/// Returns the difference between each vertex and the mean of its neighbours. On a border, only neighbours along it
-/// count: the mean of all is inwards even on a plane, which would retract continued surfaces.
+/// Returns the difference between each vertex and the mean of its neighbours. For a vertex on a border, only neighbours
+/// along the border count: the mean of all neighbours lies inwards even on a plane, and would pull continued surfaces
+/// back.
 [[nodiscard]] GONIO_INLINE std::vector<energy_term> umbrella_terms(const mesh_topology& topology) {
   std::vector<energy_term> terms;
   for (Eigen::Index v = 0; v < topology.vertices(); ++v) {
     const auto all = topology.neighbours(v);
     const std::vector<int> around =
         topology.on_border(v) ? along_border(topology, v) : std::vector<int>(all.begin(), all.end());
-    if (around.empty()) continue;  // in no triangle
+    if (around.empty()) continue;  // the vertex is in no triangle
     energy_term term{{static_cast<int>(v), -1.0}};
     for (const int other : around) term.push_back({other, 1.0 / static_cast<double>(around.size())});
     terms.push_back(std::move(term));
@@ -86,8 +87,8 @@ GONIO_INLINE void require_reached(const mesh_topology& topology, std::vector<boo
     refuse({"vertex ", lost - reached.begin(), " cannot be filled in: no known vertex is in its part of the mesh"});
 }
 
-/// The linear system of the missing vertices, numbered in their order: the lower triangle of a symmetric matrix, and
-/// the contribution of the known vertices, x, y and z of each missing one per row.
+/// The linear system of the missing vertices, in their order. `matrix` is the lower triangle of a symmetric matrix.
+/// `rhs` is the contribution of the known vertices: x, y and z of one missing vertex per row.
 struct filling_system {
   Eigen::SparseMatrix<double> matrix;
   Eigen::MatrixXd rhs;

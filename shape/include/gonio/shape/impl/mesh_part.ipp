@@ -14,7 +14,7 @@
 
 namespace gonio::shape::detail {
 
-/// Groups the corners of triangles, three each, into vertices: corners joined by an edge of two triangles.
+/// Groups the corners of all triangles into vertices. Triangles that share an edge share its two vertices.
 class joined_corners {
  public:
   explicit joined_corners(const triangle_columns& triangles);

@@ -41,7 +41,7 @@ GONIO_INLINE void triangle_tree::add_node(Eigen::Index first, Eigen::Index count
   nodes_.push_back(node);
   constexpr Eigen::Index leaf = 4;
   if (count <= leaf) return;
-  // Halve them along the longest side.
+  // Halve the node's triangles along the longest side of its box.
   Eigen::Index axis = 0;
   static_cast<void>((node.high - node.low).maxCoeff(&axis));
   const auto begin = order_.begin() + first, middle = begin + count / 2;

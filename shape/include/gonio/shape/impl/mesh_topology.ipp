@@ -63,7 +63,7 @@ GONIO_INLINE void mesh_topology::gather(const std::vector<half_edge>& edges, Eig
   std::vector<half_edge> links = edges;
   std::vector<bool> open(border_.size(), false);
   for (const auto& [from, to] : edges) {
-    border_[from] = false;  // is in a triangle
+    border_[from] = false;  // the vertex is in a triangle
     if (std::ranges::binary_search(edges, half_edge{to, from})) continue;
     links.push_back({to, from});
     open[from] = open[to] = true;

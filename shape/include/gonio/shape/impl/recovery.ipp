@@ -49,7 +49,7 @@ GONIO_INLINE recovered_shape recover(const shape_model& model, const surface_ind
 
 namespace gonio::shape::detail {
 
-/// Predicts every vertex from the known ones nearest to it along the mean shape.
+/// Predicts every vertex from the known vertices nearest to it along the mean shape.
 [[nodiscard]] GONIO_INLINE point_columns predict_locally(const shape_model& model, const triangle_mesh& mean,
                                                          const vertex_observations& known,
                                                          const algorithm_1_options& options, thread_count threads) {
@@ -89,12 +89,19 @@ GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const
                                                  thread_count threads) {
   fit_to_scan_result begin = fit_to_scan(model, scan, pose, options.coarse, threads);
   detail::require_of_family(begin, model, options.confidence);
+  return recover_algorithm_1(model, scan, std::move(begin), options, threads);
+}
+
+GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const surface_index& scan,
+                                                 fit_to_scan_result begin, const algorithm_1_options& options,
+                                                 thread_count threads) {
   const triangle_mesh mean = model.mean();
   posed_scan posed{scan, begin.pose};
   triangle_mesh shape = model.mesh(begin.shape());
   vertex_observations known = closest_places(posed, shape, options.correspondence, threads);
-  for (int round = 0; round < options.rounds + options.local_rounds; ++round) {
-    // Procrustes alignment: align the shape to the mean, and the scan with it.
+  // Aligns the shape with the mean and moves the scan by the same transform, predicts all vertices, and finds them on
+  // the scan. Returns the change of the shape, root mean square in mm.
+  const auto improve = [&](auto&& predict) {
     if (options.aligns) {
       point_columns whole = shape.vertices;
       for (Eigen::Index i = 0; i < std::ssize(known.vertices); ++i)
@@ -104,17 +111,20 @@ GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const
       known.positions = step(known.positions);
       known.normals = similarity_transform{1.0, step.rotation}(known.normals);
     }
-    // Predict the missing vertices and the known ones.
-    if (round < options.rounds) {
-      const truncated_svd solver{detail::explained_variance_in(round, options)};
-      shape.vertices = fit_shape(model.basis(), solver, known, threads).vertices();
-    } else {
-      shape.vertices = detail::predict_locally(model, mean, known, options, threads);
-    }
-    // Find the vertices on the scan again.
+    point_columns predicted = predict();
+    const double change = (predicted - shape.vertices).norm() / std::sqrt(static_cast<double>(model.vertices()));
+    shape.vertices = std::move(predicted);
     known = closest_places(posed, shape, options.correspondence, threads);
     require_shown(known, model);
+    return change;
+  };
+  for (int round = 0; round < options.most_rounds; ++round) {
+    const truncated_svd solver{detail::explained_variance_in(round, options)};
+    const double change = improve([&] { return fit_shape(model.basis(), solver, known, threads).vertices(); });
+    if (round + 1 >= options.rounds && change <= options.tolerance) break;
   }
+  for (int round = 0; round < options.local_rounds; ++round)
+    improve([&] { return detail::predict_locally(model, mean, known, options, threads); });
   return {std::move(shape), std::move(known), posed.pose, std::move(begin)};
 }
 

@@ -58,7 +58,7 @@ namespace gonio::shape::detail {
   return shown_vertices(places, normals, shown, options.fit.correspondence.tangential);
 }
 
-/// Returns a message for the first test that fails.
+/// Returns a message for the first test that fails; empty if all pass.
 [[nodiscard]] GONIO_INLINE std::string refusal_of(const registration& found, const fit_to_scan_result& fit,
                                                   const registration_options& options) {
   const auto weights = static_cast<double>(fit.weights().size());

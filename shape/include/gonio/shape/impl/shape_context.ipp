@@ -39,7 +39,7 @@ GONIO_INLINE void require_context(const shape_context_options& options) {
             options.least_inclination});
 }
 
-/// The requirements of sampling and describing on a mesh, which are weaker than for a surface.
+/// Checks a mesh to sample and describe, which need not be a surface.
 GONIO_INLINE void require_finite_mesh(const triangle_mesh& mesh) {
   if (!mesh.vertices.allFinite()) refuse("the vertices of a mesh to describe must be finite");
   if (mesh.triangles.cols() == 0) refuse("a mesh to describe has no triangles");
@@ -147,7 +147,7 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
   const Eigen::VectorXd areas = detail::vertex_areas(mesh);
   const detail::point_tree tree(mesh.vertices);
   Eigen::MatrixXd histograms = Eigen::MatrixXd::Zero(options.bins(), std::ssize(chosen));
-  // Sum the areas of the neighbours of a vertex by the bin in its own frame.
+  // For each vertex, add the areas of its neighbours to the bins of its own frame.
   const auto fill = [&](Eigen::Index point) {
     const Eigen::Index vertex = chosen[point];
     const Eigen::Vector3d origin = mesh.vertices.col(vertex);
@@ -183,7 +183,7 @@ GONIO_INLINE Eigen::MatrixXd chi_square_costs(const shape_descriptors& from, con
   if (from.histograms.rows() != onto.histograms.rows())
     refuse({"descriptors of ", from.histograms.rows(), " and ", onto.histograms.rows(), " bins cannot be compared"});
   Eigen::MatrixXd costs(from.histograms.cols(), onto.histograms.cols());
-  // Bins that are empty in both: 0 / least, which is 0.
+  // A bin that is empty in both descriptors contributes 0 / least, which is 0.
   constexpr float least = std::numeric_limits<float>::min();
   for_each_block(
       costs.cols(), 8,

@@ -58,7 +58,7 @@ GONIO_INLINE std::pair<similarity_transform, Eigen::Index> robust_pose(const mat
   return {pose, used};
 }
 
-/// Returns the vertices of triangles.
+/// Returns the vertices that belong to a triangle.
 [[nodiscard]] GONIO_INLINE point_columns surface_vertices(const triangle_mesh& mesh) {
   std::vector<bool> in_use(mesh.vertices.cols(), false);
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
@@ -78,7 +78,6 @@ GONIO_INLINE std::pair<similarity_transform, Eigen::Index> robust_pose(const mat
   return sum_over_blocks(points.cols(), 256, 0.0, add, threads) / static_cast<double>(points.cols());
 }
 
-/// Points to match and their descriptors.
 struct described_points {
   shape_descriptors descriptors;
   point_columns places;

@@ -39,7 +39,7 @@ GONIO_INLINE void shape_uncertainty::find(const least_squares_problem& problem, 
   unseen_ = -0.5 * (seen + transposed);
   for (Eigen::Index i = 0; i < unseen_.rows(); ++i) unseen_(i, i) += 1.0;
   published_scale_ = 1.0 / m;
-  // If as many directions are kept as there are shapes, nothing is left to estimate their own uncertainty.
+  // At least 3: with as many directions as shapes, nothing would be left to estimate the directions' own uncertainty.
   degrees_of_freedom_ = std::max(m - 1.0 - seen.trace(), 3.0);
   scale_ = (1.0 + 1.0 / m + weights.squaredNorm()) / degrees_of_freedom_;
 }

@@ -24,7 +24,8 @@
 
 namespace gonio::shape::detail {
 
-/// The barycentric coordinate below which a point counts as on the opposite side.
+/// If a barycentric coordinate of a point is smaller than this, the point counts as on the opposite side of the
+/// triangle.
 inline constexpr double on_side = 1e-9;
 
 /// Returns the barycentric coordinates of a triangle's point closest to `point`: its projection or, if that is outside,
@@ -34,7 +35,7 @@ inline constexpr double on_side = 1e-9;
   const std::array<Eigen::Vector3d, 3> corner{corners.col(0), corners.col(1), corners.col(2)};
   const Eigen::Vector3d first = corner[1] - corner[0], second = corner[2] - corner[0], towards = point - corner[0],
                         normal = first.cross(second);
-  // Below this sine of an angle, 1e-10, rounding determines the projection.
+  // If the sine of the angle at corner 0 is below 1e-10, rounding determines the projection.
   if (normal.squaredNorm() > 1e-20 * first.squaredNorm() * second.squaredNorm()) {
     const Eigen::Vector3d beside_first = first.cross(towards), beside_second = towards.cross(second);
     const double of_second = beside_first.dot(normal) / normal.squaredNorm(),
@@ -59,7 +60,6 @@ inline constexpr double on_side = 1e-9;
   return best;
 }
 
-/// The intersection of a line and a triangle.
 struct line_hit {
   double along;  ///< from the line's origin, in lengths of its direction
   Eigen::Vector3d barycentric;
@@ -118,8 +118,8 @@ struct centred_box {
     return (1.0 - slack) * sum;
   }
 
-  /// Returns whether a line with a unit direction passes through the box: none of the three axes across the line and an
-  /// axis of space separates them.
+  /// Returns whether a line with a unit direction passes through the box: none of the cross products of the line and
+  /// the three coordinate axes is a separating axis.
   [[nodiscard]] bool meets_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& line) const {
     const Eigen::Vector3d between = origin - centre;
     double apart = -std::numeric_limits<double>::infinity(), farthest = 0.0;

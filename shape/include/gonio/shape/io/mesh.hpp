@@ -3,8 +3,7 @@
 /// their number in the file, including unused and coincident ones, so that shapes in correspondence match by number.
 /// Turk, "The PLY Polygon File Format", 1994; Wavefront Technologies, "Advanced Visualizer Manual", appendix B1.
 ///
-/// Debian's readers of these formats crash on damaged files or change the coordinates' last digits:
-/// docs/decisions/0010-mesh-files.md.
+/// Debian's readers crash on damaged files or round coordinates: docs/decisions/0010-mesh-files.md.
 
 #include <gonio/core/rgb.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
@@ -30,8 +29,8 @@ namespace gonio::io {
 void write_mesh(const std::filesystem::path& path, const shape::triangle_mesh& mesh);
 
 /// Writes a .ply file with a colour for each vertex: linear Rec. 709, clipped to [0, 1] and stored as 8 bits in sRGB.
-/// Throws as above, for .obj, which has no colours that all programs know, if the numbers of colours and vertices
-/// differ, or if a colour is NaN.
+/// Throws gonio::error as `write_mesh` without colours does, for .obj (few programs read its vertex colours), if the
+/// numbers of colours and vertices differ, or if a colour is NaN.
 void write_mesh(const std::filesystem::path& path, const shape::triangle_mesh& mesh, std::span<const rgb> colours);
 
 }  // namespace gonio::io

@@ -13,8 +13,8 @@ namespace gonio::io::detail {
 
 /// The data read from a file so far.
 struct mesh_parts {
-  std::vector<double> coordinates;  // x, y and z of a vertex adjacent
-  std::vector<int> corners;         // the three of a triangle adjacent
+  std::vector<double> coordinates;  // x, y and z of each vertex in turn
+  std::vector<int> corners;         // the three vertices of each triangle in turn
 
   [[nodiscard]] std::size_t vertices() const noexcept { return coordinates.size() / 3; }
 };

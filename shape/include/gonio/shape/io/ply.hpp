@@ -8,7 +8,8 @@
 
 namespace gonio::io::detail {
 
-/// Reads the bytes of a PLY file. Throws gonio::error with the place for files that `read_mesh` refuses.
+/// Reads the bytes of a PLY file. Throws gonio::error that names the file, and the line if it is text, for files that
+/// `read_mesh` refuses.
 [[nodiscard]] mesh_parts read_ply(std::string_view text, text_place place);
 
 }  // namespace gonio::io::detail

@@ -12,7 +12,7 @@ namespace gonio::io {
 /// line `rotation` with the nine numbers of R, row by row, and a line `translation` with the three of t. `#` starts a
 /// comment line. R is replaced by the nearest rotation.
 ///
-/// Throws gonio::error that names the file, and the line if possible, if it is neither of these, if a number is not
+/// Throws gonio::error that names the file, and the line if possible, if the text has neither form, if a number is not
 /// finite, or if R is not a rotation within 1e-3: scale, shear and reflection are not rigid motions.
 [[nodiscard]] shape::similarity_transform read_pose(const std::filesystem::path& path);
 

@@ -28,7 +28,8 @@ inline constexpr checked_file_kind shape_model_kind{"gonio-shapes", 1, "shape mo
 /// Writes a model. An existing file is replaced only once the new one is complete.
 void write_shape_model(const std::filesystem::path& path, const shape::shape_model& model);
 
-/// Reads a model from a file. Refuses it for the same reasons.
+/// Reads a model from a file. Throws gonio::error if the file cannot be read, or if `read_shape_model` refuses its
+/// bytes.
 [[nodiscard]] shape::shape_model read_shape_model(const std::filesystem::path& path);
 
 }  // namespace gonio::io

@@ -31,7 +31,8 @@ class obj_reader {
 
   void add_face(std::string_view line);
 
-  /// Returns the vertex of v, v/vt, v//vn or v/vt/vn. Numbers start from 1, or count backwards from -1, the latest one.
+  /// Returns the vertex of v, v/vt, v//vn or v/vt/vn. Vertices are numbered from 1, or backwards from the latest
+  /// vertex, which is -1.
   [[nodiscard]] int vertex_of(std::string_view corner);
 
   [[noreturn]] void refuse_vertex(std::string_view number) const;

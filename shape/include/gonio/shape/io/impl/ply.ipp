@@ -76,7 +76,7 @@ struct ply_element {
 
 enum class ply_encoding { ascii, little_endian, big_endian };
 
-/// The names refer to the file's text.
+/// A header. Its names refer to the file's text.
 struct ply_header {
   std::optional<ply_encoding> encoding;
   std::vector<ply_element> elements;
@@ -115,7 +115,6 @@ class ply_header_reader {
 
 // ---- PLY: the rows ----------------------------------------------------------------------------
 
-/// The rows of a binary PLY.
 class ply_binary_rows {
  public:
   ply_binary_rows(std::string_view body, bool swapped, const text_place& place)

@@ -56,9 +56,8 @@ template <class Matrix>
   // Read the counts. Refuse counts that the rest of the file cannot hold.
   const std::size_t vertices = in.read<std::uint32_t>(), triangles = in.read<std::uint32_t>(),
                     components = in.read<std::uint32_t>(), shapes = in.read<std::uint32_t>();
-  if (components == 0 || components > shapes || shapes > in.left() / sizeof(std::uint32_t))
-    gonio::refuse(name + ": " + std::to_string(components) + " components of " + std::to_string(shapes) +
-                  " shapes are impossible");
+  if (components == 0 || components > shapes)
+    gonio::refuse({name, ": ", components, " components of ", shapes, " shapes, expected 1 to ", shapes});
   const auto as_real = [](std::size_t count) { return static_cast<double>(count); };
   if (least_rest(as_real(vertices), as_real(triangles), as_real(components), as_real(shapes)) > as_real(in.left()))
     gonio::refuse({name, ": the file is truncated or its counts are wrong: ", in.left(), " bytes cannot hold ",
