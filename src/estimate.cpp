@@ -20,6 +20,7 @@
 #include <gonio/estimate/impl/scaled_likelihood.ipp>
 #include <gonio/estimate/impl/soft_specular_decomposition.ipp>
 #include <gonio/estimate/impl/solve_rows.ipp>
+#include <gonio/estimate/impl/spectral_spikes.ipp>
 #include <gonio/estimate/impl/wrong_samples.ipp>
 #include <gonio/metric/log.hpp>
 

@@ -29,5 +29,6 @@
 #include <gonio/estimate/soft_or_specular.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/estimate/solve_rows.hpp>
+#include <gonio/estimate/spectral_spikes.hpp>
 #include <gonio/estimate/values_at.hpp>
 #include <gonio/estimate/wrong_samples.hpp>

@@ -119,7 +119,7 @@ TEST_CASE("of many samples outliers count less, unless all are to be kept") {
   };
   CHECK(error("") < 0.3 * error("--no-reject"));
   const std::string told = paint.reconstruct("--json");
-  CHECK(contains(told, "more samples disagree and have less than half of their weight"));
+  CHECK(contains(told, "more samples disagree and have less than a tenth of their weight"));
   CHECK(contains(told, " of 400 samples disagree with the others. If they have something in common"));
   const auto fit = read_json(told);
   CHECK(fit["outliers"].get<double>() > 0.1);

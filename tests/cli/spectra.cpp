@@ -213,3 +213,33 @@ TEST_CASE("what has no spectra is refused") {
           {"t.bsdf", "two wavelengths"});
   refuses("reconstruct " + files.at("spectra.csv") + " --illuminant B" + output, {"--illuminant"});
 }
+
+TEST_CASE("a spike at one wavelength is named and replaced, also before spectra become colours") {
+  const scratch::folder folder;
+  const auto at = [&](const std::string& name) { return (folder / name).string(); };
+  std::vector<double> wavelengths;
+  for (int nm = 400; nm <= 700; nm += 20) wavelengths.push_back(nm);
+  gonio::sample_set samples = measured_paint(wavelengths);
+  gonio::io::write_samples(at("right.csv"), samples);
+  const double right = samples.values(4)[7];
+  samples.set_value(4, 7, 6.0 * right);
+  gonio::io::write_samples(at("spike.csv"), samples);
+  for (const std::string how : {" --spectra", ""}) {
+    CAPTURE(how);
+    const auto told = gonio_tool("reconstruct " + at("spike.csv") + how + " -o " + at("spike.binary"));
+    CHECK(told.exit_code == 0);
+    CHECK(told.output.starts_with("gonio: warning: sample 5 at 540 nm: measured "));
+    CHECK(told.output.find("but its neighbours and the other samples say ") != std::string::npos);
+    const auto replaced = read_json(gonio_tool("reconstruct --json " + at("spike.csv") + how).output)["replaced"];
+    REQUIRE(replaced.size() == 1);
+    CHECK(replaced[0]["sample"] == 5);
+    CHECK(replaced[0]["wavelength"] == 540);
+    CHECK(replaced[0]["replaced_by"].get<double>() == doctest::Approx(right).epsilon(0.1));
+    CHECK(read_json(gonio_tool("reconstruct --json " + at("right.csv") + how).output)["replaced"].empty());
+    run("reconstruct " + at("right.csv") + how + " -o " + at("right.binary"));
+    const auto difference = read_json(run("compare --json " + at("spike.binary") + " " + at("right.binary")));
+    CHECK(difference["sphere_delta_e"].get<double>() < 0.1);
+  }
+  CHECK(gonio_tool("reconstruct " + at("spike.csv") + " --spectra --no-reject -o " + at("kept.binary"))
+            .output.find("at 540 nm") == std::string::npos);
+}

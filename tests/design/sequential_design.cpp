@@ -40,7 +40,7 @@ gonio::design::sensitivity random_sensitivity(Eigen::Index points) {
 
 TEST_CASE("the posterior over candidates is the estimator's fit, and its deviations are those of the process") {
   const gonio::located_samples samples = some_samples({3, 50, 120, 200});
-  const auto& estimator = sequence().estimator();
+  const auto estimator = sequence().estimator().keeping_all();
   const gonio::sample_process process = estimator.process_of(samples);
   const auto known = sequence().posterior_of(process);
   const auto paint = estimator.fit_located(samples);

@@ -86,7 +86,8 @@ gonio::io::sample_file read_fitted(reconstruct_options& options) {
   const bool wants_colours = options.reading.light.has_value();
   if (is_bsdf && kinds.are_wavelengths() && takes_spectra(options.method) && !wants_colours)
     options.fits_spectra = true;
-  if (!options.fits_spectra) measured.samples = as_colours(options.samples, measured.samples);
+  if (!options.fits_spectra)
+    static_cast<void>(as_colours(options.samples, measured.samples));  // refuses invisible ones
   options.provenance = measured.provenance;
   return measured;
 }

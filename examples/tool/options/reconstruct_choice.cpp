@@ -145,8 +145,11 @@ reconstruction reconstruct(const reconstruct_options& options, const gonio::samp
     gonio::refuse("--spectra is not available with --method " + options.method +
                   ": it weights samples by their colours");
   require_light(samples, options);
-  return with_warnings(method_named(options.method).reconstruct(options, samples), options,
-                       samples.in_three_channels());
+  // The components' method replaces wrong values of spectra before it converts the spectra to colours.
+  const bool takes_wavelengths = options.method == "pca";
+  return with_warnings(method_named(options.method)
+                           .reconstruct(options, takes_wavelengths ? samples : in_fitted_channels(options, samples)),
+                       options, samples.in_three_channels());
 }
 
 }  // namespace cli

@@ -89,13 +89,38 @@ gonio::brdf_table uncertainty_table(const reconstructed_brdf& paint, gonio::thre
   return gonio::resample(coarse, gonio::valid_cells(), threads);
 }
 
+/// Describes the values of spectra that were replaced: "sample 8 at 520 nm: measured 0.420, but its neighbours and the
+/// other samples say 0.081, which replaces it".
+void describe_spikes(const std::vector<gonio::spectral_spike>& spikes, const gonio::channels& kinds,
+                     reconstruction& result) {
+  constexpr std::size_t most_told = 20;
+  json replaced = json::array();
+  for (const gonio::spectral_spike& each : spikes) {
+    if (replaced.size() < most_told)
+      result.warnings.push_back("sample " + std::to_string(each.number + 1) + " at " + kinds.name(each.channel) +
+                                ": measured " + reflectance(each.measured) +
+                                ", but its neighbours and the other samples say " + reflectance(each.replaced_by) +
+                                ", which replaces it");
+    replaced.push_back({{"sample", each.number + 1},
+                        {"wavelength", kinds.wavelengths()[each.channel]},
+                        {"measured", each.measured},
+                        {"replaced_by", each.replaced_by},
+                        {"probability_wrong", each.probability}});
+  }
+  if (spikes.size() > most_told)
+    result.warnings.push_back(std::to_string(spikes.size() - most_told) +
+                              " more values of single wavelengths are replaced (--json lists them)");
+  if (kinds.are_wavelengths()) result.details["replaced"] = replaced;
+}
+
 /// Describes the rejected samples; `samples` is the number with nonzero weight.
 void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, reconstruction& result) {
   json contradicted = json::array();
   for (const gonio::outlying_sample& out : paint.contradicted()) {
-    result.warnings.push_back(told(out, out.probability > 0.99
+    const double weight = gonio::inlier_weight(out.probability);
+    result.warnings.push_back(told(out, weight < gonio::inliers::least_weight
                                             ? "is left out"
-                                            : "has " + fixed(100.0 * (1.0 - out.probability), 0) + " % of its weight"));
+                                            : "has " + fixed(100.0 * weight, 0) + " % of its weight"));
     contradicted.push_back({{"sample", out.number + 1},
                             {"measured", per_channel(out.measured)},
                             {"others", per_channel(out.predicted)},
@@ -105,8 +130,8 @@ void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, re
   const auto unnamed = std::ssize(paint.rejected()) - std::ssize(paint.contradicted());
   if (unnamed > 0)
     result.warnings.push_back(std::to_string(unnamed) +
-                              (unnamed == 1 ? " more sample disagrees and has less than half of its weight"
-                                            : " more samples disagree and have less than half of their weight") +
+                              (unnamed == 1 ? " more sample disagrees and has less than a tenth of its weight"
+                                            : " more samples disagree and have less than a tenth of their weight") +
                               (samples <= most_residuals ? " (--residuals lists them)" : ""));
   const auto rejected = std::ssize(paint.rejected());
   if (rejected >= 2 && 10 * rejected > samples)
@@ -162,12 +187,20 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
                                             const gonio::sample_set& samples) {
   const elapsed_time waiting("reconstructing");
   const Eigen::Index count = std::ssize(gonio::counting_positions(samples));
-  const auto paint = estimator_of(options, prior, count).fit(samples);
+  const auto estimator = estimator_of(options, prior, count);
+  gonio::sample_set fitted = samples;
+  std::vector<gonio::spectral_spike> spikes;
+  if (!options.fits_spectra) {
+    spikes = estimator.replace_spikes(fitted);
+    fitted = in_fitted_channels(options, fitted);
+  }
+  const auto paint = estimator.fit(fitted);
   reconstruction result =
       options.fits_spectra ? described_spectra(paint.tabulate_spectra(options.cells_of_spectra(prior.cells())), options)
                            : reconstruction{paint.tabulate(gonio::valid_cells())};
   describe_residuals(*paint.fit().report(), paint.kept(), result);
   result.details["discrepancy"] = options.discrepancy;
+  describe_spikes(options.fits_spectra ? paint.spikes() : spikes, samples.channels(), result);
   return described(std::move(result), paint, count, options);
 }
 

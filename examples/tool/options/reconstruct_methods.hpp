@@ -127,6 +127,12 @@ struct reconstruction {
 [[nodiscard]] reconstruction reconstruct_by_neighbours(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
+/// Returns the samples in the channels to fit: wavelengths only if these are kept, colours otherwise.
+[[nodiscard]] inline gonio::sample_set in_fitted_channels(const reconstruct_options& options,
+                                                          const gonio::sample_set& samples) {
+  return options.fits_spectra || !samples.channels().are_wavelengths() ? samples : samples.colours();
+}
+
 /// Can the method fit each wavelength? Correction cannot: it weights samples by their three colour channels.
 [[nodiscard]] inline bool takes_spectra(const std::string& method) { return method != "correction"; }
 

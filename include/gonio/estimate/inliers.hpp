@@ -39,13 +39,16 @@ struct outlying_sample {
 
 /// The inliers among n samples.
 struct inliers {
+  /// Samples of smaller weight are left out.
+  static constexpr double least_weight = 0.01;
+
   Eigen::VectorXd weights;             ///< the weight of each sample in a fit, from 0 to 1 (`inlier_weight`)
   std::vector<Eigen::Index> rejected;  ///< positions of the samples that are probably wrong, the worst first
   /// The first `most_contradicted` of those rejected samples that were judged together, with their predictions.
   std::vector<outlying_sample> contradicted = {};
   double outlier_share = 0.0;  ///< the mean probability that a sample is wrong
 
-  /// Returns the positions of the samples whose weight is at least 0.01.
+  /// Returns the positions of the samples whose weight is at least `least_weight`.
   [[nodiscard]] std::vector<Eigen::Index> kept() const;
 };
 

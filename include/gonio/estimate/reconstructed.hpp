@@ -12,6 +12,7 @@
 #include <gonio/estimate/inliers.hpp>
 #include <gonio/estimate/mirror_envelope.hpp>
 #include <gonio/estimate/sample_process.hpp>
+#include <gonio/estimate/spectral_spikes.hpp>
 
 #include <Eigen/Core>
 
@@ -149,6 +150,8 @@ class reconstructed {
       each.measured = detail::first_three(readings_, i);
     }
   }
+  /// Called by `reconstruction`: sets the values that were replaced before the fit.
+  void tell_spikes(std::vector<spectral_spike> spikes) { spikes_ = std::move(spikes); }
 
   // ---- uncertainty ----
 
@@ -219,6 +222,8 @@ class reconstructed {
   [[nodiscard]] const std::vector<Eigen::Index>& rejected() const noexcept { return found_.rejected; }
   /// Returns the samples that all other samples contradict, the worst first; see `inliers`.
   [[nodiscard]] const std::vector<outlying_sample>& contradicted() const noexcept { return found_.contradicted; }
+  /// Returns the values of spectra that were replaced before the fit, the most certainly wrong first.
+  [[nodiscard]] const std::vector<spectral_spike>& spikes() const noexcept { return spikes_; }
   /// Returns the mean probability that a sample is wrong.
   [[nodiscard]] double outlier_share() const noexcept { return found_.outlier_share; }
   /// Returns the number of samples whose inlier weight is at least 0.01.
@@ -301,6 +306,7 @@ class reconstructed {
   std::shared_ptr<const located_samples> samples_;
   std::vector<Eigen::Index> numbers_;
   thread_count threads_;
+  std::vector<spectral_spike> spikes_ = {};
   Eigen::MatrixXd readings_ = {};  ///< n x 3, if samples were read through apertures
 };
 

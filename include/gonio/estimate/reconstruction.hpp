@@ -13,6 +13,7 @@
 #include <gonio/estimate/mapped_noise.hpp>
 #include <gonio/estimate/reconstructed.hpp>
 #include <gonio/estimate/solve_rows.hpp>
+#include <gonio/estimate/spectral_spikes.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <Eigen/Core>
@@ -51,7 +52,7 @@ class reconstruction {
   /// Throws gonio::error for an impossible model.
   explicit reconstruction(pca<Metric> prior, const discrepancy_model& model = {}, thread_count threads = {});
 
-  /// Returns a copy that rejects no sample.
+  /// Returns a copy that rejects no sample and replaces no value.
   [[nodiscard]] reconstruction keeping_all() const {
     reconstruction other = *this;
     other.rejects_ = false;
@@ -65,15 +66,18 @@ class reconstruction {
   [[nodiscard]] const expected_covariance& expected() const noexcept { return expected_; }
 
   /// Fits samples in any channels, all channels by one process. Each wavelength is fitted as a grey material. Inliers
-  /// are found by the samples' colours, or by three bands if no wavelength is visible. For n samples, k components and
-  /// c centres: O(n^2 (n + k)) up to `most_centres` samples, O(n (k + c)^2) for more. Throws gonio::error for unusable
-  /// samples.
+  /// are found by the samples' colours, or by three bands if no wavelength is visible; before that, spikes of spectra
+  /// are replaced (`replace_spikes`). For n samples, k components and c centres: O(n^2 (n + k)) up to `most_centres`
+  /// samples, O(n (k + c)^2) for more. Throws gonio::error for unusable samples.
   ///
   /// A reading through an aperture is the value in a single direction times a factor. The factor is the mean of the fit
   /// over the aperture's cones, divided by the fit on the cones' axes. The fit is repeated three times, each time with
   /// the readings divided by this factor.
-  [[nodiscard]] result_type fit(const sample_set& samples) const;
-  /// Fits samples that are located on the prior's cells.
+  [[nodiscard]] result_type fit(const sample_set& measured) const;
+  /// Replaces single wrong values of spectra, and returns them (spectral_spikes.hpp). Call this before converting
+  /// spectra to colours. Does nothing if the channels are not wavelengths.
+  std::vector<spectral_spike> replace_spikes(sample_set& samples) const;
+  /// Fits samples that are located on the prior's cells. Replaces no values.
   [[nodiscard]] result_type fit_located(located_samples samples, std::vector<Eigen::Index> numbers = {}) const;
 
   /// Returns the process of samples that are located on the prior's cells, without rejecting any.
@@ -209,7 +213,23 @@ typename reconstruction<Metric>::solved reconstruction<Metric>::solve_around_cen
 }
 
 template <error_metric Metric>
-typename reconstruction<Metric>::result_type reconstruction<Metric>::fit(const sample_set& samples) const {
+std::vector<spectral_spike> reconstruction<Metric>::replace_spikes(sample_set& samples) const {
+  if (!rejects_ || !samples.channels().are_wavelengths()) return {};
+  const std::vector<Eigen::Index> numbers = counting_positions(samples);
+  std::vector<spectral_spike> spikes = detail::find_spikes(
+      detail::functions_of(prior_, threads_), [this](const located_samples& some) { return process_of(some); },
+      locate_samples(cells(), samples, threads_));
+  for (spectral_spike& each : spikes) {
+    each.number = numbers[each.number];
+    samples.set_value(each.number, each.channel, each.replaced_by);
+  }
+  return spikes;
+}
+
+template <error_metric Metric>
+typename reconstruction<Metric>::result_type reconstruction<Metric>::fit(const sample_set& measured) const {
+  sample_set samples = measured;
+  std::vector<spectral_spike> spikes = replace_spikes(samples);
   const std::vector<Eigen::Index> numbers = counting_positions(samples);
   const located_samples read = locate_samples(cells(), samples, threads_);
   result_type paint = fit_located(read, numbers);
@@ -221,6 +241,7 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit(const s
     paint = fit_located(std::move(narrowed), numbers);
     paint.tell_readings(read);
   }
+  paint.tell_spikes(std::move(spikes));
   return paint;
 }
 

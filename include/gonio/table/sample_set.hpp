@@ -170,6 +170,15 @@ class sample_set {
     const double* first = channels_.are_wavelengths() ? spectra_.data() + i * count : rows_[i].value.data();
     return {first, static_cast<std::size_t>(count)};
   }
+  /// Replaces the value of measurement i in one channel, sr^-1.
+  void set_value(Eigen::Index i, Eigen::Index channel, double value) noexcept {
+    if (channels_.are_wavelengths())
+      spectra_[i * channels_.size() + channel] = value;
+    else if (channels_.size() == 1)
+      rows_[i].value = rgb::Constant(value);
+    else
+      rows_[i].value[channel] = value;
+  }
   /// Returns the weight of a measurement. All wavelengths have the same weight.
   [[nodiscard]] const channel_weights& weight(Eigen::Index i) const noexcept { return rows_[i].weight; }
 

@@ -26,7 +26,6 @@
 namespace gonio {
 
 GONIO_INLINE std::vector<Eigen::Index> inliers::kept() const {
-  constexpr double least_weight = 0.01;
   std::vector<Eigen::Index> positions;
   for (Eigen::Index i = 0; i < weights.size(); ++i)
     if (weights[i] >= least_weight) positions.push_back(i);
