@@ -151,3 +151,32 @@ TEST_CASE("a spike is told by its number in the caller's samples") {
   REQUIRE(fit.spikes().size() == 1);
   CHECK(fit.spikes().front().number == 7);
 }
+
+TEST_CASE("a sample that is wrong at invisible wavelengths alone is rejected, and told by their names") {
+  std::vector<double> wavelengths = visible_wavelengths();
+  for (int nm = 900; nm <= 1700; nm += 100) wavelengths.push_back(nm);
+  const gonio::sample_set right = spectra(20, feature::none, wavelengths);
+  CHECK(spectral_estimator().fit(right).rejected().empty());
+  gonio::sample_set wrong = right;
+  for (Eigen::Index c = 31; c < std::ssize(wavelengths); ++c) wrong.set_value(7, c, 8.0 * right.values(7)[c]);
+  const auto fit = spectral_estimator().fit(wrong);
+  CHECK(fit.spikes().empty());
+  REQUIRE(fit.rejected() == std::vector<Eigen::Index>{7});
+  REQUIRE(fit.contradicted().size() == 1);
+  const gonio::outlying_sample& told = fit.contradicted().front();
+  CHECK(told.number == 7);
+  CHECK(told.channel_names == std::array<std::string, 3>{"900 to 1100 nm", "1200 to 1400 nm", "1500 to 1700 nm"});
+  CHECK(told.measured[2] > 5.0 * told.predicted[2]);
+  CHECK(spectral_estimator().keeping_all().fit(wrong).rejected().empty());
+}
+
+TEST_CASE("a sample that is wrong at visible and at invisible wavelengths is told once") {
+  std::vector<double> wavelengths = visible_wavelengths();
+  for (int nm = 900; nm <= 1700; nm += 100) wavelengths.push_back(nm);
+  gonio::sample_set wrong = spectra(20, feature::none, wavelengths);
+  for (Eigen::Index c = 0; c < std::ssize(wavelengths); ++c) wrong.set_value(7, c, 8.0 * wrong.values(7)[c]);
+  const auto fit = spectral_estimator().fit(wrong);
+  CHECK(fit.rejected() == std::vector<Eigen::Index>{7});
+  REQUIRE(fit.contradicted().size() == 1);
+  CHECK(fit.contradicted().front().channel_names[0] == "red");
+}

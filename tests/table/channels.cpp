@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 using gonio::channels;
@@ -78,4 +79,13 @@ TEST_CASE("wavelengths that are none are refused") {
   check_refused("wavelength 1", {-450.0, 550.0});
   check_refused("wavelength 1", {std::nan(""), 550.0});
   check_refused("wavelength 2", {550.0, std::numeric_limits<double>::infinity()});
+}
+
+TEST_CASE("the three numbers of channels have names") {
+  using names = std::array<std::string, 3>;
+  CHECK(channels().names_of_three() == names{"red", "green", "blue"});
+  CHECK(channels({450.0, 550.0, 650.0}).names_of_three() == names{"red", "green", "blue"});
+  CHECK(channels({900.0, 1000.0, 1100.0, 1200.0}).names_of_three() == names{"900 nm", "1000 nm", "1100 to 1200 nm"});
+  CHECK(channels({905.0, 1550.0}).names_of_three() == names{"905 nm", "905 nm", "1550 nm"});
+  CHECK(channels({633.0}).names_of_three() == names{"633 nm", "633 nm", "633 nm"});
 }

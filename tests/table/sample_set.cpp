@@ -131,3 +131,19 @@ TEST_CASE("unusable samples at wavelengths are refused") {
                        doctest::Contains("one weight"), gonio::error);
   CHECK(gonio::counting_positions(two_spectra()) == std::vector<Eigen::Index>{0, 1});
 }
+
+TEST_CASE("a value is replaced in colours, in one channel, and at a wavelength") {
+  const gonio::sample_directions at{0.1, 0.2, 0.3};
+  gonio::sample_set colours, grey(gonio::channels({633.0})), spectra(gonio::channels({450.0, 550.0, 650.0}));
+  colours.push_back({at, {0.1, 0.2, 0.3}});
+  colours.set_value(0, 1, 0.5);
+  CHECK((colours[0].value == gonio::rgb(0.1, 0.5, 0.3)).all());
+  grey.add(at, std::array{0.1});
+  grey.set_value(0, 0, 0.4);
+  CHECK((grey[0].value == 0.4).all());
+  spectra.add(at, std::array{0.1, 0.2, 0.3});
+  spectra.add(at, std::array{0.4, 0.5, 0.6});
+  spectra.set_value(1, 2, 0.9);
+  CHECK(spectra.values(1)[2] == 0.9);
+  CHECK(spectra.values(0)[2] == 0.3);
+}

@@ -33,7 +33,7 @@ std::string told(const gonio::outlying_sample& out, const std::string& what_is_d
   return "sample " + std::to_string(out.number + 1) + " disagrees and " + what_is_done + ": measured " +
          reflectance(out.measured[channel]) + ", the others say " + reflectance(predicted) + " (" +
          reflectance(predicted * std::exp(-out.deviation)) + " to " + reflectance(predicted * std::exp(out.deviation)) +
-         (is_grey(out.measured) ? "" : ", " + gonio::channels().name(channel)) + ")";
+         (is_grey(out.measured) ? "" : ", " + out.channel_names[channel]) + ")";
 }
 
 /// docs/reference/formats.md describes the columns.
@@ -122,6 +122,7 @@ void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, re
                                             ? "is left out"
                                             : "has " + fixed(100.0 * weight, 0) + " % of its weight"));
     contradicted.push_back({{"sample", out.number + 1},
+                            {"channels", out.channel_names},
                             {"measured", per_channel(out.measured)},
                             {"others", per_channel(out.predicted)},
                             {"mapped_deviation", out.deviation},

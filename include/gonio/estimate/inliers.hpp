@@ -11,9 +11,11 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,8 @@ struct outlying_sample {
   rgb predicted;             ///< sr^-1, from all samples that are not contradicted
   double deviation = 0.0;    ///< standard deviation of prediction and sample combined, in the metric's domain
   double probability = 0.0;  ///< probability that the sample is wrong
+  /// The names of the three channels: colours, or ranges of wavelengths (`channels::names_of_three`).
+  std::array<std::string, 3> channel_names = channels().names_of_three();
 
   /// Returns the channel in which measured and predicted value differ by the largest factor. Negative values count as
   /// zero, and 0.001 sr^-1 is added to both values.
@@ -59,6 +63,9 @@ struct inliers {
   const double right = 1.0 - probability_wrong;
   return right / (right + 10.0 * probability_wrong);
 }
+
+/// Returns the samples that are inliers of two judgements.
+[[nodiscard]] inliers inliers_of_both(inliers first, const inliers& second);
 
 /// Returns n inliers of weight 1.
 [[nodiscard]] inliers all_inliers(Eigen::Index n);

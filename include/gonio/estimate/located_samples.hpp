@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace gonio {
@@ -39,6 +40,9 @@ struct located_samples {
 
   /// Returns the samples in three channels, for computing but not for display: see `channels::three`.
   [[nodiscard]] located_samples in_three_channels() const;
+
+  /// Returns the samples at their invisible wavelengths; none if no wavelength is visible, or all are.
+  [[nodiscard]] std::optional<located_samples> beyond_colours() const;
 
   [[nodiscard]] std::vector<half_difference> angles() const;
 

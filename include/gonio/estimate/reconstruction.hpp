@@ -66,9 +66,9 @@ class reconstruction {
   [[nodiscard]] const expected_covariance& expected() const noexcept { return expected_; }
 
   /// Fits samples in any channels, all channels by one process. Each wavelength is fitted as a grey material. Inliers
-  /// are found by the samples' colours, or by three bands if no wavelength is visible; before that, spikes of spectra
-  /// are replaced (`replace_spikes`). For n samples, k components and c centres: O(n^2 (n + k)) up to `most_centres`
-  /// samples, O(n (k + c)^2) for more. Throws gonio::error for unusable samples.
+  /// are found by the samples' colours, and by three bands of their invisible wavelengths; before that, spikes of
+  /// spectra are replaced (`replace_spikes`). For n samples, k components and c centres: O(n^2 (n + k)) up to
+  /// `most_centres` samples, O(n (k + c)^2) for more. Throws gonio::error for unusable samples.
   ///
   /// A reading through an aperture is the value in a single direction times a factor. The factor is the mean of the fit
   /// over the aperture's cones, divided by the fit on the cones' axes. The fit is repeated three times, each time with
@@ -100,7 +100,8 @@ class reconstruction {
   using solved = std::pair<basis_type, solution>;
 
   [[nodiscard]] bool has_process(Eigen::Index samples) const noexcept { return samples <= model().most_centres; }
-  [[nodiscard]] selection select(const located_samples& samples) const;
+  /// Selects the samples to keep. `colours` has them in three channels.
+  [[nodiscard]] selection select(const located_samples& samples, const located_samples& colours) const;
   [[nodiscard]] sample_process process_of_mapped(const located_samples& mapped) const {
     return {expected_, locate_rows(prior_, mapped.locations), mapped, error_variances(mapped)};
   }
@@ -148,13 +149,26 @@ reconstruction<Metric>::reconstruction(pca<Metric> prior, const discrepancy_mode
 }
 
 template <error_metric Metric>
-typename reconstruction<Metric>::selection reconstruction<Metric>::select(const located_samples& samples) const {
-  const located_samples mapped = map_samples(prior_, samples, threads_);
+typename reconstruction<Metric>::selection reconstruction<Metric>::select(const located_samples& samples,
+                                                                          const located_samples& colours) const {
+  const located_samples mapped = map_samples(prior_, colours, threads_);
   selection chosen;
-  if (has_process(samples.size())) chosen.all = process_of_mapped(mapped);
-  chosen.found = rejects_
-                     ? find_inliers(prior_, expected_, samples, mapped, error_variances(mapped), chosen.all, threads_)
-                     : all_inliers(samples.size());
+  if (has_process(colours.size())) chosen.all = process_of_mapped(mapped);
+  chosen.found = all_inliers(colours.size());
+  const Eigen::VectorXd errors = error_variances(mapped);
+  const auto judged = [&](const channels& kinds, const located_samples& three, const located_samples& three_mapped) {
+    inliers found = find_inliers(prior_, expected_, three, three_mapped, errors, chosen.all, threads_);
+    for (outlying_sample& each : found.contradicted) each.channel_names = kinds.names_of_three();
+    return found;
+  };
+  if (rejects_) {
+    chosen.found = judged(samples.kinds, colours, mapped);
+    if (const std::optional<located_samples> rest = samples.beyond_colours()) {
+      const located_samples three = rest->in_three_channels();
+      chosen.found =
+          inliers_of_both(std::move(chosen.found), judged(rest->kinds, three, map_samples(prior_, three, threads_)));
+    }
+  }
   chosen.kept = weighted(mapped, chosen.found);
   if (!has_process(chosen.kept.size())) return chosen;
   if (!chosen.all)
@@ -176,7 +190,7 @@ sample_process reconstruction<Metric>::known_by(const selection& chosen) const {
 
 template <error_metric Metric>
 sample_process reconstruction<Metric>::process_of_inliers(const located_samples& samples) const {
-  const selection chosen = select(samples.in_three_channels());
+  const selection chosen = select(samples, samples.in_three_channels());
   return chosen.process ? *chosen.process : known_by(chosen);
 }
 
@@ -270,9 +284,9 @@ template <error_metric Metric>
 typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located(
     located_samples samples, std::vector<Eigen::Index> numbers) const {
   channels kinds = samples.kinds;
-  auto colours =
+  const auto colours =
       std::make_shared<const located_samples>(kinds.are_colours() ? std::move(samples) : samples.in_three_channels());
-  selection chosen = select(*colours);
+  selection chosen = select(kinds.are_colours() ? *colours : samples, *colours);
   sample_process known = known_by(chosen);
   if (!kinds.are_colours()) {  // keep the samples and the covariance, change the values
     chosen.kept = weighted(map_samples(prior_, samples, threads_), chosen.found);
@@ -284,7 +298,7 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_located
           std::move(known),
           std::move(chosen.found),
           std::move(chosen.all),
-          std::move(colours),
+          colours,
           std::move(numbers),
           threads_};
 }

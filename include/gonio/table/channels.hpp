@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,6 +53,8 @@ class channels {
   /// Returns three numbers for computing, not for display: the colour or, if no wavelength is visible, the means of the
   /// lower, the middle and the upper third of the wavelengths.
   [[nodiscard]] rgb three(std::span<const double> values) const;
+  /// Returns the names of these three numbers: colours, or "900 to 1200 nm" and so on.
+  [[nodiscard]] std::array<std::string, 3> names_of_three() const;
   /// Returns the same channels under another light.
   [[nodiscard]] channels under(illuminant light) const;
 

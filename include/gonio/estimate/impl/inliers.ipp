@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -42,6 +43,18 @@ GONIO_INLINE Eigen::Index outlying_sample::worst_channel() const {
   for (const Eigen::Index c : {1, 2})
     if (factor(c) > factor(worst)) worst = c;
   return worst;
+}
+
+GONIO_INLINE inliers inliers_of_both(inliers first, const inliers& second) {
+  for (Eigen::Index i = 0; i < first.weights.size(); ++i) first.weights[i] *= second.weights[i];
+  const auto is_new = [&](Eigen::Index i) { return std::ranges::find(first.rejected, i) == first.rejected.end(); };
+  std::vector<Eigen::Index> rejected;
+  std::ranges::copy_if(second.rejected, std::back_inserter(rejected), is_new);
+  for (const outlying_sample& each : second.contradicted)
+    if (is_new(each.number) && std::ssize(first.contradicted) < most_contradicted) first.contradicted.push_back(each);
+  first.rejected.insert(first.rejected.end(), rejected.begin(), rejected.end());
+  first.outlier_share += (1.0 - first.outlier_share) * second.outlier_share;
+  return first;
 }
 
 GONIO_INLINE inliers all_inliers(Eigen::Index n) { return {Eigen::VectorXd::Ones(n), {}}; }
@@ -220,8 +233,11 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
   prior.invert(samples.subset(numbers).locations, others.mean);
   std::vector<outlying_sample> told;
   for (Eigen::Index i = 0; i < std::min(std::ssize(wrong), most_contradicted); ++i)
-    told.push_back({numbers[i], first_three(samples.values, numbers[i]), first_three(others.mean, i),
-                    others.deviation[i], wrong[i].probability});
+    told.push_back({.number = numbers[i],
+                    .measured = first_three(samples.values, numbers[i]),
+                    .predicted = first_three(others.mean, i),
+                    .deviation = others.deviation[i],
+                    .probability = wrong[i].probability});
   return told;
 }
 

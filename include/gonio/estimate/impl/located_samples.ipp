@@ -65,6 +65,22 @@ GONIO_INLINE located_samples located_samples::in_three_channels() const {
   return three;
 }
 
+GONIO_INLINE std::optional<located_samples> located_samples::beyond_colours() const {
+  std::vector<Eigen::Index> columns;
+  std::vector<double> wavelengths;
+  for (Eigen::Index c = 0; c < std::ssize(kinds.wavelengths()); ++c) {
+    if (is_visible(kinds.wavelengths()[c])) continue;
+    columns.push_back(c);
+    wavelengths.push_back(kinds.wavelengths()[c]);
+  }
+  if (columns.empty() || !kinds.have_colour() || !kinds.are_wavelengths()) return {};
+  located_samples rest{locations, Eigen::MatrixXd(values.rows(), std::ssize(columns)), weights,
+                       gonio::channels(std::move(wavelengths))};
+  for (Eigen::Index c = 0; c < rest.values.cols(); ++c)
+    std::copy_n(&values(0, columns[c]), values.rows(), &rest.values(0, c));
+  return rest;
+}
+
 GONIO_INLINE std::vector<half_difference> located_samples::angles() const {
   std::vector<half_difference> all;
   for (const location& at : locations) all.push_back(at.angles);

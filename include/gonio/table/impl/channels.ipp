@@ -45,14 +45,34 @@ GONIO_INLINE rgb channels::colour(std::span<const double> values) const {
   return colour_ ? (*colour_)(values) : rgb(rgb::Zero());
 }
 
+namespace detail {
+
+/// Returns the positions of a third of some channels: the first one, and the one after the last.
+[[nodiscard]] inline std::pair<Eigen::Index, Eigen::Index> third_of(Eigen::Index channels, Eigen::Index third) {
+  const Eigen::Index first = third * channels / 3;
+  return {first, std::max((third + 1) * channels / 3, first + 1)};
+}
+
+}  // namespace detail
+
 GONIO_INLINE rgb channels::three(std::span<const double> values) const {
   if (have_colour()) return colour(values);
   rgb means;
   for (Eigen::Index c = 0; c < 3; ++c) {
-    const Eigen::Index first = c * size_ / 3, end = std::max((c + 1) * size_ / 3, first + 1);
+    const auto [first, end] = detail::third_of(size_, c);
     means[c] = Eigen::Map<const Eigen::ArrayXd>(values.data() + first, end - first).mean();
   }
   return means;
+}
+
+GONIO_INLINE std::array<std::string, 3> channels::names_of_three() const {
+  std::array<std::string, 3> names{"red", "green", "blue"};
+  for (Eigen::Index c = 0; c < 3 && !(are_wavelengths() && have_colour()) && !are_colours(); ++c) {
+    const auto [first, end] = detail::third_of(size_, c);
+    names[c] = name(end - 1);
+    if (end - first > 1) names[c] = name(first).substr(0, name(first).find(' ')) + " to " + names[c];
+  }
+  return names;
 }
 
 GONIO_INLINE channels channels::under(illuminant light) const {
