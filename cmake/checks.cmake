@@ -48,7 +48,7 @@ if("others" IN_LIST parts)
   include("${CMAKE_CURRENT_LIST_DIR}/browser.cmake")
   step("others: configure" ${cmake} -S . -B build/test -G Ninja
        -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
-       -D GONIO_BUILD_BENCH=OFF -D GONIO_TEST_CONSUMERS=ON
+       -D GONIO_BUILD_BENCH=OFF -D GONIO_TEST_CONSUMERS=ON -D GONIO_UNITY_TOOL=ON
        -D GONIO_BUILD_PYTHON=ON -D Python_EXECUTABLE=/usr/bin/python3)
   step("others: build" ${cmake} --build build/test --parallel ${cores})
   step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|projects|kills|python|browser")

@@ -27,7 +27,12 @@ target_compile_options(test_main PUBLIC $<$<CONFIG:Release>:-O1>)
 target_precompile_headers(test_main PRIVATE
   <doctest/doctest.h> <Eigen/Core> <Eigen/Cholesky> <string> <vector>)
 
-set(GONIO_TESTS_APART io model render cli papers long crafted crafted_shapes shape_commands)
+# Modules whose files compile one by one, and single files of the others: they use a name of another file in an unnamed
+# namespace.
+set(GONIO_TESTS_APART papers long crafted crafted_shapes shape_commands)
+set(GONIO_FILES_APART cli/kills cli/lab cli/lab_absolute cli/svbrdf_masks io/lighttools_bsdf io/pnm io/prior_payload
+  io/sample_rows io/sample_wavelengths io/samples io/svbrdf_map io/zemax_table model/anisotropic_ggx
+  model/anisotropic_tables model/lobe_sampler render/slice render/sphere)
 # gonio_add_tests(MODULE LABEL TIMEOUT SOURCE...): adds the program test_MODULE and its test. If the variable
 # first_cases is set, adds two tests: the first first_cases cases, and the others. `cases` is a filter.
 function(gonio_add_tests module label timeout)
@@ -44,10 +49,12 @@ function(gonio_add_tests module label timeout)
   add_executable(test_${module} ${sources})
   target_link_libraries(test_${module} PRIVATE test_main)
   target_precompile_headers(test_${module} REUSE_FROM test_main)
-  # Compile files of a module together, because they share templates. Modules in GONIO_TESTS_APART have files that use
-  # the same name in unnamed namespaces.
+  # Compile files of a module together, because they share templates.
   if(NOT module IN_LIST GONIO_TESTS_APART)
     set_target_properties(test_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 7)
+    foreach(file IN LISTS GONIO_FILES_APART)
+      set_source_files_properties("${tests}/${file}.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endforeach()
   endif()
   set(tests ${module})
   if(first_cases) # two tests, which may run in parallel

@@ -121,12 +121,13 @@ void describe_rejected(const reconstructed_brdf& paint, Eigen::Index samples, re
     result.warnings.push_back(told(out, weight < gonio::inliers::least_weight
                                             ? "is left out"
                                             : "has " + fixed(100.0 * weight, 0) + " % of its weight"));
-    contradicted.push_back({{"sample", out.number + 1},
-                            {"channels", out.channel_names},
-                            {"measured", per_channel(out.measured)},
-                            {"others", per_channel(out.predicted)},
-                            {"mapped_deviation", out.deviation},
-                            {"probability_wrong", out.probability}});
+    contradicted.push_back(
+        {{"sample", out.number + 1},
+         {"channels", json::array({out.channel_names[0], out.channel_names[1], out.channel_names[2]})},
+         {"measured", per_channel(out.measured)},
+         {"others", per_channel(out.predicted)},
+         {"mapped_deviation", out.deviation},
+         {"probability_wrong", out.probability}});
   }
   const auto unnamed = std::ssize(paint.rejected()) - std::ssize(paint.contradicted());
   if (unnamed > 0)
