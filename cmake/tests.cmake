@@ -32,7 +32,7 @@ target_precompile_headers(test_main PRIVATE
 set(GONIO_TESTS_APART papers long crafted crafted_shapes shape_commands)
 set(GONIO_FILES_APART cli/kills cli/lab cli/svbrdf_masks io/lighttools_bsdf io/pnm io/prior_payload io/sample_rows
   io/sample_wavelengths io/samples io/svbrdf_map io/zemax_table model/anisotropic_ggx model/anisotropic_tables
-  model/lobe_sampler render/slice render/sphere)
+  model/lambert model/lobe_sampler render/slice render/sphere)
 # gonio_add_tests(MODULE LABEL TIMEOUT SOURCE...): adds the program test_MODULE and its test. If the variable
 # first_cases is set, adds two tests: the first first_cases cases, and the others. `cases` is a filter.
 function(gonio_add_tests module label timeout)

@@ -3,6 +3,7 @@
 #include "brdf_methods.hpp"
 #include "cells.hpp"
 #include "copies.hpp"
+#include "spectra.hpp"
 #include "subjects.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/reconstruction.hpp>
@@ -247,11 +248,12 @@ void add_decomposition(py::module_& m) {
   py::class_<fitted_pca> fit(m, "Fit", "A BRDF as a combination of a prior's components.");
   fit.def_property_readonly(
       "weights", [](const py::object& self) { return matrix_view(self.cast<fitted_pca&>().weights(), self); },
-      "The weights, one column per channel: shape (k, 3). A read-only view.");
+      "The weights, one column per channel: shape (k, 3), or (k, wavelengths). A read-only view.");
   fit.def("gradient", &gradients, py::arg("wi"), py::arg("wo"), py::arg("threads") = 0,
           "Returns the derivatives of the values by the weights, for arrays of directions of shape (..., 3): shape\n"
           "(..., 3, k), the derivative of each channel by that channel's weights. `np.einsum('nc,nck->kc',\n"
           "slopes_of_loss, gradient)` is the gradient of a loss of n values.");
+  add_spectra(fit, [](const fitted_pca& f) -> const fitted_pca& { return f; });
   fit.def_property_readonly("report", &report_of, "The solver's report on the weights, by channel.");
   fit.def("__repr__", [](const fitted_pca& f) {
     return gonio::message_of({"<gonio.Fit: ", f.weights().rows(), " components>"});
@@ -350,6 +352,23 @@ void add_outlying_sample(py::module_& m) {
   type.def("__repr__", &sentence_of);
 }
 
+void add_spectral_spike(py::module_& m) {
+  using spike = gonio::spectral_spike;
+  py::class_<spike> type(m, "SpectralSpike", "A value of a spectrum that was replaced before the fit.");
+  type.def_readonly("row", &spike::number, "The row of the samples, counted from 0.");
+  type.def_readonly("band", &spike::channel, "The position of the wavelength, counted from 0.");
+  type.def_readonly("measured", &spike::measured, "The measured value, sr^-1.");
+  type.def_readonly("replaced_by", &spike::replaced_by, "The value that the fit used, sr^-1.");
+  type.def_readonly("probability", &spike::probability, "The probability that the measured value is wrong.");
+  type.def("__repr__", [](const spike& each) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "<gonio.SpectralSpike: row " << each.number << ", band " << each.channel << ", measured " << each.measured
+         << ", replaced by " << each.replaced_by << " sr^-1>";
+    return text.str();
+  });
+}
+
 /// Returns the estimator for these arguments. Throws gonio::error if one of them is invalid.
 configured_estimator estimator_of(const estimator_arguments& given) {
   if (!(given.variance > 0.0 && given.variance <= 10.0))
@@ -406,6 +425,7 @@ void add_estimator(py::module_& m) {
 
 void add_reconstruction(py::module_& m) {
   add_outlying_sample(m);
+  add_spectral_spike(m);
   py::class_<reconstructed_brdf> fit(m, "ReconstructedBrdf",
                                      "A reconstructed BRDF with its uncertainty and the samples that contradict it.");
   add_brdf_methods(m, fit);
@@ -426,6 +446,11 @@ void add_reconstruction(py::module_& m) {
   fit.def_property_readonly(
       "outlier_share", [](const reconstructed_brdf& f) { return f.outlier_share(); },
       "The estimated fraction of outliers among all samples.");
+  fit.def_property_readonly(
+      "spikes", [](const reconstructed_brdf& f) { return f.spikes(); },
+      "Values of spectra that neither their neighbours nor the other samples explain, and that were replaced.");
+  add_spectra(
+      fit, [](const reconstructed_brdf& f) -> const auto& { return f.fit(); });
   fit.def("__repr__", [](const reconstructed_brdf& f) { return sentence_of(f); });
   add_copies(
       fit, [](const reconstructed_brdf& f) { return py::make_tuple(state_of_arguments(f.arguments), f.samples); },

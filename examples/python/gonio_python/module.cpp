@@ -52,6 +52,7 @@ PYBIND11_MODULE(_gonio, m) {
   python::add_error(m);
   python::add_cells(m);
   python::add_tables(m);
+  python::add_spectral_table(m);
   python::add_samples(m);
   python::add_estimators(m);
   python::add_reconstruct(m);

@@ -15,6 +15,7 @@ namespace python {
 
 void add_cells(pybind11::module_& m);
 void add_tables(pybind11::module_& m);
+void add_spectral_table(pybind11::module_& m);
 void add_samples(pybind11::module_& m);
 void add_estimators(pybind11::module_& m);
 void add_reconstruct(pybind11::module_& m);
