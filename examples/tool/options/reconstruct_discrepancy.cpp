@@ -91,18 +91,18 @@ gonio::brdf_table uncertainty_table(const reconstructed_brdf& paint, gonio::thre
 
 /// Describes the values of spectra that were replaced: "sample 8 at 520 nm: measured 0.420, but its neighbours and the
 /// other samples say 0.081, which replaces it".
-void describe_spikes(const std::vector<gonio::spectral_spike>& spikes, const gonio::channels& kinds,
+void describe_spikes(const std::vector<gonio::spectral_spike>& spikes, const gonio::channels& measured,
                      reconstruction& result) {
   constexpr std::size_t most_told = 20;
   json replaced = json::array();
   for (const gonio::spectral_spike& each : spikes) {
     if (replaced.size() < most_told)
-      result.warnings.push_back("sample " + std::to_string(each.number + 1) + " at " + kinds.name(each.channel) +
+      result.warnings.push_back("sample " + std::to_string(each.number + 1) + " at " + measured.name(each.channel) +
                                 ": measured " + reflectance(each.measured) +
                                 ", but its neighbours and the other samples say " + reflectance(each.replaced_by) +
                                 ", which replaces it");
     replaced.push_back({{"sample", each.number + 1},
-                        {"wavelength", kinds.wavelengths()[each.channel]},
+                        {"wavelength", measured.wavelengths()[each.channel]},
                         {"measured", each.measured},
                         {"replaced_by", each.replaced_by},
                         {"probability_wrong", each.probability}});
@@ -110,7 +110,7 @@ void describe_spikes(const std::vector<gonio::spectral_spike>& spikes, const gon
   if (spikes.size() > most_told)
     result.warnings.push_back(std::to_string(spikes.size() - most_told) +
                               " more values of single wavelengths are replaced (--json lists them)");
-  if (kinds.are_wavelengths()) result.details["replaced"] = replaced;
+  if (measured.are_wavelengths()) result.details["replaced"] = replaced;
 }
 
 /// Describes the rejected samples; `samples` is the number with nonzero weight.
