@@ -23,8 +23,7 @@ function(resolve result word)
   endif()
   file(GLOB found "${SHARED}/${word}" "${SHARED}/*/${word}" "${SOURCE}/examples/data/${word}"
     "${SOURCE}/examples/data/*/${word}")
-  list(APPEND found "") # if nothing was found
-  list(GET found 0 first)
+  list(POP_FRONT found first) # empty if nothing was found
   set(${result} "${first}" PARENT_SCOPE)
 endfunction()
 
