@@ -19,8 +19,7 @@
 namespace gonio::detail {
 
 /// Assumptions about the errors of single values, in the squared units of the metric (natural logarithms). Chosen on
-/// Cornell's paints, and on materials of the RGL database as smooth spectra: at most one right value of a thousand is
-/// called wrong, and a factor of 5 is found in 85 to 95 % of trials.
+/// Cornell's paints, on materials of the RGL database as smooth spectra, and on synthetic lines and fringes.
 struct spike_rule {
   Eigen::Index neighbours = 5;  ///< on each side of a wavelength
   double expected_number = 0.2, penalty = 3.0;
