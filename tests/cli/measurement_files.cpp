@@ -101,6 +101,15 @@ TEST_CASE("the likely mistakes get the right sentences") {
   file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"--quantity", "luminance"}, " --quantity luminance");
 }
 
+TEST_CASE("a result that reflects far more than arrives is warned of") {
+  const one_file file;
+  const std::string sentence = " times the light that arrives at 8 degrees: are the values and --quantity right?\n";
+  file.put("# quantity: percent\n" + dull_scan("value", [](double) { return 350.0; }));
+  CHECK(run("reconstruct " + file.path + " -o " + file.path + ".binary").find(sentence) != std::string::npos);
+  file.put("# quantity: percent\n" + dull_scan("value", [](double) { return 90.0; }));
+  CHECK(run("reconstruct " + file.path + " -o " + file.path + ".binary").find(sentence) == std::string::npos);
+}
+
 TEST_CASE("a file from a spreadsheet is read as it is") {
   const one_file file;
   std::string scan =

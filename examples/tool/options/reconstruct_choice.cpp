@@ -1,9 +1,11 @@
 #include "reconstruct_choice.hpp"
 
 #include "tool/files/measurement_files.hpp"
+#include "tool/pages/fixed.hpp"
 #include "tool/pages/method_record.hpp"
 #include "tool/pages/sample_warnings.hpp"
 #include <gonio/core/finite.hpp>
+#include <gonio/model/physical_properties.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -50,6 +52,17 @@ void require_light(const gonio::sample_set& samples, const reconstruct_options& 
                  " samples reflects light, and some are negative: was the subtracted dark signal too large?"});
 }
 
+/// Warns of a result that creates energy by far, usually because the quantity is another one: "the result reflects 4.6
+/// times the light that arrives at 8 degrees: are the values and --quantity right?". Narrow highlights that few samples
+/// determine may exceed 1 by a little.
+std::string warning_of_energy(const gonio::brdf_table& table) {
+  constexpr double most = 1.5;
+  const double albedo = gonio::model::directional_albedo(table, gonio::radians(8.0)).maxCoeff();
+  if (!(albedo > most)) return "";
+  return "the result reflects " + fixed(albedo, 1) +
+         " times the light that arrives at 8 degrees: are the values and --quantity right?";
+}
+
 /// Adds the warnings that every method gives; refuses a fit that is not finite.
 reconstruction with_warnings(reconstruction result, const reconstruct_options& options,
                              const gonio::sample_set& samples) {
@@ -60,6 +73,8 @@ reconstruction with_warnings(reconstruction result, const reconstruct_options& o
   if (samples.have_apertures() && !result.details.contains("discrepancy"))
     result.warnings.emplace_back("half angles are ignored: they need --method pca with a discrepancy");
   require_finite(result.table, samples, options);
+  if (std::string sentence = warning_of_energy(result.table); !sentence.empty())
+    result.warnings.push_back(std::move(sentence));
   return result;
 }
 
