@@ -30,7 +30,7 @@ target_precompile_headers(test_main PRIVATE
 # Modules whose files compile one by one, and single files of the others: they use a name of another file in an unnamed
 # namespace.
 set(GONIO_TESTS_APART io model papers long crafted crafted_shapes shape_commands)
-set(GONIO_FILES_APART cli/design cli/kills cli/lab cli/svbrdf_masks render/slice render/sphere)
+set(GONIO_FILES_APART cli/kills cli/lab cli/svbrdf_masks render/slice render/sphere)
 # gonio_add_tests(MODULE LABEL TIMEOUT SOURCE...): adds the program test_MODULE and its test. If the variable
 # first_cases is set, adds two tests: the first first_cases cases, and the others. `cases` is a filter.
 function(gonio_add_tests module label timeout)
@@ -49,7 +49,8 @@ function(gonio_add_tests module label timeout)
   target_precompile_headers(test_${module} REUSE_FROM test_main)
   # Compile files of a module together, because they share templates.
   if(NOT module IN_LIST GONIO_TESTS_APART)
-    set_target_properties(test_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 7)
+    set_target_properties(test_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 7
+      UNITY_BUILD_CODE_BEFORE_INCLUDE "#pragma GCC diagnostic ignored \"-Wshadow\"") # names of other files
     foreach(file IN LISTS GONIO_FILES_APART)
       set_source_files_properties("${tests}/${file}.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endforeach()
