@@ -2,8 +2,8 @@
 /// "Anatomically correct surface recovery", section 2 and Algorithm 1.
 
 #include "papers/experiments.hpp"
+#include "papers/surfaces2016/ear_options.hpp"
 #include "synthetic/ear_study.hpp"
-#include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
 #include <gonio/core/direction.hpp>
 #include <gonio/shape/recovery.hpp>
@@ -25,12 +25,6 @@ namespace papers {
 namespace {
 
 using gonio::shape::similarity_transform;
-
-struct shape_poses_command {
-  Eigen::Index shapes = 310, ears = 10;
-  std::uint64_t seed = 1;
-  gonio::thread_count threads;
-};
 
 /// The error of a pose: a rotation about the centroid of the scan, and a shift, both in random directions.
 struct pose_error {
@@ -152,7 +146,7 @@ void print_table(const std::vector<named_way>& ways, const std::vector<synthetic
   }
 }
 
-void print_poses(const shape_poses_command& options) {
+void print_poses(const ear_options& options) {
   const synthetic::ear_study study(options.seed);
   const gonio::shape::shape_model model = study.learn(options.shapes, options.threads);
   synthetic::scan_options with_hole;
@@ -175,15 +169,8 @@ void print_poses(const shape_poses_command& options) {
 
 void add_shape_poses(command& app) {
   auto command = app.add_subcommand("shape-poses", "Synthetic ears recovered from poses that are off, held or fitted");
-  const auto options = std::make_shared<shape_poses_command>();
-  command.add_option("--shapes", options->shapes, "Number of shapes to learn from")
-      .check(check::range(3, 100000))
-      .capture_default_str();
-  command.add_option("--ears", options->ears, "Number of ears to recover")
-      .check(check::range(1, 10000))
-      .capture_default_str();
-  command.add_option("--seed", options->seed, "Seed of all random numbers").capture_default_str();
-  add_threads_option(command, options->threads);
+  const auto options = std::make_shared<ear_options>();
+  add_ear_options(command, *options);
   command.callback([options] { print_poses(*options); });
 }
 

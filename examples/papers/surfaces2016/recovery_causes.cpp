@@ -3,9 +3,9 @@
 /// section 4.
 
 #include "papers/experiments.hpp"
+#include "papers/surfaces2016/ear_options.hpp"
 #include "papers/surfaces2016/nelder_mead.hpp"
 #include "synthetic/ear_study.hpp"
-#include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/registration.hpp>
@@ -33,12 +33,9 @@ using gonio::shape::shape_model;
 using gonio::shape::similarity_transform;
 using gonio::shape::surface_index;
 
-struct shape_causes_command {
-  Eigen::Index shapes = 161, ears = 4;
-  std::uint64_t seed = 1;
+struct shape_causes_command : ear_options {
   std::string hole = "small";
   std::vector<std::string> rows;
-  gonio::thread_count threads;
 };
 
 /// A scan with a hole, and what is known of it.
@@ -270,14 +267,13 @@ void print_causes(const shape_causes_command& options) {
 void add_shape_causes(command& app) {
   auto command = app.add_subcommand("shape-causes", "Why Algorithm 1 is off as it is on synthetic ears");
   const auto options = std::make_shared<shape_causes_command>();
-  command.add_option("--shapes", options->shapes, "To learn from").check(check::range(3, 100000)).capture_default_str();
-  command.add_option("--ears", options->ears, "To recover").check(check::range(1, 10000)).capture_default_str();
-  command.add_option("--seed", options->seed, "Of all that is random").capture_default_str();
-  command.add_option("--rows", options->rows, "Print only the rows of these names (default: all)");
-  command.add_option("--hole", options->hole, "Between the bends")
+  options->shapes = 161;
+  options->ears = 4;
+  add_ear_options(command, *options);
+  command.add_option("--rows", options->rows, "Rows to print, by their names; all rows if none is named");
+  command.add_option("--hole", options->hole, "Size of the hole between the bends: large or small")
       .check(check::one_of({"large", "small"}))
       .capture_default_str();
-  add_threads_option(command, options->threads);
   command.callback([options] { print_causes(*options); });
 }
 

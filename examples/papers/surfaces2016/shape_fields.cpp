@@ -3,8 +3,8 @@
 
 #include "papers/experiments.hpp"
 #include "papers/surfaces2016/distance_field.hpp"
+#include "papers/surfaces2016/ear_options.hpp"
 #include "synthetic/ear_study.hpp"
-#include "tool/options/threads_option.hpp"
 #include "tool/pages/fixed.hpp"
 #include <gonio/shape/hole_filling.hpp>
 #include <gonio/shape/recovery.hpp>
@@ -20,13 +20,10 @@ namespace papers {
 
 namespace {
 
-struct shape_fields_command {
-  Eigen::Index shapes = 310, ears = 10;
-  std::uint64_t seed = 1;
+struct shape_fields_command : ear_options {
   std::string hole = "large";
   double edge_noise = 0.0;
   distance_field_options field;
-  gonio::thread_count threads;
 };
 
 /// The number of methods whose errors in a hole are compared: the field, the membrane, the thin plate, and `recover`.
@@ -94,13 +91,7 @@ void print_fields(const shape_fields_command& options) {
 void add_shape_fields(command& app) {
   auto command = app.add_subcommand("shape-fields", "Holes of synthetic ears filled by a Markov random field");
   const auto options = std::make_shared<shape_fields_command>();
-  command.add_option("--shapes", options->shapes, "Number of shapes to learn from")
-      .check(check::range(3, 100000))
-      .capture_default_str();
-  command.add_option("--ears", options->ears, "Number of ears to recover")
-      .check(check::range(1, 10000))
-      .capture_default_str();
-  command.add_option("--seed", options->seed, "Seed of all random numbers").capture_default_str();
+  add_ear_options(command, *options);
   command.add_option("--hole", options->hole, "Size of the hole between the bends: large or small")
       .check(check::one_of({"large", "small"}))
       .capture_default_str();
@@ -113,7 +104,6 @@ void add_shape_fields(command& app) {
   command.add_option("--smoothness", options->field.smoothness, "Weight of the field's prior")
       .check(check::positive_number())
       .capture_default_str();
-  add_threads_option(command, options->threads);
   command.callback([options] { print_fields(*options); });
 }
 

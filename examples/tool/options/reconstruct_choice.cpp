@@ -161,10 +161,9 @@ reconstruction reconstruct(const reconstruct_options& options, const gonio::samp
                   ": it weights samples by their colours");
   require_light(samples, options);
   // The components' method replaces wrong values of spectra before it converts the spectra to colours.
-  const bool takes_wavelengths = options.method == "pca";
-  return with_warnings(method_named(options.method)
-                           .reconstruct(options, takes_wavelengths ? samples : in_fitted_channels(options, samples)),
-                       options, samples.in_three_channels());
+  const auto colours = options.method == "pca" ? std::nullopt : colours_to_fit(options, samples);
+  return with_warnings(method_named(options.method).reconstruct(options, colours ? *colours : samples), options,
+                       samples.in_three_channels());
 }
 
 }  // namespace cli

@@ -190,19 +190,20 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
   const elapsed_time waiting("reconstructing");
   const Eigen::Index count = std::ssize(gonio::counting_positions(samples));
   const auto estimator = estimator_of(options, prior, count);
-  gonio::sample_set fitted = samples;
+  const bool converts = !options.fits_spectra && samples.channels().are_wavelengths();
   std::vector<gonio::spectral_spike> spikes;
-  if (!options.fits_spectra) {
-    spikes = estimator.replace_spikes(fitted);
-    fitted = in_fitted_channels(options, fitted);
-  }
-  const auto paint = estimator.fit(fitted);
+  const auto fit_colours = [&] {
+    gonio::sample_set right = samples;
+    spikes = estimator.replace_spikes(right);
+    return estimator.fit(right.colours());
+  };
+  const auto paint = converts ? fit_colours() : estimator.fit(samples);
   reconstruction result =
       options.fits_spectra ? described_spectra(paint.tabulate_spectra(options.cells_of_spectra(prior.cells())), options)
                            : reconstruction{paint.tabulate(gonio::valid_cells())};
   describe_residuals(*paint.fit().report(), paint.kept(), result);
   result.details["discrepancy"] = options.discrepancy;
-  describe_spikes(options.fits_spectra ? paint.spikes() : spikes, samples.channels(), result);
+  describe_spikes(converts ? spikes : paint.spikes(), samples.channels(), result);
   return described(std::move(result), paint, count, options);
 }
 

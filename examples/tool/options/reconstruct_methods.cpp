@@ -94,7 +94,8 @@ double chosen_eta(const reconstruct_options& options, const gonio::log_relative_
 reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& measured) {
   const auto [prior, solver, has_discrepancy, is_penalised] = choose_components(options);
   if (has_discrepancy) return reconstruct_with_discrepancy(options, prior, measured);
-  const gonio::sample_set samples = in_fitted_channels(options, measured);
+  const std::optional<gonio::sample_set> colours = colours_to_fit(options, measured);
+  const gonio::sample_set& samples = colours ? *colours : measured;
   if (options.angular_error != 0.0) return reconstruct_misplaced(options, prior, samples);
   if (!is_penalised) return fit(prior, solver, samples, options);
   const double eta = chosen_eta(options, prior, samples);

@@ -127,10 +127,11 @@ struct reconstruction {
 [[nodiscard]] reconstruction reconstruct_by_neighbours(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
-/// Returns the samples in the channels to fit: wavelengths only if these are kept, colours otherwise.
-[[nodiscard]] inline gonio::sample_set in_fitted_channels(const reconstruct_options& options,
-                                                          const gonio::sample_set& samples) {
-  return options.fits_spectra || !samples.channels().are_wavelengths() ? samples : samples.colours();
+/// Returns the colours of spectra if wavelengths are not kept; none if the samples are fitted in their own channels.
+[[nodiscard]] inline std::optional<gonio::sample_set> colours_to_fit(const reconstruct_options& options,
+                                                                     const gonio::sample_set& samples) {
+  if (options.fits_spectra || !samples.channels().are_wavelengths()) return std::nullopt;
+  return samples.colours();
 }
 
 /// Can the method fit each wavelength? Correction cannot: it weights samples by their three colour channels.

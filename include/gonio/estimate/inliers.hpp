@@ -64,9 +64,6 @@ struct inliers {
   return right / (right + 10.0 * probability_wrong);
 }
 
-/// Returns the samples that are inliers of two judgements.
-[[nodiscard]] inliers inliers_of_both(inliers first, const inliers& second);
-
 /// Returns n inliers of weight 1.
 [[nodiscard]] inliers all_inliers(Eigen::Index n);
 
@@ -80,6 +77,9 @@ struct inliers {
 [[nodiscard]] located_samples weighted(const located_samples& samples, const inliers& found);
 
 namespace detail {
+
+/// Returns the samples that are inliers of two judgements.
+[[nodiscard]] inliers inliers_of_both(inliers first, const inliers& second);
 
 /// Returns the positions of the samples that are judged together. These are all samples if there are at most
 /// `most_judged`; otherwise two thirds of `most_judged` are chosen at random and one third evenly from all

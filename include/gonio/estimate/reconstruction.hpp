@@ -73,7 +73,7 @@ class reconstruction {
   /// A reading through an aperture is the value in a single direction times a factor. The factor is the mean of the fit
   /// over the aperture's cones, divided by the fit on the cones' axes. The fit is repeated three times, each time with
   /// the readings divided by this factor.
-  [[nodiscard]] result_type fit(const sample_set& measured) const;
+  [[nodiscard]] result_type fit(const sample_set& samples) const;
   /// Replaces single wrong values of spectra, and returns them (spectral_spikes.hpp). Call this before converting
   /// spectra to colours. Does nothing if the channels are not wavelengths.
   std::vector<spectral_spike> replace_spikes(sample_set& samples) const;
@@ -105,6 +105,8 @@ class reconstruction {
   [[nodiscard]] sample_process process_of_mapped(const located_samples& mapped) const {
     return {expected_, locate_rows(prior_, mapped.locations), mapped, error_variances(mapped)};
   }
+  /// Fits samples whose spikes were replaced, in rounds if they were read through apertures.
+  [[nodiscard]] result_type fit_readings(const sample_set& samples) const;
   /// Returns the factors by which apertures change the values of the samples at the positions `numbers`, as predicted
   /// by a fit.
   [[nodiscard]] Eigen::MatrixXd aperture_factors(const sample_set& samples, const std::vector<Eigen::Index>& numbers,
@@ -165,8 +167,8 @@ typename reconstruction<Metric>::selection reconstruction<Metric>::select(const 
     chosen.found = judged(samples.kinds, colours, mapped);
     if (const std::optional<located_samples> rest = samples.beyond_colours()) {
       const located_samples three = rest->in_three_channels();
-      chosen.found =
-          inliers_of_both(std::move(chosen.found), judged(rest->kinds, three, map_samples(prior_, three, threads_)));
+      chosen.found = detail::inliers_of_both(std::move(chosen.found),
+                                             judged(rest->kinds, three, map_samples(prior_, three, threads_)));
     }
   }
   chosen.kept = weighted(mapped, chosen.found);
@@ -241,9 +243,17 @@ std::vector<spectral_spike> reconstruction<Metric>::replace_spikes(sample_set& s
 }
 
 template <error_metric Metric>
-typename reconstruction<Metric>::result_type reconstruction<Metric>::fit(const sample_set& measured) const {
-  sample_set samples = measured;
-  std::vector<spectral_spike> spikes = replace_spikes(samples);
+typename reconstruction<Metric>::result_type reconstruction<Metric>::fit(const sample_set& samples) const {
+  if (!samples.channels().are_wavelengths()) return fit_readings(samples);
+  sample_set right = samples;
+  std::vector<spectral_spike> spikes = replace_spikes(right);
+  result_type paint = fit_readings(right);
+  paint.tell_spikes(std::move(spikes));
+  return paint;
+}
+
+template <error_metric Metric>
+typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_readings(const sample_set& samples) const {
   const std::vector<Eigen::Index> numbers = counting_positions(samples);
   const located_samples read = locate_samples(cells(), samples, threads_);
   result_type paint = fit_located(read, numbers);
@@ -255,7 +265,6 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit(const s
     paint = fit_located(std::move(narrowed), numbers);
     paint.tell_readings(read);
   }
-  paint.tell_spikes(std::move(spikes));
   return paint;
 }
 

@@ -45,7 +45,7 @@ GONIO_INLINE Eigen::Index outlying_sample::worst_channel() const {
   return worst;
 }
 
-GONIO_INLINE inliers inliers_of_both(inliers first, const inliers& second) {
+GONIO_INLINE inliers detail::inliers_of_both(inliers first, const inliers& second) {
   for (Eigen::Index i = 0; i < first.weights.size(); ++i) first.weights[i] *= second.weights[i];
   const auto is_new = [&](Eigen::Index i) { return std::ranges::find(first.rejected, i) == first.rejected.end(); };
   std::vector<Eigen::Index> rejected;
