@@ -24,7 +24,7 @@ GONIO_INLINE std::vector<Eigen::Index> random_choice(Eigen::Index all, Eigen::In
     std::swap(chosen[i], chosen[rest(generator)]);
   }
   chosen.resize(count);
-  std::ranges::sort(chosen);
+  std::sort(chosen.begin(), chosen.end());
   return chosen;
 }
 

@@ -14,10 +14,7 @@
 #include <gonio/solve/tikhonov.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
-#include <numeric>
 #include <optional>
 #include <random>
 #include <span>
@@ -48,11 +45,10 @@ GONIO_INLINE Eigen::Index outlying_sample::worst_channel() const {
 GONIO_INLINE inliers detail::inliers_of_both(inliers first, const inliers& second) {
   for (Eigen::Index i = 0; i < first.weights.size(); ++i) first.weights[i] *= second.weights[i];
   const auto is_new = [&](Eigen::Index i) { return std::ranges::find(first.rejected, i) == first.rejected.end(); };
-  std::vector<Eigen::Index> rejected;
-  std::ranges::copy_if(second.rejected, std::back_inserter(rejected), is_new);
   for (const outlying_sample& each : second.contradicted)
     if (is_new(each.number) && std::ssize(first.contradicted) < most_contradicted) first.contradicted.push_back(each);
-  first.rejected.insert(first.rejected.end(), rejected.begin(), rejected.end());
+  for (const Eigen::Index i : second.rejected)
+    if (is_new(i)) first.rejected.push_back(i);
   first.outlier_share += (1.0 - first.outlier_share) * second.outlier_share;
   return first;
 }
@@ -96,29 +92,30 @@ namespace detail {
 GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& samples) {
   const Eigen::Index n = samples.size();
   if (n <= most_judged) return random_choice(n, n, 0);
-  // Sort by neighbourhood, and at random within each neighbourhood.
+  // Number the samples of each neighbourhood, in a random order.
   std::mt19937_64 generator(0);
-  std::vector<std::array<double, 2>> keys;
-  for (const location& at : samples.locations)
-    keys.push_back({neighbourhood_of(at.angles, rejection_rule{}.everywhere_lengths), uniform_number(generator)});
-  const auto key = [&](Eigen::Index i) { return keys[i]; };
-  std::vector<Eigen::Index> spread(n);
-  std::iota(spread.begin(), spread.end(), 0);
-  std::ranges::sort(spread, {}, key);
-  // Order the samples: first one sample of each neighbourhood, then a second sample of each, and so on.
+  std::vector<std::pair<double, Eigen::Index>> keyed;
+  for (Eigen::Index i = 0; i < n; ++i) keyed.emplace_back(uniform_number(generator), i);
+  const std::vector<Eigen::Index> random = in_order(std::move(keyed));
+  std::vector<std::pair<double, Eigen::Index>> by_neighbourhood, by_rank;
+  for (Eigen::Index k = 0; k < n; ++k)
+    by_neighbourhood.emplace_back(
+        neighbourhood_of(samples.locations[random[k]].angles, rejection_rule{}.everywhere_lengths), k);
   double rank = 0.0, last = -1.0;
-  for (const Eigen::Index i : spread) {
-    rank = keys[i][0] == last ? rank + 1.0 : 0.0;
-    last = std::exchange(keys[i][0], rank);
+  for (const Eigen::Index k : in_order(by_neighbourhood)) {
+    rank = by_neighbourhood[k].first == last ? rank + 1.0 : 0.0;
+    last = by_neighbourhood[k].first;
+    by_rank.emplace_back(rank, k);
   }
-  std::ranges::partial_sort(spread, spread.begin() + most_judged, {}, key);
+  // Order the samples: first one sample of each neighbourhood, then a second sample of each, and so on.
+  const std::vector<Eigen::Index> spread = in_order(std::move(by_rank));
   // Choose two thirds at random, and the rest in this order.
   std::vector<Eigen::Index> chosen = random_choice(n, 2 * most_judged / 3, 0);
   std::vector<bool> is_chosen(n, false);
   for (const Eigen::Index i : chosen) is_chosen[i] = true;
   for (auto next = spread.begin(); std::ssize(chosen) < most_judged; ++next)
-    if (!is_chosen[*next]) chosen.push_back(*next);
-  std::ranges::sort(chosen);
+    if (!is_chosen[random[*next]]) chosen.push_back(random[*next]);
+  std::sort(chosen.begin(), chosen.end());
   return chosen;
 }
 

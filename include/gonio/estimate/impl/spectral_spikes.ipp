@@ -139,11 +139,12 @@ class spike_search {
     prior_.invert(std::span(samples_.locations).subspan(i, 1), value);
     samples_.values(i, c) = value(0, 0);
 
-    const Eigen::RowVectorXd before = differences_.row(i);
-    compare_with_neighbours(i);
     const auto [first, end] = around(c);
+    std::vector<double> before;
+    for (Eigen::Index k = first; k < end; ++k) before.push_back(differences_(i, k));
+    compare_with_neighbours(i);
     for (Eigen::Index k = first; k < end; ++k) {
-      const double change = differences_(i, k) - before[k];
+      const double change = differences_(i, k) - before[k - first];
       squares_[k] += change * (2.0 * dual_(i, k) + change * inverse_(i, i));
       add_scaled(change, &inverse_(0, i), &dual_(0, k), samples_.size());
       judge_wavelength(k);
@@ -175,6 +176,7 @@ GONIO_INLINE std::vector<spectral_spike> find_spikes(
   for (Eigen::Index i = 0; i < n; ++i) keyed.emplace_back(groups > 1 ? uniform_number(generator) : 0.0, i);
   const std::vector<Eigen::Index> order = in_order(std::move(keyed));
   std::vector<spectral_spike> found;
+  keyed.clear();
   for (Eigen::Index group = 0; group < groups; ++group) {
     const std::vector<Eigen::Index> positions(order.begin() + group * n / groups,
                                               order.begin() + (group + 1) * n / groups);
@@ -182,11 +184,13 @@ GONIO_INLINE std::vector<spectral_spike> find_spikes(
     const sample_process process = process_of(some);
     for (spectral_spike each : spike_search(prior, process, some).replace_all()) {
       each.number = positions[each.number];
+      keyed.emplace_back(-each.probability, std::ssize(found));
       found.push_back(each);
     }
   }
-  std::ranges::stable_sort(found, std::greater{}, &spectral_spike::probability);
-  return found;
+  std::vector<spectral_spike> sorted;
+  for (const Eigen::Index k : in_order(std::move(keyed))) sorted.push_back(found[k]);
+  return sorted;
 }
 
 }  // namespace gonio::detail
