@@ -1,11 +1,10 @@
 /// An in-plane scan as goniometers make it: the light is fixed, and the viewer moves from grazing on the light's side
 /// through the normal to grazing on the other side. The instrument gives the BRDF times the cosine of the light's
-/// angle.
+/// angle. Prints the reconstruction and its intervals in the plane and across it.
 
-#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/reconstruction.hpp>
 #include <gonio/io/materials/prior.hpp>
 #include <gonio/model/formula_materials.hpp>
-#include <gonio/solve/tikhonov.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -29,13 +28,17 @@ int main() {
     const gonio::rgb instrument = truth(light, view) * std::cos(theta_i);
     samples.push_back({gonio::to_half_difference(light, view), instrument / std::cos(theta_i)});
   }
-  const auto paint = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
+  const auto paint = gonio::reconstruction{prior, {.noise = 0.02}}.fit(samples);
 
-  std::printf("viewer     red of the scan  reconstructed, sr^-1\n");
+  const auto show = [&](const gonio::direction& view) {
+    const auto [low, high] = paint.interval(light, view, gonio::confidence_level::ninety_five_percent);
+    std::printf("%8.4f %13.4f %9.4f to %.4f\n", truth(light, view).x(), paint(light, view).x(), low.x(), high.x());
+  };
+  std::printf("viewer          truth, red  fit, sr^-1   with 95 %%\n");
   for (const double degrees : {-62.0, -46.0, -2.0, 26.0, 38.0, 46.0, 58.0}) {
-    const gonio::direction view = viewer(gonio::radians(degrees));
-    std::printf("%4.0f degrees %13.4f %14.4f\n", degrees, truth(light, view).x(), paint(light, view).x());
+    std::printf("%4.0f degrees    ", degrees);
+    show(viewer(gonio::radians(degrees)));
   }
-  const gonio::direction across = gonio::spherical_direction(theta_i, gonio::radians(90.0));
-  std::printf("out of the plane %8.4f %14.4f\n", truth(light, across).x(), paint(light, across).x());
+  std::printf("out of the plane");
+  show(gonio::spherical_direction(theta_i, gonio::radians(90.0)));
 }

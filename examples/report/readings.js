@@ -43,6 +43,7 @@ function reading_rows({ gloss, haze_20, luminous_reflectance_8, luminous_reflect
   ];
 }
 
+const known_to = (share) => (Number.isFinite(share) && share < largest_known ? `known to ${percent(share)}` : "not known");
 const reading_of = ([, value, known]) => (known >= largest_known ? "not known" : value);
 const certainty_of = ([, , known]) => (known === undefined ? "" : known === null ? "-" : percent(known));
 
@@ -54,7 +55,7 @@ function readings_table() {
   const made = others.length
     ? table(["reading (known to)", ...measurements.map(named_line)], [
       ...all[0].map(([name], row) => [name, ...all.map((rows) => both(rows[row]))]),
-      ["half of all directions are known to", ...measurements.map((each) => percent(each.details.known_to))]])
+      ["half of all directions", ...measurements.map((each) => known_to(each.details.known_to))]])
     : table(["reading", "value", ...(has_certainty ? ["known to"] : [])],
       all[0].map((row) => [row[0], reading_of(row), ...(has_certainty ? [certainty_of(row)] : [])]));
   made.className = "readings";

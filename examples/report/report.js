@@ -31,7 +31,7 @@ const is_off = (each) => each.disagrees;
 const of_the_first = () => (others.length ? `Of ${measurements[0].name} alone. ` : "");
 const off = (data.samples ?? []).filter(is_off);
 const where = (each) => `theta_i ${angle(each.theta_i)}, theta_o ${angle(each.theta_o)}, half angle ${angle(each.theta_h)}`;
-const known_suffix = (each) => (each.known_to === undefined ? "" : `, known to ${percent(each.known_to)}`);
+const known_suffix = (each) => (each.known_to === undefined ? "" : `, ${known_to(each.known_to)}`);
 function told(each) {
   const lines = [`sample ${each.sample}: ${where(each)}`, `measured ${channels(each.measured)}`,
     `fit ${channels(each.fit)}${known_suffix(each)}`];
@@ -78,9 +78,9 @@ function verdict() {
 function answer() {
   const { details, count } = data;
   const words = element("div", {},
-    paragraph(`Half of all directions are known to ${percent(details.known_to)}.`, "headline"),
-    paragraph(`Half of the directions more than 80\u00b0 from the normal are known to ${percent(details.known_to_beyond_80_degrees)}; the highlight ` +
-      (details.highlight_known_to_factor > 100 ? "is not known." : `to a factor of ${digits(details.highlight_known_to_factor)} (95 of 100 cases).`)),
+    paragraph(`Half of all directions are ${known_to(details.known_to)}.`, "headline"),
+    paragraph(`Half of the directions more than 80\u00b0 from the normal are ${known_to(details.known_to_beyond_80_degrees)}; the highlight is ` +
+      (details.highlight_known_to_factor > 100 ? "not known." : `known to a factor of ${digits(details.highlight_known_to_factor)} (95 of 100 cases).`)),
     verdict(),
     paragraph(`From ${count} ${count === 1 ? "sample" : "samples"}. \u201cKnown to 6 %\u201d: in 68 of 100 cases the true value is ` +
       "within 6 % of the fit, for materials like those of the prior. Gloss, haze and colours are as certain as the fit in the direction of the " +

@@ -157,8 +157,8 @@ TEST_CASE("reconstruct says how sure it is far from all samples") {
   for (int i = 0; i < 12; ++i) near += std::to_string(i + 1) + ',' + std::to_string(5 * i) + ",30,0.1,0.1,0.1\n";
   scratch::put(at("near.csv"), near);
   const std::string output = gonio_tool("reconstruct --json " + at("near.csv")).output;
-  CHECK(output.find("no sample's half vector is more than 12 degrees from the normal: farther away, half of all "
-                    "directions are known to ") != std::string::npos);
+  CHECK(output.find("the half vectors of all samples are within 12 degrees of the normal: farther away, half of "
+                    "all directions are known to ") != std::string::npos);
   const auto fit = read_json(output);
   CHECK(fit["known_to_beyond_the_samples"].get<double>() > fit["known_to"].get<double>());
   CHECK_FALSE(

@@ -49,8 +49,8 @@ std::optional<gonio::direction_pair> adaptive_choice::next(
     const gonio::io::recorded_scan& scan, const std::function<bool(const gonio::direction_pair&)>& is_reachable) const {
   const gonio::sample_set samples = samples_of(scan);
   const double known_to = chooser_.candidates().estimator().fit(samples).certainty().known_to;
-  std::cout << counted(std::ssize(samples), "sample") << ": half of all directions are known to "
-            << fixed(100.0 * known_to, 1) << " %\n";
+  std::cout << counted(std::ssize(samples), "sample") << ": half of all directions are " << cli::known_to(known_to, 1)
+            << '\n';
   if (known_to <= options_.until) return std::nullopt;
   if (std::ssize(scan.poses) >= options_.most) {
     std::cout << "stopped at --most " << options_.most << " poses, before --until "

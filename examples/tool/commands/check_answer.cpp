@@ -54,7 +54,7 @@ std::string angles_of(const gonio::direction_pair& pair) {
 }
 
 /// Describes a direction by the channel that differs most: "theta_i 45.0, theta_o -45.0 (line 12): red 0.210 instead of
-/// 0.140 +- 0.020, p = 0.0003".
+/// 0.140 +- 0.020 sr^-1, p = 0.0003".
 std::string described(const gonio::compared_direction& each, const checked_part& checked) {
   const measured_surface& part = checked.part;
   Eigen::Index channel = 0;
@@ -65,7 +65,7 @@ std::string described(const gonio::compared_direction& each, const checked_part&
       part.lines.empty() ? "sample " + std::to_string(number) : "line " + std::to_string(part.lines[number - 1]);
   return angles_of(part.counting[each.number].pair()) + " (" + location + "): " + channel_names(checked)[channel] +
          ' ' + reflectance(each.value[channel]) + " instead of " + reflectance(each.expected[channel]) + " +- " +
-         reflectance(off) + (each.measured > 0 ? "" : ", predicted from the reference") +
+         reflectance(off) + " sr^-1" + (each.measured > 0 ? "" : ", predicted from the reference") +
          (each.delta_e > 0.0 ? ", Delta E " + fixed(each.delta_e, 1) : "") + ", " + p_value(each.adjusted_p_value);
 }
 
@@ -85,8 +85,9 @@ std::vector<std::string> limits_of(const checked_part& checked) {
                         " values are negative and count as zero: if they are noise, give --dark-noise");
   if (!std::isinf(checked.options.part.degrees_of_freedom))
     sentences.push_back("noise of " + fixed(100.0 * checked.options.part.relative, 2) +
-                        " %, estimated from repeats with " + fixed(checked.options.part.degrees_of_freedom, 0) +
-                        " degrees of freedom");
+                        " %, estimated from directions that were measured more than once, also with light and receiver "
+                        "exchanged (" +
+                        fixed(checked.options.part.degrees_of_freedom, 0) + " degrees of freedom)");
   return sentences;
 }
 

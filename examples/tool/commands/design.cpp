@@ -92,8 +92,8 @@ void run_given(const design_command& command) {
   const auto paint = estimator.fit(samples);
   const double known_to = paint.certainty().known_to;
   const bool is_enough = command.until && known_to <= *command.until;
-  const std::string known = counted(std::ssize(samples), "sample") + ": half of all directions are known to " +
-                            fixed(100.0 * known_to, 0) + " %";
+  const std::string known =
+      counted(std::ssize(samples), "sample") + ": half of all directions are " + cli::known_to(known_to);
   json again = json::array();
   for (const Eigen::Index i : paint.rejected()) again.push_back(i + 1);
   json all{{"given", samples.size()}, {"known_to", known_to}, {"enough", is_enough}, {"measure_again", again}};

@@ -13,6 +13,7 @@
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/measurements/sample_provenance.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -56,7 +57,8 @@ void write_residuals(const reconstruct_options& options, const std::vector<gonio
   gonio::io::write_atomically(options.residuals, std::as_bytes(std::span(text)));
 }
 
-/// Adds "half of all directions are known to 6 %, half of the directions more than 80 degrees from the normal to 40 %".
+/// Adds "half of all directions are known to 6 %, half of the directions more than 80 degrees from the normal are known
+/// to 40 %".
 void describe(const gonio::certainty& known, reconstruction& result) {
   // A highlight uncertain by a factor of more than four needs a warning.
   const double factor = known.highlight_factor;
@@ -68,17 +70,17 @@ void describe(const gonio::certainty& known, reconstruction& result) {
     result.warnings.push_back("the highlight " + how_well +
                               ": measure more directions whose half vector is within 5 degrees of the normal");
   if (known.known_to_beyond > 0.0) {
-    const std::string farthest = fixed(gonio::degrees(known.measured_to), 0);
-    result.warnings.push_back("no sample's half vector is more than " + farthest +
-                              " degrees from the normal: farther away, half of all directions are known to " +
-                              fixed(100.0 * known.known_to_beyond, 0) + " %");
+    const auto farthest = std::max(std::lround(std::ceil(gonio::degrees(known.measured_to))), 1L);
+    result.warnings.push_back("the half vectors of all samples are within " + counted(farthest, "degree") +
+                              " of the normal: farther away, half of all directions are " +
+                              known_to(known.known_to_beyond));
     result.details["known_to_beyond_the_samples"] = known.known_to_beyond;
   }
   result.details["known_to"] = known.known_to;
   result.details["known_to_beyond_80_degrees"] = known.known_to_at_grazing;
-  result.sentence += "; half of all directions are known to " + fixed(100.0 * known.known_to, 0) +
-                     " %, half of the directions more than 80 degrees from the normal to " +
-                     fixed(100.0 * known.known_to_at_grazing, 0) + " %";
+  result.sentence += "; half of all directions are " + known_to(known.known_to) +
+                     ", half of the directions more than 80 degrees from the normal are " +
+                     known_to(known.known_to_at_grazing);
 }
 
 /// Returns the relative deviation in all directions as a table, the same in all channels.

@@ -22,6 +22,12 @@ std::string significant(double value) {
 
 std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
 
+std::string known_to(double relative_deviation, int digits) {
+  constexpr double largest_known = 2.0;  // as on the pages (examples/report/readings.js)
+  if (relative_deviation >= largest_known) return "not known";
+  return "known to " + fixed(100.0 * relative_deviation, digits) + " %";
+}
+
 std::string counted(std::ptrdiff_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }

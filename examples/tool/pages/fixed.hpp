@@ -18,6 +18,9 @@ class json;
 /// Returns a reflectance in sr^-1 in three or four digits, the precision of measurements.
 [[nodiscard]] std::string reflectance(double value);
 
+/// Returns "known to 6 %" for a relative deviation of 0.06; "not known" if it is 2, a factor of 3, or more.
+[[nodiscard]] std::string known_to(double relative_deviation, int digits = 0);
+
 /// Returns "1 sample" or "20 samples".
 [[nodiscard]] std::string counted(std::ptrdiff_t count, const std::string& thing);
 
